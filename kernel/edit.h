@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The record of one change of a mesh, and the journal that holds them.
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <vector>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+/// One change: a set of tets replaced by another with the same outer surface, a vertex moved, a vertex added or removed. The data lie in
+/// the arrays of the journal; `*_begin` to `*_end` name the part.
+struct Edit {
+  enum class Kind : std::uint8_t { replace_cavity, move_vertex, add_vertex, remove_vertex };
+
+  Kind kind{};
+  VertexHandle vertex;             ///< moved, added or removed
+  Point point = Point::Zero();     ///< before: of the moved or removed vertex
+  std::uint32_t removed_begin = 0, removed_end = 0;      ///< replace_cavity
+  std::uint32_t created_begin = 0, created_end = 0;      ///< replace_cavity
+  std::uint32_t links_begin = 0, links_end = 0;          ///< replace_cavity
+  std::uint32_t qualities_begin = 0, qualities_end = 0;  ///< move_vertex
+  std::uint32_t appended = 0;  ///< slots that came from growth, not from the free list: the last ones created
+};
+
+/// Edits in the order in which they happened, with all that undoing them needs.
+struct Journal {
+  struct RemovedTet {
+    TetHandle tet;
+    TetVertices vertices;
+    std::array<HalfFace, 4> neighbours;
+    Quality quality;
+    Label label;
+    std::uint16_t flags;
+  };
+  struct VertexLink {
+    VertexHandle vertex;
+    TetHandle tet;  // before
+  };
+  struct TetQuality {
+    TetHandle tet;
+    Quality quality;  // before
+  };
+  struct RemovedVertex {
+    Date date;
+    std::uint32_t origin;
+    std::uint8_t flags;
+  };
+
+  std::vector<Edit> edits;
+  std::vector<RemovedTet> removed;
+  std::vector<TetHandle> created;
+  std::vector<VertexLink> links;
+  std::vector<TetQuality> qualities;
+  std::vector<RemovedVertex> removed_vertices;          // one for each remove_vertex
+  std::vector<std::vector<std::any>> property_values;   // of removed tets and vertices, if the mesh has properties
+
+  bool empty() const { return edits.empty(); }
+  void clear() {
+    edits.clear();
+    removed.clear();
+    created.clear();
+    links.clear();
+    qualities.clear();
+    removed_vertices.clear();
+    property_values.clear();
+  }
+};
+
+}  // namespace tetmend

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A whole file in memory, and the two ways to say where in it something is wrong.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace tetmend::formats {
+
+/// The bytes of a file, read at once and not mapped: another process that shortens the file
+/// meanwhile must not end this one. A zero byte follows the last one, so that a scan for the end of
+/// a word needs no bound.
+class InputFile {
+ public:
+  /// @throws Error when the file is missing, a directory or unreadable, with the reason of the
+  /// operating system.
+  explicit InputFile(const std::filesystem::path& path);
+
+  const std::string& name() const { return name_; }
+  const char* begin() const { return bytes_.get(); }
+  const char* end() const { return bytes_.get() + size_; }
+  std::size_t size() const { return size_; }
+
+  /// Throws Error "FILE:LINE: reason"; `where` points into the file. Lines are counted only here,
+  /// which keeps reading fast.
+  [[noreturn]] void fail_at_line(const char* where, std::string_view reason) const;
+  /// Throws Error "FILE: byte N: reason", counted from 0.
+  [[noreturn]] void fail_at_byte(const char* where, std::string_view reason) const;
+
+ private:
+  std::string name_;
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+};
+
+/// A word of a file in quotes, fit for a message of one line: clipped, and without bytes that a
+/// terminal would act on.
+std::string in_quotes(std::string_view word);
+
+}  // namespace tetmend::formats

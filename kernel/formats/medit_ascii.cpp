@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+// MEDIT's text format `.mesh` (also known as GMF: Gamma Mesh Format).
+#include "kernel/formats/medit_ascii.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/element_checks.h"
+#include "kernel/formats/output_file.h"
+#include "kernel/formats/text_reader.h"
+
+namespace tetmend::formats {
+namespace {
+
+constexpr std::array<std::string_view, 5> kept_sections = {"Vertices", "Edges", "Triangles",
+                                                           "Tetrahedra", "RequiredVertices"};
+
+// Volume elements that the library has no use for. To pass over them would tear holes into the
+// mesh.
+constexpr std::array<std::string_view, 17> foreign_volumes = {
+    "Hexahedra",   "Hexaedra",   "Prisms",      "Pyramids",     "Polyhedra",    "TetrahedraP2",
+    "PrismsP2",    "PyramidsP2", "HexahedraQ2", "TetrahedraP3", "TetrahedraP4", "HexahedraQ3",
+    "HexahedraQ4", "PyramidsP3", "PyramidsP4",  "PrismsP3",     "PrismsP4"};
+
+// Sections with words among their numbers.
+constexpr std::array<std::string_view, 3> text_sections = {"Comments", "IRefGroups", "DRefGroups"};
+
+// The other section names of libMeshb 7; families are recognized by their beginning or end in
+// `is_section`.
+constexpr std::array<std::string_view, 62> passed_sections = {
+    "Corners",
+    "Ridges",
+    "RequiredEdges",
+    "RequiredTriangles",
+    "RequiredQuadrilaterals",
+    "Quadrilaterals",
+    "TangentAtEdgeVertices",
+    "NormalAtVertices",
+    "NormalAtTriangleVertices",
+    "NormalAtQuadrilateralVertices",
+    "AngleOfCornerBound",
+    "TrianglesP2",
+    "TrianglesP3",
+    "TrianglesP4",
+    "EdgesP2",
+    "EdgesP3",
+    "EdgesP4",
+    "QuadrilateralsQ2",
+    "QuadrilateralsQ3",
+    "QuadrilateralsQ4",
+    "SubDomainFromGeom",
+    "SubDomainFromMesh",
+    "Fault_NearTri",
+    "Fault_Inter",
+    "Fault_FreeEdge",
+    "Fault_Overlap",
+    "Fault_BadShape",
+    "Fault_SmallTri",
+    "ExtraVerticesAtEdges",
+    "ExtraVerticesAtTriangles",
+    "ExtraVerticesAtQuadrilaterals",
+    "ExtraVerticesAtTetrahedra",
+    "ExtraVerticesAtPrisms",
+    "ExtraVerticesAtHexahedra",
+    "VerticesOnGeometricVertices",
+    "VerticesOnGeometricEdges",
+    "VerticesOnGeometricTriangles",
+    "VerticesOnGeometricQuadrilaterals",
+    "EdgesOnGeometricEdges",
+    "TrianglesOnGeometricTriangles",
+    "TrianglesOnGeometricQuadrilaterals",
+    "QuadrilateralsOnGeometricTriangles",
+    "QuadrilateralsOnGeometricQuadrilaterals",
+    "Polygons",
+    "BoundingBox",
+    "PrivateTable",
+    "Tangents",
+    "Normals",
+    "TangentAtVertices",
+    "Iterations",
+    "Time",
+    "CoarseHexahedra",
+    "PeriodicVertices",
+    "PeriodicEdges",
+    "PeriodicTriangles",
+    "PeriodicQuadrilaterals",
+    "BezierBasis",
+    "ByteFlow",
+    "FloatingPointPrecision",
+    "BoundaryLayers",
+    "Geometry",
+    "Identifier"};
+
+template <std::size_t N>
+bool contains(const std::array<std::string_view, N>& names, std::string_view word) {
+  return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+bool is_section(std::string_view word) {
+  return word == "End" || contains(kept_sections, word) || contains(foreign_volumes, word) ||
+         contains(text_sections, word) || contains(passed_sections, word) ||
+         word.starts_with("SolAt") || word.starts_with("ISolAt") || word.starts_with("DSolAt") ||
+         word.starts_with("HOSolAt") || word.ends_with("Ordering") ||
+         word.ends_with("ReferenceElement");
+}
+
+bool is_number_word(std::string_view word) {
+  std::string lower(word.substr(0, 3));
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower == "nan" || lower == "inf" || !std::isalpha(static_cast<unsigned char>(word[0]));
+}
+
+class Reader {
+ public:
+  explicit Reader(const InputFile& file) : text_(file, '#') {}
+
+  MeshData read() {
+    read_header();
+    while (read_section(text_.word())) {
+    }
+    const char* end = text_.position();
+    if (!seen("Vertices")) fail_without("Vertices", end);
+    for (const auto& [name, content] : postponed_) {
+      text_.seek(content);
+      read_kept_section(name);
+    }
+    if (!seen("Tetrahedra")) fail_without("Tetrahedra", end);
+    drop_zero_point_labels(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  struct Section {
+    std::string_view name;
+    const char* content;
+  };
+
+  void read_header() {
+    const std::string_view first = text_.word();
+    if (first != "MeshVersionFormatted") {
+      text_.fail(first.empty() ? "the file is empty: expected MeshVersionFormatted"
+                               : fmt::format("{} is not the beginning of a MEDIT file: expected "
+                                             "MeshVersionFormatted",
+                                             in_quotes(first)));
+    }
+    text_.integer("the version of the format", 1, 4);
+    const std::string_view second = text_.expect_word("Dimension");
+    if (second != "Dimension")
+      text_.fail(fmt::format("{} is not expected here: expected Dimension", in_quotes(second)));
+    if (text_.integer("the dimension", 1, 3) != 3) {
+      text_.fail("the mesh is not three-dimensional: expected Dimension 3");
+    }
+  }
+
+  /// False at the end of the mesh.
+  bool read_section(std::string_view name) {
+    if (name.empty() || name == "End") return false;
+    if (!is_section(name)) {
+      text_.fail(
+          fmt::format("{} is not expected here: expected the name of a section, such as "
+                      "Vertices, Triangles, Tetrahedra or End",
+                      in_quotes(name)));
+    }
+    if (contains(kept_sections, name)) {
+      if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
+      seen_.push_back(name);
+      if (name != "Vertices" && !seen("Vertices")) {
+        postponed_.push_back({name, text_.position()});
+        pass_over(name);
+      } else {
+        read_kept_section(name);
+      }
+    } else {
+      if (contains(foreign_volumes, name)) refuse_volumes(name);
+      pass_over(name);
+    }
+    return true;
+  }
+
+  void read_kept_section(std::string_view name) {
+    if (name == "Vertices") read_vertices();
+    if (name == "Edges") read_elements(mesh_.edges, "edges");
+    if (name == "Triangles") read_elements(mesh_.triangles, "triangles");
+    if (name == "Tetrahedra") read_elements(mesh_.tets, "tetrahedra");
+    if (name == "RequiredVertices") read_required_vertices();
+  }
+
+  void refuse_volumes(std::string_view name) {
+    const char* word = text_.last_word();
+    if (text_.integer(fmt::format("the number of {}", name), 0, INT64_MAX) > 0) {
+      text_.fail_at(word,
+                    fmt::format("{} cannot be read: expected a mesh of Tetrahedra with 4 vertices",
+                                in_quotes(name)));
+    }
+  }
+
+  // Numbers are not counted, only passed over to the next word: that holds for sections of every
+  // shape.
+  void pass_over(std::string_view name) {
+    const bool has_words = contains(text_sections, name);
+    for (;;) {
+      const char* before = text_.position();
+      const std::string_view word = text_.word();
+      if (word.empty()) return;
+      if (is_number_word(word) || (has_words && !is_section(word))) continue;
+      text_.seek(before);
+      return;
+    }
+  }
+
+  void read_vertices() {
+    const std::size_t count = text_.count("vertices", std::string_view("0 0 0 0\n").size());
+    if (count > most_vertices) text_.fail(fmt::format("{} vertices are too many", count));
+    mesh_.points.resize(count);
+    mesh_.point_labels.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      Point& point = mesh_.points[i];
+      for (int axis = 0; axis < 3; ++axis) point[axis] = text_.real("a coordinate of a vertex");
+      mesh_.point_labels[i] = text_.label("the reference of a vertex");
+    }
+  }
+
+  std::uint32_t read_vertex_number() {
+    const auto count = static_cast<std::int64_t>(mesh_.points.size());
+    return static_cast<std::uint32_t>(text_.integer("a vertex number", 1, count) - 1);
+  }
+
+  template <class Element>
+  void read_elements(std::vector<Element>& elements, std::string_view what) {
+    constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    elements.resize(text_.count(what, 2 * numbers));
+    for (Element& element : elements) {
+      for (std::uint32_t& vertex : element.vertices) vertex = read_vertex_number();
+      if (has_repeated_vertex(element.vertices)) {
+        text_.fail(repeated_vertex_message(element, 1));
+      }
+      element.label = text_.label("the reference of an element");
+    }
+  }
+
+  void read_required_vertices() {
+    mesh_.required_vertices.resize(text_.count("required vertices", 2));
+    for (std::uint32_t& vertex : mesh_.required_vertices) vertex = read_vertex_number();
+  }
+
+  bool seen(std::string_view name) const {
+    return std::find(seen_.begin(), seen_.end(), name) != seen_.end();
+  }
+
+  [[noreturn]] void fail_without(std::string_view name, const char* end) const {
+    text_.fail_at(end, fmt::format("the section {} is missing", name));
+  }
+
+  TextReader text_;
+  MeshData mesh_;
+  std::vector<std::string_view> seen_;
+  std::vector<Section>
+      postponed_;  // what came before Vertices, of which the number was not known yet
+};
+
+template <class Element>
+void write_elements(OutputFile& out, std::string_view name, const std::vector<Element>& elements) {
+  out.put(fmt::format("{}\n{}\n", name, elements.size()));
+  for (const Element& element : elements) {
+    for (const std::uint32_t vertex : element.vertices) {
+      out.put_integer(std::int64_t{vertex} + 1);
+      out.put(' ');
+    }
+    out.put_integer(element.label);
+    out.put('\n');
+  }
+}
+
+}  // namespace
+
+MeshData read_medit_ascii(const std::filesystem::path& file) {
+  const InputFile input(file);
+  return Reader(input).read();
+}
+
+void write_medit_ascii(const std::filesystem::path& file, const MeshData& mesh) {
+  OutputFile out(file);
+  out.put("MeshVersionFormatted 2\nDimension 3\n");
+  out.put(fmt::format("Vertices\n{}\n", mesh.points.size()));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      out.put_real(mesh.points[i][axis]);
+      out.put(' ');
+    }
+    out.put_integer(mesh.point_labels.empty() ? 0 : mesh.point_labels[i]);
+    out.put('\n');
+  }
+  if (!mesh.edges.empty()) write_elements(out, "Edges", mesh.edges);
+  if (!mesh.triangles.empty()) write_elements(out, "Triangles", mesh.triangles);
+  if (!mesh.required_vertices.empty()) {
+    out.put(fmt::format("RequiredVertices\n{}\n", mesh.required_vertices.size()));
+    for (const std::uint32_t vertex : mesh.required_vertices) {
+      out.put_integer(std::int64_t{vertex} + 1);
+      out.put('\n');
+    }
+  }
+  write_elements(out, "Tetrahedra", mesh.tets);
+  out.put("End\n");
+  out.commit();
+}
+
+}  // namespace tetmend::formats

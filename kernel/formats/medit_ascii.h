@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// MEDIT's text format `.mesh` (also known as GMF: Gamma Mesh Format).
+#pragma once
+
+#include <filesystem>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// Keeps Vertices, Edges, Triangles, Tetrahedra and RequiredVertices with their references, in any
+/// order of sections; other sections of the format are passed over. The last `End` may be missing
+/// (libigl writes none). @throws Error
+MeshData read_medit_ascii(const std::filesystem::path& file);
+
+/// Tetrahedra come last, so that a file cut short never passes for a complete one. @throws Error
+void write_medit_ascii(const std::filesystem::path& file, const MeshData& mesh);
+
+}  // namespace tetmend::formats

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+// MEDIT's binary format `.meshb` (also known as GMF: Gamma Mesh Format).
+//
+//   int32 1 (the cookie, which shows the byte order)   int32 version
+//   then for each section:  int32 keyword   position of the next keyword   [int count]   rows
+//
+// Positions are int32 in versions 1 and 2, else int64; coordinates float in version 1, else double;
+// counts, vertex numbers and references int32 up to version 3, else int64. Keywords, and the
+// dimension, are int32 always.
+#include "kernel/formats/medit_binary.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/byte_reader.h"
+#include "kernel/formats/element_checks.h"
+#include "kernel/formats/output_file.h"
+
+namespace tetmend::formats {
+namespace {
+
+enum Keyword : std::int32_t {
+  dimension = 3,
+  vertices = 4,
+  edges = 5,
+  triangles = 6,
+  tetrahedra = 8,
+  required_vertices = 15,
+  end_of_mesh = 54
+};
+
+// Volume elements that the library has no use for, linear and of higher order.
+constexpr std::array<std::int32_t, 16> foreign_volumes = {9,  10, 30, 33, 46,  49,  86,  87,
+                                                          96, 97, 98, 99, 100, 101, 102, 103};
+
+class Reader {
+ public:
+  explicit Reader(const InputFile& file) : bytes_(file) {}
+
+  MeshData read() {
+    read_header();
+    list_sections();
+    if (version_ == 1) return read_with<float, std::int32_t>();
+    return version_ == 4 ? read_with<double, std::int64_t>() : read_with<double, std::int32_t>();
+  }
+
+ private:
+  struct Section {
+    std::int32_t keyword;
+    std::size_t begin;  // of its content
+    std::size_t size;   // of its content
+  };
+
+  void read_header() {
+    if (bytes_.size() == 0)
+      bytes_.fail_at(std::size_t{0}, "the file is empty: expected the cookie 1");
+    const auto cookie = bytes_.number<std::int32_t>("the cookie 1");
+    if (cookie != 1 && cookie != byte_swapped(std::int32_t{1})) {
+      bytes_.fail_at(
+          std::size_t{0},
+          fmt::format("the cookie {} is not that of a binary MEDIT file: expected 1", cookie));
+    }
+    bytes_.set_swap(cookie != 1);
+    version_ = bytes_.number<std::int32_t>("the version of the format");
+    if (version_ < 1 || version_ > 4) {
+      bytes_.fail_at(bytes_.position() - sizeof version_,
+                     fmt::format("version {} of the format is unknown: expected 1 to 4", version_));
+    }
+  }
+
+  // Each position must lie ahead, so that no chain of positions can go in circles.
+  void list_sections() {
+    while (bytes_.bytes_left() > 0) {
+      const std::size_t at = bytes_.position();
+      const auto keyword = bytes_.number<std::int32_t>("a keyword");
+      if (keyword == end_of_mesh) return;
+      if (keyword < 1)
+        bytes_.fail_at(at, fmt::format("{} is not a keyword of the format", keyword));
+      const std::size_t position_at = bytes_.position();
+      const std::int64_t next = version_ >= 3
+                                    ? bytes_.number<std::int64_t>("the position of a keyword")
+                                    : bytes_.number<std::int32_t>("the position of a keyword");
+      const std::size_t begin = bytes_.position();
+      // 0 marks the last section of a file without an end keyword.
+      const std::size_t end = next == 0 ? bytes_.size() : static_cast<std::size_t>(next);
+      if (next < 0 || end < begin || end > bytes_.size()) {
+        bytes_.fail_at(position_at,
+                       fmt::format("the position {} of the next keyword is wrong: expected {} "
+                                   "to {}; the file may be truncated",
+                                   next, begin, bytes_.size()));
+      }
+      const auto same = [=](const Section& section) { return section.keyword == keyword; };
+      if (is_kept(keyword) && std::any_of(sections_.begin(), sections_.end(), same)) {
+        bytes_.fail_at(at, fmt::format("the keyword {} appears for the second time", keyword));
+      }
+      sections_.push_back({keyword, begin, end - begin});
+      bytes_.seek(end);
+    }
+  }
+
+  static bool is_kept(std::int32_t keyword) {
+    return keyword == dimension || keyword == vertices || keyword == edges ||
+           keyword == triangles || keyword == tetrahedra || keyword == required_vertices;
+  }
+
+  template <class Real, class Integer>
+  MeshData read_with() {
+    read_dimension();
+    for (const Section& section : sections_) {
+      const auto keyword = section.keyword;
+      if (std::find(foreign_volumes.begin(), foreign_volumes.end(), keyword) !=
+          foreign_volumes.end()) {
+        bytes_.seek(section.begin);
+        if (bytes_.number<Integer>("a count") > 0) {
+          bytes_.fail_at(section.begin,
+                         fmt::format("elements of keyword {} cannot be read: expected a mesh "
+                                     "of tetrahedra with 4 vertices",
+                                     keyword));
+        }
+      }
+    }
+    read_vertices<Real, Integer>(find(vertices, "Vertices"));
+    read_elements<Integer>(find(tetrahedra, "Tetrahedra"), mesh_.tets, "tetrahedra");
+    for (const Section& section : sections_) {
+      if (section.keyword == edges) read_elements<Integer>(section, mesh_.edges, "edges");
+      if (section.keyword == triangles) {
+        read_elements<Integer>(section, mesh_.triangles, "triangles");
+      }
+      if (section.keyword == required_vertices) read_required_vertices<Integer>(section);
+    }
+    drop_zero_point_labels(mesh_);
+    return std::move(mesh_);
+  }
+
+  const Section& find(std::int32_t keyword, std::string_view name) const {
+    for (const Section& section : sections_) {
+      if (section.keyword == keyword) return section;
+    }
+    bytes_.fail_at(bytes_.size(), fmt::format("the section {} is missing", name));
+  }
+
+  void read_dimension() {
+    const Section& section = find(dimension, "Dimension");
+    bytes_.seek(section.begin);
+    const auto value = bytes_.number<std::int32_t>("the dimension");
+    if (value != 3) {
+      bytes_.fail_at(section.begin, fmt::format("the dimension is {}: expected 3", value));
+    }
+  }
+
+  /// Goes to the first row and gives the number of rows, which must fill the section.
+  template <class Integer>
+  std::size_t count_rows(const Section& section, std::size_t row_size, std::string_view what) {
+    bytes_.seek(section.begin);
+    if (section.size < sizeof(Integer)) {
+      bytes_.fail_at(section.begin,
+                     fmt::format("the section ends where the number of {} is expected", what));
+    }
+    const Integer count = bytes_.number<Integer>("a count");
+    const std::size_t room = section.size - sizeof(Integer);
+    if (count < 0 || static_cast<std::uint64_t>(count) > room / row_size ||
+        static_cast<std::uint64_t>(count) * row_size != room) {
+      bytes_.fail_at(section.begin,
+                     fmt::format("the count of {} {} does not match the {} bytes of the "
+                                 "section: expected {}",
+                                 count, what, room, room / row_size));
+    }
+    return static_cast<std::size_t>(count);
+  }
+
+  template <class Real, class Integer>
+  void read_vertices(const Section& section) {
+    constexpr std::size_t row_size = 3 * sizeof(Real) + sizeof(Integer);
+    const std::size_t count = count_rows<Integer>(section, row_size, "vertices");
+    if (count > most_vertices)
+      bytes_.fail_at(section.begin, fmt::format("{} vertices are too many", count));
+    mesh_.points.resize(count);
+    mesh_.point_labels.resize(count);
+    const char* row = bytes_.here();
+    for (std::size_t i = 0; i < count; ++i, row += row_size) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const char* at = row + axis * sizeof(Real);
+        const Real value = load<Real>(at, bytes_.swap());
+        if (!std::isfinite(value)) {
+          bytes_.fail_at(at,
+                         fmt::format("{} is not a finite number: expected a coordinate", value));
+        }
+        mesh_.points[i][static_cast<Eigen::Index>(axis)] = value;
+      }
+      mesh_.point_labels[i] = read_label<Integer>(row + 3 * sizeof(Real));
+    }
+  }
+
+  template <class Integer>
+  Label read_label(const char* at) const {
+    const Integer value = load<Integer>(at, bytes_.swap());
+    if (value < INT32_MIN || value > INT32_MAX) {
+      bytes_.fail_at(at, fmt::format("the reference {} is out of range: expected {} to {}", value,
+                                     INT32_MIN, INT32_MAX));
+    }
+    return static_cast<Label>(value);
+  }
+
+  template <class Integer>
+  std::uint32_t read_vertex_number(const char* at) const {
+    const Integer value = load<Integer>(at, bytes_.swap());
+    if (value < 1 || static_cast<std::uint64_t>(value) > mesh_.points.size()) {
+      bytes_.fail_at(at, fmt::format("{} is out of range: expected a vertex number, 1 to {}", value,
+                                     mesh_.points.size()));
+    }
+    return static_cast<std::uint32_t>(value - 1);
+  }
+
+  template <class Integer, class Element>
+  void read_elements(const Section& section, std::vector<Element>& elements,
+                     std::string_view what) {
+    constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    elements.resize(count_rows<Integer>(section, numbers * sizeof(Integer), what));
+    const char* row = bytes_.here();
+    for (Element& element : elements) {
+      const char* at = row;
+      for (std::uint32_t& vertex : element.vertices) {
+        vertex = read_vertex_number<Integer>(at);
+        at += sizeof(Integer);
+      }
+      if (has_repeated_vertex(element.vertices)) {
+        bytes_.fail_at(row, repeated_vertex_message(element, 1));
+      }
+      element.label = read_label<Integer>(at);
+      row += numbers * sizeof(Integer);
+    }
+  }
+
+  template <class Integer>
+  void read_required_vertices(const Section& section) {
+    mesh_.required_vertices.resize(
+        count_rows<Integer>(section, sizeof(Integer), "required vertices"));
+    const char* at = bytes_.here();
+    for (std::uint32_t& vertex : mesh_.required_vertices) {
+      vertex = read_vertex_number<Integer>(at);
+      at += sizeof(Integer);
+    }
+  }
+
+  ByteReader bytes_;
+  std::int32_t version_ = 0;
+  std::vector<Section> sections_;
+  MeshData mesh_;
+};
+
+class Writer {
+ public:
+  Writer(OutputFile& out, const MeshData& mesh) : out_(out), mesh_(mesh) {}
+
+  void write() {
+    version_ = 4;
+    if (most_rows() <= INT32_MAX) {
+      version_ = 2;
+      if (file_size() > INT32_MAX) version_ = 3;
+    }
+    out_.put_bytes(std::int32_t{1});
+    out_.put_bytes(version_);
+    position_ = 2 * sizeof(std::int32_t);
+    begin_section(dimension, sizeof(std::int32_t));
+    out_.put_bytes(std::int32_t{3});
+    write_vertices();
+    if (!mesh_.edges.empty()) write_elements(edges, mesh_.edges);
+    if (!mesh_.triangles.empty()) write_elements(triangles, mesh_.triangles);
+    if (!mesh_.required_vertices.empty()) write_required_vertices();
+    write_elements(tetrahedra,
+                   mesh_.tets);  // last: a file cut short never passes for a complete one
+    out_.put_bytes(std::int32_t{end_of_mesh});
+    put_position(0);
+  }
+
+ private:
+  std::size_t most_rows() const {
+    return std::max({mesh_.points.size(), mesh_.tets.size(), mesh_.triangles.size(),
+                     mesh_.edges.size(), mesh_.required_vertices.size()});
+  }
+  std::size_t integer_size() const { return version_ == 4 ? 8 : 4; }
+  std::size_t position_size() const { return version_ >= 3 ? 8 : 4; }
+
+  /// Not less than the size of the file in version 2.
+  std::size_t file_size() const {
+    constexpr std::size_t headers = 256;
+    return headers + 28 * mesh_.points.size() + 12 * mesh_.edges.size() +
+           16 * mesh_.triangles.size() + 4 * mesh_.required_vertices.size() +
+           20 * mesh_.tets.size();
+  }
+
+  void put_integer(std::int64_t value) {
+    if (version_ == 4) return out_.put_bytes(value);
+    out_.put_bytes(static_cast<std::int32_t>(value));
+  }
+  void put_position(std::size_t position) {
+    if (version_ >= 3) return out_.put_bytes(static_cast<std::int64_t>(position));
+    out_.put_bytes(static_cast<std::int32_t>(position));
+  }
+
+  void begin_section(std::int32_t keyword, std::size_t content_size) {
+    position_ += sizeof keyword + position_size() + content_size;
+    out_.put_bytes(keyword);
+    put_position(position_);
+  }
+  void begin_rows(std::int32_t keyword, std::size_t rows, std::size_t row_size) {
+    begin_section(keyword, integer_size() + rows * row_size);
+    put_integer(static_cast<std::int64_t>(rows));
+  }
+
+  void write_vertices() {
+    begin_rows(vertices, mesh_.points.size(), 3 * sizeof(double) + integer_size());
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      for (int axis = 0; axis < 3; ++axis) out_.put_bytes(mesh_.points[i][axis]);
+      put_integer(mesh_.point_labels.empty() ? 0 : mesh_.point_labels[i]);
+    }
+  }
+
+  template <class Element>
+  void write_elements(std::int32_t keyword, const std::vector<Element>& elements) {
+    constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    begin_rows(keyword, elements.size(), numbers * integer_size());
+    for (const Element& element : elements) {
+      for (const std::uint32_t vertex : element.vertices) put_integer(std::int64_t{vertex} + 1);
+      put_integer(element.label);
+    }
+  }
+
+  void write_required_vertices() {
+    begin_rows(required_vertices, mesh_.required_vertices.size(), integer_size());
+    for (const std::uint32_t vertex : mesh_.required_vertices) {
+      put_integer(std::int64_t{vertex} + 1);
+    }
+  }
+
+  OutputFile& out_;
+  const MeshData& mesh_;
+  std::int32_t version_ = 2;
+  std::size_t position_ = 0;
+};
+
+}  // namespace
+
+MeshData read_medit_binary(const std::filesystem::path& file) {
+  const InputFile input(file);
+  return Reader(input).read();
+}
+
+void write_medit_binary(const std::filesystem::path& file, const MeshData& mesh) {
+  OutputFile out(file);
+  Writer(out, mesh).write();
+  out.commit();
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// MEDIT's binary format `.meshb` (also known as GMF: Gamma Mesh Format).
+#pragma once
+
+#include <filesystem>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// Versions 1 to 4 (4- or 8-byte coordinates, file positions and integers) in both byte orders;
+/// keeps the same sections as `read_medit_ascii`. @throws Error
+MeshData read_medit_binary(const std::filesystem::path& file);
+
+/// Version 2, or 3 when the file grows beyond 2 GiB, or 4 when a count needs more than 31 bits; in
+/// the byte order of this machine, as the format wants it. @throws Error
+void write_medit_binary(const std::filesystem::path& file, const MeshData& mesh);
+
+}  // namespace tetmend::formats

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Reading and writing of tetrahedral mesh files; the format follows from the extension.
+#include "kernel/formats/mesh_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/medit_ascii.h"
+#include "kernel/formats/medit_binary.h"
+#include "kernel/formats/tetgen.h"
+#include "kernel/formats/vtk_legacy.h"
+
+namespace tetmend {
+namespace {
+
+struct Codec {
+  MeshData (*read)(const std::filesystem::path&);
+  void (*write)(const std::filesystem::path&, const MeshData&);
+};
+
+constexpr std::array<MeshFormat, 5> formats_table = {{{"MEDIT ASCII", ".mesh"},
+                                                      {"MEDIT binary", ".meshb"},
+                                                      {"TetGen", ".node"},
+                                                      {"TetGen", ".ele"},
+                                                      {"legacy VTK", ".vtk"}}};
+
+// In the order of formats_table.
+constexpr std::array<Codec, 5> codecs = {{{formats::read_medit_ascii, formats::write_medit_ascii},
+                                          {formats::read_medit_binary, formats::write_medit_binary},
+                                          {formats::read_tetgen, formats::write_tetgen},
+                                          {formats::read_tetgen, formats::write_tetgen},
+                                          {formats::read_vtk_legacy, formats::write_vtk_legacy}}};
+
+const Codec& find_codec(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string valid;
+  for (std::size_t i = 0; i < formats_table.size(); ++i) {
+    if (formats_table[i].extension == extension) return codecs[i];
+    valid += valid.empty() ? "" : ", ";
+    valid += formats_table[i].extension;
+  }
+  throw Error(fmt::format("{}: the extension '{}' is not that of a mesh format: expected one of {}",
+                          file.string(), file.extension().string(), valid));
+}
+
+}  // namespace
+
+std::span<const MeshFormat> mesh_formats() {
+  return formats_table;
+}
+
+MeshData read_mesh(const std::filesystem::path& file) {
+  try {
+    return find_codec(file).read(file);
+  } catch (const std::bad_alloc&) {
+    throw Error(fmt::format("{}: cannot be read: not enough memory", file.string()));
+  }
+}
+
+void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
+  find_codec(file).write(file, mesh);
+}
+
+}  // namespace tetmend

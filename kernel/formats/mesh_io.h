@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Reading and writing of tetrahedral mesh files; the format follows from the extension.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend {
+
+/// One row for each file format, for `--help` and for error messages.
+struct MeshFormat {
+  std::string_view name;       ///< "MEDIT ASCII"
+  std::string_view extension;  ///< ".mesh"
+};
+
+/// All formats, in the order in which help lists them.
+std::span<const MeshFormat> mesh_formats();
+
+/// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
+/// `.edge` beside it when present),
+/// `.vtk` legacy VTK, ASCII or binary, of version 2.0 to 5.1. Reference labels, triangles and edges
+/// are kept; anything else in the file is passed over.
+/// @throws Error with file, line (ASCII) or byte offset (binary), the offending word and the
+/// reason, for: a missing, empty or
+///   truncated file, a wrong count, a vertex index out of range or repeated within an element, text
+///   in a number, a coordinate that is not finite, a count that cannot fit into the file (before
+///   memory is taken for it), an unknown extension (with the valid ones). Never crashes.
+/// Cost: linear in the size of the file.
+MeshData read_mesh(const std::filesystem::path& file);
+
+/// Writes a mesh in the format of the extension; a TetGen path (`.node` or `.ele`) writes `.node`,
+/// `.ele` and `.face`. Doubles are written so that reading gives the same bits. The file appears
+/// under its name only when complete: a temporary file beside it is renamed, so a failure leaves an
+/// older file untouched.
+/// @throws Error when the file cannot be written, with the reason of the operating system, or when
+/// the extension is unknown.
+void write_mesh(const std::filesystem::path& file, const MeshData& mesh);
+
+}  // namespace tetmend

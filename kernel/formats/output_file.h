@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// A file that appears under its name only when it is complete.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace tetmend {
+
+/// Buffered output into a temporary file beside the target, which `commit()` renames to the target.
+/// Without `commit()` (an exception, a full disk) the temporary file vanishes and an older target
+/// stays as it was. Links are followed, and the permissions of an older target are kept.
+class OutputFile {
+ public:
+  /// @throws Error when the target is a directory or write-protected or when its folder cannot be
+  /// written.
+  explicit OutputFile(const std::filesystem::path& target);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// All four: @throws Error with the reason of the operating system when the disk is full.
+  void put(std::string_view text);
+  void put(char c) { *room_for(1) = c, used_ += 1; }
+  void put_integer(std::int64_t value);
+  /// The shortest digits from which the same double is read back.
+  void put_real(double value);
+  /// The number's own bytes; the byte order is the caller's.
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void put_bytes(T value) {
+    std::memcpy(room_for(sizeof(T)), &value, sizeof(T));
+    used_ += sizeof(T);
+  }
+
+  /// Writes out what is buffered and closes the temporary file: what can fail for want of space
+  /// fails here. Where several files belong together, finish all before the first commit.
+  void finish();
+  /// Finishes, then gives the file its name.
+  void commit();
+
+ private:
+  char* room_for(std::size_t size) {
+    if (capacity - used_ < size) flush();
+    return buffer_.get() + used_;
+  }
+  void flush();
+  void write_out(const char* bytes, std::size_t size);
+  [[noreturn]] void fail(int error) const;
+
+  static constexpr std::size_t capacity = std::size_t{1} << 18;
+  std::string name_;  // as the user gave it, for messages
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  std::unique_ptr<char[]> buffer_;
+  std::size_t used_ = 0;
+  int fd_ = -1;
+  bool committed_ = false;
+};
+
+}  // namespace tetmend

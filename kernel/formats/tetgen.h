@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// TetGen's files `.node`, `.ele`, `.face` and `.edge`: one mesh in up to four files of one stem.
+#pragma once
+
+#include <filesystem>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// Reads `.node` and `.ele`, and `.face` and `.edge` where they exist beside them. Vertices count
+/// from 0 or 1, as the first line of `.node` has it. The first attribute of a tet is its label,
+/// rounded to an integer; boundary markers are the labels of vertices, triangles and edges; a
+/// missing column is 0. @throws Error
+MeshData read_tetgen(const std::filesystem::path& node_or_ele);
+
+/// Writes `.node`, `.ele` and `.face`, counting from 0. `.edge` is written when there are edges, or
+/// when such a file exists: left from an older mesh it would be read back as a part of this one.
+/// Required vertices have no place in the format. All files are complete under temporary names
+/// before the first is renamed. @throws Error
+void write_tetgen(const std::filesystem::path& node_or_ele, const MeshData& mesh);
+
+}  // namespace tetmend::formats

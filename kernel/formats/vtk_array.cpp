@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The arrays of a legacy VTK file: numbers of a named type, as text or as big-endian bytes.
+#include "kernel/formats/vtk_array.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/byte_reader.h"
+
+namespace tetmend::formats {
+namespace {
+
+using Kind = VtkType::Kind;
+
+// Sizes are those of VTK on 64-bit Linux; its writer stores vtkIdType as int.
+constexpr std::array<VtkType, 25> types = {{{"bit", Kind::bit, 0},
+                                            {"char", Kind::signed_integer, 1},
+                                            {"signed_char", Kind::signed_integer, 1},
+                                            {"unsigned_char", Kind::unsigned_integer, 1},
+                                            {"short", Kind::signed_integer, 2},
+                                            {"unsigned_short", Kind::unsigned_integer, 2},
+                                            {"int", Kind::signed_integer, 4},
+                                            {"unsigned_int", Kind::unsigned_integer, 4},
+                                            {"vtkidtype", Kind::signed_integer, 4},
+                                            {"long", Kind::signed_integer, 8},
+                                            {"unsigned_long", Kind::unsigned_integer, 8},
+                                            {"float", Kind::real, 4},
+                                            {"double", Kind::real, 8},
+                                            {"vtktypeint8", Kind::signed_integer, 1},
+                                            {"vtktypeuint8", Kind::unsigned_integer, 1},
+                                            {"vtktypeint16", Kind::signed_integer, 2},
+                                            {"vtktypeuint16", Kind::unsigned_integer, 2},
+                                            {"vtktypeint32", Kind::signed_integer, 4},
+                                            {"vtktypeuint32", Kind::unsigned_integer, 4},
+                                            {"vtktypeint64", Kind::signed_integer, 8},
+                                            {"vtktypeuint64", Kind::unsigned_integer, 8},
+                                            {"vtktypefloat32", Kind::real, 4},
+                                            {"vtktypefloat64", Kind::real, 8},
+                                            {"string", Kind::text, 0},
+                                            {"utf8_string", Kind::text, 0}}};
+
+std::int64_t load_integer(std::size_t width, bool is_signed, const char* from) {
+  switch (width) {
+    case 1:
+      return is_signed ? load<std::int8_t>(from, false) : load<std::uint8_t>(from, false);
+    case 2:
+      return is_signed ? load<std::int16_t>(from, vtk_swaps) : load<std::uint16_t>(from, vtk_swaps);
+    case 4:
+      return is_signed ? load<std::int32_t>(from, vtk_swaps)
+                       : std::int64_t{load<std::uint32_t>(from, vtk_swaps)};
+    default:
+      // An unsigned value beyond 2^63 becomes negative, which every caller refuses as it does the
+      // true value.
+      return load<std::int64_t>(from, vtk_swaps);
+  }
+}
+
+/// VTK puts the length before each binary string; the two highest bits of its first byte tell how
+/// many bytes it takes.
+void skip_binary_string(TextReader& text) {
+  const char* at = text.bytes(1, "the length of a string");
+  const auto first = static_cast<unsigned char>(*at);
+  const std::size_t more = std::array<std::size_t, 4>{7, 3, 1, 0}[first >> 6];
+  std::uint64_t length = first & 0x3f;
+  const char* rest = text.bytes(more, "the length of a string");
+  for (std::size_t i = 0; i < more; ++i) {
+    length = length << 8 | static_cast<unsigned char>(rest[i]);
+  }
+  text.bytes(length, "the characters of a string");
+}
+
+}  // namespace
+
+const VtkType& find_vtk_type(TextReader& text, std::string_view word) {
+  std::string lower(word.substr(0, 20));
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const VtkType& type : types) {
+    if (type.name == lower) return type;
+  }
+  text.fail(
+      fmt::format("{} is not a data type that can be read: expected float, double, int or another "
+                  "numeric type of VTK",
+                  in_quotes(word)));
+}
+
+void skip_vtk_values(TextReader& text, bool binary, const VtkType& type, std::size_t count) {
+  if (!binary) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (type.kind == Kind::text) {
+        if (text.at_end()) text.fail("the file ends where a string is expected");
+        text.skip_line();
+      } else {
+        text.expect_word("a value of an array");
+      }
+    }
+  } else if (type.kind == Kind::text) {
+    for (std::size_t i = 0; i < count; ++i) skip_binary_string(text);
+  } else {
+    text.bytes(type.kind == Kind::bit ? (count + 7) / 8 : count * type.size,
+               "the values of an array");
+  }
+}
+
+std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type, std::size_t rows,
+                              std::size_t columns) {
+  if (rows == 0 || columns == 0) return 0;
+  std::size_t most = text.bytes_left() + 1;
+  if (binary) {
+    most = type.kind == Kind::bit ? 8 * most : most / std::max<std::size_t>(type.size, 1);
+  }
+  if (rows > most || columns > most / rows) {
+    text.fail(fmt::format(
+        "{} times {} values cannot fit into the {} bytes that are left: the count is wrong "
+        "or the file is truncated",
+        rows, columns, text.bytes_left()));
+  }
+  return rows * columns;
+}
+
+VtkIntegers::VtkIntegers(TextReader& text, bool binary, const VtkType& type, std::size_t count,
+                         std::string_view what)
+    : size_(count) {
+  if (type.kind != Kind::signed_integer && type.kind != Kind::unsigned_integer) {
+    text.fail(fmt::format("{} cannot be of type {}: expected an integer type", what, type.name));
+  }
+  checked_vtk_count(text, binary, type, count, 1);
+  if (binary) {
+    width_ = type.size;
+    is_signed_ = type.kind == Kind::signed_integer;
+    begin_ = text.bytes(count * width_, what);
+    return;
+  }
+  begin_ = text.position();
+  parsed_.resize(count);
+  for (std::int64_t& value : parsed_) value = text.integer(what, INT64_MIN, INT64_MAX);
+}
+
+std::int64_t VtkIntegers::load_other(const char* from) const {
+  return load_integer(width_, is_signed_, from);
+}
+
+const char* VtkIntegers::locate(TextReader& text, std::size_t i) const {
+  if (width_ != 0) return begin_ + i * width_;
+  text.seek(begin_);
+  for (std::size_t k = 0; k <= i; ++k) text.word();
+  return text.last_word();
+}
+
+double load_vtk_real(const VtkType& type, const char* from) {
+  if (type.kind == Kind::real) {
+    return type.size == 4 ? load<float>(from, vtk_swaps) : load<double>(from, vtk_swaps);
+  }
+  return static_cast<double>(load_integer(type.size, type.kind == Kind::signed_integer, from));
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The cells of a legacy VTK file, and how they become elements of a mesh.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "kernel/formats/text_reader.h"
+#include "kernel/formats/vtk_array.h"
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// Cells as the file has them, in one of two layouts. They are looked at when all is read, for
+/// their types stand behind their vertices.
+struct VtkCells {
+  std::size_t count = 0;
+  bool has_offsets = false;  // since version 5: vertices of cell i are connectivity[offsets[i]] to
+                             // [offsets[i + 1]]
+  VtkIntegers offsets;
+  VtkIntegers
+      connectivity;  // before version 5: for each cell the number of its vertices, then these
+  VtkIntegers types;
+
+  /// Adds tetrahedra, triangles and lines to `mesh`, which has its points. `labels` has one for
+  /// each cell, or none.
+  /// @throws Error (through `text`) for vertices out of range or repeated, wrong sizes and cells of
+  /// other kinds with a volume
+  void append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text) const;
+};
+
+}  // namespace tetmend::formats

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Legacy VTK files `.vtk` with an unstructured grid.
+#pragma once
+
+#include <filesystem>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// ASCII and binary files of version 1.0 to 5.1. Keeps tetrahedra, triangles and lines; vertices,
+/// quadrilaterals and other curves and surfaces are passed over; any other volume cell is an error.
+/// Labels of cells and points come from the scalar array of integers whose name is one that mesh
+/// tools use (`vtk_label_names` in the .cpp, best first). @throws Error
+MeshData read_vtk_legacy(const std::filesystem::path& file);
+
+/// Binary, in the layout of version 4.2 that also old readers take. Labels go to the cell array
+/// CellEntityIds, as Gmsh has it, and to the point array of that name. Required vertices have no
+/// place in the format. The format has no end mark: of a file cut exactly before its labels nothing
+/// tells that they are missing. @throws Error also for more than 2^31 - 1 vertices
+void write_vtk_legacy(const std::filesystem::path& file, const MeshData& mesh);
+
+}  // namespace tetmend::formats

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+// Reads legacy VTK files with an unstructured grid.
+//
+//   # vtk DataFile Version 3.0 | title | ASCII or BINARY | DATASET UNSTRUCTURED_GRID
+//   POINTS n type            3 n numbers
+//   CELLS n size             n times: k, then k point numbers           (before version 5)
+//   CELLS n+1 size           OFFSETS type ... CONNECTIVITY type ...     (since version 5)
+//   CELL_TYPES n             n integers
+//   CELL_DATA n, POINT_DATA n, each followed by arrays of several kinds
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/element_checks.h"
+#include "kernel/formats/text_reader.h"
+#include "kernel/formats/vtk_array.h"
+#include "kernel/formats/vtk_cells.h"
+#include "kernel/formats/vtk_legacy.h"
+
+namespace tetmend::formats {
+namespace {
+
+// Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
+constexpr std::array<std::string_view, 15> vtk_label_names = {
+    "cellentityids", "label",       "labels",       "medit:ref", "gmsh:physical",
+    "tetgen:ref",    "region",      "regionid",     "region_id", "material",
+    "materialids",   "material_id", "cell_scalars", "domain",    "gmsh:geometrical"};
+
+std::string lower_case(std::string_view word) {
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+class Reader {
+ public:
+  explicit Reader(const InputFile& file) : text_(file, TextReader::no_comments) {}
+
+  MeshData read() {
+    read_header();
+    for (;;) {
+      const std::string_view word = text_.word();
+      if (word.empty()) break;
+      read_section(lower_case(word.substr(0, 30)), word);
+    }
+    const char* end = text_.position();
+    if (!has_points_) fail_without("POINTS", end);
+    if (!has_cells_) fail_without("CELLS", end);
+    if (!has_types_) fail_without("CELL_TYPES", end);
+    cells_.append_to(mesh_, cell_labels_.values, text_);
+    mesh_.point_labels = std::move(point_labels_.values);
+    drop_zero_point_labels(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  enum class DataOf { nothing, cells, points };
+  struct Labels {
+    std::size_t rank = vtk_label_names.size();
+    std::vector<Label> values;
+  };
+
+  void read_header() {
+    constexpr std::string_view opening = "# vtk datafile version ";
+    const char* begin = text_.position();
+    const std::string first = lower_case(text_.skip_line().substr(0, 60));
+    if (first.empty() && text_.bytes_left() == 0) {
+      text_.fail_at(begin, "the file is empty: expected '# vtk DataFile Version'");
+    }
+    if (!first.starts_with(opening) || first.size() < opening.size() + 3) {
+      text_.fail_at(
+          begin,
+          fmt::format("{} is not the beginning of a legacy VTK file: expected '# vtk DataFile "
+                      "Version'",
+                      in_quotes(first)));
+    }
+    major_version_ = first[opening.size()] - '0';
+    if (major_version_ < 1 || major_version_ > 5 || first[opening.size() + 1] != '.') {
+      text_.fail_at(begin, fmt::format("the version in {} is unknown: expected 1.0 to 5.1",
+                                       in_quotes(first)));
+    }
+    text_.skip_line();  // the title
+    const std::string_view word = text_.expect_word("ASCII or BINARY");
+    const std::string coding = lower_case(word.substr(0, 10));
+    if (coding != "ascii" && coding != "binary") {
+      text_.fail(fmt::format("{} is not expected here: expected ASCII or BINARY", in_quotes(word)));
+    }
+    binary_ = coding == "binary";
+    if (binary_) text_.locate_errors_by_byte();
+  }
+
+  void read_section(const std::string& name, std::string_view word) {
+    if (name == "dataset") {
+      read_dataset();
+    } else if (name == "field") {
+      read_field();
+    } else if (name == "metadata") {
+      skip_metadata();
+    } else if (name == "points") {
+      read_points();
+    } else if (name == "cells") {
+      read_cells();
+    } else if (name == "cell_types") {
+      read_types();
+    } else if (name == "cell_data") {
+      data_of_ = DataOf::cells;
+      read_data_count(has_cells_, cells_.count, "cells");
+    } else if (name == "point_data") {
+      data_of_ = DataOf::points;
+      read_data_count(has_points_, mesh_.points.size(), "points");
+    } else if (data_of_ == DataOf::nothing || !read_attribute(name)) {
+      text_.fail(fmt::format(
+          "{} is not expected here: expected a keyword of the VTK format such as POINTS, "
+          "CELLS, CELL_TYPES or CELL_DATA",
+          in_quotes(word)));
+    }
+  }
+
+  void read_dataset() {
+    const std::string_view kind = text_.expect_word("UNSTRUCTURED_GRID");
+    if (lower_case(kind.substr(0, 30)) != "unstructured_grid") {
+      text_.fail(fmt::format("the data set {} cannot be read: expected UNSTRUCTURED_GRID",
+                             in_quotes(kind)));
+    }
+  }
+
+  std::size_t read_count(std::string_view what) {
+    return static_cast<std::size_t>(
+        text_.integer(fmt::format("the number of {}", what), 0, INT64_MAX));
+  }
+
+  const VtkType& read_type() { return find_vtk_type(text_, text_.expect_word("a data type")); }
+
+  /// Binary values begin behind the line break.
+  void begin_values() {
+    if (binary_) text_.skip_line();
+  }
+
+  void refuse_second(bool seen, std::string_view name) {
+    if (seen) text_.fail(fmt::format("'{}' appears for the second time", name));
+  }
+
+  void read_points() {
+    refuse_second(has_points_, "POINTS");
+    has_points_ = true;
+    const std::size_t count = read_count("points");
+    if (count > most_vertices) text_.fail(fmt::format("{} vertices are too many", count));
+    const VtkType& type = read_type();
+    if (type.kind == VtkType::Kind::bit || type.kind == VtkType::Kind::text) {
+      text_.fail(fmt::format("points cannot be of type '{}': expected float or double", type.name));
+    }
+    begin_values();
+    checked_vtk_count(text_, binary_, type, count, 3);
+    mesh_.points.resize(count);
+    if (!binary_) {
+      for (Point& point : mesh_.points) {
+        for (int axis = 0; axis < 3; ++axis) point[axis] = text_.real("a coordinate");
+      }
+      return;
+    }
+    const char* at = text_.bytes(3 * count * type.size, "the points");
+    for (Point& point : mesh_.points) {
+      for (int axis = 0; axis < 3; ++axis, at += type.size) {
+        const double value = load_vtk_real(type, at);
+        if (!std::isfinite(value)) {
+          text_.fail_at(at, fmt::format("{} is not a finite number: expected a coordinate", value));
+        }
+        point[axis] = value;
+      }
+    }
+  }
+
+  void read_cells() {
+    refuse_second(has_cells_, "CELLS");
+    has_cells_ = true;
+    const std::size_t count = read_count("cells");
+    const std::size_t size = read_count("integers of the cells");
+    const VtkType& int_type = find_vtk_type(text_, "int");
+    if (major_version_ < 5) {
+      begin_values();
+      cells_.count = count;
+      cells_.connectivity =
+          VtkIntegers(text_, binary_, int_type, size, "a vertex number of a cell");
+      return;
+    }
+    cells_.has_offsets = true;
+    expect_keyword("OFFSETS");
+    const VtkType& offset_type = read_type();
+    begin_values();
+    cells_.offsets = VtkIntegers(text_, binary_, offset_type, count, "an offset of a cell");
+    cells_.count = count == 0 ? 0 : count - 1;
+    expect_keyword("CONNECTIVITY");
+    const VtkType& connectivity_type = read_type();
+    begin_values();
+    cells_.connectivity =
+        VtkIntegers(text_, binary_, connectivity_type, size, "a vertex number of a cell");
+  }
+
+  void expect_keyword(std::string_view name) {
+    const std::string_view word = text_.expect_word(name);
+    if (lower_case(word.substr(0, 30)) != lower_case(name)) {
+      text_.fail(fmt::format("{} is not expected here: expected {}", in_quotes(word), name));
+    }
+  }
+
+  void read_types() {
+    refuse_second(has_types_, "CELL_TYPES");
+    has_types_ = true;
+    const std::size_t count = read_count("cell types");
+    const VtkType& int_type = find_vtk_type(text_, "int");
+    begin_values();
+    cells_.types = VtkIntegers(text_, binary_, int_type, count, "a cell type");
+  }
+
+  void read_data_count(bool known, std::size_t expected, std::string_view what) {
+    data_count_ = read_count(what);
+    if (!known || data_count_ != expected) {
+      text_.fail(
+          fmt::format("data of {} {} do not belong to this mesh: expected {}", data_count_, what,
+                      known ? std::to_string(expected) : fmt::format("the {} before", what)));
+    }
+  }
+
+  /// An array of CELL_DATA or POINT_DATA; false if `name` is not the keyword of one.
+  bool read_attribute(const std::string& name) {
+    if (name == "scalars") {
+      read_scalars();
+    } else if (name == "vectors" || name == "normals") {
+      skip_attribute(3);
+    } else if (name == "tensors") {
+      skip_attribute(9);
+    } else if (name == "tensors6") {
+      skip_attribute(6);
+    } else if (name == "global_ids" || name == "pedigree_ids" || name == "edge_flags") {
+      skip_attribute(1);
+    } else if (name == "texture_coordinates") {
+      text_.expect_word("the name of an array");
+      const std::size_t columns = read_count("columns");
+      skip_values(read_type(), data_count_, columns);
+    } else if (name == "color_scalars") {
+      text_.expect_word("the name of an array");
+      skip_values(find_vtk_type(text_, "unsigned_char"), data_count_, read_count("columns"));
+    } else if (name == "lookup_table") {
+      text_.expect_word("the name of a table");
+      skip_values(find_vtk_type(text_, "unsigned_char"), read_count("colors"), 4);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void skip_attribute(std::size_t columns) {
+    text_.expect_word("the name of an array");
+    skip_values(read_type(), data_count_, columns);
+  }
+
+  void skip_values(const VtkType& type, std::size_t rows, std::size_t columns) {
+    begin_values();
+    skip_vtk_values(text_, binary_, type, checked_vtk_count(text_, binary_, type, rows, columns));
+  }
+
+  void read_scalars() {
+    const std::string_view name = text_.expect_word("the name of an array");
+    const VtkType& type = read_type();
+    std::size_t columns = 1;
+    if (!text_.at_line_end()) columns = read_count("components");
+    text_.skip_line();
+    const char* before = text_.position();
+    if (lower_case(text_.word().substr(0, 30)) == "lookup_table") {
+      text_.skip_line();
+    } else {
+      text_.seek(before);  // VTK asks for the table, some writers leave it out
+    }
+    read_array(name, type, data_count_, columns);
+  }
+
+  void read_field() {
+    text_.expect_word("the name of a field");
+    const std::size_t arrays = text_.count("arrays", 4);
+    for (std::size_t i = 0; i < arrays; ++i) {
+      std::string_view name = text_.expect_word("the name of an array");
+      while (name == "METADATA") {
+        skip_metadata();
+        name = text_.expect_word("the name of an array");
+      }
+      const std::size_t columns = read_count("components");
+      const std::size_t rows = read_count("tuples");
+      const VtkType& type = read_type();
+      begin_values();
+      read_array(name, type, rows, columns);
+    }
+  }
+
+  // The block ends with an empty line.
+  void skip_metadata() {
+    text_.skip_line();
+    while (text_.bytes_left() > 0) {
+      const std::string_view line = text_.skip_line();
+      if (line.empty() || line == "\r") return;
+    }
+  }
+
+  /// Keeps the array if it may hold the labels, else passes over it.
+  void read_array(std::string_view name, const VtkType& type, std::size_t rows,
+                  std::size_t columns) {
+    const std::size_t count = checked_vtk_count(text_, binary_, type, rows, columns);
+    const auto* found =
+        std::find(vtk_label_names.begin(), vtk_label_names.end(), lower_case(name.substr(0, 30)));
+    const auto rank = static_cast<std::size_t>(found - vtk_label_names.begin());
+    Labels& labels = data_of_ == DataOf::points ? point_labels_ : cell_labels_;
+    const bool is_number = type.kind != VtkType::Kind::text && type.kind != VtkType::Kind::bit;
+    if (data_of_ == DataOf::nothing || columns != 1 || rows != data_count_ || !is_number ||
+        rank >= labels.rank) {
+      skip_vtk_values(text_, binary_, type, count);
+      return;
+    }
+    std::vector<Label> values(count);
+    if (read_labels(type, values)) labels = {rank, std::move(values)};
+  }
+
+  /// False if the array holds fractions: such a "material" is no label but a property.
+  bool read_labels(const VtkType& type, std::vector<Label>& values) {
+    const char* at = binary_ ? text_.bytes(values.size() * type.size, "the labels") : nullptr;
+    const bool is_real = type.kind == VtkType::Kind::real;
+    bool whole = true;
+    for (Label& label : values) {
+      const double value = binary_ ? load_vtk_real(type, at) : read_label_number(is_real);
+      if (is_real && value != std::floor(value)) {  // also nan
+        whole = false;
+      } else if (!(value >= INT32_MIN && value <= INT32_MAX)) {
+        text_.fail_at(binary_ ? at : text_.last_word(),
+                      fmt::format("the label {} is out of range: expected {} to {}", value,
+                                  INT32_MIN, INT32_MAX));
+      } else {
+        label = static_cast<Label>(value);
+      }
+      if (binary_) at += type.size;
+    }
+    return whole;
+  }
+
+  double read_label_number(bool is_real) {
+    if (is_real) return text_.real("a label");
+    return static_cast<double>(text_.integer("a label", INT64_MIN, INT64_MAX));
+  }
+
+  [[noreturn]] void fail_without(std::string_view name, const char* end) const {
+    text_.fail_at(end, fmt::format("the section {} is missing", name));
+  }
+
+  TextReader text_;
+  MeshData mesh_;
+  int major_version_ = 0;
+  bool binary_ = false;
+  bool has_points_ = false;
+  bool has_cells_ = false;
+  bool has_types_ = false;
+  VtkCells cells_;
+  DataOf data_of_ = DataOf::nothing;
+  std::size_t data_count_ = 0;
+  Labels cell_labels_;
+  Labels point_labels_;
+};
+
+}  // namespace
+
+MeshData read_vtk_legacy(const std::filesystem::path& file) {
+  const InputFile input(file);
+  return Reader(input).read();
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Signed volumes and a certificate for their sign.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend {
+
+/// Six times the signed volume of tet (a, b, c, d): (b-a) . ((c-a) x (d-a)). A valid tet has a positive value.
+inline double volume6(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return (b - a).dot((c - a).cross(d - a));
+}
+
+/// True only if the exact volume of the tet with the given (double) coordinates is positive: the computed value exceeds the
+/// rounding-error bound of the determinant. May say false for a positive volume at rounding level, never true for a wrong one.
+/// Source: static filter of [shewchuk_predicates], constant (7 + 56 eps) eps.
+inline bool certified_positive(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Point u = b - a;
+  const Point v = c - a;
+  const Point w = d - a;
+  const double v2w3 = v.y() * w.z();
+  const double v3w2 = v.z() * w.y();
+  const double v3w1 = v.z() * w.x();
+  const double v1w3 = v.x() * w.z();
+  const double v1w2 = v.x() * w.y();
+  const double v2w1 = v.y() * w.x();
+  const double det = u.x() * (v2w3 - v3w2) + u.y() * (v3w1 - v1w3) + u.z() * (v1w2 - v2w1);
+  const double permanent = std::abs(u.x()) * (std::abs(v2w3) + std::abs(v3w2)) +
+                           std::abs(u.y()) * (std::abs(v3w1) + std::abs(v1w3)) +
+                           std::abs(u.z()) * (std::abs(v1w2) + std::abs(v2w1));
+  return det > 7.7715611723761027e-16 * permanent;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Quality measures of a tet and the comparison of quality vectors.
+#include "kernel/quality.h"
+
+#include <array>
+#include <numbers>
+#include <string>
+
+#include "kernel/error.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Edges, face normals and volume of a tet: what every measure below starts from.
+struct Frame {
+  std::array<Point, 4> p;
+  std::array<Point, 4> normal;  // outward for a positive tet, length twice the area
+  double v6;
+
+  Frame(const Point& a, const Point& b, const Point& c, const Point& d)
+      : p{a, b, c, d}, v6(volume6(a, b, c, d)) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      const auto& [i, j, k] = kFaceVertices[f];
+      normal[f] = (p[j] - p[i]).cross(p[k] - p[i]);
+    }
+  }
+  Point edge(std::size_t e) const { return p[kEdgeVertices[e][1]] - p[kEdgeVertices[e][0]]; }
+  double squared_edges() const {
+    double sum = 0;
+    for (std::size_t e = 0; e < 6; ++e) sum += edge(e).squaredNorm();
+    return sum;
+  }
+  /// |sine| and cosine of the dihedral angle at edge e, both times the product of the two normals.
+  std::array<double, 2> sine_cosine(std::size_t e) const {
+    const auto& [k, l] = kEdgeVertices[5 - e];  // the faces at edge ij lie opposite k and l
+    // 0 - x, not -x: a negative zero would turn the angle at a degenerate face from 0 into 180.
+    return {std::abs(v6) * edge(e).norm(), 0.0 - normal[k].dot(normal[l])};
+  }
+};
+
+}  // namespace
+
+std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
+                                      const Point& d) {
+  const Frame frame(a, b, c, d);
+  std::array<double, 6> angles{};
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [sine, cosine] = frame.sine_cosine(e);
+    angles[e] = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
+  }
+  return angles;
+}
+
+double minimum_dihedral_angle(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto angles = dihedral_angles(a, b, c, d);
+  const double smallest = *std::min_element(angles.begin(), angles.end());
+  const double v6 = volume6(a, b, c, d);
+  return v6 > 0 ? smallest : v6 < 0 ? -smallest : 0.0;
+}
+
+double volume_length(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Frame frame(a, b, c, d);
+  const double mean_square = frame.squared_edges() / 6.0;
+  if (!(mean_square > 0)) return 0;
+  return std::numbers::sqrt2 * frame.v6 / (mean_square * std::sqrt(mean_square));
+}
+
+double radius_ratio(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Frame frame(a, b, c, d);
+  double area2 = 0;  // twice the surface area
+  for (const Point& n : frame.normal) area2 += n.norm();
+  // R = |alpha| / (2 V6) with alpha = |u|^2 (v x w) + |v|^2 (w x u) + |w|^2 (u x v);  r = V6 / (sum of |normals|).
+  const Point u = b - a;
+  const Point v = c - a;
+  const Point w = d - a;
+  const double alpha = (u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) +
+                        w.squaredNorm() * u.cross(v))
+                           .norm();
+  if (!(area2 > 0) || !(alpha > 0)) return 0;
+  return 6.0 * frame.v6 * std::abs(frame.v6) / (area2 * alpha);
+}
+
+double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Frame frame(a, b, c, d);
+  const double squares = frame.squared_edges();
+  if (!(squares > 0)) return 0;
+  const double root = std::cbrt(0.5 * frame.v6);
+  return 12.0 * root * std::abs(root) / squares;
+}
+
+double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const Point& d) {
+  constexpr double kObtuseFactor = 0.75;
+  const Frame frame(a, b, c, d);
+  double smallest = 1;
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [sine, cosine] = frame.sine_cosine(e);
+    const auto& [k, l] = kEdgeVertices[5 - e];
+    const double scale = frame.normal[k].norm() * frame.normal[l].norm();
+    if (!(scale > 0)) return 0;
+    smallest = std::min(smallest, sine / scale * (cosine < 0 ? kObtuseFactor : 1.0));
+  }
+  return frame.v6 < 0 ? -smallest : smallest;
+}
+
+std::span<const QualityMeasure> quality_measures() {
+  static constexpr double kRegularSine = 0.94280904158206336587;
+  static constexpr std::array<QualityMeasure, 6> kMeasures = {{
+      {"min_sine", "smallest sine of the six dihedral angles, signed (regular tet 0.9428)",
+       &minimum_sine, kRegularSine},
+      {"min_angle", "smallest dihedral angle in degrees, signed (regular tet 70.53)",
+       &minimum_dihedral_angle, 70.528779365509308630},
+      {"volume_length", "6 sqrt(2) V / l_rms^3 (regular tet 1)", &volume_length, 1},
+      {"radius_ratio", "3 inradius / circumradius, signed (regular tet 1)", &radius_ratio, 1},
+      {"mean_ratio", "12 (3 V)^(2/3) / sum of squared edges, signed (regular tet 1)", &mean_ratio,
+       1},
+      {"warped_min_sine", "minimum sine, obtuse angles times 0.75, signed (regular tet 0.9428)",
+       &warped_minimum_sine, kRegularSine},
+  }};
+  return kMeasures;
+}
+
+const QualityMeasure& find_quality_measure(std::string_view name) {
+  std::string valid;
+  for (const QualityMeasure& measure : quality_measures()) {
+    if (measure.name == name) return measure;
+    valid += valid.empty() ? "" : ", ";
+    valid += measure.name;
+  }
+  throw Error("unknown quality measure '" + std::string(name) + "'; valid: " + valid);
+}
+
+bool improves(std::span<const Quality> now, std::span<const Quality> before) {
+  const std::size_t common = std::min(now.size(), before.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (now[i] < before[i]) return false;
+    if (now[i] > before[i] + kQualityTolerance) return true;
+  }
+  return now.size() < before.size();
+}
+
+}  // namespace tetmend

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Breadth-first walks over the star of a vertex.
+#include "kernel/star.h"
+
+#include "kernel/shell.h"
+#include "kernel/workspace.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Calls visit(tet, local index of v) for each tet of the star until it returns true.
+template <class Visit>
+void walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::vector<HalfFace>& queue,
+               Visit&& visit) {
+  queue.clear();
+  const TetHandle first = mesh.tet_of(v);
+  if (!first.is_valid()) return;
+  IndexSet& seen = workspace.star_set;
+  seen.clear();
+  seen.insert(first.index());
+  queue.push_back(HalfFace(first, mesh.local_index(first, v)));
+  if (visit(queue.back())) return;
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const HalfFace opposite = queue[i];
+    const auto& neighbours = mesh.neighbours(opposite.tet());
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace twin = neighbours[f];
+      if (f == opposite.face() || twin.is_outside() || !seen.insert(twin.tet().index())) continue;
+      queue.push_back(HalfFace(twin.tet(), mesh.local_index(twin.tet(), v)));
+      if (visit(queue.back())) return;
+    }
+  }
+}
+
+}  // namespace
+
+void collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::vector<HalfFace>& out) {
+  walk_star(mesh, v, workspace, out, [](HalfFace) { return false; });
+}
+
+std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
+  collect_link(mesh, v, workspace, workspace.link_buffer);
+  return workspace.link_buffer;
+}
+
+std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
+  collect_link(mesh, v, workspace, workspace.link_buffer);
+  workspace.star_buffer.clear();
+  for (const HalfFace f : workspace.link_buffer) workspace.star_buffer.push_back(f.tet());
+  return workspace.star_buffer;
+}
+
+std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
+  collect_link(mesh, v, workspace, workspace.link_buffer);
+  workspace.ring_buffer.clear();
+  workspace.star_set.clear();
+  for (const HalfFace f : workspace.link_buffer) {
+    for (const VertexHandle w : mesh.vertices(f)) {
+      if (workspace.star_set.insert(w.index())) workspace.ring_buffer.push_back(w);
+    }
+  }
+  return workspace.ring_buffer;
+}
+
+std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b, Workspace& workspace) {
+  std::optional<TetEdge> found;
+  walk_star(mesh, a, workspace, workspace.search_buffer, [&](HalfFace opposite) {
+    found = edge_in(mesh, opposite.tet(), a, b);
+    return found.has_value();
+  });
+  return found;
+}
+
+}  // namespace tetmend

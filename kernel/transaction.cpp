@@ -1,0 +1,544 @@
+// SPDX-License-Identifier: MIT
+// Edits with their checks, and the way back.
+//
+//   replace_cavity: check old tets, vertices and constraints -> evaluate new tets -> glue faces -> save -> take slots -> fill -> link
+//   undo: the edits in reverse; slots go back to where they came from, in reverse, so that free lists agree as well
+#include "kernel/transaction.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace tetmend {
+
+namespace {
+
+template <class T>
+std::uint32_t size32(const std::vector<T>& values) {
+  return static_cast<std::uint32_t>(values.size());
+}
+
+}  // namespace
+
+Transaction::Transaction(TetMesh& mesh, Workspace& workspace)
+    : mesh_(mesh), workspace_(workspace), first_edit_(workspace.journal_.edits.size()) {
+  ++workspace_.depth_;
+}
+
+Transaction::~Transaction() {
+  if (!kept_) undo();
+  --workspace_.depth_;
+}
+
+bool Transaction::empty() const { return workspace_.journal_.edits.size() == first_edit_; }
+
+void Transaction::keep() {
+  kept_ = true;
+  if (workspace_.depth_ == 1) commit();
+}
+
+std::span<const TetHandle> Transaction::created() const {
+  const Journal& journal = workspace_.journal_;
+  for (std::size_t i = journal.edits.size(); i-- > first_edit_;) {
+    const Edit& edit = journal.edits[i];
+    if (edit.kind == Edit::Kind::replace_cavity) {
+      return {journal.created.data() + edit.created_begin, edit.created_end - edit.created_begin};
+    }
+  }
+  return {};
+}
+
+// --- replace_cavity ------------------------------------------------------------------------------------------------------------------
+
+/// Fills cavity_set_ and constrained_edges_; refuses a cavity with a constrained face or a label border inside.
+EditResult Transaction::check_old(std::span<const TetHandle> old) {
+  workspace_.cavity_set_.clear();
+  workspace_.constrained_edges_.clear();
+  for (const TetHandle t : old) workspace_.cavity_set_.insert(t.index());
+  for (const TetHandle t : old) {
+    if (mesh_.label(t) != mesh_.label(old[0])) return EditResult::constrained;
+    if (!mesh_.has_constraints(t)) continue;
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace twin = mesh_.neighbours(t)[f];
+      if (mesh_.is_constrained(HalfFace(t, f)) && workspace_.cavity_set_.contains(twin.tet().index())) {
+        return EditResult::constrained;
+      }
+    }
+    for (unsigned e = 0; e < 6; ++e) {
+      if (!mesh_.is_constrained(TetEdge(t, e))) continue;
+      auto edge = mesh_.vertices(TetEdge(t, e));
+      if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
+      auto& known = workspace_.constrained_edges_;
+      if (std::find(known.begin(), known.end(), edge) == known.end()) known.push_back(edge);
+    }
+  }
+  return EditResult::made;
+}
+
+/// A vertex that vanishes must not be fixed; one that appears must not have tets elsewhere.
+EditResult Transaction::check_vertices(std::span<const TetHandle> old, std::span<const TetVertices> created) {
+  IndexSet& set = workspace_.vertex_set_;
+  set.clear();
+  for (const TetVertices& tet : created) {
+    for (const VertexHandle v : tet) set.insert(v.index());
+  }
+  for (const TetHandle t : old) {
+    for (const VertexHandle v : mesh_.vertices(t)) {
+      if (!set.contains(v.index()) && mesh_.is_fixed(v)) return EditResult::constrained;
+    }
+  }
+  set.clear();
+  for (const TetHandle t : old) {
+    for (const VertexHandle v : mesh_.vertices(t)) set.insert(v.index());
+  }
+  for (const TetVertices& tet : created) {
+    for (const VertexHandle v : tet) {
+      if (!set.contains(v.index()) && mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
+    }
+  }
+  return EditResult::made;
+}
+
+EditResult Transaction::evaluate(std::span<const TetVertices> created) {
+  workspace_.created_quality_.clear();
+  for (const TetVertices& tet : created) {
+    if (!mesh_.is_certified_positive(tet)) return EditResult::inverted;
+    workspace_.created_quality_.push_back(mesh_.evaluate(tet));
+  }
+  return EditResult::made;
+}
+
+/// Finds for each face of each new tet what lies behind it, and checks that the outer surfaces agree.
+EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const TetVertices> created) {
+  FaceTable& table = workspace_.face_table_;
+  auto& gluing = workspace_.gluing_;
+  table.clear();
+  gluing.assign(4 * created.size(), {});
+  std::size_t open = 0;
+  bool even = false;
+  for (std::uint32_t i = 0; i < 4 * created.size(); ++i) {
+    const TetVertices& tet = created[i / 4];
+    const auto& local = kFaceVertices[i % 4];
+    const auto [entry, is_new] = table.find_or_insert({tet[local[0]], tet[local[1]], tet[local[2]]}, even);
+    if (is_new) {
+      entry->value = i;
+      ++open;
+      continue;
+    }
+    if (entry->paired || entry->even == even) return EditResult::not_closed;
+    entry->paired = true;
+    --open;
+    gluing[i] = {HalfFace::from_code(entry->value), true, false};
+    gluing[entry->value] = {HalfFace::from_code(i), true, false};
+  }
+  for (const TetHandle t : old) {
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace face(t, f);
+      const HalfFace twin = mesh_.twin(face);
+      if (!twin.is_outside() && workspace_.cavity_set_.contains(twin.tet().index())) continue;
+      const auto [entry, is_new] = table.find_or_insert(mesh_.vertices(face), even);
+      if (is_new || entry->paired || entry->even != even) return EditResult::not_closed;
+      entry->paired = true;
+      --open;
+      gluing[entry->value] = {twin, false, mesh_.is_constrained(face)};
+    }
+  }
+  return open == 0 ? EditResult::made : EditResult::not_closed;
+}
+
+/// False if a constrained edge is missing among the new tets.
+bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
+  auto& flags = workspace_.created_flags_;
+  flags.assign(created.size(), TetMesh::kTetTouched);
+  for (const auto& edge : workspace_.constrained_edges_) {
+    bool found = false;
+    for (std::size_t k = 0; k < created.size(); ++k) {
+      for (unsigned e = 0; e < 6; ++e) {
+        const VertexHandle a = created[k][kEdgeVertices[e][0]];
+        const VertexHandle b = created[k][kEdgeVertices[e][1]];
+        if (std::min(a, b) != edge[0] || std::max(a, b) != edge[1]) continue;
+        flags[k] = static_cast<std::uint16_t>(flags[k] | (16u << e));
+        found = true;
+      }
+    }
+    if (!found) return false;
+  }
+  for (std::size_t i = 0; i < workspace_.gluing_.size(); ++i) {
+    if (workspace_.gluing_[i].constrained) {
+      flags[i / 4] = static_cast<std::uint16_t>(flags[i / 4] | (1u << (i % 4)));
+    }
+  }
+  return true;
+}
+
+EditResult Transaction::replace_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created) {
+  assert(!old.empty() && !created.empty());
+  for (const EditResult result : {check_old(old), check_vertices(old, created), evaluate(created)}) {
+    if (result != EditResult::made) return result;
+  }
+  if (const EditResult result = glue(old, created); result != EditResult::made) return result;
+  if (!mark_constrained_edges(created)) return EditResult::constrained;
+
+  Edit edit;
+  edit.kind = Edit::Kind::replace_cavity;
+  const Label label = mesh_.label(old[0]);
+  save_removed(old, edit);
+  take_slots(old, created.size(), edit);
+  fill_slots(created, label, edit);
+  link_vertices(created, edit);
+  mesh_.tet_count_ += created.size();
+  mesh_.tet_count_ -= old.size();
+  workspace_.journal_.edits.push_back(edit);
+  remove_isolated(edit);
+  return EditResult::made;
+}
+
+/// Copies the old tets into the journal and unlinks their vertices.
+void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
+  Journal& journal = workspace_.journal_;
+  edit.removed_begin = size32(journal.removed);
+  edit.links_begin = size32(journal.links);
+  for (const TetHandle t : old) {
+    const std::uint32_t i = t.index();
+    const TetMesh::Cell& cell = mesh_.cells_[i];
+    journal.removed.push_back(
+        {t, cell.vertices, cell.neighbours, mesh_.quality_[i], mesh_.label_[i], mesh_.tet_flags_[i]});
+    if (!mesh_.tet_properties_.empty()) journal.property_values.push_back(mesh_.tet_properties_.save(t));
+    for (const VertexHandle v : cell.vertices) {
+      if (mesh_.vertex_tet_[v.index()] != t) continue;
+      journal.links.push_back({v, t});
+      mesh_.vertex_tet_[v.index()] = TetHandle();
+    }
+  }
+  edit.removed_end = size32(journal.removed);
+  edit.links_end = size32(journal.links);
+}
+
+TetHandle Transaction::append_tet() {
+  const TetHandle t(static_cast<std::uint32_t>(mesh_.cells_.size()));
+  mesh_.cells_.emplace_back();
+  mesh_.quality_.push_back(0);
+  mesh_.label_.push_back(0);
+  mesh_.tet_flags_.push_back(0);
+  mesh_.tet_properties_.resize(mesh_.cells_.size());
+  return t;
+}
+
+/// Deleted slots all look the same, so that undo can bring them back.
+void Transaction::clear_slot(TetHandle t) {
+  const std::uint32_t i = t.index();
+  mesh_.cells_[i] = TetMesh::Cell();
+  mesh_.quality_[i] = 0;
+  mesh_.label_[i] = 0;
+  mesh_.tet_flags_[i] = 0;
+  mesh_.tet_properties_.reset(t);
+}
+
+void Transaction::clear_slot(VertexHandle v) {
+  const std::uint32_t i = v.index();
+  mesh_.points_[i] = Point::Zero();
+  mesh_.vertex_tet_[i] = TetHandle();
+  mesh_.vertex_flags_[i] = TetMesh::kVertexDeleted;
+  mesh_.vertex_date_[i] = 0;
+  mesh_.vertex_origin_[i] = TetMesh::kNotFromFile;
+  mesh_.vertex_properties_.reset(v);
+}
+
+/// New tets first take the slots of the old, then free ones, then the mesh grows. Slots left over become free.
+void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit) {
+  Journal& journal = workspace_.journal_;
+  edit.created_begin = size32(journal.created);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k < old.size()) {
+      journal.created.push_back(old[k]);
+    } else if (!workspace_.free_tets_.empty()) {
+      journal.created.push_back(workspace_.free_tets_.back());
+      workspace_.free_tets_.pop_back();
+    } else {
+      journal.created.push_back(append_tet());
+      ++edit.appended;
+    }
+  }
+  edit.created_end = size32(journal.created);
+  for (std::size_t k = count; k < old.size(); ++k) {
+    clear_slot(old[k]);
+    workspace_.free_tets_.push_back(old[k]);
+  }
+}
+
+void Transaction::fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit) {
+  const TetHandle* slots = workspace_.journal_.created.data() + edit.created_begin;
+  for (std::size_t k = 0; k < created.size(); ++k) {
+    const std::uint32_t i = slots[k].index();
+    TetMesh::Cell& cell = mesh_.cells_[i];
+    cell.vertices = created[k];
+    mesh_.quality_[i] = workspace_.created_quality_[k];
+    mesh_.label_[i] = label;
+    mesh_.tet_flags_[i] = workspace_.created_flags_[k];
+    mesh_.tet_properties_.reset(slots[k]);
+    for (unsigned f = 0; f < 4; ++f) {
+      const Workspace::Gluing& glued = workspace_.gluing_[4 * k + f];
+      if (glued.local) {
+        cell.neighbours[f] = HalfFace(slots[glued.twin.tet().index()], glued.twin.face());
+      } else {
+        cell.neighbours[f] = glued.twin;
+        if (!glued.twin.is_outside()) {
+          mesh_.cells_[glued.twin.tet().index()].neighbours[glued.twin.face()] = HalfFace(slots[k], f);
+        }
+      }
+    }
+  }
+}
+
+void Transaction::link_vertices(std::span<const TetVertices> created, Edit& edit) {
+  Journal& journal = workspace_.journal_;
+  const auto known = [&](VertexHandle v) {
+    const auto begin = journal.links.begin() + edit.links_begin;
+    return std::any_of(begin, journal.links.begin() + edit.links_end,
+                       [v](const Journal::VertexLink& link) { return link.vertex == v; });
+  };
+  for (std::size_t k = 0; k < created.size(); ++k) {
+    for (const VertexHandle v : created[k]) {
+      TetHandle& link = mesh_.vertex_tet_[v.index()];
+      if (link.is_valid()) continue;
+      link = journal.created[edit.created_begin + k];
+      if (!known(v)) journal.links.push_back({v, TetHandle()});
+    }
+  }
+  edit.links_end = size32(journal.links);
+}
+
+/// Deletes the vertices that lost their last tet.
+void Transaction::remove_isolated(const Edit& replaced) {
+  Journal& journal = workspace_.journal_;
+  for (std::uint32_t i = replaced.links_begin; i < replaced.links_end; ++i) {
+    const VertexHandle v = journal.links[i].vertex;
+    if (mesh_.vertex_tet_[v.index()].is_valid()) continue;
+    Edit edit;
+    edit.kind = Edit::Kind::remove_vertex;
+    edit.vertex = v;
+    edit.point = mesh_.points_[v.index()];
+    journal.removed_vertices.push_back(
+        {mesh_.vertex_date_[v.index()], mesh_.vertex_origin_[v.index()], mesh_.vertex_flags_[v.index()]});
+    if (!mesh_.vertex_properties_.empty()) {
+      journal.property_values.push_back(mesh_.vertex_properties_.save(v));
+    }
+    clear_slot(v);
+    workspace_.free_vertices_.push_back(v);
+    --mesh_.vertex_count_;
+    journal.edits.push_back(edit);
+  }
+}
+
+// --- vertices ------------------------------------------------------------------------------------------------------------------------
+
+VertexHandle Transaction::add_vertex(const Point& point) {
+  Edit edit;
+  edit.kind = Edit::Kind::add_vertex;
+  if (!workspace_.free_vertices_.empty()) {
+    edit.vertex = workspace_.free_vertices_.back();
+    workspace_.free_vertices_.pop_back();
+  } else {
+    edit.vertex = VertexHandle(size32(mesh_.points_));
+    edit.appended = 1;
+    mesh_.points_.emplace_back(Point::Zero());
+    mesh_.vertex_tet_.emplace_back();
+    mesh_.vertex_flags_.push_back(0);
+    mesh_.vertex_date_.push_back(0);
+    mesh_.vertex_origin_.push_back(TetMesh::kNotFromFile);
+    mesh_.vertex_properties_.resize(mesh_.points_.size());
+  }
+  mesh_.points_[edit.vertex.index()] = point;
+  mesh_.vertex_flags_[edit.vertex.index()] = 0;
+  ++mesh_.vertex_count_;
+  workspace_.journal_.edits.push_back(edit);
+  return edit.vertex;
+}
+
+EditResult Transaction::move_vertex(VertexHandle v, const Point& point, std::span<const HalfFace> link) {
+  if (mesh_.is_fixed(v)) return EditResult::constrained;
+  Point& stored = mesh_.points_[v.index()];
+  const Point before = stored;
+  stored = point;
+  for (const HalfFace f : link) {
+    const TetHandle t = f.tet();
+    if (mesh_.quality(t) > 0 && !mesh_.is_certified_positive(mesh_.vertices(t))) {
+      stored = before;
+      return EditResult::inverted;
+    }
+  }
+  Journal& journal = workspace_.journal_;
+  Edit edit;
+  edit.kind = Edit::Kind::move_vertex;
+  edit.vertex = v;
+  edit.point = before;
+  edit.qualities_begin = size32(journal.qualities);
+  for (const HalfFace f : link) {
+    Quality& quality = mesh_.quality_[f.tet().index()];
+    journal.qualities.push_back({f.tet(), quality});
+    quality = mesh_.evaluate(mesh_.vertices(f.tet()));
+  }
+  edit.qualities_end = size32(journal.qualities);
+  journal.edits.push_back(edit);
+  return EditResult::made;
+}
+
+// --- the way back --------------------------------------------------------------------------------------------------------------------
+
+void Transaction::undo() {
+  auto& edits = workspace_.journal_.edits;
+  while (edits.size() > first_edit_) {
+    const Edit edit = edits.back();
+    edits.pop_back();
+    switch (edit.kind) {
+      case Edit::Kind::replace_cavity: undo_replace(edit); break;
+      case Edit::Kind::move_vertex: undo_move(edit); break;
+      case Edit::Kind::add_vertex: undo_add(edit); break;
+      case Edit::Kind::remove_vertex: undo_remove(edit); break;
+    }
+  }
+}
+
+void Transaction::undo_replace(const Edit& edit) {
+  Journal& journal = workspace_.journal_;
+  const std::uint32_t removed = edit.removed_end - edit.removed_begin;
+  const std::uint32_t created = edit.created_end - edit.created_begin;
+  for (std::uint32_t k = created; k-- > std::min(created, removed);) {
+    const TetHandle t = journal.created[edit.created_begin + k];
+    if (k >= created - edit.appended) {
+      assert(t.index() + 1 == mesh_.cells_.size());
+      mesh_.cells_.pop_back();
+      mesh_.quality_.pop_back();
+      mesh_.label_.pop_back();
+      mesh_.tet_flags_.pop_back();
+      mesh_.tet_properties_.resize(mesh_.cells_.size());
+    } else {
+      clear_slot(t);
+      workspace_.free_tets_.push_back(t);
+    }
+  }
+  if (removed > created) {
+    workspace_.free_tets_.resize(workspace_.free_tets_.size() - (removed - created));
+  }
+  for (std::uint32_t k = edit.removed_end; k-- > edit.removed_begin;) {
+    const Journal::RemovedTet& saved = journal.removed[k];
+    const std::uint32_t i = saved.tet.index();
+    mesh_.cells_[i] = {saved.vertices, saved.neighbours};
+    mesh_.quality_[i] = saved.quality;
+    mesh_.label_[i] = saved.label;
+    mesh_.tet_flags_[i] = saved.flags;
+    if (!mesh_.tet_properties_.empty()) {
+      mesh_.tet_properties_.restore(saved.tet, journal.property_values.back());
+      journal.property_values.pop_back();
+    }
+  }
+  for (std::uint32_t k = edit.removed_begin; k < edit.removed_end; ++k) {
+    const Journal::RemovedTet& saved = journal.removed[k];
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace twin = saved.neighbours[f];
+      if (!twin.is_outside()) {
+        mesh_.cells_[twin.tet().index()].neighbours[twin.face()] = HalfFace(saved.tet, f);
+      }
+    }
+  }
+  for (std::uint32_t k = edit.links_end; k-- > edit.links_begin;) {
+    mesh_.vertex_tet_[journal.links[k].vertex.index()] = journal.links[k].tet;
+  }
+  mesh_.tet_count_ += removed;
+  mesh_.tet_count_ -= created;
+  journal.removed.resize(edit.removed_begin);
+  journal.created.resize(edit.created_begin);
+  journal.links.resize(edit.links_begin);
+}
+
+void Transaction::undo_move(const Edit& edit) {
+  Journal& journal = workspace_.journal_;
+  mesh_.points_[edit.vertex.index()] = edit.point;
+  for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+    mesh_.quality_[journal.qualities[k].tet.index()] = journal.qualities[k].quality;
+  }
+  journal.qualities.resize(edit.qualities_begin);
+}
+
+void Transaction::undo_add(const Edit& edit) {
+  --mesh_.vertex_count_;
+  if (edit.appended == 0) {
+    clear_slot(edit.vertex);
+    workspace_.free_vertices_.push_back(edit.vertex);
+    return;
+  }
+  mesh_.points_.pop_back();
+  mesh_.vertex_tet_.pop_back();
+  mesh_.vertex_flags_.pop_back();
+  mesh_.vertex_date_.pop_back();
+  mesh_.vertex_origin_.pop_back();
+  mesh_.vertex_properties_.resize(mesh_.points_.size());
+}
+
+void Transaction::undo_remove(const Edit& edit) {
+  Journal& journal = workspace_.journal_;
+  const std::uint32_t i = edit.vertex.index();
+  const Journal::RemovedVertex saved = journal.removed_vertices.back();
+  journal.removed_vertices.pop_back();
+  mesh_.points_[i] = edit.point;
+  mesh_.vertex_date_[i] = saved.date;
+  mesh_.vertex_origin_[i] = saved.origin;
+  mesh_.vertex_flags_[i] = saved.flags;
+  if (!mesh_.vertex_properties_.empty()) {
+    mesh_.vertex_properties_.restore(edit.vertex, journal.property_values.back());
+    journal.property_values.pop_back();
+  }
+  workspace_.free_vertices_.pop_back();
+  ++mesh_.vertex_count_;
+}
+
+// --- comparison and commit -----------------------------------------------------------------------------------------------------------
+
+void Transaction::compare(std::vector<Quality>& before, std::vector<Quality>& now) const {
+  const Journal& journal = workspace_.journal_;
+  IndexSet& touched = workspace_.touched_set_;
+  touched.clear();
+  before.clear();
+  now.clear();
+  // The first time an edit touches a slot tells what was in it when the transaction began.
+  const auto touch = [&](TetHandle t) {
+    if (!touched.insert(t.index())) return false;
+    if (!mesh_.is_deleted(t)) now.push_back(mesh_.quality(t));
+    return true;
+  };
+  for (std::size_t i = first_edit_; i < journal.edits.size(); ++i) {
+    const Edit& edit = journal.edits[i];
+    for (std::uint32_t k = edit.removed_begin; k < edit.removed_end; ++k) {
+      if (touch(journal.removed[k].tet)) before.push_back(journal.removed[k].quality);
+    }
+    for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) touch(journal.created[k]);
+    for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+      if (touch(journal.qualities[k].tet)) before.push_back(journal.qualities[k].quality);
+    }
+  }
+  std::sort(before.begin(), before.end());
+  std::sort(now.begin(), now.end());
+}
+
+void Transaction::commit() {
+  Journal& journal = workspace_.journal_;
+  const Date date = workspace_.date_;
+  for (const Edit& edit : journal.edits) {
+    for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) {
+      const TetHandle t = journal.created[k];
+      if (mesh_.is_deleted(t)) continue;
+      for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_date_[v.index()] = date;
+    }
+    // The moved vertex itself keeps its date: its move was the answer to its star as it is.
+    for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+      const TetHandle t = journal.qualities[k].tet;
+      if (mesh_.is_deleted(t)) continue;
+      mesh_.tet_flags_[t.index()] |= TetMesh::kTetTouched;
+      for (const VertexHandle v : mesh_.vertices(t)) {
+        if (v != edit.vertex) mesh_.vertex_date_[v.index()] = date;
+      }
+    }
+  }
+  journal.clear();
+}
+
+}  // namespace tetmend

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The only way to change a mesh: edits inside a scope that undoes itself unless it is kept.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/tet_mesh.h"
+#include "kernel/workspace.h"
+
+namespace tetmend {
+
+/// Why an edit was not made. The mesh is unchanged unless `made`.
+enum class EditResult : std::uint8_t {
+  made,
+  inverted,    ///< a new tet is not certified positive, or a move would turn a positive tet over
+  constrained, ///< a constrained face, edge or vertex, or a border between labels would vanish
+  not_closed   ///< old and new tets do not have the same outer surface (a mistake of the caller)
+};
+
+/// A scope for edits. Transactions nest: one opened while another is open on the same workspace is its child. Undo restores every slot
+/// of the mesh bit by bit, handle numbers included. The outermost keep() writes the workspace's date to the vertices around all
+/// changes and forgets the journal.
+class Transaction {
+ public:
+  Transaction(TetMesh& mesh, Workspace& workspace);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  const TetMesh& mesh() const { return mesh_; }
+
+  /// Replaces the tets `old` by new ones that fill the same cavity. Vertices that no tet needs any more are deleted; new tets take
+  /// over the label, the constraints and, where possible, the slots of the old. New tets must be certified positive.
+  /// Preconditions: old tets are live and distinct. created vertices are live, and those not in `old` have no tet yet.
+  /// Cost: linear in the number of tets; allocates only when a buffer or the mesh outgrows its largest size so far.
+  EditResult replace_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created);
+
+  /// Handles of the tets that the last successful replace_cavity created, in the order given to it.
+  std::span<const TetHandle> created() const;
+
+  /// A new vertex without tets. It becomes part of the mesh by a replace_cavity that uses it.
+  VertexHandle add_vertex(const Point& point);
+
+  /// Moves a vertex that is not fixed and updates the qualities of its star, given as the link (see star.h). A tet of positive quality
+  /// must stay certified positive.
+  EditResult move_vertex(VertexHandle v, const Point& point, std::span<const HalfFace> link);
+
+  bool empty() const;
+
+  /// Ascending quality vectors of all that this transaction has touched: as it was when the transaction began, and as it is now.
+  void compare(std::vector<Quality>& before, std::vector<Quality>& now) const;
+
+  /// Makes the edits part of the enclosing transaction, or of the mesh if there is none.
+  void keep();
+  /// Undoes all edits of this scope now. More may follow.
+  void undo();
+
+ private:
+  EditResult check_old(std::span<const TetHandle> old);
+  EditResult check_vertices(std::span<const TetHandle> old, std::span<const TetVertices> created);
+  EditResult evaluate(std::span<const TetVertices> created);
+  EditResult glue(std::span<const TetHandle> old, std::span<const TetVertices> created);
+  bool mark_constrained_edges(std::span<const TetVertices> created);
+  void save_removed(std::span<const TetHandle> old, Edit& edit);
+  void take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit);
+  void fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit);
+  void link_vertices(std::span<const TetVertices> created, Edit& edit);
+  void remove_isolated(const Edit& edit);
+  TetHandle append_tet();
+  void clear_slot(TetHandle t);
+  void clear_slot(VertexHandle v);
+  void undo_replace(const Edit& edit);
+  void undo_move(const Edit& edit);
+  void undo_add(const Edit& edit);
+  void undo_remove(const Edit& edit);
+  void commit();
+
+  TetMesh& mesh_;
+  Workspace& workspace_;
+  std::size_t first_edit_;
+  bool kept_ = false;
+};
+
+}  // namespace tetmend

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The operators of tetmend itself, one line each.
+#include "ops/edge_contraction.h"
+#include "ops/edge_removal.h"
+#include "ops/edge_split.h"
+#include "ops/flip_2_3.h"
+#include "ops/multi_face_removal.h"
+#include "ops/recursive_shell_transformation.h"
+#include "ops/registry.h"
+#include "ops/shell_transformation.h"
+#include "ops/smoothing.h"
+
+namespace tetmend {
+
+void register_builtin_operators(Registry& registry) {
+  registry.add(shell_transformation_info());
+  registry.add(recursive_shell_transformation_info());
+  registry.add(multi_face_removal_info());
+  registry.add(edge_removal_info());
+  registry.add(flip_2_3_info());
+  registry.add(smoothing_info());
+  registry.add(edge_split_info());
+  registry.add(edge_contraction_info());
+}
+
+}  // namespace tetmend

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// Optimal covering mesh: pockets by growing length, then the core as an optimal cycle.
+//
+//   pocket(i, d) = best over k of pocket(i, k) + pocket(i+k, d-k) + triangle(i, i+k, i+d)      [chen, Eq. 1, Alg. 2]
+//   full reduction = pocket(0, m-1)
+//   core: shortest path around the ring; an arc i -> i+d costs pocket(i, d) + core side (i, i+d), an arc of length 1 the old tet
+#include "ops/covering_search.h"
+
+#include <cmath>
+
+namespace tetmend {
+
+namespace {
+
+/// Minimum sine from squared quantities: V6^2 * smallest / product; 0 if not above the floor. `smallest` and `product` as in
+/// minimum_sine().
+Quality sine_above(double v6, double smallest, double product, Quality floor) {
+  if (!(v6 > 0)) return 0;
+  const double r = floor > 0 ? floor : 0;
+  if (!(v6 * v6 * smallest > r * r * product)) return 0;
+  const auto q = static_cast<Quality>(v6 * std::sqrt(smallest / product));
+  return q > floor ? q : 0;
+}
+
+double min3(double x, double y, double z) { return std::min(std::min(x, y), z); }
+
+}  // namespace
+
+template <unsigned Worst>
+bool BasicCoveringSearch<Worst>::Values::better_than(const Values& other) const {
+  for (unsigned i = 0; i < Worst; ++i) {
+    if (v[i] != other.v[i]) return v[i] > other.v[i];
+  }
+  return false;
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::Values::add(Quality q) {
+  for (unsigned i = 0; i < Worst; ++i) {
+    if (q < v[i]) std::swap(q, v[i]);
+  }
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::Values::add(const Values& other) {
+  for (unsigned i = 0; i < Worst; ++i) {
+    if (other.v[i] == std::numeric_limits<Quality>::infinity()) return;
+    add(other.v[i]);
+  }
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::measure_pairs(const CoveringProblem& problem) {
+  size_ = static_cast<unsigned>(problem.ring.size());
+  floor_ = problem.floor;
+  evaluations_ = 0;
+  a_ = problem.a;
+  b_ = problem.b;
+  std::array<Point, kMaxSearchRing> from_a;
+  std::array<Point, kMaxSearchRing> from_b;
+  for (unsigned i = 0; i < size_; ++i) {
+    p_[i] = problem.ring[i];
+    from_a[i] = p_[i] - a_;
+    from_b[i] = p_[i] - b_;
+    a2_[i] = from_a[i].squaredNorm();
+    b2_[i] = from_b[i].squaredNorm();
+  }
+  for (unsigned j = 1; j < size_; ++j) {
+    for (unsigned i = 0; i < j; ++i) {
+      pair2_[i][j] = (p_[j] - p_[i]).squaredNorm();
+      normal_a_[i][j] = from_a[i].cross(from_a[j]).squaredNorm();
+      normal_b_[i][j] = from_b[i].cross(from_b[j]).squaredNorm();
+    }
+  }
+  const unsigned triples = size_ * (size_ - 1) * (size_ - 2) / 6;
+  for (unsigned t = 0; t < triples; ++t) triangles_[t].state = Triangle::unknown;
+}
+
+/// Qualities of the two tets over a triangle; indices in any rotation of the ring order.
+template <unsigned Worst>
+auto BasicCoveringSearch<Worst>::triangle(unsigned i, unsigned k, unsigned j) -> const Triangle& {
+  if (k < i && k < j) {
+    const unsigned first = k;
+    k = j;
+    j = i;
+    i = first;
+  } else if (j < i && j < k) {
+    const unsigned first = j;
+    j = k;
+    k = i;
+    i = first;
+  }
+  // Combinatorial number of i < k < j.
+  Triangle& t = triangles_[j * (j - 1) * (j - 2) / 6 + k * (k - 1) / 2 + i];
+  if (t.state == Triangle::unknown) evaluate(t, i, k, j);
+  return t;
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, unsigned j) {
+  ++evaluations_;
+  t.state = Triangle::invalid;
+  const Point normal = (p_[k] - p_[i]).cross(p_[j] - p_[i]);
+  const double upper_v6 = normal.dot(p_[i] - a_);
+  const double lower_v6 = normal.dot(b_ - p_[i]);
+  if (!(upper_v6 > 0) || !(lower_v6 > 0)) return;
+  const double nn = normal.squaredNorm();
+  const double ik = pair2_[i][k];
+  const double kj = pair2_[k][j];
+  const double ij = pair2_[i][j];
+  const auto quality = [&](double v6, const auto& x2, const auto& n) {
+    const double nik = n[i][k];
+    const double nkj = n[k][j];
+    const double nij = n[i][j];
+    const double smallest = std::min(nn * min3(x2[i] * nkj, x2[k] * nij, x2[j] * nik),
+                                     min3(ik * nkj * nij, kj * nij * nik, ij * nkj * nik));
+    return sine_above(v6, smallest, nn * nkj * (nij * nik), floor_);
+  };
+  t.upper = quality(upper_v6, a2_, normal_a_);
+  if (t.upper <= 0) return;
+  t.lower = quality(lower_v6, b2_, normal_b_);
+  if (t.lower <= 0) return;
+  t.state = Triangle::valid;
+}
+
+/// Quality of the core tet (a, b, p_i, p_j); 0 if not above the floor. Precondition: ab2_ and normal_ab_ are set.
+template <unsigned Worst>
+Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
+  ++evaluations_;
+  const double v6 = volume6(a_, b_, p_[i], p_[j]);
+  if (!(v6 > 0)) return 0;
+  const unsigned low = std::min(i, j);
+  const unsigned high = std::max(i, j);
+  const double na = normal_a_[low][high];
+  const double nb = normal_b_[low][high];
+  const double smallest =
+      min3(std::min(ab2_ * nb * na, pair2_[low][high] * normal_ab_[i] * normal_ab_[j]),
+           nb * std::min(a2_[i] * normal_ab_[j], a2_[j] * normal_ab_[i]),
+           na * std::min(b2_[i] * normal_ab_[j], b2_[j] * normal_ab_[i]));
+  return sine_above(v6, smallest, na * nb * (normal_ab_[i] * normal_ab_[j]), floor_);
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::fill_pocket(const CoveringProblem& problem, unsigned i, unsigned d) {
+  Pocket& pocket = pockets_[i][d];
+  pocket.valid = false;
+  const unsigned j = wrap(i + d);
+  // A chord, unless the pocket is the whole polygon and j-i its last ring edge.
+  const bool locked = d + 1 < size_ ? (((problem.locked_vertices >> i) | (problem.locked_vertices >> j)) & 1u)
+                                    : ((problem.locked_edges >> j) & 1u);
+  if (locked) return;
+  for (unsigned k = 1; k < d; ++k) {
+    const unsigned apex = wrap(i + k);
+    const Pocket& left = pockets_[i][k];
+    const Pocket& right = pockets_[apex][d - k];
+    if (!left.valid || !right.valid) continue;
+    const Triangle& t = triangle(i, apex, j);
+    if (t.state != Triangle::valid) continue;
+    Values values = left.values;
+    values.add(right.values);
+    values.add(t.upper);
+    values.add(t.lower);
+    if (pocket.valid && !values.better_than(pocket.values)) continue;
+    pocket = {values, static_cast<std::uint8_t>(apex), true};
+  }
+}
+
+/// False if no ear is possible: then no pocket is.
+template <unsigned Worst>
+bool BasicCoveringSearch<Worst>::fill_pockets(const CoveringProblem& problem) {
+  for (unsigned i = 0; i < size_; ++i) {
+    pockets_[i][1] = {Values::best(), 0, ((problem.locked_edges >> i) & 1u) == 0};
+  }
+  for (unsigned d = 2; d + 1 < size_; ++d) {
+    bool any = false;
+    for (unsigned i = 0; i < size_; ++i) {
+      fill_pocket(problem, i, d);
+      any = any || pockets_[i][d].valid;
+    }
+    if (d > 2 || any) continue;
+    for (unsigned i = 0; i < size_; ++i) {
+      for (unsigned longer = 3; longer < size_; ++longer) pockets_[i][longer].valid = false;
+    }
+    return false;
+  }
+  fill_pocket(problem, 0, size_ - 1);
+  return true;
+}
+
+/// The best core with at least one pocket. Any cycle meets a window of as many consecutive vertices as its longest arc spans.
+template <unsigned Worst>
+bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Values& best, Covering& covering) {
+  const bool is_virtual = problem.old_sides.empty();
+  ab2_ = (b_ - a_).squaredNorm();
+  for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = (p_[i] - a_).cross(p_[i] - b_).squaredNorm();
+  std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing> side_quality;  // [i][d], 0 = no arc
+  unsigned longest = is_virtual ? 1 : 0;
+  for (unsigned i = 0; i < size_; ++i) {
+    side_quality[i][1] = is_virtual ? side(i, wrap(i + 1)) : problem.old_sides[i];
+    for (unsigned d = 2; d + 1 < size_; ++d) {
+      side_quality[i][d] = pockets_[i][d].valid ? side(i, wrap(i + d)) : 0;
+      if (side_quality[i][d] > 0) longest = std::max(longest, d);
+    }
+  }
+  if (longest == 0) return false;
+
+  struct Step {
+    Values values;
+    std::uint8_t previous;
+    std::uint8_t arcs;
+    bool valid;
+    bool changed;  // some arc is new
+  };
+  bool found = false;
+  for (unsigned start = 0; start < longest; ++start) {
+    std::array<Step, kMaxSearchRing + 1> path;
+    path[0] = {Values::best(), 0, 0, true, is_virtual};
+    for (unsigned t = 1; t <= size_; ++t) {
+      path[t].valid = false;
+      for (unsigned d = 1; d <= std::min(t, size_ - 2); ++d) {
+        const Step& from = path[t - d];
+        const unsigned i = wrap(start + t - d);
+        // An old side may be as bad as it is; a new one was measured against the floor.
+        const bool arc = d == 1 && !is_virtual ? true : side_quality[i][d] > 0;
+        if (!from.valid || !arc) continue;
+        Values values = from.values;
+        if (d > 1) values.add(pockets_[i][d].values);
+        values.add(side_quality[i][d]);
+        const auto arcs = static_cast<std::uint8_t>(from.arcs + 1);
+        const bool better =
+            !path[t].valid || values.better_than(path[t].values) ||
+            (!path[t].values.better_than(values) && arcs < path[t].arcs);
+        if (better) path[t] = {values, static_cast<std::uint8_t>(t - d), arcs, true, from.changed || d > 1};
+      }
+    }
+    const Step& end = path[size_];
+    if (!end.valid || !end.changed || end.arcs < 3) continue;
+    const bool better = !found || end.values.better_than(best) ||
+                        (!best.better_than(end.values) && end.arcs < covering.degree);
+    if (!better) continue;
+    found = true;
+    best = end.values;
+    covering.degree = end.arcs;
+    covering.triangle_count = 0;
+    unsigned n = end.arcs;
+    for (unsigned t = size_; t > 0; t = path[t].previous) {
+      const unsigned i = wrap(start + path[t].previous);
+      covering.core[--n] = static_cast<std::uint8_t>(i);
+      if (t - path[t].previous > 1) add_triangles(i, t - path[t].previous, covering);
+    }
+  }
+  return found;
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::add_triangles(unsigned i, unsigned d, Covering& covering) const {
+  if (d < 2) return;
+  const unsigned apex = pockets_[i][d].apex;
+  const unsigned k = apex >= i ? apex - i : apex + size_ - i;
+  covering.triangles[covering.triangle_count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(apex),
+                                                   static_cast<std::uint8_t>(wrap(i + d))};
+  add_triangles(i, k, covering);
+  add_triangles(apex, d - k, covering);
+}
+
+template <unsigned Worst>
+bool BasicCoveringSearch<Worst>::run(const CoveringProblem& problem, Covering& best) {
+  measure_pairs(problem);
+  const bool is_virtual = problem.old_sides.empty();
+  if (!fill_pockets(problem) && !is_virtual) return false;
+  const Pocket& full = pockets_[0][size_ - 1];
+  const bool full_found = full.valid;
+  Values values = Values::best();
+  const bool core_possible = problem.allow_core && (is_virtual || size_ > 3);
+  const bool core_found = core_possible && find_core(problem, values, best);
+  if (core_found && (!full_found || values.better_than(full.values))) return true;
+  if (!full_found) return false;
+  best.degree = 0;
+  best.triangle_count = 0;
+  add_triangles(0, size_ - 1, best);
+  return true;
+}
+
+template class BasicCoveringSearch<1>;
+template class BasicCoveringSearch<3>;
+template class BasicCoveringSearch<2 * kMaxSearchRing>;
+
+}  // namespace tetmend

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The best covering mesh of a shell by dynamic programming ([chen, Alg. 1-3]). A pure unit: points in, triangles and core out.
+//
+//        p_2 ------- p_1          A covering triangulates pockets of the ring (each triangle p_i p_k p_j gives the tets
+//       /  \  pocket /  \         (a, p_i, p_k, p_j) and (p_i, p_k, p_j, b)) and may leave a core, whose sides p_i p_j
+//     p_3   \   .---'   p_0       give the tets (a, b, p_i, p_j). Without a core the edge ab is gone: full reduction.
+//       \    '-'  core  /         All tets positive is sufficient for a proper tiling.
+//        p_4 ------- p_5
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "kernel/quality.h"
+
+namespace tetmend {
+
+/// Largest ring that is searched; the tables grow with its cube.
+inline constexpr unsigned kMaxSearchRing = 16;
+
+struct CoveringProblem {
+  Point a;
+  Point b;
+  std::span<const Point> ring;  ///< 3 to kMaxSearchRing points; (a, b, ring[i], ring[i+1]) positive in a real shell
+  /// Qualities of the tets (a, b, ring[i], ring[i+1]) as they are. Empty for the virtual shell of a face removal, where no tet contains
+  /// ab and each side of the core is a new tet.
+  std::span<const Quality> old_sides;
+  Quality floor = 0;  ///< every new tet must be better than this; loss-free with the worst quality of the old tets
+  /// Ancestor edges, as bits: no chord may end at a locked ring vertex, no pocket may use a locked ring edge (i, i+1).
+  std::uint32_t locked_vertices = 0;
+  std::uint32_t locked_edges = 0;
+  bool allow_core = true;  ///< false: full reduction only, which is edge removal
+};
+
+struct Covering {
+  using Triangle = std::array<std::uint8_t, 3>;  ///< ring indices, in ring order
+
+  unsigned triangle_count = 0;
+  std::array<Triangle, kMaxSearchRing> triangles;
+  unsigned degree = 0;  ///< of ab afterwards: number of core vertices, 0 for full reduction
+  std::array<std::uint8_t, kMaxSearchRing> core;
+
+  unsigned tet_count() const { return 2 * triangle_count + degree; }
+};
+
+/// Tables of the search, re-used from call to call. `Worst` is the number of worst qualities by which coverings are ranked: the search is
+/// exact for the quality vectors cut to that length, compared lexicographically with +infinity as padding.
+template <unsigned Worst>
+class BasicCoveringSearch {
+ public:
+  /// Finds the best covering other than the old one. False if there is none above the floor. Ties go to the smaller degree, then
+  /// to the lower indices. Cost: O(m^3) for ring size m, no memory.
+  bool run(const CoveringProblem& problem, Covering& best);
+
+  /// Triangles and core sides that the last run evaluated.
+  unsigned evaluations() const { return evaluations_; }
+
+ private:
+  /// The worst qualities in ascending order, padded with +infinity.
+  struct Values {
+    std::array<Quality, Worst> v;
+    static Values best() {
+      Values values;
+      values.v.fill(std::numeric_limits<Quality>::infinity());
+      return values;
+    }
+    bool better_than(const Values& other) const;
+    void add(Quality q);
+    void add(const Values& other);
+  };
+  struct Pocket {  // best triangulation of the chain i .. i + d
+    Values values;
+    std::uint8_t apex;
+    bool valid;
+  };
+  struct Triangle {
+    Quality upper;
+    Quality lower;
+    enum State : std::uint8_t { unknown, valid, invalid } state;
+  };
+
+  void measure_pairs(const CoveringProblem& problem);
+  const Triangle& triangle(unsigned i, unsigned k, unsigned j);
+  Quality side(unsigned i, unsigned j);
+  void evaluate(Triangle& t, unsigned i, unsigned k, unsigned j);
+  bool fill_pockets(const CoveringProblem& problem);
+  void fill_pocket(const CoveringProblem& problem, unsigned i, unsigned d);
+  bool find_core(const CoveringProblem& problem, Values& values, Covering& covering);
+  void add_triangles(unsigned i, unsigned d, Covering& covering) const;
+  unsigned wrap(unsigned i) const { return i >= size_ ? i - size_ : i; }
+
+  unsigned size_ = 0;
+  Quality floor_ = 0;
+  unsigned evaluations_ = 0;
+  Point a_;
+  Point b_;
+  std::array<Point, kMaxSearchRing> p_;
+  // Squared lengths and squared norms of face normals: to a and b from each ring vertex, and for each pair of them.
+  double ab2_ = 0;
+  std::array<double, kMaxSearchRing> a2_, b2_, normal_ab_;
+  std::array<std::array<double, kMaxSearchRing>, kMaxSearchRing> pair2_, normal_a_, normal_b_;
+  std::array<std::array<Pocket, kMaxSearchRing>, kMaxSearchRing> pockets_;  // [i][d]
+  std::array<Triangle, kMaxSearchRing*(kMaxSearchRing - 1) * (kMaxSearchRing - 2) / 6> triangles_;
+};
+
+/// Ranks by the three worst values, which decide nearly always; callers compare whole vectors before they accept.
+using CoveringSearch = BasicCoveringSearch<3>;
+/// Ranks by whole vectors for rings of up to 16.
+using ExactCoveringSearch = BasicCoveringSearch<2 * kMaxSearchRing>;
+
+extern template class BasicCoveringSearch<1>;
+extern template class BasicCoveringSearch<3>;
+extern template class BasicCoveringSearch<2 * kMaxSearchRing>;
+
+}  // namespace tetmend

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "ops/edge_split.h"
+
+#include <algorithm>
+
+#include "ops/shell_search.h"
+
+namespace tetmend {
+
+namespace {
+
+class EdgeSplit final : public Operator {
+ public:
+  explicit EdgeSplit(const ParameterValues& values)
+      : Operator(edge_split_info()),
+        least_gain_(values.real("least_gain")),
+        max_degree_(static_cast<unsigned>(values.integer("max_degree"))) {
+    limits_.steps = values.integer("steps");
+  }
+
+ protected:
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    const Verdict verdict = find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
+    if (verdict != Verdict::accepted) return verdict;
+    return context.scratch.shell.degree <= max_degree_ ? Verdict::accepted : Verdict::not_applicable;
+  }
+
+  /// Places the vertex before it exists: the ball of the new vertex is the shell.
+  Verdict evaluate(OperatorContext& context, Target) const override {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const Shell& shell = scratch.shell;
+    const Point& a = mesh.point(shell.a);
+    const Point& b = mesh.point(shell.b);
+    scratch.ball.clear();
+    Quality floor = mesh.quality(shell.tets[0]);
+    for (unsigned i = 0; i < shell.degree; ++i) {
+      const Point& p = mesh.point(shell.ring[i]);
+      const Point& q = mesh.point(shell.next(i));
+      scratch.ball.add(a, q, p);
+      scratch.ball.add(b, p, q);
+      floor = std::min(floor, mesh.quality(shell.tets[i]));
+    }
+    scratch.point = 0.5 * (a + b);
+    const double reached = scratch.ball.optimise(scratch.point, limits_);
+    return reached > floor + least_gain_ ? Verdict::accepted : Verdict::no_improvement;
+  }
+
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+    Scratch& scratch = context.scratch;
+    const Shell& shell = scratch.shell;
+    const VertexHandle v = transaction.add_vertex(scratch.point);
+    scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + shell.degree);
+    scratch.new_tets.clear();
+    for (unsigned i = 0; i < shell.degree; ++i) {
+      scratch.new_tets.push_back({shell.a, v, shell.ring[i], shell.next(i)});
+      scratch.new_tets.push_back({v, shell.b, shell.ring[i], shell.next(i)});
+    }
+    return to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+  }
+
+ private:
+  double least_gain_;
+  unsigned max_degree_;
+  BallOptimiser::Limits limits_;
+};
+
+constexpr std::array<ParameterSpec, 3> kParameters = {{
+    {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4, "least gain of the worst quality"},
+    {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12, "largest shell that is split"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8, "most directions that the placement follows"},
+}};
+
+}  // namespace
+
+const OperatorInfo& edge_split_info() {
+  static const OperatorInfo kInfo = {
+      "edge_split", TargetKind::edge, "insert a vertex on an edge and smooth it", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<EdgeSplit>(values); }};
+  return kInfo;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "ops/flip_2_3.h"
+
+#include <algorithm>
+
+namespace tetmend {
+
+namespace {
+
+class Flip23 final : public Operator {
+ public:
+  explicit Flip23(const ParameterValues&) : Operator(flip_2_3_info()) {}
+
+ protected:
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    const HalfFace f = target.face();
+    const bool free = !context.mesh.is_boundary(f) && !context.mesh.is_constrained(f);
+    return free ? Verdict::accepted : Verdict::constrained;
+  }
+  Verdict evaluate(OperatorContext& context, Target target) const override {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const HalfFace face = target.face();
+    const HalfFace twin = mesh.twin(face);
+    const VertexHandle a = mesh.vertices(face.tet())[face.face()];
+    const VertexHandle b = mesh.vertices(twin.tet())[twin.face()];
+    const Quality floor = std::min(mesh.quality(face.tet()), mesh.quality(twin.tet()));
+    const auto ring = mesh.vertices(face);
+    scratch.old_tets.assign({face.tet(), twin.tet()});
+    scratch.new_tets.clear();
+    for (unsigned i = 0; i < 3; ++i) {
+      const TetVertices tet = {a, b, ring[i], ring[(i + 1) % 3]};
+      if (mesh.evaluate(tet) <= std::max(floor, 0.0f)) return Verdict::no_improvement;
+      scratch.new_tets.push_back(tet);
+    }
+    return Verdict::accepted;
+  }
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+    return to_verdict(transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  }
+};
+
+}  // namespace
+
+const OperatorInfo& flip_2_3_info() {
+  static const OperatorInfo kInfo = {
+      "flip_2_3", TargetKind::face, "replace the two tets of a face by three", {},
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<Flip23>(values); }};
+  return kInfo;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+//            a             A sandwiched face F forms a tet with a above and one with b below. Across an edge pq of F, the tets
+//          / | \           beyond (a, p, q) and (b, p, q) may share their fourth vertex w: then (p, w, q) is sandwiched as well,
+//     p --- F --- q ..w    and w enters the polygon between p and q. A vertex enters once, so the faces stay a disc without
+//          \ | /           inner vertices.
+//            b
+#include "ops/multi_face_removal.h"
+
+#include <algorithm>
+
+#include "ops/shell_search.h"
+
+namespace tetmend {
+
+namespace {
+
+/// The polygon around the sandwiched faces. Side i runs from vertex i to vertex i + 1.
+struct Sandwich {
+  VertexHandle a;
+  VertexHandle b;
+  unsigned size = 0;
+  std::array<VertexHandle, kMaxSearchRing> ring;
+  std::array<TetHandle, kMaxSearchRing> upper;  // tet with apex a at side i
+  std::array<TetHandle, kMaxSearchRing> lower;
+
+  void insert(unsigned side, VertexHandle w, TetHandle above, TetHandle below) {
+    for (unsigned i = size; i > side + 1; --i) {
+      ring[i] = ring[i - 1];
+      upper[i] = upper[i - 1];
+      lower[i] = lower[i - 1];
+    }
+    ring[side + 1] = w;
+    upper[side] = upper[side + 1] = above;
+    lower[side] = lower[side + 1] = below;
+    ++size;
+  }
+};
+
+/// The tet beyond the face (apex, p, q) of t, unless boundary or constraint is in the way.
+TetHandle beyond(const TetMesh& mesh, TetHandle t, VertexHandle apex, VertexHandle p, VertexHandle q) {
+  const TetVertices& tv = mesh.vertices(t);
+  unsigned f = 0;
+  while (tv[f] == apex || tv[f] == p || tv[f] == q) ++f;
+  const HalfFace face(t, f);
+  const HalfFace twin = mesh.twin(face);
+  if (twin.is_outside() || mesh.is_constrained(face)) return {};
+  return twin.tet();
+}
+
+VertexHandle fourth(const TetMesh& mesh, TetHandle t, VertexHandle x, VertexHandle y, VertexHandle z) {
+  for (const VertexHandle v : mesh.vertices(t)) {
+    if (v != x && v != y && v != z) return v;
+  }
+  return {};
+}
+
+class MultiFaceRemoval final : public Operator {
+ public:
+  explicit MultiFaceRemoval(const ParameterValues& values)
+      : Operator(multi_face_removal_info()), max_polygon_(static_cast<unsigned>(values.integer("max_polygon"))) {}
+
+ protected:
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    const HalfFace f = target.face();
+    const bool free = !context.mesh.is_boundary(f) && !context.mesh.is_constrained(f);
+    return free ? Verdict::accepted : Verdict::constrained;
+  }
+
+  Verdict evaluate(OperatorContext& context, Target target) const override {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const Sandwich sandwich = grow(mesh, target.face(), scratch);
+
+    std::array<Point, kMaxSearchRing> ring;
+    for (unsigned i = 0; i < sandwich.size; ++i) ring[i] = mesh.point(sandwich.ring[i]);
+    CoveringProblem problem;
+    problem.a = mesh.point(sandwich.a);
+    problem.b = mesh.point(sandwich.b);
+    problem.ring = {ring.data(), sandwich.size};
+    problem.floor = mesh.quality(scratch.old_tets[0]);
+    for (const TetHandle t : scratch.old_tets) problem.floor = std::min(problem.floor, mesh.quality(t));
+    Covering covering;
+    if (!scratch.search.run(problem, covering)) return Verdict::no_improvement;
+    list_new_tets(covering, sandwich.a, sandwich.b, sandwich.ring, [](unsigned, unsigned) { return false; },
+                  scratch.new_tets);
+    return Verdict::accepted;
+  }
+
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+    return to_verdict(transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  }
+
+ private:
+  /// Leaves the tets of the sandwich in scratch.old_tets.
+  Sandwich grow(const TetMesh& mesh, HalfFace face, Scratch& scratch) const {
+    const HalfFace twin = mesh.twin(face);
+    Sandwich s;
+    s.a = mesh.vertices(face.tet())[face.face()];
+    s.b = mesh.vertices(twin.tet())[twin.face()];
+    // Counterclockwise seen from b's side: (a, ring[0], ring[1], ring[2]) is positive.
+    const auto corners = mesh.vertices(face);
+    s.size = 3;
+    for (unsigned i = 0; i < 3; ++i) {
+      s.ring[i] = corners[i];
+      s.upper[i] = face.tet();
+      s.lower[i] = twin.tet();
+    }
+    scratch.old_tets.assign({face.tet(), twin.tet()});
+    for (unsigned i = 0; i < s.size && s.size < max_polygon_;) {
+      const VertexHandle p = s.ring[i];
+      const VertexHandle q = s.ring[i + 1 == s.size ? 0 : i + 1];
+      const TetHandle above = beyond(mesh, s.upper[i], s.a, p, q);
+      const TetHandle below = beyond(mesh, s.lower[i], s.b, p, q);
+      const VertexHandle w = above.is_valid() ? fourth(mesh, above, s.a, p, q) : VertexHandle();
+      const auto end = s.ring.begin() + s.size;
+      const bool grows = above.is_valid() && below.is_valid() && above != below &&
+                         fourth(mesh, below, s.b, p, q) == w && w != s.b && std::find(s.ring.begin(), end, w) == end;
+      if (!grows) {
+        ++i;
+        continue;
+      }
+      s.insert(i, w, above, below);
+      scratch.old_tets.push_back(above);
+      scratch.old_tets.push_back(below);
+    }
+    return s;
+  }
+
+  unsigned max_polygon_;
+};
+
+constexpr std::array<ParameterSpec, 1> kParameters = {{
+    {"max_polygon", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 8, "most vertices of the polygon of sandwiched faces"},
+}};
+
+}  // namespace
+
+const OperatorInfo& multi_face_removal_info() {
+  static const OperatorInfo kInfo = {
+      "multi_face_removal", TargetKind::face, "remove the faces sandwiched between two vertices", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<MultiFaceRemoval>(values); }};
+  return kInfo;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The fixed order of an attempt.
+#include "ops/operator.h"
+
+namespace tetmend {
+
+bool is_better(const Transaction& transaction, Scratch& scratch) {
+  if (transaction.empty()) return false;
+  transaction.compare(scratch.before, scratch.now);
+  return improves(scratch.now, scratch.before);
+}
+
+Verdict Operator::try_target(OperatorContext& context, Target target) const {
+  Verdict verdict = precondition(context, target);
+  if (verdict == Verdict::accepted) verdict = evaluate(context, target);
+  if (verdict != Verdict::accepted) return verdict;
+  Transaction transaction(context.mesh, context.workspace);
+  verdict = apply(context, target, transaction);
+  if (verdict != Verdict::accepted) return verdict;
+  if (!is_better(transaction, context.scratch)) return Verdict::no_improvement;
+  transaction.keep();
+  return Verdict::accepted;
+}
+
+Verdict Operator::attempt(OperatorContext& context, Target target) const {
+  if (context.trace == nullptr) return try_target(context, target);
+
+  std::array<VertexHandle, 4> vertices;
+  std::size_t count = 0;
+  const auto take = [&](const auto& of) {
+    for (const VertexHandle v : of) vertices[count++] = v;
+  };
+  switch (target.kind) {
+    case TargetKind::tet: take(context.mesh.vertices(target.tet())); break;
+    case TargetKind::edge: take(context.mesh.vertices(target.edge())); break;
+    case TargetKind::face: take(context.mesh.vertices(target.face())); break;
+    case TargetKind::vertex: vertices[count++] = target.vertex(); break;
+  }
+  context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level});
+  const Verdict verdict = try_target(context, target);
+  const bool accepted = verdict == Verdict::accepted;
+  context.trace->attempt_ends(to_string(verdict), accepted ? std::span<const Quality>(context.scratch.before) : std::span<const Quality>(),
+                              accepted ? std::span<const Quality>(context.scratch.now) : std::span<const Quality>());
+  return verdict;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The verb: an operator tries to improve the mesh at one target. Operators never walk the mesh; the schedule owns every loop.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "kernel/transaction.h"
+#include "ops/parameters.h"
+#include "ops/scratch.h"
+#include "ops/verdict.h"
+#include "trace/trace_sink.h"
+
+namespace tetmend {
+
+enum class TargetKind : std::uint8_t { tet, edge, face, vertex };
+
+/// What an attempt is aimed at: a handle and its kind.
+struct Target {
+  TargetKind kind;
+  std::uint32_t code;
+
+  static Target of(TetHandle t) { return {TargetKind::tet, t.index()}; }
+  static Target of(TetEdge e) { return {TargetKind::edge, e.code()}; }
+  static Target of(HalfFace f) { return {TargetKind::face, f.code()}; }
+  static Target of(VertexHandle v) { return {TargetKind::vertex, v.index()}; }
+  /// Precondition of each: the kind is right.
+  TetHandle tet() const { return TetHandle(code); }
+  TetEdge edge() const { return TetEdge::from_code(code); }
+  HalfFace face() const { return HalfFace::from_code(code); }
+  VertexHandle vertex() const { return VertexHandle(code); }
+};
+
+/// All that an attempt may use. One for each worker.
+struct OperatorContext {
+  TetMesh& mesh;
+  Workspace& workspace;
+  Scratch& scratch;
+  TraceSink* trace = nullptr;  ///< null: no trace
+  unsigned level = 0;          ///< recursion level of the attempt that is made next
+};
+
+class Operator;
+
+/// How the registry knows an operator.
+struct OperatorInfo {
+  std::string_view name;
+  TargetKind target;
+  std::string_view help;  ///< one line
+  std::span<const ParameterSpec> parameters;
+  std::unique_ptr<Operator> (*make)(const ParameterValues&);
+};
+
+/// Base of all operators. Instances are immutable and may be shared by workers; what they need to write lies in the context.
+class Operator {
+ public:
+  explicit Operator(const OperatorInfo& info) : info_(info) {}
+  virtual ~Operator() = default;
+  Operator(const Operator&) = delete;
+  Operator& operator=(const Operator&) = delete;
+
+  const OperatorInfo& info() const { return info_; }
+
+  /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the result only if the quality vector of all
+  /// that changed improves (see improves()). After a refusal the mesh is what it was, bit by bit.
+  /// Precondition: the target is of the operator's kind and names a live entity.
+  Verdict attempt(OperatorContext& context, Target target) const;
+
+ protected:
+  /// Cheap tests that need no search. Must not modify anything.
+  virtual Verdict precondition(const OperatorContext& context, Target target) const = 0;
+  /// Finds what to do and leaves it in the scratch. Must not modify the mesh.
+  virtual Verdict evaluate(OperatorContext& context, Target target) const = 0;
+  /// Makes the edits. Anything but `accepted` undoes them.
+  virtual Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const = 0;
+
+ private:
+  Verdict try_target(OperatorContext& context, Target target) const;
+
+  const OperatorInfo& info_;
+};
+
+constexpr std::string_view to_string(TargetKind kind) {
+  constexpr std::array<std::string_view, 4> kNames = {"tet", "edge", "face", "vertex"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+/// The verdict for an edit that was not made.
+constexpr Verdict to_verdict(EditResult result) {
+  switch (result) {
+    case EditResult::made: return Verdict::accepted;
+    case EditResult::inverted: return Verdict::inverted;
+    case EditResult::constrained: return Verdict::constrained;
+    case EditResult::not_closed: return Verdict::not_applicable;
+  }
+  return Verdict::not_applicable;
+}
+
+/// True if all that the transaction changed is better now; leaves the vectors in the scratch.
+bool is_better(const Transaction& transaction, Scratch& scratch);
+
+}  // namespace tetmend

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// [chen, Alg. 4], with the tail call as a loop:
+//
+//   reduce(e, f, level):
+//     loop: transform the shell of e; done when e or f is gone; give up at the last level
+//           for each supporting face of e with a promising link edge e': reduce(e', face, level + 1)
+//             when the shell of e became smaller: next round of the loop
+//           give up when no face helped
+#include "ops/recursive_shell_transformation.h"
+
+#include <algorithm>
+
+#include "ops/shell_search.h"
+
+namespace tetmend {
+
+namespace {
+
+constexpr int kDeepest = 16;
+
+class Recursion {
+ public:
+  Recursion(OperatorContext& context, int max_level, int budget, bool reflex_only)
+      : context_(context),
+        mesh_(context.mesh),
+        max_level_(max_level),
+        budget_(budget),
+        reflex_only_(reflex_only) {}
+
+  Verdict reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, int level);
+
+ private:
+  struct Ancestor {
+    VertexHandle a;
+    VertexHandle b;
+  };
+  enum class State { gone, reduced, found, blocked };
+
+  State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell);
+  State relocate(VertexHandle a, VertexHandle b, VertexHandle face, Shell& shell);
+  Verdict transform(const Shell& shell, int level);
+  ShellLocks locks(const Shell& shell, int level) const;
+  VertexHandle pick_link_edge(const Shell& shell, unsigned i, int level) const;
+  bool overlaps_ancestor(const Shell& shell, unsigned i, int level) const;
+
+  OperatorContext& context_;
+  const TetMesh& mesh_;
+  int max_level_;
+  int budget_;
+  bool reflex_only_;
+  bool too_deep_ = false;
+  std::size_t changes_ = 0;
+  std::array<Ancestor, kDeepest> ancestors_;  // supporting edges of the callers, [0, level)
+};
+
+/// Finds the shell of ab. `gone`: no such edge; `reduced`: the face (a, b, face) is not in it.
+Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell) {
+  const auto edge = find_edge(mesh_, a, b, context_.workspace, hint);
+  if (!edge) return State::gone;
+  if (find_searchable_shell(mesh_, *edge, shell) != Verdict::accepted) return State::blocked;
+  if (shell.a != a) {  // the tet names the edge the other way round: keep the caller's sense
+    std::swap(shell.a, shell.b);
+    std::reverse(shell.ring.begin(), shell.ring.begin() + shell.degree);
+    std::reverse(shell.tets.begin(), shell.tets.begin() + shell.degree - 1);
+  }
+  const auto end = shell.ring.begin() + shell.degree;
+  if (face.is_valid() && std::find(shell.ring.begin(), end, face) == end) return State::reduced;
+  return State::found;
+}
+
+/// As locate(), with the tets of the old shell as hints: often one of them still holds the edge.
+Recursion::State Recursion::relocate(VertexHandle a, VertexHandle b, VertexHandle face, Shell& shell) {
+  TetHandle hint;
+  for (unsigned i = 0; i < shell.degree && !hint.is_valid(); ++i) {
+    const TetHandle t = shell.tets[i];
+    if (t.index() < mesh_.tet_slots() && !mesh_.is_deleted(t) && edge_in(mesh_, t, a, b)) hint = t;
+  }
+  return locate(a, b, hint, face, shell);
+}
+
+/// Ancestor edges must get no new supporting face ([chen, 5.3 (2)]).
+ShellLocks Recursion::locks(const Shell& shell, int level) const {
+  ShellLocks result;
+  const auto position = [&](VertexHandle v) {
+    unsigned i = 0;
+    while (i < shell.degree && shell.ring[i] != v) ++i;
+    return i;
+  };
+  for (int n = 0; n < level; ++n) {
+    const auto [x, y] = ancestors_[static_cast<std::size_t>(n)];
+    const bool x_end = x == shell.a || x == shell.b;
+    const bool y_end = y == shell.a || y == shell.b;
+    if (x_end && y_end) continue;
+    if (x_end || y_end) {
+      const unsigned i = position(x_end ? y : x);
+      if (i < shell.degree) result.vertices |= 1u << i;
+      continue;
+    }
+    const unsigned i = position(x);
+    const unsigned j = position(y);
+    if (i == shell.degree || j == shell.degree) continue;
+    if ((i + 1) % shell.degree == j) result.edges |= 1u << i;
+    if ((j + 1) % shell.degree == i) result.edges |= 1u << j;
+  }
+  return result;
+}
+
+Verdict Recursion::transform(const Shell& shell, int level) {
+  --budget_;
+  Verdict verdict = propose_covering(context_, shell, locks(shell, level), true);
+  if (verdict != Verdict::accepted) return verdict;
+  Transaction step(context_.mesh, context_.workspace);
+  verdict = to_verdict(step.replace_cavity(context_.scratch.old_tets, context_.scratch.new_tets));
+  if (verdict != Verdict::accepted) return verdict;
+  if (!is_better(step, context_.scratch)) return Verdict::no_improvement;
+  step.keep();
+  ++changes_;
+  return Verdict::accepted;
+}
+
+/// A tet at the face that also belongs to the shell of an ancestor must stay ([chen, 5.2 (2)]).
+bool Recursion::overlaps_ancestor(const Shell& shell, unsigned i, int level) const {
+  const std::array<VertexHandle, 5> around = {shell.a, shell.b, shell.ring[i], shell.previous(i), shell.next(i)};
+  for (int n = 0; n < level; ++n) {
+    const auto [x, y] = ancestors_[static_cast<std::size_t>(n)];
+    const auto has = [&](VertexHandle v, VertexHandle apex) {
+      return v == around[0] || v == around[1] || v == around[2] || v == apex;
+    };
+    for (const VertexHandle apex : {around[3], around[4]}) {
+      if (has(x, apex) && has(y, apex)) return true;
+    }
+  }
+  return false;
+}
+
+/// The end of the supporting edge from which the link edge to ring vertex i starts that is worth removing, or nothing.
+/// (g, A, B) are the weights of (p_i, b, a) of the point where the line p- p+ meets the plane of the face: only if p- p+ passes beyond
+/// exactly one of the link edges does removing that edge remove the face.
+VertexHandle Recursion::pick_link_edge(const Shell& shell, unsigned i, int level) const {
+  if (overlaps_ancestor(shell, i, level)) return {};
+  const Point& a = mesh_.point(shell.a);
+  const Point& b = mesh_.point(shell.b);
+  const Point& p = mesh_.point(shell.ring[i]);
+  const Point& before = mesh_.point(shell.previous(i));
+  const Point& after = mesh_.point(shell.next(i));
+  if (volume6(a, b, before, after) <= 0) return {};
+  const bool a_reflex = volume6(a, before, p, after) <= 0;
+  const bool b_reflex = volume6(before, p, after, b) <= 0;
+  if (a_reflex == b_reflex) return reflex_only_ || a_reflex ? VertexHandle() : shell.a;
+  return a_reflex ? shell.a : shell.b;
+}
+
+Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, int level) {
+  Shell shell;
+  State state = locate(a, b, hint, face, shell);
+  for (;;) {
+    if (state == State::gone || state == State::reduced) return Verdict::accepted;
+    if (state == State::blocked) return Verdict::constrained;
+    if (budget_ <= 0) return Verdict::budget_spent;
+    if (transform(shell, level) == Verdict::accepted) {
+      state = relocate(a, b, face, shell);
+      if (state == State::gone || state == State::reduced) return Verdict::accepted;
+      if (state == State::blocked) return Verdict::constrained;
+    }
+    if (level >= max_level_) {
+      too_deep_ = true;
+      return Verdict::depth_spent;
+    }
+    const unsigned degree = shell.degree;
+    bool smaller = false;
+    for (unsigned i = 0; i < shell.degree && !smaller; ++i) {
+      const VertexHandle end = pick_link_edge(shell, i, level);
+      if (!end.is_valid()) continue;
+      ancestors_[static_cast<std::size_t>(level)] = {a, b};
+      const std::size_t changes = changes_;
+      reduce(end, shell.ring[i], shell.tets[i], end == a ? b : a, level + 1);
+      if (changes_ == changes) continue;
+      state = relocate(a, b, face, shell);
+      if (state == State::gone || state == State::reduced) return Verdict::accepted;
+      if (state == State::blocked) return Verdict::constrained;
+      smaller = shell.degree < degree;
+    }
+    if (!smaller) return budget_ <= 0 ? Verdict::budget_spent : too_deep_ ? Verdict::depth_spent : Verdict::no_improvement;
+  }
+}
+
+class RecursiveShellTransformation final : public Operator {
+ public:
+  explicit RecursiveShellTransformation(const ParameterValues& values)
+      : Operator(recursive_shell_transformation_info()),
+        max_level_(values.integer("max_level")),
+        budget_(values.integer("budget")),
+        reflex_only_(values.flag("reflex_only")) {}
+
+ protected:
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    return find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
+  }
+  Verdict evaluate(OperatorContext&, Target) const override { return Verdict::accepted; }
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
+    const auto [a, b] = context.mesh.vertices(target.edge());
+    Recursion recursion(context, max_level_, budget_, reflex_only_);
+    const Verdict verdict = recursion.reduce(a, b, target.edge().tet(), VertexHandle(), 0);
+    // What was reached on the way is an improvement by itself.
+    return transaction.empty() ? verdict : Verdict::accepted;
+  }
+
+ private:
+  int max_level_;
+  int budget_;
+  bool reflex_only_;
+};
+
+constexpr std::array<ParameterSpec, 3> kParameters = {{
+    {"max_level", ParameterSpec::Kind::integer, 0, kDeepest - 1, 5, "deepest recursion level; 0 means no recursion"},
+    {"budget", ParameterSpec::Kind::integer, 1, 1e6, 400, "most shell transformations for one target"},
+    {"reflex_only", ParameterSpec::Kind::flag, 0, 1, 1, "recurse only on reflex link edges"},
+}};
+
+}  // namespace
+
+const OperatorInfo& recursive_shell_transformation_info() {
+  static const OperatorInfo kInfo = {
+      "recursive_shell_transformation", TargetKind::edge,
+      "remove an edge by shell transformations on it and, recursively, on edges around it", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<RecursiveShellTransformation>(values);
+      }};
+  return kInfo;
+}
+
+}  // namespace tetmend

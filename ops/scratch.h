@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Buffers of the operators of one worker, so that an attempt takes no memory from the heap.
+#pragma once
+
+#include <vector>
+
+#include "kernel/shell.h"
+#include "ops/ball_optimiser.h"
+#include "ops/covering_search.h"
+
+namespace tetmend {
+
+struct Scratch {
+  CoveringSearch search;
+  BallOptimiser ball;
+  Shell shell;
+  // What evaluate() proposes to apply(): tets to replace, and by what.
+  std::vector<TetHandle> old_tets;
+  std::vector<TetVertices> new_tets;
+  Point point = Point::Zero();  // of a new or moved vertex
+  VertexHandle kept_vertex;     // of a contraction
+  std::vector<HalfFace> link;
+  std::vector<VertexHandle> neighbours;
+  std::vector<Quality> qualities;
+  std::vector<Quality> best_qualities;
+  IndexSet set;
+  // Quality vectors of the last comparison.
+  std::vector<Quality> before;
+  std::vector<Quality> now;
+};
+
+}  // namespace tetmend

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "ops/smoothing.h"
+
+#include <algorithm>
+
+#include "kernel/star.h"
+
+namespace tetmend {
+
+namespace {
+
+class Smoothing final : public Operator {
+ public:
+  explicit Smoothing(const ParameterValues& values)
+      : Operator(smoothing_info()), laplacian_(values.flag("laplacian")), optimise_(values.flag("optimise")) {
+    limits_.steps = values.integer("steps");
+  }
+
+ protected:
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    const VertexHandle v = target.vertex();
+    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid()) return Verdict::not_applicable;
+    return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
+  }
+
+  Verdict evaluate(OperatorContext& context, Target target) const override {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const VertexHandle v = target.vertex();
+    collect_link(mesh, v, context.workspace, scratch.link);
+    load_ball(mesh, scratch.link, scratch.ball);
+    const double start = scratch.ball.worst(mesh.point(v));
+    scratch.point = mesh.point(v);
+    double reached = start;
+    if (laplacian_) {
+      const Point mean = mean_of_neighbours(mesh, scratch);
+      const double value = scratch.ball.worst(mean);
+      if (value > 0 && value > start) {
+        scratch.point = mean;
+        reached = value;
+      }
+    }
+    if (optimise_ && reached < kBadThreshold) reached = scratch.ball.optimise(scratch.point, limits_);
+    return reached > start + kQualityTolerance ? Verdict::accepted : Verdict::no_improvement;
+  }
+
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
+    return to_verdict(transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
+  }
+
+ private:
+  static Point mean_of_neighbours(const TetMesh& mesh, Scratch& scratch) {
+    Point sum = Point::Zero();
+    scratch.set.clear();
+    for (const HalfFace f : scratch.link) {
+      for (const VertexHandle w : mesh.vertices(f)) {
+        if (scratch.set.insert(w.index())) sum += mesh.point(w);
+      }
+    }
+    return sum / static_cast<double>(scratch.set.size());
+  }
+
+  bool laplacian_;
+  bool optimise_;
+  BallOptimiser::Limits limits_;
+};
+
+constexpr std::array<ParameterSpec, 3> kParameters = {{
+    {"laplacian", ParameterSpec::Kind::flag, 0, 1, 1, "try the mean of the neighbours first"},
+    {"optimise", ParameterSpec::Kind::flag, 0, 1, 1, "then climb to the best place if bad tets remain"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 12, "most directions that the optimisation follows"},
+}};
+
+}  // namespace
+
+void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimiser& ball) {
+  ball.clear();
+  for (const HalfFace f : link) {
+    const auto [a, b, c] = mesh.vertices(f);
+    ball.add(mesh.point(a), mesh.point(b), mesh.point(c));
+  }
+}
+
+const OperatorInfo& smoothing_info() {
+  static const OperatorInfo kInfo = {
+      "smoothing", TargetKind::vertex, "move a vertex: smart Laplacian, then optimisation of the worst tet", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<Smoothing>(values); }};
+  return kInfo;
+}
+
+}  // namespace tetmend
