@@ -127,8 +127,8 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
   }
 }
 
-unsigned BallOptimiser::find_active(const Point& p, double worst) {
-  const double band = worst + 0.03 * std::max(std::abs(worst), 0.02);
+unsigned BallOptimiser::find_active(const Point& p, double worst, double width) {
+  const double band = worst + width * std::max(std::abs(worst), 0.02);
   unsigned count = 0;
   for (std::size_t i = 0; i < size_ && count < kMaxActive; ++i) {
     if (quality_[i] <= band) add_gradients(i, p, band, count);
@@ -144,37 +144,47 @@ double BallOptimiser::local_length(const Point& p) const {
   return sum / static_cast<double>(size_);
 }
 
+/// Follows one direction from p. Returns the gain, 0 if there is none; p and `best` follow, `step` is the last length tried.
+double BallOptimiser::ascend(Point& p, double& best, double width, double length, double& step) {
+  const unsigned count = find_active(p, best, width);
+  if (count == 0) return 0;
+  const Point direction = shortest_in_hull(gradients_.data(), count);
+  const double slope = direction.norm();  // of the slowest active sine along the unit direction
+  if (!(slope * length > 1e-3)) return 0;
+  const Point unit = direction / slope;
+  double gain = 0;
+  double taken = 0;
+  for (step = std::min(2 * step, 0.5 * length); step > 1e-4 * length; step *= 0.5) {
+    const double value = worst(p + step * unit) - best;
+    if (gain > 0 && value <= gain) break;
+    if (value > gain) {
+      gain = value;
+      taken = step;
+      if (gain > 0.8 * step * slope) break;
+    }
+  }
+  if (gain > 0) {
+    p += taken * unit;
+    step = taken;
+  }
+  best = worst(p);
+  return gain;
+}
+
 double BallOptimiser::optimise(Point& p, const Limits& limits) {
+  // A wide band sees the ridge ahead, a narrow one the slope at hand.
+  constexpr std::array<double, 3> kWidths = {0.03, 0.15, 0.004};
   double best = worst(p);
   const double length = local_length(p);
   double step = 0.25 * length;
-  for (int i = 0; i < limits.steps && best < limits.enough; ++i) {
-    const unsigned count = find_active(p, best);
-    if (count == 0) break;
-    const Point direction = shortest_in_hull(gradients_.data(), count);
-    const double slope = direction.norm();  // of the slowest active sine along the unit direction
-    if (!(slope * length > 1e-3)) break;
-    const Point unit = direction / slope;
-
-    const double start = best;
-    const Point from = p;
-    step = std::min(2 * step, 0.5 * length);
-    double gain = 0;
-    double taken = 0;
-    for (; step > 1e-4 * length; step *= 0.5) {
-      const double value = worst(from + step * unit) - start;
-      if (gain > 0 && value <= gain) break;
-      if (value > gain) {
-        gain = value;
-        taken = step;
-        if (gain > 0.8 * step * slope) break;
-      }
+  std::size_t width = 0;
+  for (int i = 0; i < limits.steps && best < limits.enough && width < kWidths.size(); ++i) {
+    if (ascend(p, best, kWidths[width], length, step) < limits.least_gain) {
+      ++width;
+      step = 0.1 * length;
+    } else {
+      width = 0;
     }
-    if (taken == 0) break;
-    step = taken;
-    p = from + taken * unit;
-    best = worst(p);
-    if (best - start < limits.least_gain) break;
   }
   return best;
 }

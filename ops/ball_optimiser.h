@@ -16,9 +16,9 @@ namespace tetmend {
 class BallOptimiser {
  public:
   struct Limits {
-    int steps = 12;             ///< directions tried
+    int steps = 40;             ///< directions tried
     double enough = 0.6;        ///< stop when the worst quality exceeds this
-    double least_gain = 1e-4;   ///< stop when a step gains less
+    double least_gain = 1e-5;   ///< stop when a step gains less
   };
 
   void clear();
@@ -38,7 +38,8 @@ class BallOptimiser {
   static constexpr unsigned kMaxActive = 16;
 
   void reserve(std::size_t size);
-  unsigned find_active(const Point& p, double worst);
+  unsigned find_active(const Point& p, double worst, double width);
+  double ascend(Point& p, double& best, double width, double length, double& step);
   void add_gradients(std::size_t tet, const Point& p, double band, unsigned& count);
   double local_length(const Point& p) const;
 

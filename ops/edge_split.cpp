@@ -4,6 +4,10 @@
 #include <algorithm>
 
 #include "ops/shell_search.h"
+#include "ops/smoothing.h"
+#include "kernel/star.h"
+#include <cstdlib>
+#include <cmath>
 
 namespace tetmend {
 
@@ -43,7 +47,7 @@ class EdgeSplit final : public Operator {
     }
     scratch.point = 0.5 * (a + b);
     const double reached = scratch.ball.optimise(scratch.point, limits_);
-    return reached > floor + least_gain_ ? Verdict::accepted : Verdict::no_improvement;
+    return reached > (neighbours_ ? 0.5 * floor : floor + least_gain_) ? Verdict::accepted : Verdict::no_improvement;
   }
 
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
@@ -56,11 +60,42 @@ class EdgeSplit final : public Operator {
       scratch.new_tets.push_back({shell.a, v, shell.ring[i], shell.next(i)});
       scratch.new_tets.push_back({v, shell.b, shell.ring[i], shell.next(i)});
     }
-    return to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    const Verdict verdict = to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    if (verdict != Verdict::accepted) return verdict;
+    Shell sh = shell;
+    std::array<VertexHandle, 40> vs; unsigned n = 0;
+    for (int rep = 0; rep < neighbours_; ++rep) {
+    n=0;
+    vs[n++] = sh.a; vs[n++] = sh.b; for (unsigned i = 0; i < sh.degree; ++i) vs[n++] = sh.ring[i]; vs[n++] = v;
+    for (unsigned i = 0; i < n; ++i) {
+      const VertexHandle w = vs[i];
+      if (context.mesh.is_fixed(w)) continue;
+      collect_link(context.mesh, w, context.workspace, scratch.link);
+      load_ball(context.mesh, scratch.link, scratch.ball);
+      const double start = scratch.ball.worst(context.mesh.point(w));
+      if (start > 0.6) continue;
+      Point p = context.mesh.point(w);
+      if (scratch.ball.optimise(p, limits_) > start) transaction.move_vertex(w, p, scratch.link);
+    }}
+    transaction.compare(scratch.before, scratch.now);
+    if (guard_ && !fewer(scratch)) return Verdict::no_improvement;
+    return Verdict::accepted;
+  }
+
+  bool fewer(Scratch& s) const {
+    if (s.before[0] < gf_) return true;
+    double b = 0, n = 0; int nb = 0, nn = 0;
+    for (Quality q : s.before) { b += std::pow(std::max(0.0, 0.5 - (double)q), pw_); nb += q < 0.5f; }
+    for (Quality q : s.now) { n += std::pow(std::max(0.0, 0.5 - (double)q), pw_); nn += q < 0.5f; }
+    return guard_ == 1 ? n < b : guard_ == 2 ? nn <= nb : nn <= nb && n < b;
   }
 
  private:
   double least_gain_;
+  double pw_ = getenv("PW") ? atof(getenv("PW")) : 1;
+  float gf_ = getenv("GF") ? atof(getenv("GF")) : 0;
+  int guard_ = getenv("GU") ? atoi(getenv("GU")) : 0;
+  int neighbours_ = getenv("NB") ? atoi(getenv("NB")) : 0;
   unsigned max_degree_;
   BallOptimiser::Limits limits_;
 };

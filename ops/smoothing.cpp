@@ -68,7 +68,7 @@ class Smoothing final : public Operator {
 constexpr std::array<ParameterSpec, 3> kParameters = {{
     {"laplacian", ParameterSpec::Kind::flag, 0, 1, 1, "try the mean of the neighbours first"},
     {"optimise", ParameterSpec::Kind::flag, 0, 1, 1, "then climb to the best place if bad tets remain"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 12, "most directions that the optimisation follows"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 40, "most directions that the optimisation follows"},
 }};
 
 }  // namespace

@@ -3,6 +3,7 @@
 //   repeat: reconnect, smooth, suppress points, smooth, insert points, smooth
 //   until 3 rounds in sequence bring no progress, or 30 rounds are done
 #include "schedule/shell_schedule.h"
+#include <cstdlib>
 
 namespace tetmend {
 
@@ -12,7 +13,7 @@ void improve(Run& run, const ShellSchedule& schedule) {
   unsigned failed = 0;
   while (failed < schedule.max_failed && run.round < schedule.max_rounds && before.n_bad > 0 && !run.cancelled()) {
     ++run.round;
-    local_reconnection(run, schedule.reconnection);
+    { LocalReconnection r = schedule.reconnection; if (getenv("ROR") && run.round >= (unsigned)atoi(getenv("ROR"))) r.edge_settings = {{"reflex_only", 0}}; local_reconnection(run, r);}
     smooth(run, schedule.smoothing);
     suppress_points(run, schedule.suppression);
     smooth(run, schedule.smoothing);

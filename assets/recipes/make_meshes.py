@@ -18,9 +18,10 @@ import sys
 import gmsh
 import numpy as np
 
-DELAUNAY, HXT = 1, 10  # values of Mesh.Algorithm3D
-FRONTAL_DELAUNAY = 6   # value of Mesh.Algorithm
-TRIANGLE, TET = 2, 4   # Gmsh's element types
+FRONTAL_DELAUNAY = 6  # value of Mesh.Algorithm
+DELAUNAY = 1          # value of Mesh.Algorithm3D; HXT (10) gives another mesh on every run
+INSIDE_COARSER = 1.2  # edge lengths inside, relative to those asked for on the surface: more slivers
+TRIANGLE, TET = 2, 4  # Gmsh's element types
 
 occ = gmsh.model.occ
 
@@ -53,14 +54,14 @@ def bracket():
 
     finer_inside([
         # size, x from and to, y from and to, z from and to
-        (1.15, 7, 32, 20.7, 23.3, 8, 32),   # rib
-        (1.1, 10, 34, 6.6, 11.4, 8, 20),   # ring
-        (1.35, 36, 60, 10, 34, 8, 24),      # pipe
-        (1.45, 43, 53, 17, 27, 0, 8),       # bore
-        (1.45, 61, 69, 3, 11, 0, 8),
-        (1.45, 61, 69, 33, 41, 0, 8),
-        (1.45, 24, 32, 32, 40, 0, 8),
-    ], elsewhere=2.15, transition=5)
+        (1.1, 7, 32, 20.7, 23.3, 8, 32),   # rib
+        (1.05, 10, 34, 6.6, 11.4, 8, 20),   # ring
+        (1.3, 36, 60, 10, 34, 8, 24),     # pipe
+        (1.4, 43, 53, 17, 27, 0, 8),      # bore
+        (1.4, 61, 69, 3, 11, 0, 8),
+        (1.4, 61, 69, 33, 41, 0, 8),
+        (1.4, 24, 32, 32, 40, 0, 8),
+    ], elsewhere=2.05, transition=5)
     return [(tag, 1) for tag in tags(3)], numbered(tags(2))
 
 
@@ -79,7 +80,7 @@ def two_materials():
     regions = [(tag, 2 if tag == core else 1) for tag in tags(3)]
     between = [tag for tag in tags(2) if len(gmsh.model.getAdjacencies(2, tag)[0]) == 2]
     outside = [tag for tag in tags(2) if tag not in between]
-    size_everywhere(1.15)
+    size_everywhere(1.2)
     return regions, numbered(outside) + [(tag, 10) for tag in between]
 
 
@@ -144,14 +145,14 @@ def size_everywhere(size):
 
 # ---- Meshing --------------------------------------------------------------------------------------------------------
 
-def make(shape, volume_mesher):
+def make(shape):
     """Points, triangles with labels and tets with labels; point numbers start at 0."""
     gmsh.initialize(["make_meshes", "-nt", "1"])
     for name, value in (("General.Terminal", 0),
                         ("General.NumThreads", 1),
                         ("Mesh.Algorithm", FRONTAL_DELAUNAY),
                         ("Mesh.Smoothing", 10),  # moves surface points only; the inside is left as it comes
-                        ("Mesh.Algorithm3D", volume_mesher),
+                        ("Mesh.Algorithm3D", DELAUNAY),
                         ("Mesh.Optimize", 0),
                         ("Mesh.OptimizeNetgen", 0),
                         ("Mesh.MeshSizeFromPoints", 0),
@@ -159,6 +160,8 @@ def make(shape, volume_mesher):
         gmsh.option.setNumber(name, value)
     gmsh.model.add(shape.__name__)
     regions, faces = shape()
+    gmsh.model.mesh.generate(2)
+    gmsh.option.setNumber("Mesh.MeshSizeFactor", INSIDE_COARSER)
     gmsh.model.mesh.generate(3)
 
     node_tags, coordinates, _ = gmsh.model.mesh.getNodes()
@@ -232,10 +235,11 @@ def check(points, triangles, tets):
     assert len(sides) == 4 * len(tets), "two tets lie on the same side of a face"
     listed = {cyclic(tuple(row[:3])) for row in triangles}
     assert len(listed) == len(triangles)
-    assert listed <= sides.keys()
+    assert listed <= sides.keys(), "a triangle is no side of a tet, or looks inwards"
     for side, label in sides.items():
-        if sides.get(cyclic(side[::-1]), 0) != label and sides.get(cyclic(side[::-1]), 0) < label:
-            assert side in listed or cyclic(side[::-1]) in listed, "a boundary face has no triangle"
+        opposite = cyclic(side[::-1])
+        if sides.get(opposite) != label:
+            assert side in listed or opposite in listed, "a boundary face has no triangle"
 
 
 def dihedral_angles(points, tets):
@@ -303,10 +307,10 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("usage: make_meshes.py OUTDIR")
     os.makedirs(sys.argv[1], exist_ok=True)
-    for name, shape, volume_mesher, write in (("bracket.meshb", bracket, HXT, write_binary),
-                                              ("two_materials.mesh", two_materials, DELAUNAY, write_ascii),
-                                              ("sheet.mesh", sheet, DELAUNAY, write_ascii)):
-        mesh = make(shape, volume_mesher)
+    for name, shape, write in (("bracket.meshb", bracket, write_binary),
+                               ("two_materials.mesh", two_materials, write_ascii),
+                               ("sheet.mesh", sheet, write_ascii)):
+        mesh = make(shape)
         check(*mesh)
         write(os.path.join(sys.argv[1], name), *mesh)
         print(f"{name}: {describe(*mesh)}")

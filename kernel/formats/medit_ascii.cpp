@@ -7,6 +7,7 @@
 #include <cctype>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,12 +29,12 @@ constexpr std::array<std::string_view, 17> foreign_volumes = {
     "PrismsP2",    "PyramidsP2", "HexahedraQ2", "TetrahedraP3", "TetrahedraP4", "HexahedraQ3",
     "HexahedraQ4", "PyramidsP3", "PyramidsP4",  "PrismsP3",     "PrismsP4"};
 
-// Sections with words among their numbers.
-constexpr std::array<std::string_view, 3> text_sections = {"Comments", "IRefGroups", "DRefGroups"};
+// Sections of rows that may hold any words, one row to a line.
+constexpr std::array<std::string_view, 2> text_sections = {"Comments", "IRefGroups"};
 
 // The other section names of libMeshb 7; families are recognized by their beginning or end in
 // `is_section`.
-constexpr std::array<std::string_view, 62> passed_sections = {
+constexpr std::array<std::string_view, 63> passed_sections = {
     "Corners",
     "Ridges",
     "RequiredEdges",
@@ -204,15 +205,21 @@ class Reader {
   // Numbers are not counted, only passed over to the next word: that holds for sections of every
   // shape.
   void pass_over(std::string_view name) {
-    const bool has_words = contains(text_sections, name);
+    if (contains(text_sections, name)) return pass_over_lines();
     for (;;) {
       const char* before = text_.position();
       const std::string_view word = text_.word();
       if (word.empty()) return;
-      if (is_number_word(word) || (has_words && !is_section(word))) continue;
+      if (is_number_word(word)) continue;
       text_.seek(before);
       return;
     }
+  }
+
+  void pass_over_lines() {
+    const std::size_t count = text_.count("lines", 1);
+    text_.skip_line();
+    for (std::size_t i = 0; i < count; ++i) text_.skip_line();
   }
 
   void read_vertices() {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cctype>
 #include <new>
-#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -67,6 +67,7 @@ MeshData read_mesh(const std::filesystem::path& file) {
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
+  assert(mesh.point_labels.empty() || mesh.point_labels.size() == mesh.points.size());
   find_codec(file).write(file, mesh);
 }
 

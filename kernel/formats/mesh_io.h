@@ -20,21 +20,26 @@ struct MeshFormat {
 std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
-/// `.edge` beside it when present),
-/// `.vtk` legacy VTK, ASCII or binary, of version 2.0 to 5.1. Reference labels, triangles and edges
-/// are kept; anything else in the file is passed over.
-/// @throws Error with file, line (ASCII) or byte offset (binary), the offending word and the
-/// reason, for: a missing, empty or
-///   truncated file, a wrong count, a vertex index out of range or repeated within an element, text
-///   in a number, a coordinate that is not finite, a count that cannot fit into the file (before
-///   memory is taken for it), an unknown extension (with the valid ones). Never crashes.
-/// Cost: linear in the size of the file.
+/// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1.
+/// Points, tets, triangles, edges and their reference labels are kept, of MEDIT files required
+/// vertices too; anything else in the file is passed over, except for volume elements that are no
+/// linear tets: those are an error.
+/// @throws Error for a missing, empty or truncated file, a wrong count, a vertex number out of
+/// range or repeated within an element, text in a number, a coordinate that is not finite, a label
+/// beyond 32 bits, a count that cannot fit into the file (before memory is taken for it), an
+/// unknown extension (with the valid ones). The message begins with "FILE:LINE: " (ASCII) or "FILE:
+/// byte N: " (binary) when it is about the content, and has the offending word and what was
+/// expected.
+/// Cost: linear in the size of the file, which is held in memory while it is read.
 MeshData read_mesh(const std::filesystem::path& file);
 
 /// Writes a mesh in the format of the extension; a TetGen path (`.node` or `.ele`) writes `.node`,
-/// `.ele` and `.face`. Doubles are written so that reading gives the same bits. The file appears
+/// `.ele` and `.face`, and `.edge` if there are edges or an older such file. Doubles are written so
+/// that reading gives the same bits. Required vertices are kept by MEDIT only. The file appears
 /// under its name only when complete: a temporary file beside it is renamed, so a failure leaves an
 /// older file untouched.
+/// Precondition: vertex numbers are in range, coordinates finite, and `point_labels` is empty or
+/// has one for each point.
 /// @throws Error when the file cannot be written, with the reason of the operating system, or when
 /// the extension is unknown.
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh);

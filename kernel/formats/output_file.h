@@ -25,7 +25,7 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// All four: @throws Error with the reason of the operating system when the disk is full.
+  /// All of these: @throws Error with the reason of the operating system when the disk is full.
   void put(std::string_view text);
   void put(char c) { *room_for(1) = c, used_ += 1; }
   void put_integer(std::int64_t value);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -61,8 +62,8 @@ class Table {
   void end_row(std::string_view what) {
     const std::string_view word = text_.word_on_line();
     if (!word.empty()) {
-      text_.fail(fmt::format("{} is too much: expected the end of the line of a {}",
-                             in_quotes(word), what));
+      text_.fail(
+          fmt::format("{} is too much: expected the end of the line of {}", in_quotes(word), what));
     }
   }
   void end(std::string_view what) {
@@ -110,7 +111,7 @@ class Reader {
     }
     const auto attributes = table.integer_or(0, "the number of attributes", 0, most_attributes);
     const auto markers = table.integer_or(0, "the number of boundary markers", 0, 1);
-    table.end_row("file's counts");
+    table.end_row("the counts");
     mesh_.points.resize(count);
     mesh_.point_labels.resize(markers == 0 ? 0 : count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -124,7 +125,7 @@ class Reader {
         mesh_.point_labels[i] =
             static_cast<Label>(table.integer("a boundary marker", INT32_MIN, INT32_MAX));
       }
-      table.end_row("vertex");
+      table.end_row("a vertex");
     }
     table.end("vertex");
   }
@@ -141,7 +142,7 @@ class Reader {
                                     corners, corners == 10 ? " (second order)" : ""));
     }
     const auto attributes = table.integer_or(0, "the number of attributes", 0, most_attributes);
-    table.end_row("file's counts");
+    table.end_row("the counts");
     mesh_.tets.resize(count);
     for (MeshData::Tet& tet : mesh_.tets) {
       read_corners(table, tet);
@@ -149,7 +150,7 @@ class Reader {
         const double value = table.real("an attribute of a tetrahedron");
         if (k == 0) tet.label = rounded_label(table, value);
       }
-      table.end_row("tetrahedron");
+      table.end_row("a tetrahedron");
     }
     table.end("tetrahedron");
   }
@@ -176,7 +177,7 @@ class Reader {
     constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
     elements.resize(table.text().count(what, 2 * numbers));
     const auto markers = table.integer_or(0, "the number of boundary markers", 0, 1);
-    table.end_row("file's counts");
+    table.end_row("the counts");
     for (Element& element : elements) {
       read_corners(table, element);
       if (markers != 0) {

@@ -48,8 +48,7 @@ class TextReader {
 
   /// True when nothing but blanks and a comment is left on this line.
   bool at_line_end();
-  /// True when nothing but white space and comments is left; else the next word is the first of a
-  /// line or follows on this one.
+  /// True when nothing but white space and comments is left in the file.
   bool at_end();
   /// Goes behind the next line break, and gives what was passed over.
   std::string_view skip_line();

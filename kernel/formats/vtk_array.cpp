@@ -109,8 +109,9 @@ void skip_vtk_values(TextReader& text, bool binary, const VtkType& type, std::si
 std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type, std::size_t rows,
                               std::size_t columns) {
   if (rows == 0 || columns == 0) return 0;
-  std::size_t most = text.bytes_left() + 1;
+  std::size_t most = type.kind == Kind::text ? text.bytes_left() : (text.bytes_left() + 1) / 2;
   if (binary) {
+    most = text.bytes_left();
     most = type.kind == Kind::bit ? 8 * most : most / std::max<std::size_t>(type.size, 1);
   }
   if (rows > most || columns > most / rows) {

@@ -15,11 +15,11 @@ namespace tetmend::formats {
 /// their types stand behind their vertices.
 struct VtkCells {
   std::size_t count = 0;
-  bool has_offsets = false;  // since version 5: vertices of cell i are connectivity[offsets[i]] to
-                             // [offsets[i + 1]]
+  bool has_offsets = false;
+  /// Since version 5: the vertices of cell i are connectivity[offsets[i]] to [offsets[i + 1] - 1].
   VtkIntegers offsets;
-  VtkIntegers
-      connectivity;  // before version 5: for each cell the number of its vertices, then these
+  /// Before version 5: for each cell the number of its vertices, then these.
+  VtkIntegers connectivity;
   VtkIntegers types;
 
   /// Adds tetrahedra, triangles and lines to `mesh`, which has its points. `labels` has one for

@@ -1,0 +1,75 @@
+# Fails on an include that goes up the layers, and on folders named utils or common.
+#   cmake -DSOURCE_DIR=... -P check_layers.cmake
+#
+# For each layer: the folders that its files may include, besides its own. Folders that are not in `layers` (tests, bench,
+# plugins, python) may include anything.
+cmake_minimum_required(VERSION 3.21)
+if(NOT IS_DIRECTORY "${SOURCE_DIR}")
+  message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
+endif()
+
+set(layers kernel trace ops schedule viewer apps)
+set(below_kernel "")
+set(below_trace kernel)
+set(below_ops kernel trace)
+set(below_schedule kernel trace ops)
+set(below_viewer kernel trace schedule)
+set(below_apps kernel trace ops schedule viewer)
+
+set(violations "")
+
+# Appends "file:line: text" for the line of `content` that starts at the newline `pattern` begins with.
+function(report file content pattern text)
+  string(FIND "${content}" "${pattern}" position)
+  string(SUBSTRING "${content}" 0 ${position} before)
+  string(REGEX MATCHALL "\n" newlines "${before}")
+  list(LENGTH newlines line)
+  math(EXPR line "${line} + 1")
+  set(violations "${violations}${file}:${line}: ${text}\n" PARENT_SCOPE)
+endfunction()
+
+foreach(layer IN LISTS layers)
+  list(APPEND allowed_${layer} ${layer} ${below_${layer}})
+  file(GLOB_RECURSE sources RELATIVE "${SOURCE_DIR}"
+       "${SOURCE_DIR}/${layer}/*.h" "${SOURCE_DIR}/${layer}/*.cpp")
+  foreach(source IN LISTS sources)
+    file(READ "${SOURCE_DIR}/${source}" content)
+    set(content "\n${content}")
+    string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[\"<][^\">\n]+[\">]" includes "${content}")
+    list(REMOVE_DUPLICATES includes)
+    foreach(include IN LISTS includes)
+      string(REGEX MATCH "([\"<])([^\">]+)" _ "${include}")
+      set(quote "${CMAKE_MATCH_1}")
+      set(path "${CMAKE_MATCH_2}")
+      string(REGEX REPLACE "/.*" "" folder "${path}")
+      if(folder IN_LIST allowed_${layer} AND path MATCHES "/" AND NOT path MATCHES "/\\.\\./")
+        continue()
+      endif()
+      if(NOT path MATCHES "(^|/)\\.\\.?/" AND path MATCHES "/" AND IS_DIRECTORY "${SOURCE_DIR}/${folder}")
+        list(JOIN allowed_${layer} ", " words)
+        report(${source} "${content}" "${include}" "${layer} must not include ${path} (only: ${words})")
+      elseif(quote STREQUAL "\"")
+        report(${source} "${content}" "${include}" "write \"${path}\" from the root of the repository")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+# Every folder except build outputs and hidden ones.
+file(GLOB entries LIST_DIRECTORIES true RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/*")
+foreach(entry IN LISTS entries)
+  if(NOT IS_DIRECTORY "${SOURCE_DIR}/${entry}" OR entry MATCHES "^(\\..*|build|demo-out)$")
+    continue()
+  endif()
+  file(GLOB_RECURSE paths LIST_DIRECTORIES true RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/${entry}/*")
+  foreach(path IN LISTS entry paths)
+    if(path MATCHES "(^|/)(utils?|common)$" AND IS_DIRECTORY "${SOURCE_DIR}/${path}")
+      string(APPEND violations "${path}:1: no folder of this name: find the idea behind its files\n")
+    endif()
+  endforeach()
+endforeach()
+
+if(violations)
+  message(NOTICE "${violations}")
+  message(FATAL_ERROR "the layers are not kept apart")
+endif()

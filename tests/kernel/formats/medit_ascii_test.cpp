@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// MEDIT text files: what is accepted and how bad files are refused.
+#include <doctest/doctest.h>
+
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+const std::string points = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+const std::string tets = "Tetrahedra\n1\n1 2 3 4 7\n";
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+MeshData read(const std::string& content) {
+  const TempFolder folder;
+  write_text(folder / "a.mesh", content);
+  return read_mesh(folder / "a.mesh");
+}
+
+}  // namespace
+
+TEST_CASE("a MEDIT file with comments, odd white space and Windows line ends is read") {
+  const MeshData mesh = read(
+      "\xEF\xBB\xBF# made by hand\r\n MeshVersionFormatted 1 # "
+      "one\r\nDimension\r\n3\r\n\r\nVertices 4\r\n"
+      "+0 0. .5 0  1D+00 0 0 0\r\n0 1e0 0 0\t0 0 1 +3 # four\r\nTetrahedra\r\n1 1 2 3 4 -7\r\nEnd");
+  REQUIRE(mesh.points.size() == 4);
+  CHECK(mesh.points[0] == Point(0, 0, 0.5));
+  CHECK(mesh.points[1] == Point(1, 0, 0));
+  CHECK(mesh.point_labels == std::vector<Label>{0, 0, 0, 3});
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, -7}});
+}
+
+TEST_CASE("sections of a MEDIT file may come in any order and End may be missing") {
+  const MeshData mesh =
+      read(head + tets + "RequiredVertices\n1\n3\nTriangles\n1\n1 2 3 5\nEdges 1 1 4 6\n" + points);
+  CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{2});
+  CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 5}});
+  CHECK(mesh.edges == std::vector<MeshData::Edge>{{{0, 3}, 6}});
+}
+
+TEST_CASE("known sections that are not kept are passed over in a MEDIT file") {
+  const MeshData mesh =
+      read(head + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + points +
+           "Corners\n2\n1\n2\nRidges\n1\n1\nQuadrilaterals\n1\n1 2 3 4 0\nHexahedra\n0\n"
+           "Comments\n2\nsome words here\nTime flies? no: words\nSolAtVertices\n4\n1 "
+           "1\n0.5\nnan\n-inf\n1e5\n"
+           "NormalAtVertices 1 1 1\nNormals 1 0 0 1\nTetrahedraP1Ordering 1 0 1 2 3\n" +
+           tets + "End\nanything");
+  CHECK(mesh.tets.size() == 1);
+}
+
+TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
+  const std::string good = head + points + tets + "End\n";
+  const std::vector<BadFile> files = {
+      {"other format", "solid cube\n", ":1: ", "'solid' is not the beginning of a MEDIT file"},
+      {"binary noise", std::string("\x01\0\0\0\x02", 5), ":1: ", "'\\x01\\x00\\x00\\x00\\x02'"},
+      {"only comments", "# nothing\n\n", ":3: ", "the file is empty"},
+      {"version 9", replaced(good, "ted 2", "ted 9"),
+       ":1: ", "'9' is out of range: expected the version"},
+      {"no dimension", replaced(good, "Dimension 3\n", ""),
+       ":2: ", "'Vertices' is not expected here"},
+      {"2D", replaced(good, "Dimension 3", "Dimension 2"), ":2: ", "expected Dimension 3"},
+      {"unknown word", replaced(good, "Tetrahedra", "Tetraeder"),
+       ":9: ", "'Tetraeder' is not expected here"},
+      {"no vertices", head + tets + "End\n", ":6: ", "the section Vertices is missing"},
+      {"no tets", head + points + "End\n", ":9: ", "the section Tetrahedra is missing"},
+      {"twice", head + points + points + tets, ":9: ", "'Vertices' appears for the second time"},
+      {"too many rows", replaced(good, "Tetrahedra\n1\n", "Tetrahedra\n1\n4 3 2 1 0\n"),
+       ":12: ", "'1' is not expected here"},
+      {"too few rows", replaced(good, "Vertices\n4", "Vertices\n5"),
+       ":9: ", "'Tetrahedra' is not a number"},
+      {"index 0", replaced(good, "1 2 3 4 7", "1 2 0 4 7"),
+       ":11: ", "'0' is out of range: expected a vertex number, 1 to 4"},
+      {"index 5", replaced(good, "1 2 3 4 7", "1 2 5 4 7"), ":11: ", "'5' is out of range"},
+      {"repeated vertex", replaced(good, "1 2 3 4 7", "1 2 3 2 7"),
+       ":11: ", "a vertex is repeated in the tetrahedron '1 2 3 2'"},
+      {"repeated in edge", head + points + "Edges\n1\n3 3 0\n" + tets,
+       ":11: ", "repeated in the edge '3 3'"},
+      {"required 9", head + points + "RequiredVertices\n1\n9\n" + tets,
+       ":11: ", "'9' is out of range"},
+      {"text in number", replaced(good, "1 0 0 0", "1.0x 0 0 0"), ":6: ", "'1.0x' is not a number"},
+      {"text in integer", replaced(good, "1 2 3 4 7", "1 2 3 4 12abc"),
+       ":11: ", "'12abc' is not an integer"},
+      {"nan", replaced(good, "1 0 0 0", "nan 0 0 0"), ":6: ", "'nan' is not a finite number"},
+      {"inf", replaced(good, "1 0 0 0", "-inf 0 0 0"), ":6: ", "'-inf' is not a finite number"},
+      {"overflow", replaced(good, "1 0 0 0", "1e999 0 0 0"),
+       ":6: ", "'1e999' is not a finite number"},
+      {"hexadecimal", replaced(good, "1 0 0 0", "0x1p3 0 0 0"), ":6: ", "'0x1p3' is not a number"},
+      {"fraction", replaced(good, "1 2 3 4 7", "1 2.5 3 4 7"), ":11: ", "'2.5' is not an integer"},
+      {"two signs", replaced(good, "1 2 3 4 7", "1 2 3 4 +-7"), ":11: ", "'+-7' is not an integer"},
+      {"label", replaced(good, "1 2 3 4 7", "1 2 3 4 2147483648"),
+       ":11: ", "'2147483648' is out of range"},
+      {"long label", replaced(good, "1 2 3 4 7", "1 2 3 4 99999999999999999999"),
+       ":11: ", "is out of range"},
+      {"huge count", replaced(good, "Vertices\n4", "Vertices\n99999999999"),
+       ":4: ", "99999999999 vertices cannot fit"},
+      {"huge tets", replaced(good, "Tetrahedra\n1", "Tetrahedra\n9223372036854775807"),
+       ":10: ", "cannot fit"},
+      {"negative", replaced(good, "Tetrahedra\n1", "Tetrahedra\n-1"),
+       ":10: ", "'-1' is out of range"},
+      {"count of words", replaced(good, "Vertices\n4", "Vertices\nfour"),
+       ":4: ", "'four' is not an integer"},
+      {"hexahedra", head + points + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n" + tets,
+       ":9: ", "'Hexahedra' cannot be read"},
+      {"second order", head + points + "TetrahedraP2\n1\n1 2 3 4 0\n",
+       ":9: ", "'TetrahedraP2' cannot be read"},
+      {"cut in a number", head + points + "Tetrahedra\n1\n1 2 3 4 7",
+       ":11: ", "the file ends right behind '7'"},
+      {"cut in rows", head + points + "Tetrahedra\n2\n1 2 3 4 0\n1 2\n",
+       ":10: ", "2 tetrahedra cannot fit into the 15 bytes"},
+      {"cut in a row", head + points + "Tetrahedra\n1\n1 2 3 4 \n",
+       ":12: ", "the file ends where the reference of an element is expected"},
+      {"long word", replaced(good, "1 0 0 0", std::string(100000, 'x')),
+       ":6: ", "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"},
+  };
+  const TempFolder folder;
+  for (const BadFile& bad : files) {
+    CAPTURE(bad.what);
+    write_text(folder / "a.mesh", bad.content);
+    const std::string error = error_of_reading(folder / "a.mesh");
+    CHECK_MESSAGE(error.starts_with("a.mesh" + bad.place), error);
+    CHECK_MESSAGE(error.find(bad.reason) != std::string::npos, error);
+  }
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// What all mesh formats promise: round trips, errors for files that are not there, and no crash on
+// any damage.
+#include "kernel/formats/mesh_io.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/kernel/formats/damage.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+bool keeps_required_vertices(std::string_view extension) {
+  return extension == ".mesh" || extension == ".meshb";
+}
+
+/// The awkward mesh as the format can hold it.
+MeshData mesh_for(std::string_view extension) {
+  MeshData mesh = awkward_mesh();
+  if (!keeps_required_vertices(extension)) mesh.required_vertices.clear();
+  return mesh;
+}
+
+constexpr std::string_view vtk_ascii =
+    "# vtk DataFile Version 5.1\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n"
+    "0 0 0 1 0 0 0 1 0\n0 0 1 1 1 1\nMETADATA\nINFORMATION 0\n\nCELLS 4 10\nOFFSETS vtktypeint64\n"
+    "0 4 7 10\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2 1 2 3\nCELL_TYPES 3\n10\n5\n5\n"
+    "CELL_DATA 3\nFIELD f 2\nlabel 1 3 int\n1 2 3\nname 1 3 string\na\nb\nc\nPOINT_DATA 5\n"
+    "SCALARS s double\nLOOKUP_TABLE default\n1 2 3 4 5\n";
+
+}  // namespace
+
+TEST_CASE("a mesh written in any format is read back bit by bit") {
+  const TempFolder folder;
+  for (const MeshFormat& format : mesh_formats()) {
+    CAPTURE(format.extension);
+    const auto file = folder / ("mesh" + std::string(format.extension));
+    const MeshData mesh = mesh_for(format.extension);
+    write_mesh(file, mesh);
+    CHECK(same_mesh(read_mesh(file), mesh));
+  }
+}
+
+TEST_CASE("a mesh without labels, triangles and edges is read back without them") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{{0, 1, 2, 3}, 0}};
+  for (const MeshFormat& format : mesh_formats()) {
+    CAPTURE(format.extension);
+    const auto file = folder / ("mesh" + std::string(format.extension));
+    write_mesh(file, mesh);
+    CHECK(same_mesh(read_mesh(file), mesh));
+  }
+}
+
+TEST_CASE("an empty mesh is written and read in every format") {
+  const TempFolder folder;
+  for (const MeshFormat& format : mesh_formats()) {
+    CAPTURE(format.extension);
+    const auto file = folder / ("empty" + std::string(format.extension));
+    write_mesh(file, {});
+    CHECK(same_mesh(read_mesh(file), {}));
+  }
+}
+
+TEST_CASE("an extension is matched in any case") {
+  const TempFolder folder;
+  for (const std::string name : {"A.MESH", "A.MeshB", "A.NODE", "A.Ele", "A.VTK"}) {
+    CAPTURE(name);
+    const auto file = folder / name;
+    MeshData mesh = awkward_mesh();
+    mesh.required_vertices.clear();
+    write_mesh(file, mesh);
+    CHECK(same_mesh(read_mesh(file), mesh));
+  }
+}
+
+TEST_CASE("an unknown extension is an error with the valid ones") {
+  const TempFolder folder;
+  CHECK(error_of_reading(folder / "a.stl") ==
+        "a.stl: the extension '.stl' is not that of a mesh format: expected one of .mesh, .meshb, "
+        ".node, .ele, .vtk");
+  CHECK_THROWS_AS(write_mesh(folder / "a", {}), Error);
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("a file that is missing, a folder, a device or empty is an error with the reason") {
+  const TempFolder folder;
+  for (const MeshFormat& format : mesh_formats()) {
+    const std::string extension(format.extension);
+    CAPTURE(extension);
+    CHECK(error_of_reading(folder / ("no" + extension)).ends_with(": No such file or directory"));
+
+    const TempFolder other;
+    write_text(other / ("a" + extension), "");
+    write_text(other / "a.node", "");
+    const std::string empty = error_of_reading(other / ("a" + extension));
+    CHECK(empty.find("the file is empty") != std::string::npos);
+    CHECK(empty.find(extension == ".meshb" ? ": byte 0: " : ":1: ") != std::string::npos);
+
+    std::filesystem::create_directory(folder / ("d" + extension));
+  }
+  CHECK(error_of_reading(folder / "d.mesh") == "d.mesh: cannot be read: Is a directory");
+  CHECK(error_of_reading(folder / "d.node") == "d.node: cannot be read: Is a directory");
+  std::filesystem::create_symlink("/dev/null", folder / "null.mesh");
+  CHECK(error_of_reading(folder / "null.mesh") == "null.mesh: cannot be read: not a regular file");
+}
+
+TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
+  const TempFolder folder;
+  for (const MeshFormat& format : mesh_formats()) {
+    const std::string extension(format.extension);
+    const auto file = folder / ("mesh" + extension);
+    const MeshData mesh = mesh_for(extension);
+    write_mesh(file, mesh);
+    std::vector<std::filesystem::path> parts = {file};
+    if (extension == ".node") {
+      parts = {file, folder / "mesh.ele", folder / "mesh.face", folder / "mesh.edge"};
+    }
+    for (const auto& part : parts) {
+      CAPTURE(part);
+      const std::string content = read_text(part);
+      for (std::size_t size = content.size(); size-- > 0;) {
+        std::filesystem::resize_file(part, size);
+        try {
+          MeshData got = read_mesh(file);
+          if (extension == ".vtk") {  // no end mark: a cut exactly before the labels goes unseen
+            REQUIRE(got.tets.size() == mesh.tets.size());
+            REQUIRE(same_points(got, mesh));
+          } else {
+            REQUIRE(same_mesh(got, mesh));
+          }
+        } catch (const Error&) {
+        }
+      }
+      write_text(part, content);
+    }
+  }
+}
+
+TEST_CASE("an ASCII VTK file of version 5.1 cut at any byte is an error or gives a sound mesh") {
+  const TempFolder folder;
+  write_text(folder / "a.vtk", vtk_ascii);
+  CHECK(read_mesh(folder / "a.vtk").triangles.size() == 2);
+  cut_at_each_byte(folder / "a.vtk");
+}
+
+TEST_CASE("a file with any byte changed is an error or gives a sound mesh") {
+  const TempFolder folder;
+  for (const MeshFormat& format : mesh_formats()) {
+    CAPTURE(format.extension);
+    const auto file = folder / ("mesh" + std::string(format.extension));
+    write_mesh(file, mesh_for(format.extension));
+    change_each_byte(file, file);
+  }
+  change_each_byte(folder / "mesh.node", folder / "mesh.face");
+  change_each_byte(folder / "mesh.node", folder / "mesh.edge");
+  write_text(folder / "ascii.vtk", vtk_ascii);
+  change_each_byte(folder / "ascii.vtk", folder / "ascii.vtk");
+}
