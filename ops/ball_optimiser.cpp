@@ -180,6 +180,7 @@ double BallOptimiser::optimise(Point& p, const Limits& limits) {
   std::size_t width = 0;
   for (int i = 0; i < limits.steps && best < limits.enough && width < kWidths.size(); ++i) {
     if (ascend(p, best, kWidths[width], length, step) < limits.least_gain) {
+      if (best >= kBadThreshold) break;
       ++width;
       step = 0.1 * length;
     } else {

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 
+#include "kernel/star.h"
 #include "ops/shell_search.h"
 #include "ops/smoothing.h"
-#include "kernel/star.h"
-#include <cstdlib>
-#include <cmath>
 
 namespace tetmend {
 
@@ -18,6 +16,8 @@ class EdgeSplit final : public Operator {
   explicit EdgeSplit(const ParameterValues& values)
       : Operator(edge_split_info()),
         least_gain_(values.real("least_gain")),
+        desperate_(static_cast<Quality>(values.real("desperate"))),
+        relax_(values.flag("relax")),
         max_degree_(static_cast<unsigned>(values.integer("max_degree"))) {
     limits_.steps = values.integer("steps");
   }
@@ -47,7 +47,10 @@ class EdgeSplit final : public Operator {
     }
     scratch.point = 0.5 * (a + b);
     const double reached = scratch.ball.optimise(scratch.point, limits_);
-    return reached > (neighbours_ ? 0.5 * floor : floor + least_gain_) ? Verdict::accepted : Verdict::no_improvement;
+    // What is left to be gained by smoothing the neighbours is limited.
+    constexpr double kRelaxedShare = 0.5;
+    const double least = relax_ ? kRelaxedShare * std::max(floor, 0.0f) : floor + least_gain_;
+    return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }
 
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
@@ -62,48 +65,86 @@ class EdgeSplit final : public Operator {
     }
     const Verdict verdict = to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
     if (verdict != Verdict::accepted) return verdict;
-    Shell sh = shell;
-    std::array<VertexHandle, 40> vs; unsigned n = 0;
-    for (int rep = 0; rep < neighbours_; ++rep) {
-    n=0;
-    vs[n++] = sh.a; vs[n++] = sh.b; for (unsigned i = 0; i < sh.degree; ++i) vs[n++] = sh.ring[i]; vs[n++] = v;
-    for (unsigned i = 0; i < n; ++i) {
-      const VertexHandle w = vs[i];
-      if (context.mesh.is_fixed(w)) continue;
-      collect_link(context.mesh, w, context.workspace, scratch.link);
-      load_ball(context.mesh, scratch.link, scratch.ball);
-      const double start = scratch.ball.worst(context.mesh.point(w));
-      if (start > 0.6) continue;
-      Point p = context.mesh.point(w);
-      if (scratch.ball.optimise(p, limits_) > start) transaction.move_vertex(w, p, scratch.link);
-    }}
+    if (relax_) repair(context, transaction, v);
     transaction.compare(scratch.before, scratch.now);
-    if (guard_ && !fewer(scratch)) return Verdict::no_improvement;
-    return Verdict::accepted;
-  }
-
-  bool fewer(Scratch& s) const {
-    if (s.before[0] < gf_) return true;
-    double b = 0, n = 0; int nb = 0, nn = 0;
-    for (Quality q : s.before) { b += std::pow(std::max(0.0, 0.5 - (double)q), pw_); nb += q < 0.5f; }
-    for (Quality q : s.now) { n += std::pow(std::max(0.0, 0.5 - (double)q), pw_); nn += q < 0.5f; }
-    return guard_ == 1 ? n < b : guard_ == 2 ? nn <= nb : nn <= nb && n < b;
+    return is_worth_it(scratch.before, scratch.now) ? Verdict::accepted : Verdict::no_improvement;
   }
 
  private:
+  /// Smooths around the new vertex, reconnects its bad tets, smooths again. Whether that was good shows at the end.
+  void repair(OperatorContext& context, Transaction& transaction, VertexHandle v) const {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    for (int round = 0; round < 2; ++round) {
+      const auto ring = one_ring(mesh, v, context.workspace);
+      scratch.neighbours.assign(ring.begin(), ring.end());
+      scratch.neighbours.push_back(v);
+      for (const VertexHandle w : scratch.neighbours) climb(context, transaction, w);
+      if (round == 0) reconnect(context, v);
+    }
+  }
+
+  /// Shell transformations on the edges of the bad tets around v.
+  void reconnect(OperatorContext& context, VertexHandle v) const {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    collect_link(mesh, v, context.workspace, scratch.link);
+    for (const HalfFace opposite : scratch.link) {
+      const TetHandle t = opposite.tet();
+      for (unsigned e = 0; e < 6; ++e) {
+        // An earlier transformation may have taken the slot.
+        if (mesh.is_deleted(t) || mesh.quality(t) >= kBadThreshold) break;
+        if (find_searchable_shell(mesh, TetEdge(t, e), scratch.shell) != Verdict::accepted) continue;
+        if (propose_covering(context, scratch.shell, {}, true) != Verdict::accepted) continue;
+        Transaction step(context.mesh, context.workspace);
+        if (step.replace_cavity(scratch.old_tets, scratch.new_tets) == EditResult::made && is_better(step, scratch)) {
+          step.keep();
+        }
+      }
+    }
+  }
+
+  /// Smooths one vertex.
+  void climb(OperatorContext& context, Transaction& transaction, VertexHandle v) const {
+    const TetMesh& mesh = context.mesh;
+    if (mesh.is_fixed(v)) return;
+    Scratch& scratch = context.scratch;
+    collect_link(mesh, v, context.workspace, scratch.link);
+    load_ball(mesh, scratch.link, scratch.ball);
+    Point point = mesh.point(v);
+    const double start = scratch.ball.worst(point);
+    if (start >= limits_.enough || scratch.ball.optimise(point, limits_) <= start) return;
+    transaction.move_vertex(v, point, scratch.link);
+  }
+
+  /// DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5 - q)^4 over the bad tets must fall, unless
+  /// the worst tet is desperate. By the order alone, splits raise the worst tet a little and leave more bad tets than they found.
+  bool is_worth_it(std::span<const Quality> before, std::span<const Quality> now) const {
+    if (before[0] < desperate_) return true;
+    const auto deficit = [](std::span<const Quality> qualities) {
+      double sum = 0;
+      for (const Quality q : qualities) {
+        const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - static_cast<double>(q));
+        sum += lack * lack * lack * lack;
+      }
+      return sum;
+    };
+    return deficit(now) < deficit(before);
+  }
+
   double least_gain_;
-  double pw_ = getenv("PW") ? atof(getenv("PW")) : 1;
-  float gf_ = getenv("GF") ? atof(getenv("GF")) : 0;
-  int guard_ = getenv("GU") ? atoi(getenv("GU")) : 0;
-  int neighbours_ = getenv("NB") ? atoi(getenv("NB")) : 0;
+  Quality desperate_;
+  bool relax_;
   unsigned max_degree_;
   BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 3> kParameters = {{
-    {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4, "least gain of the worst quality"},
+constexpr std::array<ParameterSpec, 5> kParameters = {{
+    {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4, "least gain of the worst quality of the shell"},
+    {"desperate", ParameterSpec::Kind::real, -1, 1, 0.2, "below this worst quality, new bad tets are no reason to refuse"},
+    {"relax", ParameterSpec::Kind::flag, 0, 1, 0, "smooth and reconnect around the new vertex before judging"},
     {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12, "largest shell that is split"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8, "most directions that the placement follows"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8, "most directions that each placement follows"},
 }};
 
 }  // namespace

@@ -121,7 +121,7 @@ void local_reconnection(Run& run, const LocalReconnection& options) {
   PassScope scope(run, "local_reconnection");
   Reconnection reconnection(run, options, scope);
   for (unsigned sweep = 0; sweep < options.sweeps; ++sweep) {
-    const auto queue = queue_bad_tets(run.mesh(), options.threshold, run.begin_sweep("local_reconnection"));
+    const auto queue = queue_bad_tets(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
     if (queue.empty()) return;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       if (!scope.proceed(i, queue.size())) return;
@@ -135,7 +135,7 @@ void smooth(Run& run, const SmoothingPass& options) {
   const auto smoothing = run.registry().make("smoothing", options.settings);
   QualityIndicators before = quality_indicators(run.mesh());
   for (unsigned cycle = 0; cycle < options.cycles; ++cycle) {
-    const auto points = list_bad_points(run.mesh(), options.threshold, run.begin_sweep("smoothing"));
+    const auto points = list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!scope.proceed(i, points.size())) return;
       scope.attempt(*smoothing, Target::of(points[i]));
@@ -149,7 +149,7 @@ void smooth(Run& run, const SmoothingPass& options) {
 void suppress_points(Run& run, const SuppressionPass& options) {
   PassScope scope(run, "point_suppression");
   const auto contraction = run.registry().make("edge_contraction", options.settings);
-  const auto points = list_bad_points(run.mesh(), options.threshold, run.begin_sweep("point_suppression"));
+  const auto points = list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!scope.proceed(i, points.size())) return;
     scope.attempt(*contraction, Target::of(points[i]));
@@ -160,7 +160,7 @@ void insert_points(Run& run, const InsertionPass& options) {
   PassScope scope(run, "point_insertion");
   const TetMesh& mesh = run.mesh();
   const auto split = run.registry().make("edge_split", options.settings);
-  const auto queue = queue_bad_tets(mesh, options.threshold, run.begin_sweep("point_insertion"));
+  const auto queue = queue_bad_tets(mesh, options.threshold, run.begin_sweep(options.calendar));
   std::unordered_set<std::uint64_t> tried;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     if (!scope.proceed(i, queue.size())) return;
@@ -181,8 +181,8 @@ void insert_points(Run& run, const InsertionPass& options) {
 }
 
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now) {
-  constexpr double kQualityStep = 1e-4;
-  const double bad_step = std::max(1.0, 0.002 * static_cast<double>(before.n_bad));
+  constexpr double kQualityStep = 1e-3;
+  const double bad_step = std::max(1.0, 0.01 * static_cast<double>(before.n_bad));
   if (now.q_worst > before.q_worst + kQualityStep) return true;
   if (static_cast<double>(now.n_bad) <= static_cast<double>(before.n_bad) - bad_step) return true;
   return now.n_bad <= before.n_bad && now.n_bad > 0 && now.q_aver > before.q_aver + kQualityStep;

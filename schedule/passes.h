@@ -6,8 +6,11 @@
 
 namespace tetmend {
 
-/// Options hold the operators to use by name and the parameters of the pass, so that a script can set them.
+// Options hold the operators to use by name and the parameters of the pass, so that a script can set them. `calendar` names the dates by
+// which unchanged neighbourhoods are passed over: passes with other settings, which may succeed where this one failed, need one of
+// their own.
 struct LocalReconnection {
+  std::string calendar = "local_reconnection";
   std::string edge_operator = "recursive_shell_transformation";  ///< empty: none
   ParameterSettings edge_settings;
   std::string face_operator = "multi_face_removal";  ///< empty: none
@@ -17,17 +20,20 @@ struct LocalReconnection {
 };
 
 struct SmoothingPass {
+  std::string calendar = "smoothing";
   ParameterSettings settings;
   Quality threshold = kBadThreshold;
   unsigned cycles = 5;  ///< at most; ends earlier when a cycle brings no progress
 };
 
 struct SuppressionPass {
+  std::string calendar = "point_suppression";
   ParameterSettings settings;
   Quality threshold = kBadThreshold;
 };
 
 struct InsertionPass {
+  std::string calendar = "point_insertion";
   ParameterSettings settings;
   Quality threshold = kBadThreshold;
 };

@@ -16,13 +16,13 @@ Run::Run(TetMesh& mesh, const Registry& registry)
       scratch_(std::make_unique<Scratch>()),
       context_{mesh_, workspace_, *scratch_} {}
 
-Date Run::begin_sweep(std::string_view pass) {
+Date Run::begin_sweep(std::string_view calendar) {
   const Date now = workspace_.date() + 1;
   workspace_.set_date(now);
   for (auto& [name, date] : last_sweep_) {
-    if (name == pass) return std::exchange(date, now);
+    if (name == calendar) return std::exchange(date, now);
   }
-  last_sweep_.emplace_back(pass, now);
+  last_sweep_.emplace_back(calendar, now);
   return 0;
 }
 

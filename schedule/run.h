@@ -57,8 +57,8 @@ class Run {
   unsigned round = 0;  ///< of the schedule; 0 before the main loop
   std::vector<PassRecord> records;
 
-  /// Starts a sweep of the pass; returns the date of its sweep before, 0 if there was none. Later commits carry the new date.
-  Date begin_sweep(std::string_view pass);
+  /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was none. Later commits carry the new date.
+  Date begin_sweep(std::string_view calendar);
 
  private:
   TetMesh& mesh_;

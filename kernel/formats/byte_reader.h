@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -61,6 +62,7 @@ class ByteReader {
   /// Bytes from the present position on; the caller has checked how many there are.
   const char* here() const { return file_.begin() + position_; }
 
+  std::string place_of(const char* where) const { return file_.byte_place(where); }
   [[noreturn]] void fail_at(std::size_t position, std::string_view reason) const {
     file_.fail_at_byte(file_.begin() + position, reason);
   }

@@ -56,13 +56,20 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   bytes_[size_] = '\0';
 }
 
+std::string InputFile::line_place(const char* where) const {
+  return fmt::format("{}:{}", name_, 1 + std::count(begin(), std::min(where, end()), '\n'));
+}
+
+std::string InputFile::byte_place(const char* where) const {
+  return fmt::format("{}: byte {}", name_, where - begin());
+}
+
 void InputFile::fail_at_line(const char* where, std::string_view reason) const {
-  const auto line = 1 + std::count(begin(), std::min(where, end()), '\n');
-  throw Error(fmt::format("{}:{}: {}", name_, line, reason));
+  throw Error(fmt::format("{}: {}", line_place(where), reason));
 }
 
 void InputFile::fail_at_byte(const char* where, std::string_view reason) const {
-  throw Error(fmt::format("{}: byte {}: {}", name_, where - begin(), reason));
+  throw Error(fmt::format("{}: {}", byte_place(where), reason));
 }
 
 std::string in_quotes(std::string_view word) {

@@ -24,10 +24,14 @@ class InputFile {
   const char* end() const { return bytes_.get() + size_; }
   std::size_t size() const { return size_; }
 
-  /// Throws Error "FILE:LINE: reason"; `where` points into the file. Lines are counted only here,
-  /// which keeps reading fast.
+  /// "FILE:LINE" of a pointer into the file. Lines are counted only here, which keeps reading fast.
+  std::string line_place(const char* where) const;
+  /// "FILE: byte N" of a pointer into the file, counted from 0.
+  std::string byte_place(const char* where) const;
+
+  /// Throws Error "FILE:LINE: reason"; `where` points into the file.
   [[noreturn]] void fail_at_line(const char* where, std::string_view reason) const;
-  /// Throws Error "FILE: byte N: reason", counted from 0.
+  /// Throws Error "FILE: byte N: reason".
   [[noreturn]] void fail_at_byte(const char* where, std::string_view reason) const;
 
  private:

@@ -120,7 +120,7 @@ bool is_number_word(std::string_view word) {
 
 class Reader {
  public:
-  explicit Reader(const InputFile& file) : text_(file, '#') {}
+  Reader(const InputFile& file, TetPlace* question) : text_(file, '#'), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -248,6 +248,9 @@ class Reader {
       if (has_repeated_vertex(element.vertices)) {
         text_.fail(repeated_vertex_message(element, 1));
       }
+      if (is_asked_for(question_, elements, element)) {
+        question_->place = text_.place_of(text_.last_word());
+      }
       element.label = text_.label("the reference of an element");
     }
   }
@@ -266,6 +269,7 @@ class Reader {
   }
 
   TextReader text_;
+  TetPlace* question_;
   MeshData mesh_;
   std::vector<std::string_view> seen_;
   std::vector<Section>
@@ -287,9 +291,9 @@ void write_elements(OutputFile& out, std::string_view name, const std::vector<El
 
 }  // namespace
 
-MeshData read_medit_ascii(const std::filesystem::path& file) {
+MeshData read_medit_ascii(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input).read();
+  return Reader(input, question).read();
 }
 
 void write_medit_ascii(const std::filesystem::path& file, const MeshData& mesh) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
 
 namespace tetmend::formats {
@@ -11,7 +12,7 @@ namespace tetmend::formats {
 /// Keeps Vertices, Edges, Triangles, Tetrahedra and RequiredVertices with their references, in any
 /// order of sections; other sections of the format are passed over. The last `End` may be missing
 /// (libigl writes none). @throws Error
-MeshData read_medit_ascii(const std::filesystem::path& file);
+MeshData read_medit_ascii(const std::filesystem::path& file, TetPlace* question = nullptr);
 
 /// Tetrahedra come last, so that a file cut short never passes for a complete one. @throws Error
 void write_medit_ascii(const std::filesystem::path& file, const MeshData& mesh);

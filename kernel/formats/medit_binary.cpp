@@ -40,7 +40,7 @@ constexpr std::array<std::int32_t, 16> foreign_volumes = {9,  10, 30, 33, 46,  4
 
 class Reader {
  public:
-  explicit Reader(const InputFile& file) : bytes_(file) {}
+  Reader(const InputFile& file, TetPlace* question) : bytes_(file), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -231,6 +231,7 @@ class Reader {
       if (has_repeated_vertex(element.vertices)) {
         bytes_.fail_at(row, repeated_vertex_message(element, 1));
       }
+      if (is_asked_for(question_, elements, element)) question_->place = bytes_.place_of(row);
       element.label = read_label<Integer>(at);
       row += numbers * sizeof(Integer);
     }
@@ -248,6 +249,7 @@ class Reader {
   }
 
   ByteReader bytes_;
+  TetPlace* question_;
   std::int32_t version_ = 0;
   std::vector<Section> sections_;
   MeshData mesh_;
@@ -346,9 +348,9 @@ class Writer {
 
 }  // namespace
 
-MeshData read_medit_binary(const std::filesystem::path& file) {
+MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input).read();
+  return Reader(input, question).read();
 }
 
 void write_medit_binary(const std::filesystem::path& file, const MeshData& mesh) {

@@ -4,13 +4,14 @@
 
 #include <filesystem>
 
+#include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
 
 namespace tetmend::formats {
 
 /// Versions 1 to 4 (4- or 8-byte coordinates, file positions and integers) in both byte orders;
 /// keeps the same sections as `read_medit_ascii`. @throws Error
-MeshData read_medit_binary(const std::filesystem::path& file);
+MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question = nullptr);
 
 /// Version 2, or 3 when the file grows beyond 2 GiB, or 4 when a count needs more than 31 bits; in
 /// the byte order of this machine, as the format wants it. @throws Error

@@ -21,7 +21,7 @@ namespace tetmend {
 namespace {
 
 struct Codec {
-  MeshData (*read)(const std::filesystem::path&);
+  MeshData (*read)(const std::filesystem::path&, formats::TetPlace* question);
   void (*write)(const std::filesystem::path&, const MeshData&);
 };
 
@@ -60,10 +60,16 @@ std::span<const MeshFormat> mesh_formats() {
 
 MeshData read_mesh(const std::filesystem::path& file) {
   try {
-    return find_codec(file).read(file);
+    return find_codec(file).read(file, nullptr);
   } catch (const std::bad_alloc&) {
     throw Error(fmt::format("{}: cannot be read: not enough memory", file.string()));
   }
+}
+
+std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
+  formats::TetPlace question{tet, file.string()};
+  find_codec(file).read(file, &question);
+  return question.place;
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {

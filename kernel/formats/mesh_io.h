@@ -2,8 +2,10 @@
 // Reading and writing of tetrahedral mesh files; the format follows from the extension.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "kernel/mesh_data.h"
@@ -32,6 +34,11 @@ std::span<const MeshFormat> mesh_formats();
 /// expected.
 /// Cost: linear in the size of the file, which is held in memory while it is read.
 MeshData read_mesh(const std::filesystem::path& file);
+
+/// Where in the file tet number `tet` (from 0, as in MeshData) stands: "FILE:LINE" (ASCII) or
+/// "FILE: byte N" (binary), for a message about what BuildError found. Reads the file again.
+/// @throws Error as read_mesh().
+std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 
 /// Writes a mesh in the format of the extension; a TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file. Doubles are written so

@@ -87,7 +87,8 @@ class Table {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file) {}
+  Reader(const std::filesystem::path& file, TetPlace* question)
+      : file_(file), question_(question) {}
 
   MeshData read() {
     read_nodes();
@@ -146,6 +147,9 @@ class Reader {
     mesh_.tets.resize(count);
     for (MeshData::Tet& tet : mesh_.tets) {
       read_corners(table, tet);
+      if (is_asked_for(question_, mesh_.tets, tet)) {
+        question_->place = table.text().place_of(table.text().last_word());
+      }
       for (std::int64_t k = 0; k < attributes; ++k) {
         const double value = table.real("an attribute of a tetrahedron");
         if (k == 0) tet.label = rounded_label(table, value);
@@ -204,6 +208,7 @@ class Reader {
   }
 
   std::filesystem::path file_;
+  TetPlace* question_;
   std::int64_t base_ = 0;
   MeshData mesh_;
 };
@@ -249,8 +254,8 @@ void write_rows(OutputFile& out, const std::vector<Element>& elements, bool with
 
 }  // namespace
 
-MeshData read_tetgen(const std::filesystem::path& node_or_ele) {
-  return Reader(node_or_ele).read();
+MeshData read_tetgen(const std::filesystem::path& node_or_ele, TetPlace* question) {
+  return Reader(node_or_ele, question).read();
 }
 
 void write_tetgen(const std::filesystem::path& node_or_ele, const MeshData& mesh) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
 
 namespace tetmend::formats {
@@ -12,7 +13,7 @@ namespace tetmend::formats {
 /// from 0 or 1, as the first line of `.node` has it. The first attribute of a tet is its label,
 /// rounded to an integer; boundary markers are the labels of vertices, triangles and edges; a
 /// missing column is 0. @throws Error
-MeshData read_tetgen(const std::filesystem::path& node_or_ele);
+MeshData read_tetgen(const std::filesystem::path& node_or_ele, TetPlace* question = nullptr);
 
 /// Writes `.node`, `.ele` and `.face`, counting from 0. `.edge` is written when there are edges, or
 /// when such a file exists: left from an older mesh it would be read back as a part of this one.

@@ -61,6 +61,10 @@ class TextReader {
   /// Where the word read last begins.
   const char* last_word() const { return word_; }
 
+  /// "FILE:LINE" or "FILE: byte N".
+  std::string place_of(const char* where) const {
+    return by_byte_ ? file_.byte_place(where) : file_.line_place(where);
+  }
   /// Throws Error about the word read last.
   [[noreturn]] void fail(std::string_view reason) const { fail_at(word_, reason); }
   [[noreturn]] void fail_at(const char* where, std::string_view reason) const;

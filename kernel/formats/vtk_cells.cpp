@@ -21,8 +21,8 @@ constexpr std::array<std::int64_t, 21> passed_cells = {0,  1,  2,  4,  6,  7,  8
 class Assembly {
  public:
   Assembly(const VtkCells& cells, const std::vector<Label>& labels, TextReader& text,
-           MeshData& mesh)
-      : cells_(cells), labels_(labels), text_(text), mesh_(mesh) {}
+           MeshData& mesh, TetPlace* question)
+      : cells_(cells), labels_(labels), text_(text), mesh_(mesh), question_(question) {}
 
   void run() {
     if (cells_.types.size() != cells_.count) {
@@ -130,6 +130,9 @@ class Assembly {
     }
     element.label = labels_.empty() ? 0 : labels_[cell];
     elements.push_back(element);
+    if (is_asked_for(question_, elements, elements.back())) {
+      question_->place = text_.place_of(locate_vertex(begin));
+    }
   }
 
   const char* locate_vertex(std::size_t i) { return cells_.connectivity.locate(text_, i); }
@@ -138,12 +141,14 @@ class Assembly {
   const std::vector<Label>& labels_;
   TextReader& text_;
   MeshData& mesh_;
+  TetPlace* question_;
 };
 
 }  // namespace
 
-void VtkCells::append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text) const {
-  Assembly(*this, labels, text, mesh).run();
+void VtkCells::append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text,
+                         TetPlace* question) const {
+  Assembly(*this, labels, text, mesh, question).run();
 }
 
 }  // namespace tetmend::formats

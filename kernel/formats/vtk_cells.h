@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/formats/tet_place.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_array.h"
 #include "kernel/mesh_data.h"
@@ -26,7 +27,8 @@ struct VtkCells {
   /// each cell, or none.
   /// @throws Error (through `text`) for vertices out of range or repeated, wrong sizes and cells of
   /// other kinds with a volume
-  void append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text) const;
+  void append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text,
+                 TetPlace* question) const;
 };
 
 }  // namespace tetmend::formats

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
 
 namespace tetmend::formats {
@@ -12,7 +13,7 @@ namespace tetmend::formats {
 /// quadrilaterals and other curves and surfaces are passed over; any other volume cell is an error.
 /// Labels of cells and points come from the scalar array of integers whose name is one that mesh
 /// tools use (`vtk_label_names` in the .cpp, best first). @throws Error
-MeshData read_vtk_legacy(const std::filesystem::path& file);
+MeshData read_vtk_legacy(const std::filesystem::path& file, TetPlace* question = nullptr);
 
 /// Binary, in the layout of version 4.2 that also old readers take. Labels go to the cell array
 /// CellEntityIds, as Gmsh has it, and to the point array of that name. Required vertices have no

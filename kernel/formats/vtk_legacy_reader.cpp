@@ -42,7 +42,8 @@ std::string lower_case(std::string_view word) {
 
 class Reader {
  public:
-  explicit Reader(const InputFile& file) : text_(file, TextReader::no_comments) {}
+  Reader(const InputFile& file, TetPlace* question)
+      : text_(file, TextReader::no_comments), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -55,7 +56,7 @@ class Reader {
     if (!has_points_) fail_without("POINTS", end);
     if (!has_cells_) fail_without("CELLS", end);
     if (!has_types_) fail_without("CELL_TYPES", end);
-    cells_.append_to(mesh_, cell_labels_.values, text_);
+    cells_.append_to(mesh_, cell_labels_.values, text_, question_);
     mesh_.point_labels = std::move(point_labels_.values);
     drop_zero_point_labels(mesh_);
     return std::move(mesh_);
@@ -357,6 +358,7 @@ class Reader {
   }
 
   TextReader text_;
+  TetPlace* question_;
   MeshData mesh_;
   int major_version_ = 0;
   bool binary_ = false;
@@ -372,9 +374,9 @@ class Reader {
 
 }  // namespace
 
-MeshData read_vtk_legacy(const std::filesystem::path& file) {
+MeshData read_vtk_legacy(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input).read();
+  return Reader(input, question).read();
 }
 
 }  // namespace tetmend::formats

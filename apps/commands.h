@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The subcommands of tetmend. Each adds itself to the parser and leaves what is to be done.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kernel/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tetmend::apps {
+
+/// The arguments are wrong, as can be told without work on a mesh: exit status 2 instead of 1.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What the user asked for. The parser fills in the action; main runs it.
+struct Invocation {
+  std::vector<std::string> arguments;  ///< without the name of the program
+  std::function<int()> action;         ///< returns the exit status; @throws Error, UsageError
+};
+
+// Precondition of each: `invocation` outlives the parser.
+void add_improve(CLI::App& app, Invocation& invocation);
+void add_quality(CLI::App& app, Invocation& invocation);
+void add_convert(CLI::App& app, Invocation& invocation);
+void add_operators(CLI::App& app, Invocation& invocation);
+void add_schedules(CLI::App& app, Invocation& invocation);
+void add_surface(CLI::App& app, Invocation& invocation);
+
+}  // namespace tetmend::apps

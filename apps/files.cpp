@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What the subcommands do with files: check their names early, load meshes, say what loading found.
+#include "apps/files.h"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/commands.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/output_file.h"
+
+namespace tetmend::apps {
+
+void check_mesh_extension(const std::filesystem::path& file) {
+  std::vector<std::string_view> valid;
+  for (const MeshFormat& format : mesh_formats()) valid.push_back(format.extension);
+  check_extension(file, valid);
+}
+
+void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid) {
+  const std::string given = file.extension().string();
+  std::string lower = given;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::find(valid.begin(), valid.end(), lower) != valid.end()) return;
+  throw UsageError(fmt::format("{}: the extension '{}' is not known here: expected {}{}",
+                               file.string(), given, valid.size() > 1 ? "one of " : "",
+                               fmt::join(valid, ", ")));
+}
+
+void check_writable(const std::filesystem::path& file) {
+  const OutputFile probe(file);  // vanishes without commit()
+}
+
+std::string mesh_format_list() {
+  std::vector<std::string> names;
+  for (const MeshFormat& format : mesh_formats()) {
+    names.push_back(fmt::format("{} ({})", format.name, format.extension));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+TetMesh build_mesh(const std::filesystem::path& file, const MeshData& data, BuildReport& report) {
+  try {
+    return TetMesh(data, &report);
+  } catch (const BuildError& error) {
+    throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
+  return digits;
+}
+
+std::string format_build(const BuildReport& report) {
+  std::string text;
+  const auto note = [&text](std::size_t count, std::string_view one, std::string_view many,
+                            std::string_view what) {
+    if (count == 0) return;
+    text += fmt::format("note: {} {} {}\n", grouped(count), count == 1 ? one : many, what);
+  };
+  if (report.mirrored) {
+    text += "note: the mesh was mirrored: two vertices were swapped in every tet to put it right\n";
+  }
+  note(report.reordered_tets, "tet", "tets", "listed the vertices the other way round: put right");
+  note(report.inverted_tets, "tet", "tets", "of negative volume kept");
+  note(report.flat_tets, "tet", "tets", "of zero volume (or too close to tell) kept");
+  note(report.constrained_faces, "face", "faces", "inside the volume constrained");
+  note(report.loose_triangles, "triangle", "triangles", "that no tet has as a face: kept as is");
+  note(report.loose_edges, "edge", "edges", "that no tet has: kept as is");
+  note(report.unused_points, "point", "points", "that no tet uses: kept as is");
+  return text;
+}
+
+nlohmann::json to_json(const BuildReport& report) {
+  return {{"mirrored", report.mirrored},
+          {"reordered_tets", report.reordered_tets},
+          {"inverted_tets", report.inverted_tets},
+          {"flat_tets", report.flat_tets},
+          {"loose_triangles", report.loose_triangles},
+          {"loose_edges", report.loose_edges},
+          {"unused_points", report.unused_points},
+          {"constrained_faces", report.constrained_faces}};
+}
+
+}  // namespace tetmend::apps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What the subcommands do with files: check their names early, load meshes, say what loading found.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::apps {
+
+/// @throws UsageError when no mesh format has the extension of `file`.
+void check_mesh_extension(const std::filesystem::path& file);
+/// @throws UsageError when the extension is none of `valid` (".json"); case does not matter.
+void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid);
+
+/// Tries whether `file` could be written, and leaves everything as it was.
+/// @throws Error with the reason, such as a folder that does not exist.
+void check_writable(const std::filesystem::path& file);
+
+/// "MEDIT ASCII (.mesh), MEDIT binary (.meshb), ...", for help.
+std::string mesh_format_list();
+
+/// Builds the mesh from what was read of `file`.
+/// @throws Error with the line or byte of the tet when the topology is broken.
+TetMesh build_mesh(const std::filesystem::path& file, const MeshData& data, BuildReport& report);
+
+/// What a user should know about the input, one line each; empty for a mesh without peculiarities.
+std::string format_build(const BuildReport& report);
+nlohmann::json to_json(const BuildReport& report);
+
+/// 1234567 as 1,234,567.
+std::string grouped(std::size_t count);
+
+}  // namespace tetmend::apps

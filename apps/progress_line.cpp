@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Progress of a run as one line of a terminal that is written over and over.
+#include "apps/progress_line.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace tetmend::apps {
+namespace {
+
+/// Asked for each time: the user may resize the window. One column stays free, else some terminals
+/// would begin a new line.
+std::size_t terminal_width() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 79;
+  return size.ws_col - 1u;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) == 1) {}
+
+void ProgressLine::show(std::string_view phase) {
+  if (active_) draw(std::string(phase));
+}
+
+void ProgressLine::progress(std::string_view phase, unsigned round, double share) {
+  constexpr auto kInterval = std::chrono::milliseconds(100);
+  if (!active_) return;
+  const Clock::time_point now = Clock::now();
+  if (now - last_drawn_ < kInterval) return;
+  last_drawn_ = now;
+  draw(fmt::format("round {:2}  {:<25} {:3.0f} %   bad {:>9}   worst {:7.4f}   {:.1f} s", round,
+                   phase, 100 * share, now_.n_bad, now_.q_worst,
+                   std::chrono::duration<double>(now - start_).count()));
+}
+
+void ProgressLine::pass_done(std::string_view, unsigned, const QualityIndicators& now) {
+  now_ = now;
+}
+
+void ProgressLine::clear() {
+  if (drawn_width_ == 0) return;
+  draw("");
+  std::fputc('\r', stderr);
+  std::fflush(stderr);
+}
+
+void ProgressLine::draw(std::string line) {
+  const std::size_t width = terminal_width();
+  line.resize(std::min(line.size(), width));
+  const std::size_t length = line.size();
+  // Blanks over the rest of the longer line before: every terminal understands them.
+  line.resize(std::max(length, std::min(drawn_width_, width)), ' ');
+  fmt::print(stderr, "\r{}", line);
+  std::fflush(stderr);
+  drawn_width_ = length;
+}
+
+}  // namespace tetmend::apps
