@@ -1,1 +1,58 @@
 // SPDX-License-Identifier: MIT
+// tetmend convert: the same mesh in another file format.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "kernel/formats/mesh_io.h"
+
+namespace tetmend::apps {
+namespace {
+
+struct Options {
+  std::filesystem::path input;
+  std::filesystem::path output;
+};
+
+/// No adjacency is built, so that a mesh of broken topology can be converted too.
+int run_convert(const Options& options) {
+  check_mesh_extension(options.input);
+  check_mesh_extension(options.output);
+  check_writable(options.output);
+  const MeshData data = read_mesh(options.input);
+  write_mesh(options.output, data);
+  fmt::print("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
+             grouped(data.points.size()), grouped(data.tets.size()), grouped(data.triangles.size()),
+             grouped(data.edges.size()));
+  return 0;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("convert", "Write a mesh in another file format");
+  command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
+  command->add_option("OUT", options->output, "File to write")->required()->type_name("");
+  command->footer(fmt::format(
+      R"(Keeps points, tets, triangles, edges and their labels, and their order; coordinates keep all
+their bits. Required vertices survive in MEDIT files only. Nothing is repaired: a mesh whose
+topology is broken, or whose tets are inverted, is converted as it is.
+
+Formats, by extension:
+{}A TetGen mesh is named by its .node or .ele file; the others of the same stem go with it.
+
+Examples:
+  tetmend convert part.mesh part.vtk
+  tetmend convert part.ele part.meshb
+
+Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)",
+      mesh_format_list()));
+  command->callback(
+      [options, &invocation] { invocation.action = [options] { return run_convert(*options); }; });
+}
+
+}  // namespace tetmend::apps

@@ -1,1 +1,229 @@
 // SPDX-License-Identifier: MIT
+// tetmend improve: a mesh goes in, a better one comes out.
+//
+//   check names and folders | read | build | measure | run the schedule | measure | compare | write
+//   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual
+#include <chrono>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "apps/improve_report.h"
+#include "apps/interruption.h"
+#include "apps/progress_line.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/output_file.h"
+#include "kernel/integrity.h"
+#include "kernel/surface.h"
+#include "schedule/shell_schedule.h"
+
+namespace tetmend::apps {
+namespace {
+
+constexpr std::string_view kShell = "shell";
+constexpr int kMaxThreads = 1024;
+
+struct Options {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::filesystem::path report;  ///< empty: none
+  std::string schedule{kShell};
+  int threads = 1;
+  bool quiet = false;
+};
+
+/// Adds the time from its making to its end to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What would stop the run at its end is better found at its beginning.
+void check(const Options& options) {
+  if (options.schedule != kShell) {
+    throw UsageError(fmt::format("--schedule: there is no schedule '{}': expected {}",
+                                 options.schedule, kShell));
+  }
+  check_mesh_extension(options.input);
+  check_mesh_extension(options.output);
+  if (!options.report.empty()) {
+    constexpr std::string_view kJson = ".json";
+    check_extension(options.report, {&kJson, 1});
+    check_writable(options.report);
+  }
+  check_writable(options.output);
+}
+
+MeshCheck measure(const TetMesh& mesh) {
+  return {.statistics = compute_statistics(mesh),
+          .surface_fingerprint = surface_fingerprint(mesh),
+          .not_positive = count_not_positive(mesh)};
+}
+
+TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& report) {
+  MeshData data;
+  {
+    const Stopwatch watch(report.seconds.reading);
+    progress.show(fmt::format("reading {}", options.input.string()));
+    data = read_mesh(options.input);
+  }
+  const Stopwatch watch(report.seconds.building);
+  progress.show("building the mesh");
+  TetMesh mesh = build_mesh(options.input, data, report.build);
+  data = {};
+  mesh.sort_spatially();
+  return mesh;
+}
+
+void run_schedule(TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
+  Registry registry;
+  register_builtin_operators(registry);
+  const Interruption interruption;
+  Run run(mesh, registry);
+  run.set_listener(&progress);
+  run.set_cancel_flag(&interruption.requested());
+  progress.set_indicators(quality_indicators(mesh));
+  {
+    const Stopwatch watch(report.seconds.improving);
+    improve(run);
+  }
+  report.interrupted = run.cancelled();
+  report.passes = std::move(run.records);
+}
+
+double touched_share(const TetMesh& mesh) {
+  std::size_t touched = 0;
+  for (std::size_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(static_cast<std::uint32_t>(i));
+    if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++touched;
+  }
+  return static_cast<double>(touched) / static_cast<double>(mesh.tet_count());
+}
+
+/// A broken promise would be a bug of tetmend. The user's file must not suffer from it.
+void check_promises(const ImproveReport& report) {
+  constexpr double kMostVolumeChange = 1e-9;
+  std::string_view broken;
+  if (!report.surface_unchanged()) broken = "the surface changed";
+  if (report.after.not_positive > report.before.not_positive) broken = "a tet got inverted";
+  if (report.before.not_positive == 0 && report.volume_change() > kMostVolumeChange) {
+    broken = "the volume changed";
+  }
+  if (broken.empty()) return;
+  throw Error(
+      fmt::format("{}: nothing was written, for {}: this is a bug of tetmend, please report it",
+                  report.output.string(), broken));
+}
+
+void write_report(const std::filesystem::path& file, const ImproveReport& report) {
+  OutputFile out(file);
+  out.put(to_json(report).dump(2));
+  out.put('\n');
+  out.commit();
+}
+
+std::size_t peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+int run_improve(const Options& options, const Invocation& invocation) {
+  check(options);
+  ProgressLine progress(!options.quiet);
+  ImproveReport report{.arguments = invocation.arguments,
+                       .input = options.input,
+                       .output = options.output,
+                       .schedule = options.schedule,
+                       .threads = options.threads};
+  TetMesh mesh = load(options, progress, report);
+  {
+    const Stopwatch watch(report.seconds.measuring);
+    progress.show("measuring");
+    report.before = measure(mesh);
+  }
+  run_schedule(mesh, progress, report);
+  {
+    const Stopwatch watch(report.seconds.measuring);
+    progress.show("measuring");
+    report.after = measure(mesh);
+    report.touched_share = touched_share(mesh);
+  }
+  check_promises(report);
+  {
+    const Stopwatch watch(report.seconds.writing);
+    progress.show(fmt::format("writing {}", options.output.string()));
+    write_mesh(options.output, mesh.to_data());
+  }
+  report.peak_memory = peak_memory();
+  if (!options.report.empty()) write_report(options.report, report);
+  progress.clear();
+  if (!options.quiet) {
+    fmt::print("tetmend {}: {} -> {}\n\n{}", TETMEND_VERSION, options.input.string(),
+               options.output.string(), format_report(report));
+  }
+  if (report.interrupted) throw Error("interrupted: wrote the mesh as improved so far");
+  return 0;
+}
+
+}  // namespace
+
+void add_improve(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "improve", "Remove slivers and raise the worst dihedral angles; the surface stays as it is");
+  command->add_option("IN", options->input, "Mesh to improve")->required()->type_name("");
+  command->add_option("-o,--output", options->output, "File for the improved mesh; may be IN")
+      ->required()
+      ->type_name("OUT");
+  command
+      ->add_option("--schedule", options->schedule,
+                   "What is tried in which order: see 'tetmend schedules'")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      ->add_option("--threads", options->threads,
+                   "Worker threads, 1 to 1024. This version works on one whatever is asked "
+                   "for; the result is the same for every number")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMaxThreads));
+  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  command
+      ->add_option("--report", options->report,
+                   "Write everything that is printed, and more, as JSON")
+      ->type_name("FILE.json");
+  command->footer(fmt::format(
+      R"(Prints the statistics before and after, the time of each pass, and checks that the surface is
+untouched and no tet got inverted. On a terminal a line shows the progress.
+Ctrl-C stops the work; OUT is still written, with the mesh as improved so far, and the exit status
+is 1. Ctrl-C again ends the program at once. OUT appears only when it is complete: an older file of
+that name stays until then. The same input gives the same output, byte for byte.
+
+Formats, by extension:
+{}
+Examples:
+  tetmend improve part.mesh -o better.mesh
+  tetmend improve part.ele -o better.vtk --report better.json --quiet
+
+Exit status: 0 success, 1 the work failed or was interrupted, 2 wrong usage)",
+      mesh_format_list()));
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] { return run_improve(*options, invocation); };
+  });
+}
+
+}  // namespace tetmend::apps

@@ -1,1 +1,76 @@
 // SPDX-License-Identifier: MIT
+// tetmend surface: triangles of a mesh for programs that show or compare surfaces.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/surface.h"
+
+namespace tetmend::apps {
+namespace {
+
+struct Options {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  bool bad = false;
+  bool constraints = false;
+};
+
+int run_surface(const Options& options) {
+  check_mesh_extension(options.input);
+  try {
+    check_surface_extension(options.output);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+  check_writable(options.output);
+  BuildReport build;
+  const TetMesh mesh = build_mesh(options.input, read_mesh(options.input), build);
+  const SurfaceMesh surface = options.bad           ? extract_bad_faces(mesh)
+                              : options.constraints ? extract_constraints(mesh)
+                                                    : extract_boundary(mesh);
+  write_surface(options.output, surface);
+  fmt::print("{}: {} vertices, {} triangles\n", options.output.string(),
+             grouped(surface.mesh.n_vertices()), grouped(surface.mesh.n_faces()));
+  return 0;
+}
+
+}  // namespace
+
+void add_surface(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("surface", "Write the boundary of a mesh as triangles");
+  command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
+  command->add_option("OUT", options->output, "File to write: .off, .obj, .ply or .stl")
+      ->required()
+      ->type_name("");
+  CLI::Option* bad = command->add_flag("--bad", options->bad,
+                                       "Instead of the boundary the faces of the bad tets\n"
+                                       "(minimum sine of the dihedral angles < 0.5)");
+  command
+      ->add_flag("--constraints", options->constraints,
+                 "Instead of the boundary the faces inside the\n"
+                 "volume that improving keeps: between two labels,\n"
+                 "or named by the file")
+      ->excludes(bad);
+  command->footer(fmt::format(
+      R"(The triangles of the boundary are listed counterclockwise as seen from outside. Where the
+surface is not manifold, vertices appear twice.
+
+Mesh formats, by extension:
+{}
+Examples:
+  tetmend surface part.mesh part.stl
+  tetmend surface part.mesh slivers.ply --bad
+
+Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)",
+      mesh_format_list()));
+  command->callback(
+      [options, &invocation] { invocation.action = [options] { return run_surface(*options); }; });
+}
+
+}  // namespace tetmend::apps

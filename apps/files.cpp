@@ -38,11 +38,15 @@ void check_writable(const std::filesystem::path& file) {
 }
 
 std::string mesh_format_list() {
-  std::vector<std::string> names;
+  std::string text;
+  std::string_view last;
   for (const MeshFormat& format : mesh_formats()) {
-    names.push_back(fmt::format("{} ({})", format.name, format.extension));
+    if (format.name != last)
+      text += fmt::format("{}  {:<16}", text.empty() ? "" : "\n", format.name);
+    text += fmt::format(" {}", format.extension);
+    last = format.name;
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return text + '\n';
 }
 
 TetMesh build_mesh(const std::filesystem::path& file, const MeshData& data, BuildReport& report) {

@@ -22,7 +22,7 @@ void check_extension(const std::filesystem::path& file, std::span<const std::str
 /// @throws Error with the reason, such as a folder that does not exist.
 void check_writable(const std::filesystem::path& file);
 
-/// "MEDIT ASCII (.mesh), MEDIT binary (.meshb), ...", for help.
+/// Names and extensions for help, one format a line.
 std::string mesh_format_list();
 
 /// Builds the mesh from what was read of `file`.

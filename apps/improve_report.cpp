@@ -29,7 +29,7 @@ std::vector<PassTotal> total_by_name(const std::vector<PassRecord>& passes) {
   for (const PassRecord& pass : passes) {
     auto total = std::find_if(totals.begin(), totals.end(),
                               [&](const PassTotal& t) { return t.name == pass.name; });
-    if (total == totals.end()) total = totals.insert(total, {.name = pass.name});
+    if (total == totals.end()) total = totals.insert(total, PassTotal{pass.name});
     ++total->calls;
     total->attempts += pass.attempts();
     total->accepted += pass.accepted();
@@ -81,8 +81,8 @@ std::string format_checks(const ImproveReport& report) {
   line("volume", fmt::format("{:.10g}, relative change {:.1e}", report.after.statistics.volume,
                              report.volume_change()));
   line("tets touched", fmt::format("{:.1f} %", 100 * report.touched_share));
-  line("time", fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},", s.total(),
-                           s.reading, s.building, s.measuring));
+  line("time", fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",
+                           s.total(), s.reading, s.building, s.measuring));
   line("", fmt::format("improving {:.2f}, writing {:.2f}", s.improving, s.writing));
   line("speed", fmt::format("{} tets a second of improving",
                             grouped(static_cast<std::size_t>(report.tets_per_second()))));
@@ -109,9 +109,9 @@ nlohmann::json to_json(const PassRecord& pass) {
 }
 
 nlohmann::json to_json(const Timing& seconds) {
-  return {{"total", seconds.total()},         {"reading", seconds.reading},
-          {"building", seconds.building},     {"measuring", seconds.measuring},
-          {"improving", seconds.improving},   {"writing", seconds.writing}};
+  return {{"total", seconds.total()},       {"reading", seconds.reading},
+          {"building", seconds.building},   {"measuring", seconds.measuring},
+          {"improving", seconds.improving}, {"writing", seconds.writing}};
 }
 
 }  // namespace

@@ -1,1 +1,116 @@
 // SPDX-License-Identifier: MIT
+// The command line program: finds out what the user wants, runs it, turns errors into exit
+// statuses.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "apps/help_formatter.h"
+
+namespace tetmend::apps {
+namespace {
+
+enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2 };
+
+int complain(Status status, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fflush(stdout);
+  fmt::print(stderr, "tetmend: {}\n", message);
+  return status;
+}
+
+std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
+  auto app = std::make_unique<CLI::App>(
+      "tetmend improves tetrahedral meshes: it removes slivers and raises the worst dihedral\n"
+      "angles while the surface stays exactly as it was.",
+      "tetmend");
+  app->set_version_flag("--version", "tetmend " TETMEND_VERSION);
+  app->require_subcommand(1);
+  app->formatter(std::make_shared<HelpFormatter>());
+  app->footer(fmt::format(
+      R"(Mesh formats, by extension:
+{}
+Examples:
+  tetmend improve part.mesh -o better.mesh     improve a mesh
+  tetmend quality better.mesh                  look at its dihedral angles
+  tetmend improve --help                       all about one subcommand
+
+Exit status: 0 success, 1 the work failed (bad file, cannot write), 2 wrong usage)",
+      mesh_format_list()));
+  add_improve(*app, invocation);
+  add_quality(*app, invocation);
+  add_convert(*app, invocation);
+  add_surface(*app, invocation);
+  add_operators(*app, invocation);
+  add_schedules(*app, invocation);
+  return app;
+}
+
+/// The parser's own messages do not say what would be right for a missing or unknown subcommand.
+std::string describe(const CLI::ParseError& error, const CLI::App& app,
+                     const Invocation& invocation) {
+  const auto chosen = app.get_subcommands();
+  if (!chosen.empty()) {
+    return fmt::format("{} (see tetmend {} --help)", error.what(), chosen.front()->get_name());
+  }
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const std::string& argument : invocation.arguments) {
+    if (argument.starts_with("-")) continue;
+    return fmt::format("unknown subcommand '{}': expected one of {}", argument,
+                       fmt::join(names, ", "));
+  }
+  if (invocation.arguments.empty()) {
+    return fmt::format("a subcommand is missing: expected one of {} (see tetmend --help)",
+                       fmt::join(names, ", "));
+  }
+  return fmt::format("{} (see tetmend --help)", error.what());
+}
+
+int run(int argc, char** argv) {
+  Invocation invocation;
+  invocation.arguments.assign(argv + std::min(argc, 1), argv + argc);
+  const auto app = make_parser(invocation);
+  try {
+    app->parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app->exit(error);  // prints help or version
+    return complain(kWrongUsage, describe(error, *app, invocation));
+  }
+  return invocation.action();
+}
+
+int run_and_catch(int argc, char** argv) {
+  try {
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      return complain(kFailed, "cannot write to standard output");
+    }
+    return status;
+  } catch (const UsageError& error) {
+    return complain(kWrongUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(kFailed, error.what());
+  } catch (...) {
+    return complain(kFailed, "unexpected failure");
+  }
+}
+
+}  // namespace
+}  // namespace tetmend::apps
+
+int main(int argc, char** argv) {
+  return tetmend::apps::run_and_catch(argc, argv);
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Orientation of every tet by exact arithmetic: the final word on whether a mesh is valid.
+// Signs of tet volumes without rounding: the last word on whether a mesh is valid.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,20 @@
 
 namespace tetmend {
 
-struct OrientationCounts {
+/// How many tets have a volume of each sign.
+struct ExactOrientation {
   std::size_t positive = 0;
-  std::size_t flat = 0;      ///< volume exactly zero
-  std::size_t inverted = 0;  ///< negative volume
+  std::size_t zero = 0;
+  std::size_t negative = 0;
+  friend bool operator==(const ExactOrientation&, const ExactOrientation&) = default;
 };
 
-/// Counts the live tets by the exact sign of their volume (CGAL's filtered kernel). Cost: linear, exact arithmetic only where
-/// rounding leaves the sign open.
-OrientationCounts count_orientations(const TetMesh& mesh);
+/// Sign of volume6(a, b, c, d) in exact arithmetic: -1, 0 or 1. Precondition: finite coordinates.
+/// Cost: a filter of floating-point operations decides nearly always, rationals the rest (CGAL's
+/// filtered kernel).
+int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d);
+
+/// Exact signs of all live tets. Cost: linear.
+ExactOrientation count_orientations(const TetMesh& mesh);
 
 }  // namespace tetmend

@@ -1,35 +1,49 @@
 // SPDX-License-Identifier: MIT
-// Is the mesh what it claims to be? Findings instead of a yes or no.
+// Checks that the arrays of a mesh agree with each other: what tests run after every operation.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
-/// One thing that is wrong. Handles are invalid where they do not apply.
+/// One broken promise of a mesh.
 struct Finding {
   enum class Kind : std::uint8_t {
-    adjacency,    ///< neighbours do not point back or do not share the face
-    orientation,  ///< neighbours list their common face in the same sense
-    vertex_link,  ///< a vertex names a tet that does not contain it
-    boundary,     ///< boundary faces and surface triangles disagree
-    constraint,   ///< constraint marks and surface triangles disagree
-    label,        ///< two labels meet without a constrained face
-    quality,      ///< a cached quality is not what the points give
-    count         ///< the number of live slots is wrong
+    adjacency,    ///< vertices of a tet, or a face that its two sides do not agree on
+    orientation,  ///< two tets list their common face in the same sense: they lie on one side of it
+    vertex_link,  ///< the stored tet of a vertex
+    boundary,     ///< outside faces, surface triangles and boundary flags
+    label,        ///< different labels across a face that is not constrained
+    quality,      ///< cached quality and points
+    constraint,   ///< constraint bits and fixed flags
+    count         ///< numbers of live tets and vertices
   };
-  Kind kind;
-  TetHandle tet;
-  VertexHandle vertex;
-  std::string message;
+
+  Kind kind{};
+  TetHandle tet;        ///< where, if it is about a tet
+  VertexHandle vertex;  ///< where, if it is about a vertex
+  std::string message;  ///< one line
 };
 
-/// All findings, empty for a sound mesh. Positive volume is not asked for: inverted input is allowed (see exact_orientation.h).
-/// Cost: linear.
-std::vector<Finding> check_integrity(const TetMesh& mesh);
+/// Word for a kind of finding, as in the enumeration.
+std::string_view name_of(Finding::Kind kind);
+
+/// Finds all contradictions, at most `limit` of them; empty when the mesh is sound. Needs only
+/// that the arrays have the right lengths: any number in them may be wrong. The sign of volumes is
+/// not looked at, because inverted input is allowed: see count_not_positive.
+/// Cost: linear, apart from sorting the surface triangles.
+std::vector<Finding> check_integrity(const TetMesh& mesh, std::size_t limit = 100);
+
+/// Findings as text, one a line; empty for none.
+std::string to_string(const std::vector<Finding>& findings);
+
+/// Live tets whose volume is not positive, in exact arithmetic. Cost: linear.
+std::size_t count_not_positive(const TetMesh& mesh);
 
 }  // namespace tetmend

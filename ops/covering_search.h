@@ -50,8 +50,9 @@ struct Covering {
 template <unsigned Worst>
 class BasicCoveringSearch {
  public:
-  /// Finds the best covering other than the old one. False if there is none above the floor. Ties go to the smaller degree, then
-  /// to the lower indices. Cost: O(m^3) for ring size m, no memory.
+  /// Finds the best covering other than the old one. False if there is none above the floor. A covering with a core may be missed if it
+  /// does not rank above the old mesh. Ties of whole vectors go to the smaller degree, then to the lower indices. Cost: O(m^3) for ring
+  /// size m, no memory.
   bool run(const CoveringProblem& problem, Covering& best);
 
   /// Triangles and core sides that the last run evaluated.

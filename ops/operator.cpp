@@ -22,6 +22,15 @@ Verdict Operator::try_target(OperatorContext& context, Target target) const {
   return Verdict::accepted;
 }
 
+void report_end(OperatorContext& context, Verdict verdict) {
+  const Scratch& scratch = context.scratch;
+  if (verdict == Verdict::accepted) {
+    context.trace->attempt_ends(to_string(verdict), scratch.before, scratch.now);
+  } else {
+    context.trace->attempt_ends(to_string(verdict), {}, {});
+  }
+}
+
 Verdict Operator::attempt(OperatorContext& context, Target target) const {
   if (context.trace == nullptr) return try_target(context, target);
 
@@ -38,9 +47,7 @@ Verdict Operator::attempt(OperatorContext& context, Target target) const {
   }
   context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level});
   const Verdict verdict = try_target(context, target);
-  const bool accepted = verdict == Verdict::accepted;
-  context.trace->attempt_ends(to_string(verdict), accepted ? std::span<const Quality>(context.scratch.before) : std::span<const Quality>(),
-                              accepted ? std::span<const Quality>(context.scratch.now) : std::span<const Quality>());
+  report_end(context, verdict);
   return verdict;
 }
 

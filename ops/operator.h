@@ -103,4 +103,7 @@ constexpr Verdict to_verdict(EditResult result) {
 /// True if all that the transaction changed is better now; leaves the vectors in the scratch.
 bool is_better(const Transaction& transaction, Scratch& scratch);
 
+/// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last comparison if it was accepted.
+void report_end(OperatorContext& context, Verdict verdict);
+
 }  // namespace tetmend

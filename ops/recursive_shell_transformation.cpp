@@ -30,6 +30,8 @@ class Recursion {
   Verdict reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, int level);
 
  private:
+  Verdict reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level);
+  Verdict try_transform(const Shell& shell, int level);
   struct Ancestor {
     VertexHandle a;
     VertexHandle b;
@@ -106,6 +108,15 @@ ShellLocks Recursion::locks(const Shell& shell, int level) const {
 }
 
 Verdict Recursion::transform(const Shell& shell, int level) {
+  if (context_.trace == nullptr) return try_transform(shell, level);
+  const std::array<VertexHandle, 2> edge = {shell.a, shell.b};
+  context_.trace->attempt_begins({"shell_transformation", edge, static_cast<unsigned>(level)});
+  const Verdict verdict = try_transform(shell, level);
+  report_end(context_, verdict);
+  return verdict;
+}
+
+Verdict Recursion::try_transform(const Shell& shell, int level) {
   --budget_;
   Verdict verdict = propose_covering(context_, shell, locks(shell, level), true);
   if (verdict != Verdict::accepted) return verdict;
@@ -150,6 +161,19 @@ VertexHandle Recursion::pick_link_edge(const Shell& shell, unsigned i, int level
   return a_reflex ? shell.a : shell.b;
 }
 
+/// The recursive call for the supporting face at ring vertex i: removes the link edge from `end`.
+Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level) {
+  const VertexHandle p = shell.ring[i];
+  const VertexHandle face = end == shell.a ? shell.b : shell.a;
+  ancestors_[static_cast<std::size_t>(level)] = {shell.a, shell.b};
+  if (context_.trace == nullptr) return reduce(end, p, shell.tets[i], face, level + 1);
+  const std::array<VertexHandle, 2> edge = {end, p};
+  context_.trace->attempt_begins({"recursive_shell_transformation", edge, static_cast<unsigned>(level + 1)});
+  const Verdict verdict = reduce(end, p, shell.tets[i], face, level + 1);
+  context_.trace->attempt_ends(to_string(verdict), {}, {});
+  return verdict;
+}
+
 Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, int level) {
   Shell shell;
   State state = locate(a, b, hint, face, shell);
@@ -171,9 +195,8 @@ Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, Vertex
     for (unsigned i = 0; i < shell.degree && !smaller; ++i) {
       const VertexHandle end = pick_link_edge(shell, i, level);
       if (!end.is_valid()) continue;
-      ancestors_[static_cast<std::size_t>(level)] = {a, b};
       const std::size_t changes = changes_;
-      reduce(end, shell.ring[i], shell.tets[i], end == a ? b : a, level + 1);
+      reduce_link_edge(shell, i, end, level);
       if (changes_ == changes) continue;
       state = relocate(a, b, face, shell);
       if (state == State::gone || state == State::reduced) return Verdict::accepted;

@@ -160,7 +160,9 @@ void insert_points(Run& run, const InsertionPass& options) {
   PassScope scope(run, "point_insertion");
   const TetMesh& mesh = run.mesh();
   const auto split = run.registry().make("edge_split", options.settings);
-  const auto queue = queue_bad_tets(mesh, options.threshold, run.begin_sweep(options.calendar));
+  auto queue = queue_bad_tets(mesh, options.threshold, run.begin_sweep(options.calendar));
+  const auto most = static_cast<std::size_t>(options.share * static_cast<double>(mesh.tet_count()));
+  if (queue.size() > std::max(most, kFewTets)) queue.resize(std::max(most, kFewTets));
   std::unordered_set<std::uint64_t> tried;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     if (!scope.proceed(i, queue.size())) return;
@@ -182,7 +184,7 @@ void insert_points(Run& run, const InsertionPass& options) {
 
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now) {
   constexpr double kQualityStep = 1e-3;
-  const double bad_step = std::max(1.0, 0.01 * static_cast<double>(before.n_bad));
+  const double bad_step = std::max(1.0, 0.03 * static_cast<double>(before.n_bad));
   if (now.q_worst > before.q_worst + kQualityStep) return true;
   if (static_cast<double>(now.n_bad) <= static_cast<double>(before.n_bad) - bad_step) return true;
   return now.n_bad <= before.n_bad && now.n_bad > 0 && now.q_aver > before.q_aver + kQualityStep;

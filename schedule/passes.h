@@ -36,7 +36,11 @@ struct InsertionPass {
   std::string calendar = "point_insertion";
   ParameterSettings settings;
   Quality threshold = kBadThreshold;
+  double share = 1;  ///< of the mesh: at most that many tets are tried, the worst, but never fewer than kFewTets
 };
+
+/// A pass limited to a share of the mesh may always try this many tets.
+inline constexpr std::size_t kFewTets = 200;
 
 /// [chen, Alg. 5]: bad tets from the worst up; edges of the tet in the order of their dihedral angle's sine, then faces, until the tet is gone.
 void local_reconnection(Run& run, const LocalReconnection& options);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -284,6 +286,19 @@ TEST_CASE("A star of 16 points loses its tips, and its edge only if there must b
     CHECK(tets.worst < worst);
     CHECK(tets.volume6 == doctest::Approx(before.volume6).epsilon(1e-12));
   }
+}
+
+TEST_CASE(
+    "Coverings that keep the same worst tet tie in a search by that tet, and least degree wins") {
+  TestShell star = make_round_shell(8, 1, 0.4);
+  star.old_sides[0] = 0.01f;
+  CoveringProblem problem = star.problem(0);
+  problem.locked_edges = 0b1;
+  BasicCoveringSearch<1> search;
+  Covering covering;
+  REQUIRE(search.run(problem, covering));
+  // No third ring vertex sees ab from the other side of both 0 and 1, so degree 3 is out of reach.
+  CHECK(covering.degree == 4);
 }
 
 TEST_CASE("No covering is found above a floor that no tet reaches, after one look at each ear") {

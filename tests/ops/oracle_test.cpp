@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -22,8 +24,6 @@
 using namespace tetmend;
 
 namespace {
-
-// ---- All coverings of a ring, as combinations ---------------------------------------------------
 
 // Vertices are numbers: 0 .. m-1 the ring, m and m+1 the ends a and b of the edge.
 using Chain = std::vector<unsigned>;  // ring vertices, ascending
@@ -117,8 +117,11 @@ std::map<Face, unsigned> count_faces(const std::vector<Tet>& tets) {
 
 std::set<Face> faces_around(Edge edge, const std::vector<Tet>& tets) {
   std::set<Face> around;
-  for (const auto& [face, n] : count_faces(tets)) {
-    const auto has = [&](unsigned v) { return std::count(face.begin(), face.end(), v) > 0; };
+  for (const auto& entry : count_faces(tets)) {
+    const Face& face = entry.first;
+    const auto has = [&](unsigned v) {
+      return std::find(face.begin(), face.end(), v) != face.end();
+    };
     if (has(edge[0]) && has(edge[1])) around.insert(face);
   }
   return around;
@@ -217,8 +220,6 @@ void lock(const Ring& ring, unsigned n, CoveringProblem& problem) {
     problem.locked_edges |= 1u << (n - 2 * ring.m);
   }
 }
-
-// ---- Random shells ------------------------------------------------------------------------------
 
 class Random {
  public:
@@ -345,8 +346,6 @@ Case random_case(Random& random, unsigned m, const Shape& shape, bool is_sandwic
   }
   return c;
 }
-
-// ---- What a search must find --------------------------------------------------------------------
 
 /// The search computes the same qualities by other operations, in single precision.
 constexpr double kTolerance = 1e-6;

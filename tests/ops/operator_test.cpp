@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+// The fixed order of an attempt, what the trace hears of it, and that it takes no memory from the
+// heap.
+#include "ops/operator.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <new>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "ops/registry.h"
+#include "tests/support/zoo.h"
+
+// ---- Counts what the heap is asked for ----------------------------------------------------------
+
+namespace {
+bool counting = false;
+std::size_t allocations = 0;
+
+void* take(std::size_t size, std::size_t alignment) {
+  if (counting) ++allocations;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return take(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new[](std::size_t size) {
+  return take(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return take(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return take(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+struct Worker {
+  explicit Worker(const MeshData& data)
+      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  Verdict attempt(const Operator& op, Target target, TraceSink* trace = nullptr,
+                  unsigned level = 0) {
+    OperatorContext context{mesh, workspace, *scratch, trace, level};
+    return op.attempt(context, target);
+  }
+
+  TetMesh mesh;
+  Workspace workspace;
+  std::unique_ptr<Scratch> scratch;
+};
+
+/// An operator whose stages the test writes; notes which of them ran.
+class Scripted final : public Operator {
+ public:
+  using Apply = std::function<Verdict(OperatorContext&, Transaction&)>;
+  Scripted(Verdict precondition, Verdict evaluate, Apply apply)
+      : Operator(kInfo),
+        precondition_(precondition),
+        evaluate_(evaluate),
+        apply_(std::move(apply)) {}
+  mutable std::string stages;
+
+ protected:
+  Verdict precondition(const OperatorContext&, Target) const override {
+    stages += "p";
+    return precondition_;
+  }
+  Verdict evaluate(OperatorContext&, Target) const override {
+    stages += "e";
+    return evaluate_;
+  }
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+    stages += "a";
+    return apply_(context, transaction);
+  }
+
+ private:
+  inline static const OperatorInfo kInfo = {"scripted", TargetKind::tet, "", {}, nullptr};
+  Verdict precondition_;
+  Verdict evaluate_;
+  Apply apply_;
+};
+
+const Target kFirstTet = Target::of(TetHandle(0));
+
+/// A shell of three: tall, so that its two-tet form is better; low, so that it is worse.
+MeshData shell_of_three(double height) {
+  return shell_mesh({.degree = 3, .height = height});
+}
+
+Verdict remove_edge_of_three(OperatorContext& context, Transaction& transaction) {
+  const TetHandle t(0);
+  Shell shell;
+  const auto edge = find_edge(context.mesh, VertexHandle(0), VertexHandle(1), context.workspace, t);
+  REQUIRE(edge.has_value());
+  REQUIRE(find_shell(context.mesh, *edge, shell) == ShellKind::closed);
+  const std::vector<TetHandle> old(shell.tets.begin(), shell.tets.begin() + 3);
+  const std::vector<TetVertices> created = {{shell.a, shell.ring[0], shell.ring[1], shell.ring[2]},
+                                            {shell.ring[0], shell.ring[1], shell.ring[2], shell.b}};
+  return to_verdict(transaction.replace_cavity(old, created));
+}
+
+struct Recorder final : TraceSink {
+  std::vector<std::string> events;
+  void attempt_begins(const AttemptEvent& event) override {
+    std::string text = std::string(event.operator_name) + " at";
+    for (const VertexHandle v : event.target) text += " " + std::to_string(v.index());
+    events.push_back(text + " level " + std::to_string(event.level));
+  }
+  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+                    std::span<const Quality> now) override {
+    events.push_back(std::string(verdict) + " " + std::to_string(before.size()) + " " +
+                     std::to_string(now.size()));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an attempt ends at the first stage that refuses") {
+  Worker worker(shell_of_three(1.4));
+  const TetMesh start = worker.mesh;
+  const auto edit = [](OperatorContext& context, Transaction& transaction) {
+    return remove_edge_of_three(context, transaction);
+  };
+  const Scripted first(Verdict::constrained, Verdict::accepted, edit);
+  CHECK(worker.attempt(first, kFirstTet) == Verdict::constrained);
+  CHECK(first.stages == "p");
+  const Scripted second(Verdict::accepted, Verdict::depth_spent, edit);
+  CHECK(worker.attempt(second, kFirstTet) == Verdict::depth_spent);
+  CHECK(second.stages == "pe");
+  CHECK(worker.mesh == start);
+  const Scripted third(Verdict::accepted, Verdict::accepted, edit);
+  CHECK(worker.attempt(third, kFirstTet) == Verdict::accepted);
+  CHECK(third.stages == "pea");
+  CHECK(worker.mesh.tet_count() == 2);
+}
+
+TEST_CASE("what apply did is undone when apply refuses in the end") {
+  Worker worker(shell_of_three(1.4));
+  const TetMesh start = worker.mesh;
+  const Scripted op(Verdict::accepted, Verdict::accepted,
+                    [](OperatorContext& context, Transaction& transaction) {
+                      CHECK(remove_edge_of_three(context, transaction) == Verdict::accepted);
+                      return Verdict::budget_spent;
+                    });
+  CHECK(worker.attempt(op, kFirstTet) == Verdict::budget_spent);
+  CHECK(worker.mesh == start);
+}
+
+TEST_CASE("an edit that makes the quality vector worse is undone") {
+  Worker worker(shell_of_three(0.3));
+  const TetMesh start = worker.mesh;
+  const Scripted op(Verdict::accepted, Verdict::accepted, remove_edge_of_three);
+  CHECK(worker.attempt(op, kFirstTet) == Verdict::no_improvement);
+  CHECK(worker.mesh == start);
+}
+
+TEST_CASE("an attempt that edits nothing is no improvement") {
+  Worker worker(shell_of_three(1.4));
+  const TetMesh start = worker.mesh;
+  const Scripted op(Verdict::accepted, Verdict::accepted,
+                    [](OperatorContext&, Transaction&) { return Verdict::accepted; });
+  CHECK(worker.attempt(op, kFirstTet) == Verdict::no_improvement);
+  CHECK(worker.mesh == start);
+}
+
+TEST_CASE("the trace hears operator, target, level, verdict and the quality vectors") {
+  Worker worker(shell_of_three(1.4));
+  Recorder trace;
+  const Scripted refusing(Verdict::inverted, Verdict::accepted, remove_edge_of_three);
+  worker.attempt(refusing, kFirstTet, &trace, 2);
+  const Scripted op(Verdict::accepted, Verdict::accepted, remove_edge_of_three);
+  worker.attempt(op, Target::of(TetEdge(TetHandle(0), 0)), &trace);
+  worker.attempt(refusing, Target::of(HalfFace(TetHandle(0), 0)), &trace);
+  worker.attempt(refusing, Target::of(VertexHandle(4)), &trace);
+  const auto face = worker.mesh.vertices(HalfFace(TetHandle(0), 0));
+  std::string corners;
+  for (const VertexHandle v : face) corners += " " + std::to_string(v.index());
+  const std::vector<std::string> expected = {"scripted at 0 1 2 3 level 2",
+                                             "inverted 0 0",
+                                             "scripted at 0 1 level 0",
+                                             "accepted 3 2",
+                                             "scripted at" + corners + " level 0",
+                                             "inverted 0 0",
+                                             "scripted at 4 level 0",
+                                             "inverted 0 0"};
+  CHECK(trace.events == expected);
+}
+
+TEST_CASE("is_better leaves the ascending vectors of all that changed in the scratch") {
+  Worker worker(shell_of_three(1.4));
+  Transaction transaction(worker.mesh, worker.workspace);
+  CHECK_FALSE(is_better(transaction, *worker.scratch));
+  OperatorContext context{worker.mesh, worker.workspace, *worker.scratch};
+  REQUIRE(remove_edge_of_three(context, transaction) == Verdict::accepted);
+  CHECK(is_better(transaction, *worker.scratch));
+  CHECK(worker.scratch->before.size() == 3);
+  CHECK(worker.scratch->now.size() == 2);
+  CHECK(std::is_sorted(worker.scratch->before.begin(), worker.scratch->before.end()));
+}
+
+TEST_CASE("a target gives back the handle that it was made of") {
+  CHECK(Target::of(TetHandle(7)).tet() == TetHandle(7));
+  CHECK(Target::of(TetEdge(TetHandle(7), 4)).edge() == TetEdge(TetHandle(7), 4));
+  CHECK(Target::of(HalfFace(TetHandle(7), 2)).face() == HalfFace(TetHandle(7), 2));
+  CHECK(Target::of(VertexHandle(9)).vertex() == VertexHandle(9));
+  CHECK(to_string(Target::of(VertexHandle(9)).kind) == "vertex");
+}
+
+TEST_CASE("an attempt takes no memory from the heap once the buffers have grown") {
+  Registry registry;
+  register_builtin_operators(registry);
+  for (const OperatorInfo* info : registry.operators()) {
+    std::vector<ParameterSettings> all = {{}};
+    for (const ParameterSpec& spec : info->parameters) {
+      if (spec.kind == ParameterSpec::Kind::flag) {
+        all.push_back({{std::string(spec.name), 1 - spec.initial}});
+      }
+    }
+    for (const ParameterSettings& settings : all) {
+      CAPTURE(info->name);
+      CAPTURE(settings.size());
+      const auto op = registry.make(info->name, settings);
+      Worker worker(delaunay_ball(150, 9));
+      std::vector<Target> targets;
+      for (const TetHandle t : live_tets(worker.mesh)) {
+        if (info->target == TargetKind::tet) targets.push_back(Target::of(t));
+        if (info->target == TargetKind::edge)
+          targets.push_back(Target::of(TetEdge(t, t.index() % 6)));
+        if (info->target == TargetKind::face)
+          targets.push_back(Target::of(HalfFace(t, t.index() % 4)));
+      }
+      if (info->target == TargetKind::vertex) {
+        for (const VertexHandle v : live_vertices(worker.mesh)) targets.push_back(Target::of(v));
+      }
+      std::size_t refused = 0;
+      std::size_t accepted = 0;
+      for (const bool warm : {false, true}) {
+        allocations = 0;
+        for (const Target target : targets) {
+          Transaction outer(worker.mesh, worker.workspace);
+          counting = warm;
+          const Verdict verdict = worker.attempt(*op, target);
+          counting = false;
+          if (warm) ++(verdict == Verdict::accepted ? accepted : refused);
+        }
+      }
+      CHECK(refused > 0);
+      CHECK(accepted > 0);
+      CHECK(allocations == 0);
+    }
+  }
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// The registry of operators and the checks of their parameters.
+#include "ops/registry.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "ops/smoothing.h"
+
+using namespace tetmend;
+
+namespace {
+
+Registry builtin_operators() {
+  Registry registry;
+  register_builtin_operators(registry);
+  return registry;
+}
+
+/// The message of the error that making the operator ends in; empty if there is none.
+std::string error_of(const Registry& registry, std::string_view name,
+                     const ParameterSettings& settings = {}) {
+  try {
+    registry.make(name, settings);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("the builtin operators are listed in the order of registration, with help") {
+  const Registry registry = builtin_operators();
+  REQUIRE(registry.operators().size() == 8);
+  CHECK(registry.operators()[0]->name == "shell_transformation");
+  CHECK(registry.operators()[1]->name == "recursive_shell_transformation");
+  for (const OperatorInfo* info : registry.operators()) {
+    CAPTURE(info->name);
+    CHECK_FALSE(info->help.empty());
+    CHECK(&registry.find(info->name) == info);
+    CHECK(&registry.make(info->name)->info() == info);
+    for (const ParameterSpec& spec : info->parameters) {
+      CAPTURE(spec.name);
+      CHECK_FALSE(spec.help.empty());
+      CHECK(spec.low < spec.high);
+      CHECK(spec.initial >= spec.low);
+      CHECK(spec.initial <= spec.high);
+      if (spec.kind == ParameterSpec::Kind::flag) {
+        CHECK(spec.low == 0);
+        CHECK(spec.high == 1);
+      }
+      if (spec.kind != ParameterSpec::Kind::real) CHECK(spec.initial == std::floor(spec.initial));
+    }
+  }
+}
+
+TEST_CASE("an unknown operator is an error that lists the valid names") {
+  const Registry registry = builtin_operators();
+  const std::string message = error_of(registry, "edge_removel");
+  CHECK(contains(message, "'edge_removel'"));
+  for (const OperatorInfo* info : registry.operators()) CHECK(contains(message, info->name));
+  CHECK_THROWS_AS(registry.find(""), Error);
+}
+
+TEST_CASE("registering a name twice is an error that gives the name") {
+  Registry registry = builtin_operators();
+  CHECK_THROWS_WITH_AS(registry.add(smoothing_info()), "operator 'smoothing' is registered twice",
+                       Error);
+  CHECK(registry.operators().size() == 8);
+}
+
+TEST_CASE("an unknown parameter is an error that lists the valid ones") {
+  const Registry registry = builtin_operators();
+  const std::string message = error_of(registry, "recursive_shell_transformation", {{"depth", 3}});
+  CHECK(contains(message, "recursive_shell_transformation"));
+  CHECK(contains(message, "'depth'"));
+  CHECK(contains(message, "max_level, budget, reflex_only"));
+  CHECK(contains(error_of(registry, "flip_2_3", {{"depth", 3}}), "valid: none"));
+}
+
+TEST_CASE("a value outside the range is an error that gives the range") {
+  const Registry registry = builtin_operators();
+  const std::string name = "recursive_shell_transformation";
+  for (const double value : {-1.0, 16.0, 1e9, std::numeric_limits<double>::infinity()}) {
+    CHECK(contains(error_of(registry, name, {{"max_level", value}}), "is outside 0 to 15"));
+  }
+  CHECK(contains(error_of(registry, name, {{"max_level", std::nan("")}}), "is outside 0 to 15"));
+  CHECK(error_of(registry, name, {{"max_level", 0}}).empty());
+  CHECK(error_of(registry, name, {{"max_level", 15}}).empty());
+}
+
+TEST_CASE("a fraction for a whole number or a flag is an error") {
+  const Registry registry = builtin_operators();
+  const std::string name = "recursive_shell_transformation";
+  CHECK(contains(error_of(registry, name, {{"max_level", 2.5}}), "max_level = 2.5 is not a whole"));
+  CHECK(contains(error_of(registry, name, {{"reflex_only", 0.5}}), "is not a whole"));
+  CHECK(error_of(registry, "edge_contraction", {{"least_ratio", 0.25}}).empty());
+}
+
+TEST_CASE("values are defaults until they are set, and the last setting of a name counts") {
+  using Kind = ParameterSpec::Kind;
+  static constexpr std::array<ParameterSpec, 3> kSpecs = {{
+      {"count", Kind::integer, 0, 10, 4, "help"},
+      {"share", Kind::real, 0, 1, 0.5, "help"},
+      {"loud", Kind::flag, 0, 1, 1, "help"},
+  }};
+  const ParameterValues defaults("owner", kSpecs, {});
+  CHECK(defaults.integer("count") == 4);
+  CHECK(defaults.real("share") == 0.5);
+  CHECK(defaults.flag("loud"));
+  const ParameterValues set("owner", kSpecs, {{"count", 1}, {"loud", 0}, {"count", 7}});
+  CHECK(set.integer("count") == 7);
+  CHECK(set.real("share") == 0.5);
+  CHECK_FALSE(set.flag("loud"));
+}

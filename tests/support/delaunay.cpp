@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Bowyer-Watson inside a huge tet, with the exact predicates of CGAL's kernel.
+//
+//   for each point: cavity = tets whose circumsphere holds it; replace them by tets from the point
+//   to each face of the cavity; at the end drop the tets at the corners of the huge tet
+#include "tests/support/delaunay.h"
+
+#include <algorithm>
+#include <map>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include "kernel/handles.h"
+
+namespace tetmend::test {
+
+std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Tet = std::array<std::uint32_t, 4>;
+  using Face = std::array<std::uint32_t, 3>;
+  std::vector<Kernel::Point_3> p;
+  for (const Point& q : points) p.emplace_back(q.x(), q.y(), q.z());
+  const auto n = static_cast<std::uint32_t>(points.size());
+  // So far away that every face of the convex hull gets its tet, short of nearly flat corners.
+  constexpr double kFar = 0x1p40;
+  p.emplace_back(kFar, kFar, kFar);
+  p.emplace_back(-kFar, -kFar, kFar);
+  p.emplace_back(-kFar, kFar, -kFar);
+  p.emplace_back(kFar, -kFar, -kFar);
+  Tet huge = {n, n + 1, n + 2, n + 3};
+  if (CGAL::orientation(p[n], p[n + 1], p[n + 2], p[n + 3]) != CGAL::POSITIVE) {
+    std::swap(huge[2], huge[3]);
+  }
+
+  std::vector<Tet> tets = {huge};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    std::vector<Tet> kept;
+    std::map<Face, Face>
+        open;  // by sorted vertices: the face counterclockwise as seen from outside
+    for (const Tet& t : tets) {
+      if (CGAL::side_of_oriented_sphere(p[t[0]], p[t[1]], p[t[2]], p[t[3]], p[i]) !=
+          CGAL::ON_POSITIVE_SIDE) {
+        kept.push_back(t);
+        continue;
+      }
+      for (const auto& local : kFaceVertices) {
+        const Face face = {t[local[0]], t[local[1]], t[local[2]]};
+        Face key = face;
+        std::sort(key.begin(), key.end());
+        if (!open.emplace(key, face).second) open.erase(key);
+      }
+    }
+    // The point lies inside of each face: swapped, face and point form a positive tet.
+    for (const auto& [key, face] : open) kept.push_back({face[0], face[2], face[1], i});
+    tets = std::move(kept);
+  }
+  std::erase_if(tets, [n](const Tet& t) {
+    return std::any_of(t.begin(), t.end(), [n](std::uint32_t v) { return v >= n; });
+  });
+  return tets;
+}
+
+}  // namespace tetmend::test
