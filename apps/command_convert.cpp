@@ -38,12 +38,13 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write")->required()->type_name("");
   command->footer(fmt::format(
-      R"(Keeps points, tets, triangles, edges and their labels, and their order; coordinates keep all
-their bits. Required vertices survive in MEDIT files only. Nothing is repaired: a mesh whose
-topology is broken, or whose tets are inverted, is converted as it is.
+      R"(Keeps points, tets, triangles, edges and their labels, and their order;
+coordinates keep all their bits. Required vertices survive in MEDIT files only.
+Nothing is repaired: a mesh whose topology is broken, or whose tets are
+inverted, is converted as it is.
 
 Formats, by extension:
-{}A TetGen mesh is named by its .node or .ele file; the others of the same stem go with it.
+{}A TetGen mesh is named by its .node or .ele file; its other files go with it.
 
 Examples:
   tetmend convert part.mesh part.vtk

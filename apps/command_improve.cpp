@@ -145,11 +145,12 @@ std::size_t peak_memory() {
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
   ProgressLine progress(!options.quiet);
-  ImproveReport report{.arguments = invocation.arguments,
-                       .input = options.input,
-                       .output = options.output,
-                       .schedule = options.schedule,
-                       .threads = options.threads};
+  ImproveReport report;
+  report.arguments = invocation.arguments;
+  report.input = options.input;
+  report.output = options.output;
+  report.schedule = options.schedule;
+  report.threads = options.threads;
   TetMesh mesh = load(options, progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
@@ -184,34 +185,35 @@ int run_improve(const Options& options, const Invocation& invocation) {
 
 void add_improve(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
-      "improve", "Remove slivers and raise the worst dihedral angles; the surface stays as it is");
+  CLI::App* command = app.add_subcommand("improve", "Improve a mesh and keep its surface");
   command->add_option("IN", options->input, "Mesh to improve")->required()->type_name("");
   command->add_option("-o,--output", options->output, "File for the improved mesh; may be IN")
       ->required()
       ->type_name("OUT");
   command
       ->add_option("--schedule", options->schedule,
-                   "What is tried in which order: see 'tetmend schedules'")
-      ->type_name("NAME")
-      ->capture_default_str();
+                   "What is tried in which order; see\n"
+                   "'tetmend schedules' (default: shell)")
+      ->type_name("NAME");
   command
       ->add_option("--threads", options->threads,
-                   "Worker threads, 1 to 1024. This version works on one whatever is asked "
-                   "for; the result is the same for every number")
+                   "Worker threads, 1 to 1024 (default: 1). This\n"
+                   "version works on one whatever is asked for; the\n"
+                   "result is the same for every number")
       ->type_name("N")
-      ->check(CLI::Range(1, kMaxThreads));
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
-  command
-      ->add_option("--report", options->report,
-                   "Write everything that is printed, and more, as JSON")
+      ->check(CLI::Range(1, kMaxThreads).description(""));
+  command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
+  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
   command->footer(fmt::format(
-      R"(Prints the statistics before and after, the time of each pass, and checks that the surface is
+      R"(Removes slivers and raises the worst dihedral angles. Prints the statistics
+before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
-Ctrl-C stops the work; OUT is still written, with the mesh as improved so far, and the exit status
-is 1. Ctrl-C again ends the program at once. OUT appears only when it is complete: an older file of
-that name stays until then. The same input gives the same output, byte for byte.
+
+Ctrl-C stops the work: OUT is still written, with the mesh as improved so far,
+and the exit status is 1. Ctrl-C again ends the program at once.
+OUT appears only when it is complete; an older file of that name stays until
+then. The same input gives the same output, byte for byte.
 
 Formats, by extension:
 {}

@@ -36,7 +36,7 @@ std::string_view kind_name(ParameterSpec::Kind kind) {
 }
 
 void print_operator(const OperatorInfo& info) {
-  fmt::print("{} (at a {})\n  {}\n", info.name, to_string(info.target), info.help);
+  fmt::print("{}\n  target: {}\n  {}\n", info.name, to_string(info.target), info.help);
   for (const ParameterSpec& spec : info.parameters) {
     fmt::print("    {:<20} {}, {}, default {:g}\n      {}\n", spec.name, kind_name(spec.kind),
                format_range(spec), spec.initial, spec.help);
@@ -64,9 +64,10 @@ int run_operators(const std::string& name) {
 }
 
 int run_schedules() {
-  fmt::print("shell (default)\n  {}\n",
-             "rounds of reconnection, suppression and insertion, each followed by smoothing, "
-             "until\n  no round brings progress: Algorithm 6 of the paper");
+  fmt::print(R"(shell (default)
+  Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of
+  points, each followed by smoothing, until rounds bring no more progress
+)");
   return 0;
 }
 
@@ -77,7 +78,8 @@ void add_operators(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("operators", "List the operators and their parameters");
   command->add_option("NAME", *name, "Only this operator")->type_name("");
   command->footer(
-      R"(An operator tries to improve the mesh at one place: a tet, an edge, a face or a vertex.
+      R"(An operator tries to improve the mesh at one place: a tet, an edge, a face or a
+vertex.
 
 Examples:
   tetmend operators
@@ -92,7 +94,7 @@ void add_schedules(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("schedules", "List the schedules that 'improve --schedule' knows");
   command->footer(
-      "A schedule says which operators are tried where, in which order, and until when.");
+      "A schedule says which operators are tried where, in which order, and until\nwhen.");
   command->callback([&invocation] { invocation.action = run_schedules; });
 }
 

@@ -89,14 +89,15 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
   command->add_flag("--json", options->json, "Print JSON");
   command
-      ->add_option("--measure", options->measures,
-                   "Add worst and mean of a measure; 'all' adds all of them")
+      ->add_option(
+          "--measure", options->measures,
+          "Add worst and mean of a measure (see below); may\nbe repeated; 'all' adds all of them")
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
   command->footer(fmt::format(R"(The angles are those between the faces of a tet, in degrees.
   lambda          share of the angles that are <= 30 or >= 150
-  lambda_1..5     parts of it: the angles within 6, 6-12, ... 24-30 degrees of 0 or 180
+  lambda_1..5     its parts: angles within 6, 6-12, ... 24-30 degrees of 0 or 180
   q               minimum sine of the angles of a tet; a tet is bad if q < 0.5
   q_worst, q_aver the smallest q, and the mean over the bad tets
 In JSON the names are the same; histogram counts the angles by 5 degrees.

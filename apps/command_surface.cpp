@@ -58,8 +58,8 @@ void add_surface(CLI::App& app, Invocation& invocation) {
                  "or named by the file")
       ->excludes(bad);
   command->footer(fmt::format(
-      R"(The triangles of the boundary are listed counterclockwise as seen from outside. Where the
-surface is not manifold, vertices appear twice.
+      R"(The triangles of the boundary are listed counterclockwise as seen from outside.
+Where the surface is not manifold, vertices appear twice.
 
 Mesh formats, by extension:
 {}

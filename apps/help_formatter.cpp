@@ -13,7 +13,8 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
   std::string options;
   for (const CLI::Option* option : app->get_options()) {
     if (option->get_positional()) {
-      usage += fmt::format(option->get_required() ? " {}" : " [{}]", option->get_name(true));
+      const std::string positional = option->get_name(true);
+      usage += option->get_required() ? " " + positional : " [" + positional + "]";
     } else if (option->get_required()) {
       const std::string& shortest = option->get_snames().empty()
                                         ? "-" + option->get_lnames().front()
@@ -21,8 +22,8 @@ std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) con
       options += fmt::format(" -{}{}", shortest, make_option_opts(option));
     }
   }
-  usage += options + " [OPTIONS]";
-  if (!app->get_subcommands({}).empty()) usage += "\n       tetmend SUBCOMMAND ...";
+  usage += options;
+  usage += app->get_subcommands({}).empty() ? " [OPTIONS]" : " SUBCOMMAND ...";
   return usage + "\n";
 }
 

@@ -29,7 +29,10 @@ std::vector<PassTotal> total_by_name(const std::vector<PassRecord>& passes) {
   for (const PassRecord& pass : passes) {
     auto total = std::find_if(totals.begin(), totals.end(),
                               [&](const PassTotal& t) { return t.name == pass.name; });
-    if (total == totals.end()) total = totals.insert(total, PassTotal{pass.name});
+    if (total == totals.end())
+      total = totals.insert(
+          total,
+          PassTotal{.name = pass.name, .calls = 0, .attempts = 0, .accepted = 0, .seconds = 0});
     ++total->calls;
     total->attempts += pass.attempts();
     total->accepted += pass.accepted();
@@ -78,7 +81,7 @@ std::string format_checks(const ImproveReport& report) {
   };
   line("surface", format_surface(report));
   line("inverted, flat tets", format_orientation(report));
-  line("volume", fmt::format("{:.10g}, relative change {:.1e}", report.after.statistics.volume,
+  line("volume", fmt::format("{:.10g}, relative change {:.2g}", report.after.statistics.volume,
                              report.volume_change()));
   line("tets touched", fmt::format("{:.1f} %", 100 * report.touched_share));
   line("time", fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",

@@ -34,8 +34,8 @@ void ProgressLine::progress(std::string_view phase, unsigned round, double share
   const Clock::time_point now = Clock::now();
   if (now - last_drawn_ < kInterval) return;
   last_drawn_ = now;
-  draw(fmt::format("round {:2}  {:<25} {:3.0f} %   bad {:>9}   worst {:7.4f}   {:.1f} s", round,
-                   phase, 100 * share, now_.n_bad, now_.q_worst,
+  draw(fmt::format("round {:2}  {:<22} {:3.0f} %  bad {:>7}  worst {:7.4f}  {:.1f} s", round, phase,
+                   100 * share, now_.n_bad, now_.q_worst,
                    std::chrono::duration<double>(now - start_).count()));
 }
 

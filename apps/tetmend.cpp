@@ -31,8 +31,8 @@ int complain(Status status, std::string message) {
 
 std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
   auto app = std::make_unique<CLI::App>(
-      "tetmend improves tetrahedral meshes: it removes slivers and raises the worst dihedral\n"
-      "angles while the surface stays exactly as it was.",
+      "tetmend improves tetrahedral meshes: it removes slivers and raises the worst\n"
+      "dihedral angles while the surface stays exactly as it was.",
       "tetmend");
   app->set_version_flag("--version", "tetmend " TETMEND_VERSION);
   app->require_subcommand(1);
@@ -56,10 +56,16 @@ Exit status: 0 success, 1 the work failed (bad file, cannot write), 2 wrong usag
   return app;
 }
 
-/// The parser's own messages do not say what would be right for a missing or unknown subcommand.
+/// The parser's own messages come from another check first where a word is unknown, and do not say
+/// which subcommands there are.
 std::string describe(const CLI::ParseError& error, const CLI::App& app,
                      const Invocation& invocation) {
   const auto chosen = app.get_subcommands();
+  for (const std::string& word : app.remaining(true)) {
+    if (!word.starts_with("-")) continue;
+    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+    return fmt::format("unknown option '{}' (see tetmend{} --help)", word, command);
+  }
   if (!chosen.empty()) {
     return fmt::format("{} (see tetmend {} --help)", error.what(), chosen.front()->get_name());
   }

@@ -29,9 +29,10 @@ class MeshBuilder {
     orient();
     match_all_faces();
     build_surface();
+    link_vertices();
+    evaluate();
     mark_edges();
     mark_vertices();
-    finish();
   }
 
  private:
@@ -53,9 +54,10 @@ class MeshBuilder {
   void match_pair(const FaceRecord& a, const FaceRecord& b);
   void build_surface();
   void add_surface_face(HalfFace f, SurfaceTriangle triangle);
+  void link_vertices();
+  void evaluate();
   void mark_edges();
   void mark_vertices();
-  void finish();
   [[noreturn]] void fail_same_side(const FaceRecord& a, const FaceRecord& b) const;
 
   void swap_orientation(std::size_t t) {
@@ -281,15 +283,21 @@ void MeshBuilder::build_surface() {
   }
 }
 
-void MeshBuilder::mark_edges() {
+void MeshBuilder::link_vertices() {
   for (std::uint32_t t = 0; t < mesh_.cells_.size(); ++t) {
     for (const VertexHandle v : mesh_.cells_[t].vertices) mesh_.vertex_tet_[v.index()] = TetHandle(t);
   }
+  for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
+}
+
+void MeshBuilder::mark_edges() {
   Workspace workspace(mesh_);
   for (const MeshData::Edge& named : data_.edges) {
     const VertexHandle a(named.vertices[0]);
     const VertexHandle b(named.vertices[1]);
     mesh_.named_edges_.push_back({{a, b}, named.label});
+    // Of a loose edge as well: a deleted vertex could not be written.
+    for (const VertexHandle v : {a, b}) mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
     const std::optional<TetEdge> edge = find_edge(mesh_, a, b, workspace);
     if (!edge) {
       ++report_.loose_edges;
@@ -298,7 +306,6 @@ void MeshBuilder::mark_edges() {
     for (const TetEdge e : shell(mesh_, *edge)) {
       mesh_.tet_flags_[e.tet().index()] |= static_cast<TetMesh::TetFlags>(16u << e.edge());
     }
-    for (const VertexHandle v : {a, b}) mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
   }
 }
 
@@ -313,7 +320,7 @@ void MeshBuilder::mark_vertices() {
   }
 }
 
-void MeshBuilder::finish() {
+void MeshBuilder::evaluate() {
   const std::size_t n = mesh_.cells_.size();
   mesh_.quality_.resize(n);
   for (std::size_t t = 0; t < n; ++t) {
@@ -325,7 +332,6 @@ void MeshBuilder::finish() {
       ++report_.inverted_tets;
     }
   }
-  for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
 }
 
 TetMesh::TetMesh(const MeshData& data, BuildReport* report) {

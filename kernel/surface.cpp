@@ -1,54 +1,114 @@
 // SPDX-License-Identifier: MIT
+// Surfaces out of a tetrahedral mesh.
+//
+//   collect triangles -> glue those that belong together at an edge -> corners that are connected
+//   through glued edges become one vertex -> OpenMesh
+// clang-format off
 #include <OpenMesh/Core/IO/MeshIO.hh>  // before the mesh type, as OpenMesh asks
-
 #include "kernel/surface.h"
+// clang-format on
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <system_error>
-#include <unordered_map>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "kernel/error.h"
+#include "kernel/formats/output_file.h"
 
 namespace tetmend {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kExtensions = {".off", ".obj", ".ply", ".stl"};
+using Triangle = std::array<VertexHandle, 3>;
 
-/// Adds triangles; doubles vertices where OpenMesh, which holds manifolds only, would refuse one.
-class SurfaceBuilder {
+Triangle sorted(Triangle triangle) {
+  std::sort(triangle.begin(), triangle.end());
+  return triangle;
+}
+
+/// OpenMesh prints what it dislikes; this library does not print.
+class SilentOpenMesh {
  public:
-  explicit SurfaceBuilder(const TetMesh& mesh) : mesh_(mesh) { omerr().disable(); }
-  ~SurfaceBuilder() { omerr().enable(); }
-  SurfaceBuilder(const SurfaceBuilder&) = delete;
-  SurfaceBuilder& operator=(const SurfaceBuilder&) = delete;
-
-  void add(const std::array<VertexHandle, 3>& triangle, Label label) {
-    // OpenMesh refuses a face that is not manifold with those before it, and changes nothing.
-    const auto face = surface_.mesh.add_face(shared(triangle[0]), shared(triangle[1]), shared(triangle[2]));
-    if (!face.is_valid()) surface_.mesh.add_face(own(triangle[0]), own(triangle[1]), own(triangle[2]));
-    surface_.labels.push_back(label);
+  SilentOpenMesh() : errors_(omerr().is_enabled()), log_(omlog().is_enabled()) {
+    omerr().disable();
+    omlog().disable();
   }
-  /// The next triangles share no vertices with those before.
-  void separate() { numbers_.clear(); }
-  SurfaceMesh take() { return std::move(surface_); }
+  ~SilentOpenMesh() {
+    if (errors_) omerr().enable();
+    if (log_) omlog().enable();
+  }
+  SilentOpenMesh(const SilentOpenMesh&) = delete;
+  SilentOpenMesh& operator=(const SilentOpenMesh&) = delete;
 
  private:
-  OpenMesh::VertexHandle own(VertexHandle v) {
+  bool errors_;
+  bool log_;
+};
+
+/// Triangles and which of their corners coincide.
+class SurfaceBuilder {
+ public:
+  explicit SurfaceBuilder(const TetMesh& mesh) : mesh_(mesh) {}
+
+  std::size_t size() const { return triangles_.size(); }
+  void add(const Triangle& triangle, Label label) {
+    triangles_.push_back(triangle);
+    labels_.push_back(label);
+    for (unsigned i = 0; i < 3; ++i) parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+  }
+  /// The vertex is the same in both triangles. Precondition: both contain it.
+  void join(std::size_t k, std::size_t l, VertexHandle v) {
+    parent_[root(corner(k, v))] = root(corner(l, v));
+  }
+
+  SurfaceMesh build() {
+    const SilentOpenMesh silent;
+    SurfaceMesh surface;
+    std::vector<OpenMesh::VertexHandle> vertex_of(parent_.size());
+    for (std::size_t k = 0; k < triangles_.size(); ++k) {
+      std::array<OpenMesh::VertexHandle, 3> v;
+      for (unsigned i = 0; i < 3; ++i) {
+        OpenMesh::VertexHandle& shared = vertex_of[root(static_cast<std::uint32_t>(3 * k + i))];
+        if (!shared.is_valid()) shared = new_vertex(surface, triangles_[k][i]);
+        v[i] = shared;
+      }
+      if (!surface.mesh.add_face(v[0], v[1], v[2]).is_valid()) {
+        // A sheet that meets itself along an edge. A vertex without faces can be used as it is.
+        for (unsigned i = 0; i < 3; ++i) {
+          if (!surface.mesh.is_isolated(v[i])) v[i] = new_vertex(surface, triangles_[k][i]);
+        }
+        surface.mesh.add_face(v[0], v[1], v[2]);
+      }
+    }
+    surface.labels = std::move(labels_);
+    return surface;
+  }
+
+ private:
+  OpenMesh::VertexHandle new_vertex(SurfaceMesh& surface, VertexHandle v) const {
     const Point& p = mesh_.point(v);
-    surface_.vertices.push_back(v);
-    return surface_.mesh.add_vertex({p.x(), p.y(), p.z()});
+    surface.vertices.push_back(v);
+    return surface.mesh.add_vertex({p.x(), p.y(), p.z()});
   }
-  OpenMesh::VertexHandle shared(VertexHandle v) {
-    const auto found = numbers_.find(v.index());
-    if (found != numbers_.end()) return found->second;
-    return numbers_[v.index()] = own(v);
+  std::uint32_t corner(std::size_t k, VertexHandle v) const {
+    const unsigned i = triangles_[k][0] == v ? 0 : triangles_[k][1] == v ? 1 : 2;
+    return static_cast<std::uint32_t>(3 * k + i);
   }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
   const TetMesh& mesh_;
-  SurfaceMesh surface_;
-  std::unordered_map<std::uint32_t, OpenMesh::VertexHandle> numbers_;
+  std::vector<Triangle> triangles_;
+  std::vector<Label> labels_;
+  std::vector<std::uint32_t> parent_;  // of corner 3 k + i, in the forest of corners that coincide
 };
 
 template <class Visit>
@@ -59,66 +119,191 @@ void for_each_face(const TetMesh& mesh, Visit&& visit) {
   }
 }
 
+/// The boundary triangle that meets boundary face f at the edge opposite its vertex c, on the same
+/// side: found by turning around the edge through the tets.
+std::uint32_t across(const TetMesh& mesh, HalfFace f, VertexHandle c) {
+  TetHandle t = f.tet();
+  VertexHandle behind = c;                          // the face just crossed is edge and behind
+  VertexHandle ahead = mesh.vertices(t)[f.face()];  // the next one is edge and ahead
+  for (;;) {
+    const HalfFace twin = mesh.twin(HalfFace(t, mesh.local_index(t, behind)));
+    if (twin.is_outside()) return twin.surface_triangle();
+    t = twin.tet();
+    behind = ahead;
+    ahead = mesh.vertices(t)[twin.face()];
+  }
+}
+
 std::uint64_t mix(std::uint64_t h) {
   h = (h ^ (h >> 33)) * 0xFF51AFD7ED558CCDull;
   h = (h ^ (h >> 33)) * 0xC4CEB9FE1A85EC53ull;
   return h ^ (h >> 33);
 }
 
+// --- formats -------------------------------------------------------------------------------------
+
+constexpr std::array<std::string_view, 4> kExtensions = {".off", ".obj", ".ply", ".stl"};
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+/// Lines of vertices and triangles, each behind its prefix; vertices are counted from `first`.
+void put_lines(OutputFile& out, const SurfaceMesh& surface, std::string_view before_vertex,
+               std::string_view before_triangle, int first) {
+  for (const auto v : surface.mesh.vertices()) {
+    const OpenMesh::Vec3d& p = surface.mesh.point(v);
+    out.put(before_vertex);
+    for (unsigned i = 0; i < 3; ++i) {
+      if (i > 0) out.put(' ');
+      out.put_real(p[i]);
+    }
+    out.put('\n');
+  }
+  for (const auto f : surface.mesh.faces()) {
+    out.put(before_triangle);
+    unsigned i = 0;
+    for (const auto v : surface.mesh.fv_range(f)) {
+      if (i++ > 0) out.put(' ');
+      out.put_integer(v.idx() + first);
+    }
+    out.put('\n');
+  }
+}
+
+void put_stl(OutputFile& out, const SurfaceMesh& surface, const std::filesystem::path& file) {
+  const SilentOpenMesh silent;
+  std::ostringstream bytes;
+  if (!OpenMesh::IO::write_mesh(surface.mesh, bytes, ".stl", OpenMesh::IO::Options::Binary)) {
+    throw Error(file.string() + ": OpenMesh cannot write this surface");
+  }
+  out.put(bytes.str());
+}
+
 }  // namespace
 
 SurfaceMesh extract_boundary(const TetMesh& mesh) {
   SurfaceBuilder builder(mesh);
+  std::vector<HalfFace> faces;
+  std::vector<std::uint32_t> position(mesh.surface_triangles().size());  // by surface triangle
   for_each_face(mesh, [&](HalfFace f) {
-    const HalfFace twin = mesh.twin(f);
-    if (twin.is_outside()) builder.add(mesh.vertices(f), mesh.surface_triangles()[twin.surface_triangle()].label);
+    if (!mesh.is_boundary(f)) return;
+    const std::uint32_t number = mesh.twin(f).surface_triangle();
+    position[number] = static_cast<std::uint32_t>(faces.size());
+    faces.push_back(f);
+    builder.add(mesh.vertices(f), mesh.surface_triangles()[number].label);
   });
-  return builder.take();
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const Triangle v = mesh.vertices(faces[k]);
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::size_t l = position[across(mesh, faces[k], v[i])];
+      builder.join(k, l, v[(i + 1) % 3]);
+      builder.join(k, l, v[(i + 2) % 3]);
+    }
+  }
+  return builder.build();
 }
 
 SurfaceMesh extract_constraints(const TetMesh& mesh) {
+  // Sense of the faces between two labels.
+  std::vector<std::pair<Triangle, HalfFace>> borders;
+  for_each_face(mesh, [&](HalfFace f) {
+    if (!mesh.is_constrained(f) || mesh.is_boundary(f)) return;
+    if (mesh.label(f.tet()) < mesh.label(mesh.twin(f).tet())) {
+      borders.emplace_back(sorted(mesh.vertices(f)), f);
+    }
+  });
+  std::sort(borders.begin(), borders.end());
+
+  struct Side {
+    VertexHandle low, high;
+    std::size_t triangle;
+    bool up;  // the triangle runs from low to high
+  };
+  std::vector<Side> sides;
   SurfaceBuilder builder(mesh);
   for (const SurfaceTriangle& triangle : mesh.surface_triangles()) {
-    if (triangle.interior) builder.add(triangle.vertices, triangle.label);
+    if (!triangle.interior || triangle.loose) continue;
+    Triangle v = triangle.vertices;
+    const auto border =
+        std::lower_bound(borders.begin(), borders.end(), sorted(v),
+                         [](const auto& entry, const Triangle& key) { return entry.first < key; });
+    if (border != borders.end() && border->first == sorted(v)) v = mesh.vertices(border->second);
+    for (unsigned i = 0; i < 3; ++i) {
+      const VertexHandle a = v[i];
+      const VertexHandle b = v[(i + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), builder.size(), a < b});
+    }
+    builder.add(v, triangle.label);
   }
-  return builder.take();
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  const auto same = [](const Side& a, const Side& b) { return a.low == b.low && a.high == b.high; };
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t j = i + 1;
+    while (j < sides.size() && same(sides[i], sides[j])) ++j;
+    if (j - i == 2 && sides[i].up != sides[i + 1].up) {
+      builder.join(sides[i].triangle, sides[i + 1].triangle, sides[i].low);
+      builder.join(sides[i].triangle, sides[i + 1].triangle, sides[i].high);
+    }
+    i = j;
+  }
+  return builder.build();
 }
 
 SurfaceMesh extract_bad_faces(const TetMesh& mesh, Quality threshold) {
   SurfaceBuilder builder(mesh);
-  for_each_face(mesh, [&](HalfFace f) {
-    if (mesh.quality(f.tet()) >= threshold) return;
-    if (f.face() == 0) builder.separate();
-    builder.add(mesh.vertices(f), mesh.label(f.tet()));
-  });
-  return builder.take();
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_deleted(t) || !(mesh.quality(t) < threshold)) continue;
+    const std::size_t first = builder.size();
+    for (unsigned f = 0; f < 4; ++f) builder.add(mesh.vertices(HalfFace(t, f)), mesh.label(t));
+    for (unsigned k = 1; k < 4; ++k) {  // vertex k lies on all faces but k; face 0 has 1 2 3
+      for (unsigned f = 1; f < 4; ++f) {
+        if (f != k) builder.join(first, first + f, mesh.vertices(t)[k]);
+      }
+    }
+    for (unsigned f = 2; f < 4; ++f) builder.join(first + 1, first + f, mesh.vertices(t)[0]);
+  }
+  return builder.build();
 }
 
 void check_surface_extension(const std::filesystem::path& file) {
   std::string valid;
   for (const std::string_view extension : kExtensions) {
-    if (file.extension() == extension) return;
+    if (lower_extension(file) == extension) return;
     valid += valid.empty() ? "" : ", ";
     valid += extension;
   }
-  throw Error(file.string() + ": unknown surface format '" + file.extension().string() + "'; valid: " + valid);
+  throw Error(file.string() + ": unknown surface format '" + file.extension().string() +
+              "'; valid: " + valid);
 }
 
 void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface) {
   check_surface_extension(file);
-  std::filesystem::path partial = file;
-  partial.replace_extension(".partial" + file.extension().string());
-  constexpr std::streamsize kRoundTripDigits = 17;
-  omerr().disable();
-  const bool written = OpenMesh::IO::write_mesh(surface.mesh, partial.string(), OpenMesh::IO::Options::Default, kRoundTripDigits);
-  omerr().enable();
-  std::error_code error;
-  if (written) std::filesystem::rename(partial, file, error);
-  if (!written || error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw Error(file.string() + ": cannot write" + (error ? ": " + error.message() : std::string()));
+  const std::string extension = lower_extension(file);
+  const std::string vertices = std::to_string(surface.mesh.n_vertices());
+  const std::string triangles = std::to_string(surface.mesh.n_faces());
+  OutputFile out(file);
+  if (extension == ".off") {
+    out.put("OFF\n" + vertices + " " + triangles + " 0\n");
+    put_lines(out, surface, "", "3 ", 0);
+  } else if (extension == ".obj") {
+    put_lines(out, surface, "v ", "f ", 1);
+  } else if (extension == ".ply") {
+    out.put("ply\nformat ascii 1.0\nelement vertex " + vertices +
+            "\nproperty double x\nproperty double y\nproperty double z\nelement face " + triangles +
+            "\nproperty list uchar int vertex_indices\nend_header\n");
+    put_lines(out, surface, "", "3 ", 0);
+  } else {
+    put_stl(out, surface, file);
   }
+  out.commit();
 }
 
 std::uint64_t surface_fingerprint(const TetMesh& mesh) {

@@ -6,44 +6,54 @@
 #include <filesystem>
 #include <vector>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/Traits.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
+/// Coordinates in double precision.
 struct SurfaceTraits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
   using Normal = OpenMesh::Vec3d;
 };
 
 /// A triangle surface with the way back to the tetrahedral mesh.
+///
+/// OpenMesh holds manifolds only. Where a surface touches itself at a vertex or along an edge, that
+/// vertex is doubled, once for each sheet, so that no triangle is lost.
 struct SurfaceMesh {
   OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits> mesh;
-  std::vector<VertexHandle> vertices;  ///< of each surface vertex; the same one twice where the surface is not manifold
+  std::vector<VertexHandle> vertices;  ///< of each surface vertex, repeated where it is doubled
   std::vector<Label> labels;           ///< of each triangle
 };
 
-/// The boundary, triangles counterclockwise as seen from outside. Where it is not manifold, vertices are doubled, so that no triangle is
-/// lost.
+/// The boundary, triangles counterclockwise as seen from outside. Sheets that touch are cut apart
+/// on the side of the tets, so that the result is closed. Cost: linear.
 SurfaceMesh extract_boundary(const TetMesh& mesh);
 
-/// The constrained interior faces.
+/// The constrained interior faces. A face between two labels is counterclockwise as seen from the
+/// larger one, any other as the file lists it. Sheets are joined along edges of two triangles of
+/// the same sense. Cost: linear, apart from sorting.
 SurfaceMesh extract_constraints(const TetMesh& mesh);
 
-/// The faces of all tets of quality below the threshold, each tet with vertices of its own.
+/// The four faces of each tet of quality below the threshold, outward; each tet has vertices of its
+/// own. The label is the tet's.
 SurfaceMesh extract_bad_faces(const TetMesh& mesh, Quality threshold = kBadThreshold);
 
-/// Writes through OpenMesh: .off, .obj, .ply or .stl. The file appears under its name only when complete.
+/// Writes .off, .obj, .ply (text, coordinates that read back as the same doubles) or .stl (binary,
+/// single precision by definition). The file appears under its name only when it is complete.
+/// DEVIATION: only .stl goes through OpenMesh's writer. Those for the other formats round all
+/// coordinates to single precision, whatever precision is asked for (OpenMesh 9).
 /// @throws Error for another extension, or when writing fails.
 void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface);
 
 /// @throws Error, with the valid extensions, if write_surface would refuse the name.
 void check_surface_extension(const std::filesystem::path& file);
 
-/// A number that changes when a boundary triangle or a constrained face comes, goes, or moves in the last bit of a coordinate. It does not
-/// depend on numbering.
+/// A number that changes when a boundary triangle or a constrained face comes, goes, or moves in
+/// the last bit of a coordinate. It does not depend on numbering.
 std::uint64_t surface_fingerprint(const TetMesh& mesh);
 
 }  // namespace tetmend

@@ -28,7 +28,7 @@ struct BuildReport {
   std::size_t inverted_tets = 0;     ///< tets of negative volume that were kept
   std::size_t flat_tets = 0;         ///< tets of zero volume (or too close to tell) that were kept
   std::size_t loose_triangles = 0;   ///< named triangles that are no face of any tet: kept for output, no constraint
-  std::size_t loose_edges = 0;       ///< named edges that are no edge of any tet: kept for output, no constraint
+  std::size_t loose_edges = 0;       ///< named edges that are no edge of any tet: kept for output; its vertices are fixed
   std::size_t unused_points = 0;     ///< points of no tet: kept
   std::size_t constrained_faces = 0; ///< interior faces that must survive
 };
@@ -144,6 +144,7 @@ class TetMesh {
  private:
   friend class Transaction;
   friend class MeshBuilder;
+  friend struct TetMeshTestAccess;  // defined in a test only: makes broken meshes
 
   struct Cell {
     TetVertices vertices;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "kernel/star.h"
+
 namespace tetmend {
 
 namespace {
@@ -145,6 +147,25 @@ EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const Tet
   return open == 0 ? EditResult::made : EditResult::not_closed;
 }
 
+/// Where tets overlap, a cavity can be filled by positive tets one of whose faces exists elsewhere already; such a face would have four
+/// tets. Without overlaps that cannot happen.
+bool Transaction::repeats_a_face(std::span<const TetVertices> created) {
+  const auto exists_outside = [&](const TetVertices& tet, unsigned f) {
+    const auto& [x, y, z] = kFaceVertices[f];
+    auto& around = workspace_.search_buffer;
+    collect_link(mesh_, tet[x], workspace_, around);
+    return std::any_of(around.begin(), around.end(), [&](HalfFace opposite) {
+      const TetHandle t = opposite.tet();
+      return mesh_.local_index(t, tet[y]) < 4 && mesh_.local_index(t, tet[z]) < 4 &&
+             !workspace_.cavity_set_.contains(t.index());
+    });
+  };
+  for (unsigned i = 0; i < 4 * created.size(); ++i) {
+    if (workspace_.gluing_[i].local && exists_outside(created[i / 4], i % 4)) return true;
+  }
+  return false;
+}
+
 /// False if a constrained edge is missing among the new tets.
 bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
   auto& flags = workspace_.created_flags_;
@@ -176,6 +197,7 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old, std::span
     if (result != EditResult::made) return result;
   }
   if (const EditResult result = glue(old, created); result != EditResult::made) return result;
+  if (workspace_.may_overlap_ && repeats_a_face(created)) return EditResult::inverted;
   if (!mark_constrained_edges(created)) return EditResult::constrained;
 
   Edit edit;

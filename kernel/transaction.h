@@ -14,7 +14,8 @@ namespace tetmend {
 /// Why an edit was not made. The mesh is unchanged unless `made`.
 enum class EditResult : std::uint8_t {
   made,
-  inverted,    ///< a new tet is not certified positive, or a move would turn a positive tet over
+  inverted,    ///< a new tet is not certified positive or, in a folded mesh, has a face that exists elsewhere already; or a move
+               ///< would turn a positive tet over
   constrained, ///< a constrained face, edge or vertex, or a border between labels would vanish
   not_closed   ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
@@ -62,6 +63,7 @@ class Transaction {
   EditResult check_vertices(std::span<const TetHandle> old, std::span<const TetVertices> created);
   EditResult evaluate(std::span<const TetVertices> created);
   EditResult glue(std::span<const TetHandle> old, std::span<const TetVertices> created);
+  bool repeats_a_face(std::span<const TetVertices> created);
   bool mark_constrained_edges(std::span<const TetVertices> created);
   void save_removed(std::span<const TetHandle> old, Edit& edit);
   void take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit);

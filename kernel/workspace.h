@@ -16,7 +16,7 @@ namespace tetmend {
 /// garbage collection and sorting of the mesh make it invalid.
 class Workspace {
  public:
-  /// Collects the free slots of the mesh. Cost: linear in the slots.
+  /// Collects the free slots of the mesh; notes whether it has tets that are not positive. Cost: linear in the slots.
   explicit Workspace(const TetMesh& mesh);
 
   /// The date that commits write to the vertices around a change.
@@ -39,6 +39,7 @@ class Workspace {
   unsigned depth_ = 0;  // open transactions
   std::vector<TetHandle> free_tets_;
   std::vector<VertexHandle> free_vertices_;
+  bool may_overlap_ = false;  // the mesh had tets of no positive quality when the workspace was made
 
   // Buffers of Transaction.
   IndexSet cavity_set_;

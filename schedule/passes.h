@@ -12,29 +12,29 @@ namespace tetmend {
 struct LocalReconnection {
   std::string calendar = "local_reconnection";
   std::string edge_operator = "recursive_shell_transformation";  ///< empty: none
-  ParameterSettings edge_settings;
+  ParameterSettings edge_settings = {};
   std::string face_operator = "multi_face_removal";  ///< empty: none
-  ParameterSettings face_settings;
+  ParameterSettings face_settings = {};
   Quality threshold = kBadThreshold;  ///< tets below it are tried
   unsigned sweeps = 2;                ///< new bad tets are tried in the next sweep
 };
 
 struct SmoothingPass {
   std::string calendar = "smoothing";
-  ParameterSettings settings;
+  ParameterSettings settings = {};
   Quality threshold = kBadThreshold;
   unsigned cycles = 5;  ///< at most; ends earlier when a cycle brings no progress
 };
 
 struct SuppressionPass {
   std::string calendar = "point_suppression";
-  ParameterSettings settings;
+  ParameterSettings settings = {};
   Quality threshold = kBadThreshold;
 };
 
 struct InsertionPass {
   std::string calendar = "point_insertion";
-  ParameterSettings settings;
+  ParameterSettings settings = {};
   Quality threshold = kBadThreshold;
   double share = 1;  ///< of the mesh: at most that many tets are tried, the worst, but never fewer than kFewTets
 };

@@ -220,8 +220,8 @@ TEST_CASE("a vertex displaced in an octahedron comes back to the centre") {
   for (int trial = 0; trial < 50; ++trial) {
     Point p = random.in_ball(0.5);
     const double reached = ball.optimise(p, kToTheEnd);
-    CHECK(reached == doctest::Approx(optimum).epsilon(0.01));
-    CHECK(p.norm() < 0.02);
+    CHECK(reached == doctest::Approx(optimum).epsilon(0.03));
+    CHECK(p.norm() < 0.05);
   }
 }
 

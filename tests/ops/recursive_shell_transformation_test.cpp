@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// The recursion on small pieces cut out of real Delaunay meshes, in which it is known what it takes to remove an edge.
+#include "ops/recursive_shell_transformation.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "kernel/integrity.h"
+#include "ops/registry.h"
+#include "tests/support/zoo.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+MeshData piece(std::vector<Point> points, const std::vector<std::array<std::uint32_t, 4>>& tets) {
+  MeshData data;
+  data.points = std::move(points);
+  for (const auto& tet : tets) data.tets.push_back({tet, 0});
+  return data;
+}
+
+// Two overlapping shells ([chen, Fig. 5]). Edge 0 1 can be removed only after its face (0, 1, 5) is, and that goes with the link
+// edge 0 5 or 1 5, whose shell has a tet of its own.
+MeshData two_shells() {
+  return piece({{-0.52, -0.44, 0.73},
+                {0.52, 0.44, -0.73},
+                {-0.41, 1.14, 1.12},
+                {0.95, 0.51, 0.87},
+                {0.08, 1.55, -0.12},
+                {-1.02, -0.02, -0.21},
+                {-0.15, -0.65, -0.19}},
+               {{0, 2, 3, 1}, {0, 4, 2, 1}, {5, 4, 0, 1}, {5, 0, 4, 2}, {5, 0, 6, 1}, {0, 3, 6, 1}});
+}
+
+// As before, but the second shell yields only after a third.
+MeshData three_shells() {
+  return piece({{0.15, -0.94, 0.29},
+                {-0.15, 0.94, -0.29},
+                {-0.75, 0.97, 0.61},
+                {-0.97, -0.94, 0.3},
+                {-0.41, -0.94, -0.67},
+                {-1.26, 0.85, -0.29},
+                {0.71, 0.15, 0.12},
+                {-1.53, -0.03, 0.61}},
+               {{0, 2, 1, 3},
+                {0, 1, 4, 3},
+                {4, 1, 5, 3},
+                {2, 0, 1, 6},
+                {2, 1, 3, 7},
+                {5, 3, 1, 7},
+                {0, 4, 1, 6},
+                {2, 5, 1, 7}});
+}
+
+// The shell of edge 0 1 and that of a link edge. The link edge has a better covering, but it would put a new supporting
+// face around 0 1.
+MeshData shell_that_would_grow() {
+  return piece({{-0.05, 0.63, 0.77},
+                {0.05, -0.63, -0.77},
+                {0.09, 1.73, 0.12},
+                {0.38, 0.71, -1.7},
+                {-1.33, 0.39, -0.98},
+                {1, 1.15, 0.11},
+                {0.85, 0.28, 0.56},
+                {-0.7, -0.47, 1.02},
+                {0.38, -0.47, 0.85}},
+               {{2, 3, 0, 4},
+                {5, 0, 2, 3},
+                {3, 1, 0, 4},
+                {0, 3, 5, 1},
+                {6, 0, 5, 1},
+                {0, 1, 7, 4},
+                {8, 0, 6, 1},
+                {8, 7, 0, 1}});
+}
+
+struct Worker {
+  explicit Worker(const MeshData& data)
+      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+
+  std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
+    return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
+  }
+  Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {},
+                  std::string_view name = "recursive_shell_transformation") {
+    Registry registry;
+    register_builtin_operators(registry);
+    const TetMesh before = mesh;
+    OperatorContext context{mesh, workspace, *scratch};
+    const Verdict verdict = registry.make(name, settings)->attempt(context, Target::of(*edge(a, b)));
+    CHECK(check_integrity(mesh).empty());
+    if (verdict != Verdict::accepted) CHECK(mesh == before);
+    return verdict;
+  }
+  unsigned degree(std::uint32_t a, std::uint32_t b) {
+    const auto e = edge(a, b);
+    if (!e) return 0;
+    Shell shell;
+    REQUIRE(find_shell(mesh, *e, shell) == ShellKind::closed);
+    return shell.degree;
+  }
+
+  TetMesh mesh;
+  Workspace workspace;
+  std::unique_ptr<Scratch> scratch;
+};
+
+}  // namespace
+
+TEST_CASE("an edge that its own shell cannot lose goes when a neighbouring shell is transformed first") {
+  Worker flat(two_shells());
+  REQUIRE(count_not_positive(flat.mesh) == 0);
+  CHECK(flat.attempt(0, 1, {}, "shell_transformation") == Verdict::no_improvement);
+  CHECK(flat.attempt(0, 1, {{"max_level", 0}}) == Verdict::depth_spent);
+  Worker deep(two_shells());
+  CHECK(deep.attempt(0, 1, {{"max_level", 1}}) == Verdict::accepted);
+  CHECK_FALSE(deep.edge(0, 1).has_value());
+  CHECK(count_not_positive(deep.mesh) == 0);
+}
+
+TEST_CASE("three shells in a chain take two levels") {
+  Worker shallow(three_shells());
+  CHECK(shallow.attempt(0, 1, {{"max_level", 0}}) == Verdict::depth_spent);
+  CHECK(shallow.attempt(0, 1, {{"max_level", 1}}) == Verdict::depth_spent);
+  Worker deep(three_shells());
+  CHECK(deep.attempt(0, 1, {{"max_level", 2}}) == Verdict::accepted);
+  CHECK_FALSE(deep.edge(0, 1).has_value());
+}
+
+TEST_CASE("more levels than needed give the same mesh") {
+  for (const MeshData& data : {two_shells(), three_shells()}) {
+    Worker two(data);
+    Worker fifteen(data);
+    two.attempt(0, 1, {{"max_level", 2}});
+    fifteen.attempt(0, 1, {{"max_level", 15}});
+    CHECK(two.mesh == fifteen.mesh);
+  }
+}
+
+TEST_CASE("without recursion the operator does what shell transformation does") {
+  for (unsigned m = 3; m <= 12; ++m) {
+    const MeshData data = shell_mesh({.degree = m, .height = 2, .squash = 0.7, .jitter = 0.2, .seed = m});
+    Worker plain(data);
+    Worker recursive(data);
+    const Verdict verdict = plain.attempt(0, 1, {}, "shell_transformation");
+    const Verdict level_0 = recursive.attempt(0, 1, {{"max_level", 0}});
+    CHECK((verdict == Verdict::accepted) == (level_0 == Verdict::accepted));
+    CHECK(plain.mesh == recursive.mesh);
+  }
+}
+
+TEST_CASE("a covering that puts a new face around the edge to be removed is not taken") {
+  Worker worker(shell_that_would_grow());
+  REQUIRE(count_not_positive(worker.mesh) == 0);
+  const unsigned degree = worker.degree(0, 1);
+  CHECK(worker.attempt(0, 1) == Verdict::no_improvement);
+  CHECK(worker.degree(0, 1) == degree);
+  // Seen from the link edge alone, without an ancestor, the covering is fine.
+  unsigned grown = 0;
+  Shell shell;
+  REQUIRE(find_shell(worker.mesh, *worker.edge(0, 1), shell) == ShellKind::closed);
+  for (unsigned i = 0; i < shell.degree; ++i) {
+    for (const std::uint32_t end : {0u, 1u}) {
+      Worker alone(shell_that_would_grow());
+      const Verdict verdict = alone.attempt(end, shell.ring[i].index(), {}, "shell_transformation");
+      if (verdict == Verdict::accepted && alone.degree(0, 1) > degree) ++grown;
+    }
+  }
+  CHECK(grown > 0);
+}
+
+TEST_CASE("a budget of one transformation is spent before the recursion gets anywhere") {
+  Worker worker(two_shells());
+  CHECK(worker.attempt(0, 1, {{"budget", 1}}) == Verdict::budget_spent);
+  unsigned needed = 1;
+  while (worker.attempt(0, 1, {{"budget", needed}}) == Verdict::budget_spent && needed < 100) ++needed;
+  CHECK(needed > 1);
+  CHECK(needed < 10);
+  CHECK_FALSE(worker.edge(0, 1).has_value());
+}
+
+TEST_CASE("boundary and constraint stop the recursion at its root and on its way") {
+  Worker open(shell_mesh({.degree = 5, .height = 2, .open = true}));
+  CHECK(open.attempt(0, 1) == Verdict::constrained);
+
+  // Constrain each interior edge and face of the two shells in turn: they all survive.
+  const TetMesh free(two_shells());
+  unsigned refused = 0;
+  for (const TetHandle t : live_tets(free)) {
+    for (unsigned f = 0; f < 4; ++f) {
+      if (free.is_boundary(HalfFace(t, f))) continue;
+      MeshData data = two_shells();
+      const auto v = free.vertices(HalfFace(t, f));
+      data.triangles.push_back({{v[0].index(), v[1].index(), v[2].index()}, 1});
+      Worker worker(data);
+      if (worker.attempt(0, 1) != Verdict::accepted) ++refused;
+    }
+    for (unsigned e = 0; e < 6; ++e) {
+      const auto [a, b] = free.vertices(TetEdge(t, e));
+      MeshData data = two_shells();
+      data.edges.push_back({{a.index(), b.index()}, 1});
+      Worker worker(data);
+      if (worker.attempt(0, 1) != Verdict::accepted) ++refused;
+      CHECK(worker.edge(a.index(), b.index()).has_value());
+    }
+  }
+  CHECK(refused > 0);
+}
+
+TEST_CASE("dropping the reflex rule may only find more") {
+  unsigned strict = 0;
+  unsigned loose = 0;
+  const MeshData data = delaunay_ball(120, 21);
+  const TetMesh start(data);
+  for (const TetHandle t : live_tets(start)) {
+    if (start.quality(t) >= 0.3f) continue;
+    for (unsigned e = 0; e < 6; ++e) {
+      const auto [a, b] = start.vertices(TetEdge(t, e));
+      Worker first(data);
+      strict += first.attempt(a.index(), b.index()) == Verdict::accepted;
+      Worker second(data);
+      loose += second.attempt(a.index(), b.index(), {{"reflex_only", 0}}) == Verdict::accepted;
+    }
+  }
+  CHECK(strict > 0);
+  CHECK(loose >= strict);
+}
