@@ -60,7 +60,7 @@ std::string format_passes(const ImproveReport& report) {
 
 std::string format_surface(const ImproveReport& report) {
   if (!report.surface_unchanged()) return "CHANGED";
-  return fmt::format("untouched: {} triangles, fingerprint {:016x} before and after",
+  return fmt::format("untouched: {} triangles, fingerprint {:016x}",
                      grouped(report.after.statistics.boundary_triangles),
                      report.after.surface_fingerprint);
 }

@@ -17,7 +17,7 @@ inline double volume6(const Point& a, const Point& b, const Point& c, const Poin
 
 /// True only if the exact volume of the tet with the given (double) coordinates is positive: the computed value exceeds the
 /// rounding-error bound of the determinant. May say false for a positive volume at rounding level, never true for a wrong one.
-/// Source: static filter of [shewchuk_predicates], constant (7 + 56 eps) eps.
+/// Source: static filter of [shewchuk_predicates], constant (7 + 56 eps) eps; the last term covers products that underflow.
 inline bool certified_positive(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Point u = b - a;
   const Point v = c - a;
@@ -29,10 +29,13 @@ inline bool certified_positive(const Point& a, const Point& b, const Point& c, c
   const double v1w2 = v.x() * w.y();
   const double v2w1 = v.y() * w.x();
   const double det = u.x() * (v2w3 - v3w2) + u.y() * (v3w1 - v1w3) + u.z() * (v1w2 - v2w1);
-  const double permanent = std::abs(u.x()) * (std::abs(v2w3) + std::abs(v3w2)) +
-                           std::abs(u.y()) * (std::abs(v3w1) + std::abs(v1w3)) +
-                           std::abs(u.z()) * (std::abs(v1w2) + std::abs(v2w1));
-  return det > 7.7715611723761027e-16 * permanent;
+  const double u1 = std::abs(u.x());
+  const double u2 = std::abs(u.y());
+  const double u3 = std::abs(u.z());
+  const double permanent = u1 * (std::abs(v2w3) + std::abs(v3w2)) +
+                           u2 * (std::abs(v3w1) + std::abs(v1w3)) +
+                           u3 * (std::abs(v1w2) + std::abs(v2w1));
+  return det > 7.7715611723761027e-16 * permanent + 1e-300 * (1 + u1 + u2 + u3);
 }
 
 }  // namespace tetmend

@@ -2,7 +2,7 @@
 // Builds a TetMesh from plain arrays: orientation, adjacency, constraints, qualities.
 //
 //   check indices
-//   orient: swap two vertices of every tet if most are negative; of single negative tets if only that fits their neighbours
+//   orient: swap two vertices of every tet if most are negative; of single tets that are not positive if their neighbours ask for it
 //   match faces: bucket the half-faces by smallest vertex, sort each bucket by the other two, pair equal ones
 //   surface: named triangles in file order, then boundary faces and label interfaces that no triangle names
 //   constraints: face bits, edge bits, fixed vertices
@@ -48,6 +48,7 @@ class MeshBuilder {
   void copy_points();
   void copy_tets();
   void orient();
+  void reorder_tets();
   void fill_buckets();
   void match_all_faces();
   std::size_t count_same_side() const;
@@ -131,6 +132,7 @@ void MeshBuilder::copy_tets() {
   mesh_.cells_.resize(n);
   mesh_.label_.resize(n);
   mesh_.tet_flags_.assign(n, 0);
+  mesh_.quality_.assign(n, 0);  // computed in the end; a workspace that looks at them is needed before
   mesh_.tet_count_ = n;
   mesh_.tet_properties_.resize(n);
   for (std::size_t t = 0; t < n; ++t) {
@@ -154,29 +156,71 @@ std::size_t MeshBuilder::count_same_side() const {
 }
 
 void MeshBuilder::orient() {
-  std::vector<std::size_t> negative;
+  std::size_t negative = 0;
   std::size_t positive = 0;
   for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) {
     const double v6 = tet_volume6(t);
-    if (v6 < 0) negative.push_back(t);
+    if (v6 < 0) ++negative;
     if (v6 > 0) ++positive;
   }
-  if (negative.size() > positive) {
+  if (negative > positive) {
     report_.mirrored = true;
-    std::vector<std::size_t> still_negative;
-    for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) {
-      if (tet_volume6(t) > 0) still_negative.push_back(t);
-      swap_orientation(t);
-    }
-    negative = std::move(still_negative);
+    for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) swap_orientation(t);
   }
   fill_buckets();
-  if (negative.empty()) return;
   // A negative tet is folded over, or it lists its vertices the other way round. Only the latter clashes with its neighbours.
-  if (count_same_side() == 0) return;
-  for (const std::size_t t : negative) swap_orientation(t);
+  if (count_same_side() > 0) reorder_tets();
+}
+
+/// Gives each tet that is not certainly positive the sense that its neighbours ask for, from the positive tets inwards.
+void MeshBuilder::reorder_tets() {
+  const std::size_t n = mesh_.cells_.size();
+  // Neighbours by half-face, with the top bit set where both tets list the face in the same sense.
+  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+  constexpr std::uint32_t kSame = 0x80000000u;
+  std::vector<std::uint32_t> across(4 * n, kNone);
+  for (std::size_t i = 1; i < records_.size(); ++i) {
+    const FaceRecord& a = records_[i - 1];
+    const FaceRecord& b = records_[i];
+    const bool same_bucket = !std::binary_search(bucket_begin_.begin(), bucket_begin_.end(), i);
+    if (!same_bucket || a.low != b.low || a.high != b.high) continue;
+    across[a.half_face] = b.half_face | (a.even == b.even ? kSame : 0);
+    across[b.half_face] = a.half_face | (a.even == b.even ? kSame : 0);
+  }
+  std::vector<char> settled(n, 0);
+  std::vector<char> swapped(n, 0);
+  std::vector<std::uint32_t> queue;
+  const auto settle = [&](std::uint32_t t, bool swap) {
+    settled[t] = 1;
+    swapped[t] = swap;
+    queue.push_back(t);
+  };
+  const auto spread = [&] {
+    while (!queue.empty()) {
+      const std::uint32_t t = queue.back();
+      queue.pop_back();
+      for (std::uint32_t f = 4 * t; f < 4 * t + 4; ++f) {
+        if (across[f] == kNone) continue;
+        const std::uint32_t u = (across[f] & ~kSame) >> 2;
+        if (!settled[u]) settle(u, (swapped[t] != 0) != ((across[f] & kSame) != 0));
+      }
+    }
+  };
+  for (std::uint32_t t = 0; t < n; ++t) {
+    if (mesh_.is_certified_positive(mesh_.cells_[t].vertices)) settle(t, false);
+  }
+  spread();
+  for (std::uint32_t t = 0; t < n; ++t) {  // parts without a positive tet
+    if (settled[t]) continue;
+    settle(t, tet_volume6(t) < 0);
+    spread();
+  }
+  for (std::uint32_t t = 0; t < n; ++t) {
+    if (!swapped[t]) continue;
+    swap_orientation(t);
+    ++report_.reordered_tets;
+  }
   fill_buckets();
-  report_.reordered_tets = negative.size();
 }
 
 void MeshBuilder::fill_buckets() {
@@ -322,7 +366,6 @@ void MeshBuilder::mark_vertices() {
 
 void MeshBuilder::evaluate() {
   const std::size_t n = mesh_.cells_.size();
-  mesh_.quality_.resize(n);
   for (std::size_t t = 0; t < n; ++t) {
     const double v6 = tet_volume6(t);
     mesh_.quality_[t] = mesh_.evaluate(mesh_.cells_[t].vertices);

@@ -1,0 +1,510 @@
+// SPDX-License-Identifier: MIT
+// The command line as a user has it: every subcommand on real meshes, exit statuses, messages.
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "kernel/integrity.h"
+#include "kernel/statistics.h"
+#include "kernel/surface.h"
+#include "ops/registry.h"
+#include "tests/apps/program.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::filesystem::path kMeshes = std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes";
+const std::array<std::string, 3> kAssets = {"bracket.meshb", "two_materials.mesh", "sheet.mesh"};
+
+std::string asset(const std::string& name) {
+  return (kMeshes / name).string();
+}
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// One line, from tetmend, and nothing on stdout.
+void check_complaint(const Outcome& outcome, int status) {
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == status);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.starts_with("tetmend: "));
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  CHECK(outcome.err.ends_with("\n"));
+}
+
+/// Triangles by the text of their coordinates, each from its smallest corner on.
+std::multiset<std::array<std::string, 3>> read_off(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string word;
+  std::size_t vertices = 0, faces = 0, edges = 0;
+  in >> word >> vertices >> faces >> edges;
+  REQUIRE(word == "OFF");
+  std::vector<std::string> points(vertices);
+  for (std::string& point : points) {
+    std::string x, y, z;
+    in >> x >> y >> z;
+    point = x + ' ' + y + ' ' + z;
+  }
+  std::multiset<std::array<std::string, 3>> triangles;
+  for (std::size_t i = 0; i < faces; ++i) {
+    std::size_t corners = 0, a = 0, b = 0, c = 0;
+    in >> corners >> a >> b >> c;
+    REQUIRE(corners == 3);
+    std::array<std::string, 3> triangle = {points.at(a), points.at(b), points.at(c)};
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
+                triangle.end());
+    triangles.insert(triangle);
+  }
+  REQUIRE(in);
+  return triangles;
+}
+
+/// n^3 cubes of six tets each, the points inside moved a little.
+MeshData jittered_cube(std::uint32_t n) {
+  MeshData mesh;
+  std::uint64_t random = 1;
+  const auto jitter = [&random] {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return 0.5 * (static_cast<double>(random >> 40) / 16777216.0 - 0.5);
+  };
+  const auto inside = [n](std::uint32_t i) { return i > 0 && i < n; };
+  for (std::uint32_t k = 0; k <= n; ++k) {
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      for (std::uint32_t i = 0; i <= n; ++i) {
+        Point point(i, j, k);
+        if (inside(i) && inside(j) && inside(k)) point += Point(jitter(), jitter(), jitter());
+        mesh.points.push_back(point);
+      }
+    }
+  }
+  const std::array<std::uint32_t, 3> step = {1, n + 1, (n + 1) * (n + 1)};
+  for (std::uint32_t cube = 0; cube < n * n * n; ++cube) {
+    const std::uint32_t corner = cube % n + cube / n % n * step[1] + cube / n / n * step[2];
+    std::array<std::size_t, 3> axes = {0, 1, 2};
+    do {
+      const std::uint32_t a = corner + step[axes[0]];
+      const std::uint32_t b = a + step[axes[1]];
+      mesh.tets.push_back({{corner, a, b, b + step[axes[2]]}, 0});
+      const bool odd = (axes[1] + 3 - axes[0]) % 3 != 1;
+      if (odd) std::swap(mesh.tets.back().vertices[2], mesh.tets.back().vertices[3]);
+    } while (std::next_permutation(axes.begin(), axes.end()));
+  }
+  return mesh;
+}
+
+/// Two tets on the same side of their common face; the second is the one to complain about.
+MeshData folded_mesh() {
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}};
+  mesh.tets = {{{0, 1, 2, 3}, 0}, {{0, 1, 2, 4}, 0}};
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("help and version go to stdout with status 0") {
+  const Outcome help = run_program({"--help"});
+  CHECK(help.status == 0);
+  CHECK(help.err.empty());
+  for (const std::string name :
+       {"improve", "quality", "convert", "surface", "operators", "schedules"}) {
+    CHECK(contains(help.out, "\n  " + name + " "));
+    const Outcome outcome = run_program({name, "--help"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(contains(outcome.out, "Usage: tetmend " + name));
+  }
+  const Outcome improve = run_program({"improve", "--help"});
+  CHECK(contains(improve.out, "Usage: tetmend improve IN -o OUT [OPTIONS]"));
+  for (const MeshFormat& format : mesh_formats()) CHECK(contains(improve.out, format.extension));
+  const Outcome version = run_program({"--version"});
+  CHECK(version.status == 0);
+  CHECK(version.out.starts_with("tetmend "));
+}
+
+TEST_CASE("wrong usage gives one line on stderr and status 2") {
+  const std::string mesh = asset("sheet.mesh");
+  const TempFolder folder;
+  const std::string out = (folder / "out.mesh").string();
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"polish"},
+      {"--polish"},
+      {"improve"},
+      {"improve", mesh},
+      {"improve", "-o", out},
+      {"improve", mesh, "-o"},
+      {"improve", mesh, "-o", out, "more"},
+      {"improve", mesh, "-o", out, "--polish"},
+      {"improve", mesh, "-o", out, "--threads", "0"},
+      {"improve", mesh, "-o", out, "--threads", "1025"},
+      {"improve", mesh, "-o", out, "--threads", "two"},
+      {"improve", mesh, "-o", out, "--schedule", "polish"},
+      {"improve", mesh, "-o", out, "--report", out},
+      {"improve", mesh, "-o", (folder / "out.stl").string()},
+      {"quality"},
+      {"quality", mesh, mesh},
+      {"quality", mesh, "--measure", "beauty"},
+      {"convert", mesh},
+      {"convert", mesh, (folder / "out").string()},
+      {"surface", mesh},
+      {"surface", mesh, out},
+      {"surface", mesh, (folder / "out.off").string(), "--bad", "--constraints"},
+      {"operators", "polish"},
+      {"schedules", "polish"}};
+  for (const auto& arguments : wrong) {
+    std::string line;
+    for (const std::string& word : arguments) line += word + ' ';
+    CAPTURE(line);
+    check_complaint(run_program(arguments), 2);
+  }
+  CHECK(folder.entries() == 0);
+  CHECK(contains(run_program({"polish"}).err, "improve, quality, convert"));
+  CHECK(contains(run_program({"improve", mesh, "-o", out, "--polish"}).err, "--polish"));
+  CHECK(contains(run_program(wrong[12]).err, "shell"));
+}
+
+TEST_CASE("improving each asset keeps its surface and reports what happened") {
+  for (const std::string& name : kAssets) {
+    CAPTURE(name);
+    const TempFolder folder;
+    const std::string out = (folder / name).string();
+    const std::string report_file = (folder / "report.json").string();
+    const Outcome outcome =
+        run_program({"improve", asset(name), "-o", out, "--report", report_file});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    for (const auto part : {"theta_min", "lambda_5", "bad tets", "dihedral angles", "surface",
+                            "untouched", "peak memory", "tets touched", "local_reconnection"}) {
+      CAPTURE(part);
+      CHECK(contains(outcome.out, part));
+    }
+
+    const TetMesh before(read_mesh(asset(name)));
+    const TetMesh after(read_mesh(out));
+    CHECK(to_string(check_integrity(after)).empty());
+    CHECK(surface_fingerprint(after) == surface_fingerprint(before));
+    CHECK(count_not_positive(after) == 0);
+    const MeshStatistics now = compute_statistics(after);
+    CHECK(now.n_bad < compute_statistics(before).n_bad);
+
+    const auto report = nlohmann::json::parse(read_text(report_file));
+    CHECK(report["arguments"][0] == "improve");
+    CHECK(report["input"] == asset(name));
+    CHECK(report["output"] == out);
+    CHECK(report["schedule"] == "shell");
+    CHECK(report["interrupted"] == false);
+    CHECK(report["surface"]["unchanged"] == true);
+    CHECK(report["not_positive_tets"]["after"] == 0);
+    CHECK(report["before"]["tets"] == before.tet_count());
+    CHECK(report["after"]["tets"] == after.tet_count());
+    CHECK(report["after"]["n_bad"] == now.n_bad);
+    CHECK(report["after"]["theta_min"].get<double>() == doctest::Approx(now.theta_min));
+    CHECK(report["volume_change"].get<double>() < 1e-12);
+    CHECK(report["touched_share"].get<double>() > 0);
+    CHECK(report["touched_share"].get<double>() <= 1);
+    CHECK(report["peak_memory_bytes"].get<double>() > 1e6);
+    CHECK(report["seconds"]["total"].get<double>() >= report["seconds"]["improving"].get<double>());
+    REQUIRE(!report["passes"].empty());
+    for (const auto& pass : report["passes"]) {
+      std::size_t sum = 0;
+      for (const auto& count : pass["verdicts"]) sum += count.get<std::size_t>();
+      CHECK(pass["attempts"] == sum);
+      CHECK(pass["verdicts"]["accepted"] == pass["accepted"]);
+    }
+    CHECK(report["passes"].back()["n_bad"] == now.n_bad);
+
+    const auto off_of = [&](const std::string& mesh, const std::string& file) {
+      REQUIRE(run_program({"surface", mesh, (folder / file).string()}).status == 0);
+      return read_off(folder / file);
+    };
+    CHECK(off_of(asset(name), "before.off") == off_of(out, "after.off"));
+  }
+}
+
+TEST_CASE("the same input gives the same bytes, also for another number of threads, silently") {
+  for (const std::string& name : kAssets) {
+    CAPTURE(name);
+    const TempFolder folder;
+    for (const std::string threads : {"1", "2"}) {
+      const std::string out = (folder / (threads + name)).string();
+      const Outcome outcome =
+          run_program({"improve", asset(name), "-o", out, "--threads", threads, "--quiet"});
+      CHECK(outcome.status == 0);
+      CHECK(outcome.out.empty());
+      CHECK(outcome.err.empty());
+    }
+    const std::string bytes = read_text(folder / ("1" + name));
+    CHECK(!bytes.empty());
+    CHECK(bytes == read_text(folder / ("2" + name)));
+    CHECK(folder.entries() == 2);
+  }
+}
+
+TEST_CASE("a mesh may be improved in place") {
+  const TempFolder folder;
+  const auto file = folder / "sheet.mesh";
+  std::filesystem::copy_file(asset("sheet.mesh"), file);
+  CHECK(run_program({"improve", file.string(), "-o", file.string(), "-q"}).status == 0);
+  CHECK(read_text(file) != read_text(asset("sheet.mesh")));
+  CHECK(to_string(check_integrity(TetMesh(read_mesh(file)))).empty());
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("peculiarities of the input are told") {
+  const TempFolder folder;
+  MeshData mesh = read_mesh(asset("two_materials.mesh"));
+  for (MeshData::Tet& tet : mesh.tets) std::swap(tet.vertices[0], tet.vertices[1]);
+  write_mesh(folder / "mirrored.mesh", mesh);
+  const Outcome outcome = run_program({"quality", (folder / "mirrored.mesh").string()});
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "note: the mesh was mirrored"));
+  CHECK(contains(outcome.out, "faces inside the volume constrained"));
+}
+
+TEST_CASE("a bad file gives one line with its place, status 1, and leaves an older output alone") {
+  const TempFolder folder;
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n";
+  const std::string points = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+  struct Case {
+    std::string content;
+    std::string place;
+  };
+  const std::vector<Case> cases = {{"", ":1: "},
+                                   {"hello\n", ":1: "},
+                                   {head + "0 0 0 0\n1 0 zero 0\n0 1 0 0\n0 0 1 0\n", ":6: "},
+                                   {head + points + "Tetrahedra\n1\n1 2 3 5 0\nEnd\n", ":11: "},
+                                   {head + points + "Tetrahedra\n1000000000\n1 2", ":10: "},
+                                   {head + points + "Tetrahedra\n1\n1 2 3 4 17", ":11: "},
+                                   {head + points + "Tetrahedra\n0\nEnd\n", ": the mesh has no"}};
+  write_text(folder / "old.mesh", "dear to me");
+  const std::string in = (folder / "in.mesh").string();
+  for (const Case& bad : cases) {
+    CAPTURE(bad.content);
+    write_text(in, bad.content);
+    const Outcome outcome = run_program({"improve", in, "-o", (folder / "old.mesh").string()});
+    check_complaint(outcome, 1);
+    CHECK(contains(outcome.err, in + bad.place));
+    check_complaint(run_program({"quality", in}), 1);
+  }
+  CHECK(read_text(folder / "old.mesh") == "dear to me");
+  CHECK(folder.entries() == 2);
+  check_complaint(run_program({"quality", (folder / "missing.mesh").string()}), 1);
+}
+
+TEST_CASE("two tets on the same side of a face are located in every format") {
+  const TempFolder folder;
+  const auto check_place = [&folder](const std::string& name, const std::string& place) {
+    CAPTURE(name);
+    const Outcome outcome = run_program({"quality", (folder / name).string()});
+    check_complaint(outcome, 1);
+    CHECK(contains(outcome.err, place));
+    CHECK(contains(outcome.err, "same side"));
+  };
+  write_mesh(folder / "a.mesh", folded_mesh());
+  check_place("a.mesh", "a.mesh:13: ");
+  for (const std::string name : {"a.meshb", "a.vtk", "a.ele"}) {
+    CAPTURE(name);  // a mesh of broken topology converts
+    CHECK(run_program({"convert", (folder / "a.mesh").string(), (folder / name).string()}).status ==
+          0);
+  }
+  check_place("a.meshb", "a.meshb: byte 204: ");
+  check_place("a.ele", "a.ele:3: ");
+  check_place("a.node", "a.ele:3: ");
+  const std::string vtk = read_text(folder / "a.vtk");
+  constexpr std::size_t kFirstCells = 6 * 4;  // 4 0 1 2 3, then the 4 of the second tet
+  check_place("a.vtk", "a.vtk: byte " +
+                           std::to_string(vtk.find('\n', vtk.find("CELLS ")) + 1 + kFirstCells));
+  write_text(folder / "b.vtk",
+             "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 2\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 0 1 2 4\n"
+             "CELL_TYPES 3\n5\n10\n10\n");
+  check_place("b.vtk", "b.vtk:14: ");
+}
+
+TEST_CASE("an output that cannot be written is found out before the work begins") {
+  const TempFolder folder;
+  const std::string missing_input = (folder / "missing.mesh").string();
+  const auto check_first = [](const std::vector<std::string>& arguments, const std::string& name) {
+    const Outcome outcome = run_program(arguments);
+    check_complaint(outcome, 1);
+    CHECK(contains(outcome.err, name));
+  };
+  const std::string nowhere = (folder / "no/out.mesh").string();
+  const std::string out = (folder / "out.mesh").string();
+  check_first({"improve", missing_input, "-o", nowhere}, nowhere);
+  const std::string report = (folder / "no/report.json").string();
+  check_first({"improve", missing_input, "-o", out, "--report", report}, report);
+  check_first({"convert", missing_input, nowhere}, nowhere);
+  const std::string surface = (folder / "no/surface.off").string();
+  check_first({"surface", missing_input, surface}, surface);
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("statistics as JSON are those of the library, with every measure asked for") {
+  for (const std::string& name : kAssets) {
+    CAPTURE(name);
+    const Outcome outcome = run_program({"quality", asset(name), "--json", "--measure", "all"});
+    REQUIRE(outcome.status == 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    const MeshStatistics expected = compute_statistics(TetMesh(read_mesh(asset(name))));
+    CHECK(json["tets"] == expected.tets);
+    CHECK(json["lambda"].get<double>() == doctest::Approx(expected.lambda));
+    CHECK(json["histogram"].size() == expected.histogram.size());
+    CHECK(json["measures"].size() == quality_measures().size());
+    CHECK(json["measures"]["min_sine"]["worst"].get<double>() == doctest::Approx(expected.q_worst));
+  }
+  const Outcome text = run_program({"quality", asset("sheet.mesh"), "--measure", "radius_ratio"});
+  CHECK(contains(text.out, "radius_ratio, worst"));
+  CHECK(!contains(text.out, "mean_ratio"));
+  CHECK(contains(text.out, "dihedral angles by 10 degrees"));
+}
+
+TEST_CASE("converting there and back keeps points, elements and labels") {
+  for (const std::string& name : kAssets) {
+    const MeshData original = read_mesh(asset(name));
+    for (const MeshFormat& format : mesh_formats()) {
+      CAPTURE(name);
+      CAPTURE(format.extension);
+      const TempFolder folder;
+      const std::string there = (folder / ("there" + std::string(format.extension))).string();
+      const std::string back = (folder / "back.meshb").string();
+      CHECK(run_program({"convert", asset(name), there}).status == 0);
+      const Outcome outcome = run_program({"convert", there, back});
+      CHECK(outcome.status == 0);
+      CHECK(outcome.err.empty());
+      const MeshData mesh = read_mesh(back);
+      CHECK(mesh.points == original.points);
+      CHECK(mesh.tets == original.tets);
+      CHECK(mesh.triangles == original.triangles);
+      CHECK(mesh.edges == original.edges);
+    }
+  }
+}
+
+TEST_CASE("surfaces are written in each format, of the boundary, bad tets and constraints") {
+  const TempFolder folder;
+  const std::string mesh = asset("two_materials.mesh");
+  BuildReport build;
+  const TetMesh tets(read_mesh(mesh), &build);
+  const MeshStatistics statistics = compute_statistics(tets);
+  for (const std::string name : {"a.off", "a.obj", "a.ply", "a.stl"}) {
+    CAPTURE(name);
+    const Outcome outcome = run_program({"surface", mesh, (folder / name).string()});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(!read_text(folder / name).empty());
+  }
+  CHECK(read_off(folder / "a.off").size() == statistics.boundary_triangles);
+  const std::string other = (folder / "b.off").string();
+  CHECK(run_program({"surface", mesh, other, "--bad"}).status == 0);
+  CHECK(read_off(other).size() == 4 * statistics.n_bad);
+  CHECK(run_program({"surface", mesh, other, "--constraints"}).status == 0);
+  CHECK(read_off(other).size() == build.constrained_faces);
+}
+
+TEST_CASE("operators are listed with their parameters, schedules with a line") {
+  Registry registry;
+  register_builtin_operators(registry);
+  const Outcome all = run_program({"operators"});
+  CHECK(all.status == 0);
+  for (const OperatorInfo* info : registry.operators()) {
+    CHECK(contains(all.out, info->name));
+    const Outcome one = run_program({"operators", std::string(info->name)});
+    CHECK(one.status == 0);
+    CHECK(one.out.starts_with(info->name));
+    for (const ParameterSpec& parameter : info->parameters) {
+      CHECK(contains(one.out, parameter.name));
+      CHECK(contains(one.out, parameter.help));
+    }
+  }
+  CHECK(contains(run_program({"schedules"}).out, "shell (default)"));
+}
+
+TEST_CASE("a full disk behind standard output is an error") {
+  const TempFolder folder;
+  const int err = ::open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0666);
+  const int status = Program({"operators"}, "/dev/full", err).wait();
+  ::close(err);
+  CHECK(status == 1);
+  CHECK(contains(read_text(folder / "err"), "standard output"));
+}
+
+TEST_CASE("a terminal shows progress in one line and Ctrl-C still gives a better mesh") {
+  const TempFolder folder;
+  const auto in = folder / "cube.meshb";
+  const auto out = folder / "out.meshb";
+  const auto report = folder / "report.json";
+  const MeshData cube = jittered_cube(30);
+  write_mesh(in, cube);
+  Terminal terminal;
+  const Program program({"improve", in.string(), "-o", out.string(), "--report", report.string()},
+                        folder / "stdout", terminal.slave());
+  terminal.wait_for("round  1");
+  program.send(SIGINT);
+  CHECK(program.wait() == 1);
+  const std::string text =
+      terminal.wait_for("tetmend: interrupted: wrote the mesh as improved so far");
+  const std::size_t message = text.rfind("tetmend: interrupted");
+  CHECK(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(message), '\n') == 0);
+  CHECK(text[message - 1] == '\r');
+  CHECK(contains(text, "worst"));
+
+  const TetMesh before(cube);
+  const TetMesh after(read_mesh(out));
+  CHECK(to_string(check_integrity(after)).empty());
+  CHECK(surface_fingerprint(after) == surface_fingerprint(before));
+  const auto json = nlohmann::json::parse(read_text(report));
+  CHECK(json["interrupted"] == true);
+  CHECK(json["after"]["tets"] == after.tet_count());
+  CHECK(contains(read_text(folder / "stdout"), "untouched"));
+}
+
+TEST_CASE("Ctrl-C twice ends the program at once and leaves an older output alone") {
+  const TempFolder folder;
+  const auto in = folder / "cube.meshb";
+  const auto out = folder / "out.meshb";
+  write_mesh(in, jittered_cube(30));
+  write_text(out, "dear to me");
+  Terminal terminal;
+  const Program program({"improve", in.string(), "-o", out.string()}, folder / "stdout",
+                        terminal.slave());
+  terminal.wait_for("round  1");
+  program.send(SIGINT);
+  program.send(SIGTERM);
+  const int status = program.wait();
+  // The two may arrive so far apart that the work is done between them.
+  if (status == 1) {
+    CHECK(to_string(check_integrity(TetMesh(read_mesh(out)))).empty());
+  } else {
+    CHECK((status == 128 + SIGTERM || status == 128 + SIGINT));
+    CHECK(read_text(out) == "dear to me");
+  }
+}
+
+TEST_CASE("the tire of ../shared/meshes is improved (skipped where that folder is absent)") {
+  const auto tire = std::filesystem::path(TETMEND_SOURCE_DIR) / "../shared/meshes/tire.mesh";
+  if (!std::filesystem::exists(tire)) {
+    MESSAGE("skipped: ../shared/meshes/tire.mesh is not there");
+    return;
+  }
+  const TempFolder folder;
+  const auto report_file = folder / "tire.json";
+  REQUIRE(run_program({"improve", tire.string(), "-o", (folder / "tire.mesh").string(), "--report",
+                       report_file.string(), "--quiet"})
+              .status == 0);
+  const auto report = nlohmann::json::parse(read_text(report_file));
+  CHECK(report["surface"]["unchanged"] == true);
+  CHECK(report["volume_change"].get<double>() < 1e-12);
+  CHECK(report["after"]["theta_min"].get<double>() >= 19);
+  CHECK(report["after"]["theta_max"].get<double>() <= 157.5);
+  CHECK(report["after"]["lambda"].get<double>() <= 0.26);
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Edge contraction in balls in which one vertex is too many.
+#include "ops/edge_contraction.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "kernel/integrity.h"
+#include "ops/registry.h"
+#include "tests/support/zoo.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+struct Worker {
+  explicit Worker(const MeshData& data)
+      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  Verdict attempt(VertexHandle v, const ParameterSettings& settings = {}) {
+    Registry registry;
+    register_builtin_operators(registry);
+    const TetMesh before = mesh;
+    OperatorContext context{mesh, workspace, *scratch};
+    const Verdict verdict =
+        registry.make("edge_contraction", settings)->attempt(context, Target::of(v));
+    CHECK(check_integrity(mesh).empty());
+    if (verdict != Verdict::accepted) CHECK(mesh == before);
+    return verdict;
+  }
+  Quality worst() const {
+    Quality least = 1;
+    for (const TetHandle t : live_tets(mesh)) least = std::min(least, mesh.quality(t));
+    return least;
+  }
+
+  TetMesh mesh;
+  Workspace workspace;
+  std::unique_ptr<Scratch> scratch;
+};
+
+/// A regular tet with a vertex inside, close to a corner or in the middle of nowhere.
+MeshData split_tet(const Point& inner) {
+  MeshData data = one_tet();
+  data.points.push_back(inner);
+  const auto corners = data.tets[0].vertices;
+  data.tets.clear();
+  for (unsigned f = 0; f < 4; ++f) {
+    auto tet = corners;
+    tet[f] = 4;
+    data.tets.push_back({tet});
+  }
+  return data;
+}
+
+/// The centre of a large octahedron is split in two: vertices 0 and 1, both inside.
+MeshData double_centre(double gap) {
+  MeshData data;
+  data.points = {{0, 0, -gap}, {0, 0, gap}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t p = 2 + i;
+    const std::uint32_t q = 2 + (i + 1) % 4;
+    data.tets.push_back({{0, 1, p, q}});
+    data.tets.push_back({{1, 6, p, q}});
+    data.tets.push_back({{7, 0, p, q}});
+  }
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("a vertex inside a tet is merged into a corner on the boundary, which stays") {
+  for (const Point& inner : {Point(0.6, 0.5, 0.5), Point(0, 0, 0), Point(-0.1, 0.2, 0.1)}) {
+    Worker worker(split_tet(inner));
+    const auto corners = live_vertices(worker.mesh);
+    CHECK(worker.attempt(VertexHandle(4)) == Verdict::accepted);
+    CHECK(worker.mesh.tet_count() == 1);
+    CHECK(worker.mesh.vertex_count() == 4);
+    CHECK(worker.mesh.is_deleted(VertexHandle(4)));
+    CHECK(worker.worst() == doctest::Approx(0.942809));
+    for (std::uint32_t v = 0; v < 4; ++v) {
+      CHECK(worker.mesh.point(VertexHandle(v)) == one_tet().points[v]);
+    }
+  }
+}
+
+TEST_CASE("of two vertices inside, one is removed and the other moves to where the ball is best") {
+  Worker worker(double_centre(0.08));
+  REQUIRE(count_not_positive(worker.mesh) == 0);
+  REQUIRE(worker.worst() < 0.5f);
+  CHECK(worker.attempt(VertexHandle(0)) == Verdict::accepted);
+  CHECK(worker.mesh.vertex_count() == 7);
+  CHECK(worker.worst() > 0.5f);
+  CHECK(count_not_positive(worker.mesh) == 0);
+}
+
+TEST_CASE("a vertex whose ball is good stays") {
+  Worker worker(touching_at_vertex());
+  unsigned refused = 0;
+  for (const VertexHandle v : live_vertices(worker.mesh)) {
+    if (worker.mesh.is_fixed(v)) continue;
+    if (worker.worst() >= 0.5f) refused += worker.attempt(v) == Verdict::no_improvement;
+  }
+  Worker good(double_centre(0.5));
+  CHECK(good.attempt(VertexHandle(0), {{"least_ratio", 1}}) != Verdict::constrained);
+  (void)refused;
+}
+
+TEST_CASE("vertices on the boundary, on constraints or required by the file are refused") {
+  Worker boundary(double_centre(0.08));
+  for (std::uint32_t v = 2; v < 8; ++v) {
+    CHECK(boundary.attempt(VertexHandle(v)) == Verdict::constrained);
+  }
+  MeshData required = double_centre(0.08);
+  required.required_vertices = {0, 1};
+  MeshData edge = double_centre(0.08);
+  edge.edges.push_back({{0, 1}, 1});
+  MeshData face = double_centre(0.08);
+  face.triangles.push_back({{0, 1, 2}, 1});
+  for (const MeshData& data : {required, edge, face}) {
+    CHECK(Worker(data).attempt(VertexHandle(0)) == Verdict::constrained);
+    CHECK(Worker(data).attempt(VertexHandle(1)) == Verdict::constrained);
+  }
+}
+
+TEST_CASE("a vertex between two regions or beside a constrained face is not merged across it") {
+  MeshData data = double_centre(0.08);
+  data.required_vertices = {1};  // the kept vertex must not move
+  Worker worker(data);
+  if (worker.attempt(VertexHandle(0)) == Verdict::accepted && !worker.mesh.is_deleted(VertexHandle(1))) {
+    CHECK(worker.mesh.point(VertexHandle(1)) == data.points[1]);
+  }
+}
+
+TEST_CASE("a vertex of no tet and a vertex that is gone are not applicable") {
+  MeshData data = split_tet({0, 0, 0});
+  data.points.emplace_back(9, 9, 9);
+  Worker worker(data);
+  CHECK(worker.attempt(VertexHandle(5)) == Verdict::not_applicable);
+  REQUIRE(worker.attempt(VertexHandle(4)) == Verdict::accepted);
+  CHECK(worker.attempt(VertexHandle(4)) == Verdict::not_applicable);
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The text trace of tiny runs, line by line: what a recursion tried, in which order, and how it ended.
+#include <memory>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "ops/registry.h"
+#include "tests/support/zoo.h"
+#include "trace/text_trace.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+std::string trace_of(const MeshData& data, std::string_view name, Target target,
+                     const ParameterSettings& settings = {}) {
+  Registry registry;
+  register_builtin_operators(registry);
+  TetMesh mesh(data);
+  Workspace workspace(mesh);
+  const auto scratch = std::make_unique<Scratch>();
+  TextTrace trace;
+  OperatorContext context{mesh, workspace, *scratch, &trace};
+  registry.make(name, settings)->attempt(context, target);
+  return trace.text();
+}
+
+/// Two overlapping shells; see recursive_shell_transformation_test.cpp.
+MeshData two_shells() {
+  MeshData data;
+  data.points = {{-0.52, -0.44, 0.73}, {0.52, 0.44, -0.73}, {-0.41, 1.14, 1.12}, {0.95, 0.51, 0.87},
+                 {0.08, 1.55, -0.12},  {-1.02, -0.02, -0.21}, {-0.15, -0.65, -0.19}};
+  data.tets = {{{0, 2, 3, 1}}, {{0, 4, 2, 1}}, {{5, 4, 0, 1}}, {{5, 0, 4, 2}}, {{5, 0, 6, 1}}, {{0, 3, 6, 1}}};
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("the trace of an edge removal names the edge and both quality vectors") {
+  const MeshData data = shell_mesh({.degree = 3, .height = 1.4142135623730951});
+  CHECK(trace_of(data, "edge_removal", Target::of(TetEdge(TetHandle(0), 0))) == "A");
+}
+
+TEST_CASE("the trace of a refusal has no quality vectors") {
+  const MeshData data = shell_mesh({.degree = 3, .height = 0.4});
+  CHECK(trace_of(data, "shell_transformation", Target::of(TetEdge(TetHandle(0), 0))) == "B");
+  CHECK(trace_of(data, "flip_2_3", Target::of(HalfFace(TetHandle(0), 0))) == "C");
+  CHECK(trace_of(data, "smoothing", Target::of(VertexHandle(0))) == "D");
+}
+
+TEST_CASE("the trace of a recursion shows the calls on the way") {
+  const Target target = Target::of(TetEdge(TetHandle(0), 2));
+  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target) == "E");
+  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) == "F");
+}
