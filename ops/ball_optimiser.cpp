@@ -114,9 +114,10 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
 
   const std::array<double, 3> far2 = {field(bc2)[i], field(ca2)[i], field(ab2)[i]};
   for (unsigned e = 0; e < 6 && count < kMaxActive; ++e) {
-    // e < 3: edge from p to corner e, between the faces opposite p and that corner; else the edge opposite corner e - 3.
-    const unsigned f = e < 3 ? 3 : (e - 3 + 1) % 3;
-    const unsigned g = e < 3 ? e : (e - 3 + 2) % 3;
+    // e < 3: edge from p to corner e, shared by the faces opposite the other two corners; else the edge opposite corner e - 3, shared
+    // by the face opposite that corner and the one opposite p.
+    const unsigned f = e < 3 ? (e + 1) % 3 : 3;
+    const unsigned g = e < 3 ? (e + 2) % 3 : e - 3;
     const double length2 = e < 3 ? to[e].squaredNorm() : far2[e - 3];
     const double scale = std::sqrt(length2) / (norm[f] * norm[g]);
     const double sine = v6 * scale;

@@ -80,7 +80,12 @@ class EdgeSplit final : public Operator {
       scratch.neighbours.assign(ring.begin(), ring.end());
       scratch.neighbours.push_back(v);
       for (const VertexHandle w : scratch.neighbours) climb(context, transaction, w);
-      if (round == 0) reconnect(context, v);
+      if (round > 0) break;
+      reconnect(context, v);
+      // The second round of smoothing is as dear as the first; it cannot make up for this much.
+      constexpr Quality kHopeless = 0.85f;
+      transaction.compare(scratch.before, scratch.now);
+      if (scratch.now[0] < kHopeless * std::max(scratch.before[0], 0.0f)) break;
     }
   }
 

@@ -17,7 +17,8 @@ struct ShellSchedule {
   LocalReconnection unfiltered_reconnection = {.calendar = "unfiltered reconnection",
                                                .edge_settings = {{"reflex_only", 0}},
                                                .threshold = 0.35f};
-  InsertionPass relaxed_insertion = {.calendar = "relaxed insertion", .settings = {{"relax", 1}}};
+  InsertionPass relaxed_insertion = {
+      .calendar = "relaxed insertion", .settings = {{"relax", 1}}, .share = 0.001};
 };
 
 /// Repeats reconnection, suppression and insertion, each followed by smoothing, until rounds make no more progress; then goes on with

@@ -102,6 +102,22 @@ HalfFace inner_face(const TetMesh& mesh) {
   return {};
 }
 
+/// A 2-3 flip whose new tets are all positive.
+Cavity valid_flip_23(const TetMesh& mesh) {
+  for (const TetHandle t : live_tets(mesh)) {
+    for (unsigned f = 0; f < 4; ++f) {
+      if (mesh.is_boundary(HalfFace(t, f))) continue;
+      const Cavity cavity = flip_23(mesh, HalfFace(t, f));
+      if (std::all_of(cavity.created.begin(), cavity.created.end(),
+                      [&](const TetVertices& v) { return mesh.is_certified_positive(v); })) {
+        return cavity;
+      }
+    }
+  }
+  FAIL("no face to flip");
+  return {};
+}
+
 std::vector<VertexHandle> free_vertices(const TetMesh& mesh) {
   std::vector<VertexHandle> free = live_vertices(mesh);
   std::erase_if(free, [&](VertexHandle v) { return mesh.is_fixed(v); });
@@ -400,7 +416,7 @@ TEST_CASE("refused edits say why and change nothing") {
   const TetMesh before = mesh;
   Workspace workspace(mesh);
   Transaction tx(mesh, workspace);
-  const Cavity flip = flip_23(mesh, inner_face(mesh));
+  const Cavity flip = valid_flip_23(mesh);
 
   Cavity incomplete = flip;
   incomplete.created.pop_back();
@@ -573,10 +589,10 @@ TEST_CASE("compare gives the qualities of all that was touched, before and now, 
   CHECK(before.empty());
   CHECK(now.empty());
 
-  const HalfFace face = inner_face(mesh);
-  std::vector<Quality> expected = {mesh.quality(face.tet()), mesh.quality(mesh.twin(face).tet())};
+  const Cavity flip = valid_flip_23(mesh);
+  std::vector<Quality> expected = {mesh.quality(flip.old[0]), mesh.quality(flip.old[1])};
   std::sort(expected.begin(), expected.end());
-  REQUIRE(replace(tx, flip_23(mesh, face)) == EditResult::made);
+  REQUIRE(replace(tx, flip) == EditResult::made);
   const std::vector<TetHandle> flipped(tx.created().begin(), tx.created().end());
   tx.compare(before, now);
   CHECK(before == expected);
@@ -635,7 +651,7 @@ TEST_CASE("edits that were undone do not count in compare") {
   Transaction tx(mesh, workspace);
   {
     Transaction child(mesh, workspace);
-    REQUIRE(replace(child, flip_23(mesh, inner_face(mesh))) == EditResult::made);
+    REQUIRE(replace(child, valid_flip_23(mesh)) == EditResult::made);
   }
   std::vector<Quality> before, now;
   tx.compare(before, now);

@@ -200,7 +200,8 @@ TEST_CASE("the first step of a single tet follows the gradient found by finite d
 }
 
 TEST_CASE("a single tet over an equilateral triangle becomes regular") {
-  const Triangle t = {Point(1, 0, 0), Point(-0.5, std::sqrt(0.75), 0), Point(-0.5, -std::sqrt(0.75), 0)};
+  const Triangle t = {Point(1, 0, 0), Point(-0.5, std::sqrt(0.75), 0),
+                      Point(-0.5, -std::sqrt(0.75), 0)};
   BallOptimiser ball;
   ball.add(t[0], t[1], t[2]);
   Point p(0.3, -0.2, -0.4);
@@ -308,10 +309,10 @@ TEST_CASE("degenerate triangles give quality 0 and no wrong numbers") {
   const Point a(1, 0, 0);
   const Point b(0, 1, 0);
   BallOptimiser ball;
-  ball.add(a, a, b);                              // two corners in one place
-  ball.add(a, a, a);                              // all in one place
-  ball.add(a, b, 2 * b - a);                      // on a line
-  ball.add(a, b, Point(0, 0, 1));                 // sound
+  ball.add(a, a, b);               // two corners in one place
+  ball.add(a, a, a);               // all in one place
+  ball.add(a, b, 2 * b - a);       // on a line
+  ball.add(a, b, Point(0, 0, 1));  // sound
   for (const Point& start : {Point(0, 0, 0), a, Point(0.5, 0.5, 0), Point(0, 0, -1)}) {
     Point p = start;
     const double before = ball.worst(p);
@@ -332,7 +333,8 @@ TEST_CASE("an empty ball has no worst tet and leaves the vertex alone") {
   CHECK(ball.size() == 0);
 }
 
-TEST_CASE("a ball of one tet that is flat, or whose vertex lies on a corner, is raised or left alone") {
+TEST_CASE(
+    "a ball of one tet that is flat, or whose vertex lies on a corner, is raised or left alone") {
   BallOptimiser ball;
   ball.add({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
   for (const Point& start : {Point(0.3, 0.3, 0), Point(0, 0, 0), Point(0.5, 0.5, 0)}) {
@@ -354,8 +356,8 @@ TEST_CASE("the shortest vector in a hull is what enumeration finds") {
     for (std::size_t i = 0; i < n; ++i) {
       points.push_back(shift + random.in_ball(1));
       if (trial % 5 == 1 && i > 0) points[i] = points[random.index(i)];  // repeated
-      if (trial % 5 == 2) points[i].z() = 0;                            // in a plane through 0
-      if (trial % 5 == 3) points[i] = points[0] * (1 + random.real());  // on a ray
+      if (trial % 5 == 2) points[i].z() = 0;                             // in a plane through 0
+      if (trial % 5 == 3) points[i] = points[0] * (1 + random.real());   // on a ray
     }
     const Point x = shortest_in_hull(points.data(), static_cast<unsigned>(n));
     const Point expected = shortest_by_enumeration(points);

@@ -44,9 +44,24 @@ MeshData constrained_ball(std::uint64_t seed) {
   return data;
 }
 
-std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all = zoo();
-  all.push_back({"constrained_ball", constrained_ball(11)});
+/// The mesh after point suppression: with free slots of tets and vertices between the live ones.
+TetMesh with_free_slots(const MeshData& data) {
+  TetMesh mesh(data);
+  Registry registry;
+  register_builtin_operators(registry);
+  const auto contraction = registry.make("edge_contraction");
+  Workspace workspace(mesh);
+  const auto scratch = std::make_unique<Scratch>();
+  OperatorContext context{mesh, workspace, *scratch};
+  for (const VertexHandle v : live_vertices(mesh)) contraction->attempt(context, Target::of(v));
+  return mesh;
+}
+
+std::vector<std::pair<std::string, TetMesh>> meshes() {
+  std::vector<std::pair<std::string, TetMesh>> all;
+  for (const NamedMesh& named : zoo()) all.emplace_back(named.name, TetMesh(named.data));
+  all.emplace_back("constrained_ball", TetMesh(constrained_ball(11)));
+  all.emplace_back("ball_with_free_slots", with_free_slots(delaunay_ball(100, 12)));
   return all;
 }
 
@@ -347,15 +362,15 @@ Outcome try_on_fresh_copies(const Operator& op, const TetMesh& start, std::size_
 
 template <class Try>
 void check_all(const std::vector<Candidate>& candidates, bool must_succeed, Try&& attempt) {
-  const std::vector<NamedMesh> all = meshes();
+  const auto all = meshes();
   for (const Candidate& candidate : candidates) {
     std::size_t attempts = 0;
     std::size_t accepted = 0;
-    for (const NamedMesh& named : all) {
-      const Outcome outcome = attempt(*candidate.op, TetMesh(named.data));
+    for (const auto& [name, mesh] : all) {
+      const Outcome outcome = attempt(*candidate.op, mesh);
       attempts += outcome.attempts;
       accepted += outcome.accepted;
-      CHECK_MESSAGE(outcome.complaint.empty(), candidate.name, " on ", named.name, ", ",
+      CHECK_MESSAGE(outcome.complaint.empty(), candidate.name, " on ", name, ", ",
                     outcome.complaint);
     }
     // An operator that never accepts would pass all the same.
@@ -394,8 +409,8 @@ TEST_CASE("each operator keeps its contract with each parameter at the ends of i
 
 TEST_CASE("operators keep the contract when they work one after the other on the same mesh") {
   const Registry registry = builtin_operators();
-  for (const NamedMesh& named : meshes()) {
-    Worker worker{TetMesh(named.data)};
+  for (const auto& [name, mesh] : meshes()) {
+    Worker worker(mesh);
     Portrait known = portrait(worker.mesh);
     std::size_t turn = 0;
     for (unsigned round = 0; round < 2; ++round) {
@@ -412,7 +427,7 @@ TEST_CASE("operators keep the contract when they work one after the other on the
             about = complaint_about(known, worker.mesh);
             known = portrait(worker.mesh);
           }
-          REQUIRE_MESSAGE(about.empty(), candidate.name, " on ", named.name, ": ", about);
+          REQUIRE_MESSAGE(about.empty(), candidate.name, " on ", name, ": ", about);
         }
       }
     }

@@ -45,15 +45,17 @@ struct Worker {
   std::unique_ptr<Scratch> scratch;
 };
 
-/// The edge of a shell of eight is long: the tets are thin wedges, their halves are not as thin.
-MeshData long_shell() { return shell_mesh({.degree = 6, .height = 2}); }
+/// The edge is much longer than the ring is wide: the tets are thin, their halves are not as thin.
+MeshData long_shell() {
+  return shell_mesh({.degree = 6, .height = 4});
+}
 
 }  // namespace
 
 TEST_CASE("splitting a long edge turns its m tets into 2 m around a new vertex") {
-  for (unsigned m = 4; m <= 6; ++m) {
+  for (unsigned m = 3; m <= 8; ++m) {
     CAPTURE(m);
-    Worker worker(shell_mesh({.degree = m, .height = 2}));
+    Worker worker(shell_mesh({.degree = m, .height = 4}));
     const Quality before = worker.worst();
     REQUIRE(worker.attempt(0, 1) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 2 * m);

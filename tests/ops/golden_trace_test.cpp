@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The text trace of tiny runs, line by line: what a recursion tried, in which order, and how it ended.
+// The text trace of tiny runs, line by line: what a recursion tried, in which order, and how it
+// ended.
 #include <memory>
 #include <string>
 
@@ -30,9 +31,11 @@ std::string trace_of(const MeshData& data, std::string_view name, Target target,
 /// Two overlapping shells; see recursive_shell_transformation_test.cpp.
 MeshData two_shells() {
   MeshData data;
-  data.points = {{-0.52, -0.44, 0.73}, {0.52, 0.44, -0.73}, {-0.41, 1.14, 1.12}, {0.95, 0.51, 0.87},
-                 {0.08, 1.55, -0.12},  {-1.02, -0.02, -0.21}, {-0.15, -0.65, -0.19}};
-  data.tets = {{{0, 2, 3, 1}}, {{0, 4, 2, 1}}, {{5, 4, 0, 1}}, {{5, 0, 4, 2}}, {{5, 0, 6, 1}}, {{0, 3, 6, 1}}};
+  data.points = {{-0.52, -0.44, 0.73}, {0.52, 0.44, -0.73}, {-0.41, 1.14, 1.12},
+                 {0.95, 0.51, 0.87},   {0.08, 1.55, -0.12}, {-1.02, -0.02, -0.21},
+                 {-0.15, -0.65, -0.19}};
+  data.tets = {{{0, 2, 3, 1}}, {{0, 4, 2, 1}}, {{5, 4, 0, 1}},
+               {{5, 0, 4, 2}}, {{5, 0, 6, 1}}, {{0, 3, 6, 1}}};
   return data;
 }
 
@@ -40,18 +43,42 @@ MeshData two_shells() {
 
 TEST_CASE("the trace of an edge removal names the edge and both quality vectors") {
   const MeshData data = shell_mesh({.degree = 3, .height = 1.4142135623730951});
-  CHECK(trace_of(data, "edge_removal", Target::of(TetEdge(TetHandle(0), 0))) == "A");
+  CHECK(trace_of(data, "edge_removal", Target::of(TetEdge(TetHandle(0), 0))) ==
+        "edge_removal(0 1) level 0\n"
+        "-> accepted, 3 tets 0.5774 -> 2 tets 0.9428\n");
 }
 
 TEST_CASE("the trace of a refusal has no quality vectors") {
   const MeshData data = shell_mesh({.degree = 3, .height = 0.4});
-  CHECK(trace_of(data, "shell_transformation", Target::of(TetEdge(TetHandle(0), 0))) == "B");
-  CHECK(trace_of(data, "flip_2_3", Target::of(HalfFace(TetHandle(0), 0))) == "C");
-  CHECK(trace_of(data, "smoothing", Target::of(VertexHandle(0))) == "D");
+  CHECK(trace_of(data, "shell_transformation", Target::of(TetEdge(TetHandle(0), 0))) ==
+        "shell_transformation(0 1) level 0\n"
+        "-> no improvement\n");
+  CHECK(trace_of(data, "flip_2_3", Target::of(HalfFace(TetHandle(0), 0))) ==
+        "flip_2_3(1 2 3) level 0\n"
+        "-> constrained\n");
+  CHECK(trace_of(data, "smoothing", Target::of(VertexHandle(0))) ==
+        "smoothing(0) level 0\n"
+        "-> constrained\n");
 }
 
 TEST_CASE("the trace of a recursion shows the calls on the way") {
   const Target target = Target::of(TetEdge(TetHandle(0), 2));
-  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target) == "E");
-  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) == "F");
+  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target) ==
+        "recursive_shell_transformation(0 1) level 0\n"
+        "  shell_transformation(0 1) level 0\n"
+        "  -> no improvement\n"
+        "  recursive_shell_transformation(1 2) level 1\n"
+        "  -> constrained\n"
+        "  recursive_shell_transformation(0 4) level 1\n"
+        "    shell_transformation(0 4) level 1\n"
+        "    -> accepted, 3 tets 0.1965 -> 2 tets 0.5583\n"
+        "  -> accepted\n"
+        "  shell_transformation(0 1) level 0\n"
+        "  -> accepted, 4 tets 0.3529 -> 4 tets 0.5465\n"
+        "-> accepted, 6 tets 0.1965 -> 5 tets 0.5465\n");
+  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) ==
+        "recursive_shell_transformation(0 1) level 0\n"
+        "  shell_transformation(0 1) level 0\n"
+        "  -> no improvement\n"
+        "-> depth spent\n");
 }

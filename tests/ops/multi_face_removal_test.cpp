@@ -46,7 +46,8 @@ struct Worker {
     REQUIRE(face(corners).has_value());
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, *scratch};
-    const Verdict verdict = registry.make(name, settings)->attempt(context, Target::of(*face(corners)));
+    const Verdict verdict =
+        registry.make(name, settings)->attempt(context, Target::of(*face(corners)));
     CHECK(check_integrity(mesh).empty());
     if (verdict != Verdict::accepted) CHECK(mesh == before);
     return verdict;

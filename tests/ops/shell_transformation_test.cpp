@@ -28,7 +28,8 @@ struct Worker {
     return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
   }
   bool has_edge(std::uint32_t a, std::uint32_t b) { return edge(a, b).has_value(); }
-  /// Attempts the operator at the edge between two vertices; the mesh stays sound, after a refusal the same.
+  /// Attempts the operator at the edge between two vertices; the mesh stays sound, after a refusal
+  /// the same.
   Verdict attempt(const std::string& name, std::uint32_t a, std::uint32_t b) {
     Registry registry;
     register_builtin_operators(registry);
@@ -88,7 +89,8 @@ TEST_CASE("three good tets around a short edge stay") {
 
 TEST_CASE("four tets around the longest diagonal of an octahedron turn to the shortest") {
   for (const std::string& name : kBoth) {
-    Worker worker(shell_around({0, 0, -1.2}, {0, 0, 1.2}, {{0.8, 0, 0}, {0, 1, 0}, {-0.8, 0, 0}, {0, -1, 0}}));
+    Worker worker(shell_around({0, 0, -1.2}, {0, 0, 1.2},
+                               {{0.8, 0, 0}, {0, 1, 0}, {-0.8, 0, 0}, {0, -1, 0}}));
     CHECK(worker.attempt(name, 0, 1) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 4);
     CHECK_FALSE(worker.has_edge(0, 1));
@@ -126,7 +128,8 @@ TEST_CASE("a long edge is removed for every ring of up to twelve") {
 
 TEST_CASE("a partial reduction keeps the edge with a smaller shell where removal is refused") {
   const MeshData data = shell_around(
-      {0, 0, -1}, {0, 0, 1}, {{-0.2, -0.6, 0.3}, {0.8, 0.6, 0.4}, {0.3, 1.8, 0.4}, {-0.3, 0.6, 0}, {-0.4, -0.4, -0.5}});
+      {0, 0, -1}, {0, 0, 1},
+      {{-0.2, -0.6, 0.3}, {0.8, 0.6, 0.4}, {0.3, 1.8, 0.4}, {-0.3, 0.6, 0}, {-0.4, -0.4, -0.5}});
   Worker removal(data);
   CHECK(removal.attempt("edge_removal", 0, 1) == Verdict::no_improvement);
   Worker worker(data);

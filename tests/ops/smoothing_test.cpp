@@ -21,7 +21,8 @@ namespace {
 /// Eight tets around vertex 0, which lies at `centre`, in an octahedron of radius 1.
 MeshData octahedron(const Point& centre) {
   MeshData data;
-  data.points = {Point::Zero(), {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  data.points = {Point::Zero(), {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
+                 {0, -1, 0},    {0, 0, 1}, {0, 0, -1}};
   for (const std::uint32_t i : {1u, 2u}) {
     for (const std::uint32_t j : {3u, 4u}) {
       for (const std::uint32_t k : {5u, 6u}) {
@@ -152,6 +153,7 @@ TEST_CASE("the ball of a vertex is loaded triangle by triangle, positive from in
   REQUIRE(ball.size() == 8);
   CHECK(ball.worst(worker.centre()) == doctest::Approx(worker.worst()).epsilon(1e-6));
   for (std::size_t i = 0; i < 8; ++i) {
-    CHECK(ball.qualities()[i] == doctest::Approx(worker.mesh.quality(faces[i].tet())).epsilon(1e-6));
+    CHECK(ball.qualities()[i] ==
+          doctest::Approx(worker.mesh.quality(faces[i].tet())).epsilon(1e-6));
   }
 }

@@ -29,7 +29,9 @@ Registry builtin_operators() {
 }
 const Registry kRegistry = builtin_operators();
 
-MeshData asset(const std::string& file) { return read_mesh(kSource / "assets/meshes" / file); }
+MeshData asset(const std::string& file) {
+  return read_mesh(kSource / "assets/meshes" / file);
+}
 
 /// Coordinates of the boundary and constrained faces, in an order that does not depend on handles.
 std::vector<std::vector<double>> surface(const TetMesh& mesh) {
@@ -68,7 +70,7 @@ struct Stopper final : ProgressListener {
 }  // namespace
 
 TEST_CASE("meshes full of slivers come out with few bad tets, the surface untouched") {
-  for (const char* file : {"two_materials.mesh", "sheet.mesh", "bracket.meshb"}) {
+  for (const std::string file : {"two_materials.mesh", "sheet.mesh", "bracket.meshb"}) {
     CAPTURE(file);
     TetMesh mesh(asset(file));
     const MeshStatistics before = compute_statistics(mesh);
@@ -76,8 +78,9 @@ TEST_CASE("meshes full of slivers come out with few bad tets, the surface untouc
     Run run(mesh, kRegistry);
     improve(run);
     const MeshStatistics now = compute_statistics(mesh);
-    MESSAGE(file, ": theta ", before.theta_min, " to ", before.theta_max, ", lambda ", before.lambda,
-            " % -> ", now.theta_min, " to ", now.theta_max, ", ", now.lambda, " %, rounds ", run.round);
+    MESSAGE(file, ": theta ", before.theta_min, " to ", before.theta_max, ", lambda ",
+            before.lambda, " % -> ", now.theta_min, " to ", now.theta_max, ", ", now.lambda,
+            " %, rounds ", run.round);
     CHECK(to_string(check_integrity(mesh)) == "");
     CHECK(count_not_positive(mesh) == 0);
     CHECK(surface(mesh) == surface_before);
@@ -111,7 +114,8 @@ TEST_CASE("a second improvement of the result changes little") {
   improve(second);
   const MeshStatistics twice = compute_statistics(mesh);
   CHECK(twice.q_worst >= once.q_worst);
-  CHECK(std::abs(static_cast<double>(twice.tets) - static_cast<double>(once.tets)) < 0.03 * static_cast<double>(once.tets));
+  CHECK(std::abs(static_cast<double>(twice.tets) - static_cast<double>(once.tets)) <
+        0.03 * static_cast<double>(once.tets));
   CHECK(std::abs(twice.lambda - once.lambda) < 0.3);
 }
 
