@@ -86,4 +86,13 @@ inline constexpr Quality kQualityTolerance = 1e-6f;
 /// may be lower at all, so true also holds in the strict order.
 bool improves(std::span<const Quality> now, std::span<const Quality> before);
 
+/// How much a tet lacks to be good, (0.5 - q)^4, or 0: a sum of it weighs one very bad tet against several mild ones.
+inline double deficit(double quality) {
+  const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - quality);
+  return (lack * lack) * (lack * lack);
+}
+
+/// An operator that finds a worst quality below this does not ask what its gain costs the tets around.
+inline constexpr double kDesperate = 0.2;
+
 }  // namespace tetmend

@@ -88,6 +88,12 @@ double BallOptimiser::worst(const Point& p) {
   return smallest;
 }
 
+double BallOptimiser::total_deficit() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < size_; ++i) sum += deficit(quality_[i]);
+  return sum;
+}
+
 /// Gradients of the sines of one tet that lie below the band.
 void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, unsigned& count) {
   const Point a(field(ax)[i], field(ay)[i], field(az)[i]);

@@ -30,6 +30,8 @@ class BallOptimiser {
   double worst(const Point& p);
   /// Minimum sines of the tets at the last call of worst(), in the order of add().
   const double* qualities() const { return quality_.data(); }
+  /// Sum of deficit() over the tets at the last call of worst().
+  double total_deficit() const;
 
   /// Ascends from p; returns the best quality and moves p there. At least worst(p) of the start.
   double optimise(Point& p, const Limits& limits);

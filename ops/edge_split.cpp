@@ -126,15 +126,12 @@ class EdgeSplit final : public Operator {
   /// the worst tet is desperate. By the order alone, splits raise the worst tet a little and leave more bad tets than they found.
   bool is_worth_it(std::span<const Quality> before, std::span<const Quality> now) const {
     if (before[0] < desperate_) return true;
-    const auto deficit = [](std::span<const Quality> qualities) {
+    const auto total = [](std::span<const Quality> qualities) {
       double sum = 0;
-      for (const Quality q : qualities) {
-        const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - static_cast<double>(q));
-        sum += lack * lack * lack * lack;
-      }
+      for (const Quality q : qualities) sum += deficit(q);
       return sum;
     };
-    return deficit(now) < deficit(before);
+    return total(now) < total(before);
   }
 
   double least_gain_;
@@ -146,7 +143,7 @@ class EdgeSplit final : public Operator {
 
 constexpr std::array<ParameterSpec, 5> kParameters = {{
     {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4, "least gain of the worst quality of the shell"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, 0.2, "below this worst quality, new bad tets are no reason to refuse"},
+    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate, "below this worst quality, new bad tets are no reason to refuse"},
     {"relax", ParameterSpec::Kind::flag, 0, 1, 0, "smooth and reconnect around the new vertex before judging"},
     {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12, "largest shell that is split"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 8, "most directions that each placement follows"},

@@ -12,7 +12,7 @@ namespace {
 class Smoothing final : public Operator {
  public:
   explicit Smoothing(const ParameterValues& values)
-      : Operator(smoothing_info()), laplacian_(values.flag("laplacian")), optimise_(values.flag("optimise")) {
+      : Operator(smoothing_info()), laplacian_(values.flag("laplacian")), optimise_(values.flag("optimise")), desperate_(values.real("desperate")) {
     limits_.steps = values.integer("steps");
   }
 
@@ -30,6 +30,7 @@ class Smoothing final : public Operator {
     collect_link(mesh, v, context.workspace, scratch.link);
     load_ball(mesh, scratch.link, scratch.ball);
     const double start = scratch.ball.worst(mesh.point(v));
+    const double start_deficit = scratch.ball.total_deficit();
     scratch.point = mesh.point(v);
     double reached = start;
     if (laplacian_) {
@@ -41,7 +42,13 @@ class Smoothing final : public Operator {
       }
     }
     if (optimise_ && reached < kBadThreshold) reached = scratch.ball.optimise(scratch.point, limits_);
-    return reached > start + kQualityTolerance ? Verdict::accepted : Verdict::no_improvement;
+    if (!(reached > start + kQualityTolerance)) return Verdict::no_improvement;
+    // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others.
+    if (start >= desperate_) {
+      scratch.ball.worst(scratch.point);
+      if (!(scratch.ball.total_deficit() < start_deficit)) return Verdict::no_improvement;
+    }
+    return Verdict::accepted;
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
@@ -62,12 +69,14 @@ class Smoothing final : public Operator {
 
   bool laplacian_;
   bool optimise_;
+  double desperate_;
   BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 3> kParameters = {{
+constexpr std::array<ParameterSpec, 4> kParameters = {{
     {"laplacian", ParameterSpec::Kind::flag, 0, 1, 1, "try the mean of the neighbours first"},
     {"optimise", ParameterSpec::Kind::flag, 0, 1, 1, "then climb to the best place if bad tets remain"},
+    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate, "below this worst quality, new bad tets are no reason to refuse"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 40, "most directions that the optimisation follows"},
 }};
 
