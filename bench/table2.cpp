@@ -22,7 +22,8 @@ struct Scheme {
 };
 
 std::array<Scheme, 4> schemes() {
-  LocalReconnection grummp{.edge_operator = "edge_removal", .face_operator = "flip_2_3", .sweeps = 1};
+  LocalReconnection grummp{
+      .edge_operator = "edge_removal", .face_operator = "flip_2_3", .sweeps = 1};
   LocalReconnection stellar{.edge_operator = "edge_removal", .sweeps = 1};
   LocalReconnection flat{.edge_settings = {{"max_level", 0}}, .sweeps = 1};
   LocalReconnection recursive{.edge_settings = {{"max_level", 5}}, .sweeps = 1};
@@ -33,15 +34,17 @@ std::array<Scheme, 4> schemes() {
 }
 
 void print_row(const char* name, const MeshStatistics& s, double seconds) {
-  fmt::print("{:30} {:>9} {:>8.4f} {:>8.3f} {:>8.4f}", name, s.tets, s.theta_min, s.theta_max, s.lambda);
+  fmt::print("{:30} {:>9} {:>8.4f} {:>8.3f} {:>8.4f}", name, s.tets, s.theta_min, s.theta_max,
+             s.lambda);
   for (const double band : s.lambda_bands) fmt::print(" {:>7.4f}", band);
   fmt::print(" {:>7} {:>7.3f}\n", s.n_bad, seconds);
 }
 
 void run(const std::filesystem::path& file, const Registry& registry) {
   const MeshData data = read_mesh(file);
-  fmt::print("{}\n{:30} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}\n", file.filename().string(),
-             "one pass", "tets", "th_min", "th_max", "lambda%", "l1%", "l2%", "l3%", "l4%", "l5%", "bad", "seconds");
+  fmt::print("{}\n{:30} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
+             file.filename().string(), "one pass", "tets", "th_min", "th_max", "lambda%", "l1%",
+             "l2%", "l3%", "l4%", "l5%", "bad", "seconds");
   print_row("input", compute_statistics(TetMesh(data)), 0);
   for (const Scheme& scheme : schemes()) {
     TetMesh mesh(data);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pairs the faces of a cavity: a hash table from three vertices to a number, emptied in constant time.
+// Pairs the faces of a cavity: a hash table from three vertices to a number, emptied in constant
+// time.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ class FaceTable {
     std::array<std::uint32_t, 3> key{};  // sorted
     std::uint32_t stamp = 0;
     std::uint32_t value = 0;
-    bool even = false;    // sense in which the face lists its sorted vertices
+    bool even = false;  // sense in which the face lists its sorted vertices
     bool paired = false;
   };
 
@@ -33,7 +34,8 @@ class FaceTable {
     }
   }
 
-  /// The entry of that face, new (stamp just set, value undefined) or old. The flag tells which. Valid until the next call.
+  /// The entry of that face, new (stamp just set, value undefined) or old. The flag tells which.
+  /// Valid until the next call.
   std::pair<Entry*, bool> find_or_insert(std::array<VertexHandle, 3> face, bool& even) {
     std::array<std::uint32_t, 3> key = {face[0].index(), face[1].index(), face[2].index()};
     even = true;
@@ -57,8 +59,8 @@ class FaceTable {
  private:
   Entry& probe(const std::array<std::uint32_t, 3>& key) {
     const std::size_t mask = slots_.size() - 1;
-    const std::uint64_t mixed = (key[0] * 0x9E3779B97F4A7C15ull) ^ (key[1] * 0xC2B2AE3D27D4EB4Full) ^
-                                (key[2] * 0x165667B19E3779F9ull);
+    const std::uint64_t mixed = (key[0] * 0x9E3779B97F4A7C15ull) ^
+                                (key[1] * 0xC2B2AE3D27D4EB4Full) ^ (key[2] * 0x165667B19E3779F9ull);
     std::size_t i = (mixed >> 32) & mask;
     while (slots_[i].stamp == stamp_ && slots_[i].key != key) i = (i + 1) & mask;
     return slots_[i];

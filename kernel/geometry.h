@@ -10,14 +10,16 @@
 
 namespace tetmend {
 
-/// Six times the signed volume of tet (a, b, c, d): (b-a) . ((c-a) x (d-a)). A valid tet has a positive value.
+/// Six times the signed volume of tet (a, b, c, d): (b-a) . ((c-a) x (d-a)). A valid tet has a
+/// positive value.
 inline double volume6(const Point& a, const Point& b, const Point& c, const Point& d) {
   return (b - a).dot((c - a).cross(d - a));
 }
 
-/// True only if the exact volume of the tet with the given (double) coordinates is positive: the computed value exceeds the
-/// rounding-error bound of the determinant. May say false for a positive volume at rounding level, never true for a wrong one.
-/// Source: static filter of [shewchuk_predicates], constant (7 + 56 eps) eps; the last term covers products that underflow.
+/// True only if the exact volume of the tet with the given (double) coordinates is positive: the
+/// computed value exceeds the rounding-error bound of the determinant. May say false for a positive
+/// volume at rounding level, never true for a wrong one. Source: static filter of
+/// [shewchuk_predicates], constant (7 + 56 eps) eps; the last term covers products that underflow.
 inline bool certified_positive(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Point u = b - a;
   const Point v = c - a;

@@ -32,9 +32,9 @@ using TetHandle = Handle<struct TetTag>;
 static_assert(!std::is_convertible_v<VertexHandle, TetHandle>);
 static_assert(!std::is_invocable_v<std::equal_to<>, VertexHandle, TetHandle>);
 
-// Numbering inside a tet (v0, v1, v2, v3) with positive volume, that is (v1-v0) . ((v2-v0) x (v3-v0)) > 0:
-// face f lies opposite vertex f, its vertices listed counterclockwise as seen from outside;
-// edge e joins two vertices, edge 5 - e the other two.
+// Numbering inside a tet (v0, v1, v2, v3) with positive volume, that is (v1-v0) . ((v2-v0) x
+// (v3-v0)) > 0: face f lies opposite vertex f, its vertices listed counterclockwise as seen from
+// outside; edge e joins two vertices, edge 5 - e the other two.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kFaceVertices = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdgeVertices = {
@@ -43,8 +43,8 @@ inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdgeVertices = {
 inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeOf = {
     {{9, 0, 1, 2}, {0, 9, 3, 4}, {1, 3, 9, 5}, {2, 4, 5, 9}}};
 
-/// One side of a face: face f of tet t, coded 4 t + f. Codes with the top bit set stand for the outside of the mesh and carry the
-/// number of a boundary triangle instead.
+/// One side of a face: face f of tet t, coded 4 t + f. Codes with the top bit set stand for the
+/// outside of the mesh and carry the number of a boundary triangle instead.
 class HalfFace {
  public:
   constexpr HalfFace() = default;
@@ -69,7 +69,8 @@ class HalfFace {
   std::uint32_t code_ = 0xFFFFFFFFu;
 };
 
-/// An edge named by a tet that contains it: edge e of tet t. The shell of the edge is found without a search.
+/// An edge named by a tet that contains it: edge e of tet t. The shell of the edge is found without
+/// a search.
 class TetEdge {
  public:
   constexpr TetEdge() = default;

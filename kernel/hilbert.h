@@ -14,7 +14,8 @@ class HilbertCurve {
  public:
   explicit HilbertCurve(std::span<const Point> points);
 
-  /// Position of the cell that holds p along the curve, 63 bits. Precondition: p lies in the bounding box of the points.
+  /// Position of the cell that holds p along the curve, 63 bits. Precondition: p lies in the
+  /// bounding box of the points.
   std::uint64_t key(const Point& p) const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A small set of indices that is emptied in constant time: visit marks without an array as large as the mesh.
+// A small set of indices that is emptied in constant time: visit marks without an array as large as
+// the mesh.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,8 @@
 
 namespace tetmend {
 
-/// Open addressing; an entry counts only if it carries the current stamp. Allocates only when it grows beyond its largest size so far.
+/// Open addressing; an entry counts only if it carries the current stamp. Allocates only when it
+/// grows beyond its largest size so far.
 class IndexSet {
  public:
   IndexSet() : slots_(256, 0) {}

@@ -2,10 +2,11 @@
 // Builds a TetMesh from plain arrays: orientation, adjacency, constraints, qualities.
 //
 //   check indices
-//   orient: swap two vertices of every tet if most are negative; of single tets that are not positive if their neighbours ask for it
-//   match faces: bucket the half-faces by smallest vertex, sort each bucket by the other two, pair equal ones
-//   surface: named triangles in file order, then boundary faces and label interfaces that no triangle names
-//   constraints: face bits, edge bits, fixed vertices
+//   orient: swap two vertices of every tet if most are negative; of single tets that are not
+//   positive if their neighbours ask for it match faces: bucket the half-faces by smallest vertex,
+//   sort each bucket by the other two, pair equal ones surface: named triangles in file order, then
+//   boundary faces and label interfaces that no triangle names constraints: face bits, edge bits,
+//   fixed vertices
 #include <algorithm>
 #include <string>
 
@@ -36,7 +37,8 @@ class MeshBuilder {
   }
 
  private:
-  /// A half-face in the bucket of its smallest vertex; `even` tells in which sense the tet lists (smallest, low, high).
+  /// A half-face in the bucket of its smallest vertex; `even` tells in which sense the tet lists
+  /// (smallest, low, high).
   struct FaceRecord {
     std::uint32_t low;
     std::uint32_t high;
@@ -70,7 +72,8 @@ class MeshBuilder {
   }
   std::string describe(std::size_t t) const {
     const auto& v = data_.tets[t].vertices;
-    return fmt::format("tet {} (vertices {} {} {} {})", t + 1, v[0] + 1, v[1] + 1, v[2] + 1, v[3] + 1);
+    return fmt::format("tet {} (vertices {} {} {} {})", t + 1, v[0] + 1, v[1] + 1, v[2] + 1,
+                       v[3] + 1);
   }
   bool is_flat(std::size_t t, double v6) const {
     const TetVertices& v = mesh_.cells_[t].vertices;
@@ -97,19 +100,23 @@ void MeshBuilder::check_indices() const {
     const auto& v = data_.tets[t].vertices;
     for (std::size_t i = 0; i < 4; ++i) {
       if (v[i] >= n) {
-        throw BuildError(fmt::format("{}: no point {}, there are {}", describe(t), v[i] + 1ull, n), t);
+        throw BuildError(fmt::format("{}: no point {}, there are {}", describe(t), v[i] + 1ull, n),
+                         t);
       }
       for (std::size_t j = 0; j < i; ++j) {
         if (v[i] == v[j]) throw BuildError(describe(t) + ": the same vertex twice", t);
       }
     }
   }
-  const auto check = [n](std::span<const std::uint32_t> vertices, const char* what, std::size_t number) {
+  const auto check = [n](std::span<const std::uint32_t> vertices, const char* what,
+                         std::size_t number) {
     for (const std::uint32_t v : vertices) {
-      if (v >= n) throw Error(fmt::format("{} {}: no point {}, there are {}", what, number + 1, v + 1ull, n));
+      if (v >= n)
+        throw Error(fmt::format("{} {}: no point {}, there are {}", what, number + 1, v + 1ull, n));
     }
   };
-  for (std::size_t i = 0; i < data_.triangles.size(); ++i) check(data_.triangles[i].vertices, "triangle", i);
+  for (std::size_t i = 0; i < data_.triangles.size(); ++i)
+    check(data_.triangles[i].vertices, "triangle", i);
   for (std::size_t i = 0; i < data_.edges.size(); ++i) check(data_.edges[i].vertices, "edge", i);
   check(data_.required_vertices, "required vertex", 0);
 }
@@ -132,7 +139,8 @@ void MeshBuilder::copy_tets() {
   mesh_.cells_.resize(n);
   mesh_.label_.resize(n);
   mesh_.tet_flags_.assign(n, 0);
-  mesh_.quality_.assign(n, 0);  // computed in the end; a workspace that looks at them is needed before
+  mesh_.quality_.assign(n,
+                        0);  // computed in the end; a workspace that looks at them is needed before
   mesh_.tet_count_ = n;
   mesh_.tet_properties_.resize(n);
   for (std::size_t t = 0; t < n; ++t) {
@@ -168,11 +176,13 @@ void MeshBuilder::orient() {
     for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) swap_orientation(t);
   }
   fill_buckets();
-  // A negative tet is folded over, or it lists its vertices the other way round. Only the latter clashes with its neighbours.
+  // A negative tet is folded over, or it lists its vertices the other way round. Only the latter
+  // clashes with its neighbours.
   if (count_same_side() > 0) reorder_tets();
 }
 
-/// Gives each tet that is not certainly positive the sense that its neighbours ask for, from the positive tets inwards.
+/// Gives each tet that is not certainly positive the sense that its neighbours ask for, from the
+/// positive tets inwards.
 void MeshBuilder::reorder_tets() {
   const std::size_t n = mesh_.cells_.size();
   // Neighbours by half-face, with the top bit set where both tets list the face in the same sense.
@@ -238,8 +248,8 @@ void MeshBuilder::fill_buckets() {
     auto v = mesh_.vertices(HalfFace::from_code(code));
     std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
     const bool even = v[1] < v[2];
-    records_[next[v[0].index()]++] = {std::min(v[1], v[2]).index(), std::max(v[1], v[2]).index(), code,
-                                      even};
+    records_[next[v[0].index()]++] = {std::min(v[1], v[2]).index(), std::max(v[1], v[2]).index(),
+                                      code, even};
   }
   for (std::size_t v = 0; v + 1 < bucket_begin_.size(); ++v) {
     std::sort(records_.begin() + bucket_begin_[v], records_.begin() + bucket_begin_[v + 1],
@@ -252,9 +262,9 @@ void MeshBuilder::fill_buckets() {
 void MeshBuilder::fail_same_side(const FaceRecord& a, const FaceRecord& b) const {
   const std::size_t t = HalfFace::from_code(a.half_face).tet().index();
   const std::size_t u = HalfFace::from_code(b.half_face).tet().index();
-  throw BuildError(fmt::format("{} and {} lie on the same side of their common face", describe(u),
-                               describe(t)),
-                   u);
+  throw BuildError(
+      fmt::format("{} and {} lie on the same side of their common face", describe(u), describe(t)),
+      u);
 }
 
 void MeshBuilder::match_pair(const FaceRecord& a, const FaceRecord& b) {
@@ -270,7 +280,8 @@ void MeshBuilder::match_all_faces() {
     const std::size_t end = bucket_begin_[v + 1];
     for (std::size_t i = bucket_begin_[v]; i < end;) {
       std::size_t j = i + 1;
-      while (j < end && records_[j].low == records_[i].low && records_[j].high == records_[i].high) ++j;
+      while (j < end && records_[j].low == records_[i].low && records_[j].high == records_[i].high)
+        ++j;
       if (j - i > 2) {
         const std::size_t t = HalfFace::from_code(records_[i + 2].half_face).tet().index();
         throw BuildError(fmt::format("{}: a face of it has more than two tets", describe(t)), t);
@@ -300,15 +311,20 @@ void MeshBuilder::add_surface_face(HalfFace f, SurfaceTriangle triangle) {
 void MeshBuilder::build_surface() {
   for (const MeshData::Triangle& named : data_.triangles) {
     auto v = named.vertices;
-    const SurfaceTriangle triangle{
-        {VertexHandle(v[0]), VertexHandle(v[1]), VertexHandle(v[2])}, named.label, true, false, false};
+    const SurfaceTriangle triangle{{VertexHandle(v[0]), VertexHandle(v[1]), VertexHandle(v[2])},
+                                   named.label,
+                                   true,
+                                   false,
+                                   false};
     std::sort(v.begin(), v.end());
     const auto begin = records_.begin() + bucket_begin_[v[0]];
     const auto end = records_.begin() + bucket_begin_[v[0] + 1];
-    const auto found = std::find_if(begin, end, [&](const FaceRecord& r) { return r.low == v[1] && r.high == v[2]; });
+    const auto found = std::find_if(
+        begin, end, [&](const FaceRecord& r) { return r.low == v[1] && r.high == v[2]; });
     const HalfFace f = found == end ? HalfFace() : HalfFace::from_code(found->half_face);
-    const bool repeated = found != end && (mesh_.is_constrained(f) ||
-                                           (mesh_.twin(f).is_outside() && mesh_.twin(f) != HalfFace()));
+    const bool repeated =
+        found != end &&
+        (mesh_.is_constrained(f) || (mesh_.twin(f).is_outside() && mesh_.twin(f) != HalfFace()));
     if (found == end || repeated) {
       mesh_.surface_.push_back(triangle);
       mesh_.surface_.back().loose = true;
@@ -323,13 +339,15 @@ void MeshBuilder::build_surface() {
     const bool unnamed_boundary = twin == HalfFace();
     const bool interface = !twin.is_outside() && f < twin && !mesh_.is_constrained(f) &&
                            mesh_.label(f.tet()) != mesh_.label(twin.tet());
-    if (unnamed_boundary || interface) add_surface_face(f, {mesh_.vertices(f), 0, false, false, false});
+    if (unnamed_boundary || interface)
+      add_surface_face(f, {mesh_.vertices(f), 0, false, false, false});
   }
 }
 
 void MeshBuilder::link_vertices() {
   for (std::uint32_t t = 0; t < mesh_.cells_.size(); ++t) {
-    for (const VertexHandle v : mesh_.cells_[t].vertices) mesh_.vertex_tet_[v.index()] = TetHandle(t);
+    for (const VertexHandle v : mesh_.cells_[t].vertices)
+      mesh_.vertex_tet_[v.index()] = TetHandle(t);
   }
   for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
 }
@@ -341,7 +359,8 @@ void MeshBuilder::mark_edges() {
     const VertexHandle b(named.vertices[1]);
     mesh_.named_edges_.push_back({{a, b}, named.label});
     // Of a loose edge as well: a deleted vertex could not be written.
-    for (const VertexHandle v : {a, b}) mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
+    for (const VertexHandle v : {a, b})
+      mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
     const std::optional<TetEdge> edge = find_edge(mesh_, a, b, workspace);
     if (!edge) {
       ++report_.loose_edges;

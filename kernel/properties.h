@@ -17,7 +17,8 @@
 
 namespace tetmend {
 
-/// Names a property of type T on one kind of entity. Cheap to copy; valid until the property is removed.
+/// Names a property of type T on one kind of entity. Cheap to copy; valid until the property is
+/// removed.
 template <class HandleType, class T>
 class PropertyHandle {
  public:
@@ -32,8 +33,8 @@ class PropertyHandle {
   std::size_t index_ = kInvalid;
 };
 
-/// All properties of one kind of entity. A slot that is created or re-used starts with the default value of each property; undo
-/// of a transaction brings the old value back.
+/// All properties of one kind of entity. A slot that is created or re-used starts with the default
+/// value of each property; undo of a transaction brings the old value back.
 template <class HandleType>
 class PropertyTable {
  public:
@@ -103,7 +104,8 @@ class PropertyTable {
   }
   std::vector<std::any> save(HandleType entity) const {
     std::vector<std::any> values;
-    for (const auto& array : arrays_) values.push_back(array ? array->get(entity.index()) : std::any());
+    for (const auto& array : arrays_)
+      values.push_back(array ? array->get(entity.index()) : std::any());
     return values;
   }
   void restore(HandleType entity, const std::vector<std::any>& values) {

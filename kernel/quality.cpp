@@ -70,13 +70,14 @@ double radius_ratio(const Point& a, const Point& b, const Point& c, const Point&
   const Frame frame(a, b, c, d);
   double area2 = 0;  // twice the surface area
   for (const Point& n : frame.normal) area2 += n.norm();
-  // R = |alpha| / (2 V6) with alpha = |u|^2 (v x w) + |v|^2 (w x u) + |w|^2 (u x v);  r = V6 / (sum of |normals|).
+  // R = |alpha| / (2 V6) with alpha = |u|^2 (v x w) + |v|^2 (w x u) + |w|^2 (u x v);  r = V6 / (sum
+  // of |normals|).
   const Point u = b - a;
   const Point v = c - a;
   const Point w = d - a;
-  const double alpha = (u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) +
-                        w.squaredNorm() * u.cross(v))
-                           .norm();
+  const double alpha =
+      (u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) + w.squaredNorm() * u.cross(v))
+          .norm();
   if (!(area2 > 0) || !(alpha > 0)) return 0;
   return 6.0 * frame.v6 * std::abs(frame.v6) / (area2 * alpha);
 }

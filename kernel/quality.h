@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quality measures of a tet, chosen by name once. Larger is better, 0 is degenerate, negative is inverted.
+// Quality measures of a tet, chosen by name once. Larger is better, 0 is degenerate, negative is
+// inverted.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +13,12 @@
 
 namespace tetmend {
 
-/// Quality as the mesh stores it. Single precision is enough to rank tets; see `improves` for comparisons.
+/// Quality as the mesh stores it. Single precision is enough to rank tets; see `improves` for
+/// comparisons.
 using Quality = float;
 
-/// A tet whose minimum sine is below this (an angle under 30 or over 150 degrees) is bad ([chen, 6.1]).
+/// A tet whose minimum sine is below this (an angle under 30 or over 150 degrees) is bad
+/// ([chen, 6.1]).
 inline constexpr Quality kBadThreshold = 0.5f;
 
 /// A measure is a pure function of the four points of a tet, in positive order for a valid tet.
@@ -26,9 +29,10 @@ struct QualityMeasure {
   double best;  ///< value of the regular tet
 };
 
-/// Minimum sine of the six dihedral angles, with the sign of the volume; the measure that tetmend improves. 0 when a face is
-/// degenerate. Regular tet: 0.942809 (2 sqrt(2) / 3). One root and one division.
-/// Source: [chen, 6.1]; sin(theta_ij) = V6 l_ij / (N_k N_l) with N the norms of the face normals.
+/// Minimum sine of the six dihedral angles, with the sign of the volume; the measure that tetmend
+/// improves. 0 when a face is degenerate. Regular tet: 0.942809 (2 sqrt(2) / 3). One root and one
+/// division. Source: [chen, 6.1]; sin(theta_ij) = V6 l_ij / (N_k N_l) with N the norms of the face
+/// normals.
 inline double minimum_sine(const Point& p0, const Point& p1, const Point& p2, const Point& p3) {
   const Point e01 = p1 - p0;
   const Point e02 = p2 - p0;
@@ -52,14 +56,16 @@ inline double minimum_sine(const Point& p0, const Point& p1, const Point& p2, co
   return v6 * std::sqrt(smallest / product);
 }
 
-/// The six dihedral angles in degrees, 0..180, at the edges in the order of kEdgeVertices. For an inverted tet the angles of its
-/// mirror image. The angles at a degenerate face are 0.
-std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c, const Point& d);
+/// The six dihedral angles in degrees, 0..180, at the edges in the order of kEdgeVertices. For an
+/// inverted tet the angles of its mirror image. The angles at a degenerate face are 0.
+std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
+                                      const Point& d);
 
 /// Smallest dihedral angle in degrees, with the sign of the volume. Regular tet: 70.5288.
 double minimum_dihedral_angle(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// 6 sqrt(2) V / l_rms^3, l_rms the root mean square edge length. Regular tet: 1. Source: [shewchuk_good].
+/// 6 sqrt(2) V / l_rms^3, l_rms the root mean square edge length. Regular tet: 1. Source:
+/// [shewchuk_good].
 double volume_length(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// 3 r / R: inradius over circumradius, with the sign of the volume. Regular tet: 1.
@@ -68,8 +74,8 @@ double radius_ratio(const Point& a, const Point& b, const Point& c, const Point&
 /// 12 (3 V)^(2/3) / sum of squared edge lengths, with the sign of the volume. Regular tet: 1.
 double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// Minimum sine in which the sine of an obtuse angle counts 0.75 times: large angles weigh more. Regular tet: 0.942809.
-/// Source: option of [klingner_shewchuk].
+/// Minimum sine in which the sine of an obtuse angle counts 0.75 times: large angles weigh more.
+/// Regular tet: 0.942809. Source: option of [klingner_shewchuk].
 double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// All measures; the first is the default.
@@ -78,21 +84,25 @@ std::span<const QualityMeasure> quality_measures();
 /// @throws Error for an unknown name, with the valid ones.
 const QualityMeasure& find_quality_measure(std::string_view name);
 
-/// Differences below this do not count as progress: they are within reach of rounding, and a run would crawl.
+/// Differences below this do not count as progress: they are within reach of rounding, and a run
+/// would crawl.
 inline constexpr Quality kQualityTolerance = 1e-6f;
 
-/// True if the quality vector `now` is better than `before`: both ascending, compared lexicographically, the shorter better when
-/// one continues the other ([chen, 6.1]). The first entry that differs by more than kQualityTolerance decides, and no earlier entry
-/// may be lower at all, so true also holds in the strict order.
+/// True if the quality vector `now` is better than `before`: both ascending, compared
+/// lexicographically, the shorter better when one continues the other ([chen, 6.1]). The first
+/// entry that differs by more than kQualityTolerance decides, and no earlier entry may be lower at
+/// all, so true also holds in the strict order.
 bool improves(std::span<const Quality> now, std::span<const Quality> before);
 
-/// How much a tet lacks to be good, (0.5 - q)^4, or 0: a sum of it weighs one very bad tet against several mild ones.
+/// How much a tet lacks to be good, (0.5 - q)^4, or 0: a sum of it weighs one very bad tet against
+/// several mild ones.
 inline double deficit(double quality) {
   const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - quality);
   return (lack * lack) * (lack * lack);
 }
 
-/// An operator that finds a worst quality below this does not ask what its gain costs the tets around.
+/// An operator that finds a worst quality below this does not ask what its gain costs the tets
+/// around.
 inline constexpr double kDesperate = 0.2;
 
 }  // namespace tetmend

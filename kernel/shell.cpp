@@ -44,8 +44,8 @@ ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell) {
   return ShellKind::closed;
 }
 
-std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b, Workspace& workspace,
-                                 TetHandle hint) {
+std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b,
+                                 Workspace& workspace, TetHandle hint) {
   if (hint.index() < mesh.tet_slots() && !mesh.is_deleted(hint)) {
     if (const auto edge = edge_in(mesh, hint, a, b)) return edge;
   }
@@ -58,7 +58,8 @@ ShellRange::ShellRange(const TetMesh& mesh, TetEdge edge) {
   begin_.mesh_ = &mesh;
   begin_.current_ = begin_.first_ = edge;
   begin_.leave_ = v[kOtherVertices[edge.edge()][1]];
-  // Walk the one way first: either it comes back here, or it ends at the boundary, and the range starts there the other way.
+  // Walk the one way first: either it comes back here, or it ends at the boundary, and the range
+  // starts there the other way.
   Iterator probe = begin_;
   TetEdge last = edge;
   for (; !(probe == std::default_sentinel); ++probe) last = *probe;
@@ -66,7 +67,8 @@ ShellRange::ShellRange(const TetMesh& mesh, TetEdge edge) {
   const auto [a, b] = mesh.vertices(edge);
   const TetVertices& w = mesh.vertices(t);
   begin_.current_ = begin_.first_ = last;
-  // Of the two vertices off the edge, leave opposite the one that starts the ring order at the end of the probe.
+  // Of the two vertices off the edge, leave opposite the one that starts the ring order at the end
+  // of the probe.
   const unsigned i = mesh.local_index(t, a);
   const unsigned j = mesh.local_index(t, b);
   const unsigned e = kEdgeOf[i][j];

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The shell of an edge: the tets around it, found from a tet that contains the edge, or by a search from one end.
+// The shell of an edge: the tets around it, found from a tet that contains the edge, or by a search
+// from one end.
 //
-//              p_i                 The ring (skirt polygon) p_0 .. p_{m-1} runs around the supporting edge ab so that each tet
-//             / | \                of the shell is (a, b, p_i, p_{i+1}) with positive volume. The face (a, b, p_i) is a supporting
-//        p_{i+1}| p_{i-1}          face, (a, p_i) and (b, p_i) are link edges, (a, p_i, p_{i+1}) and (b, p_i, p_{i+1}) link
+//              p_i                 The ring (skirt polygon) p_0 .. p_{m-1} runs around the
+//              supporting edge ab so that each tet
+//             / | \                of the shell is (a, b, p_i, p_{i+1}) with positive volume. The
+//             face (a, b, p_i) is a supporting
+//        p_{i+1}| p_{i-1}          face, (a, p_i) and (b, p_i) are link edges, (a, p_i, p_{i+1})
+//        and (b, p_i, p_{i+1}) link
 //             \ a/                 faces ([chen, Fig. 3]).
 #pragma once
 
@@ -40,25 +44,28 @@ struct Shell {
   VertexHandle previous(unsigned i) const { return ring[i == 0 ? degree - 1 : i - 1]; }
 };
 
-/// Walks around an edge. Fills `shell` completely only for ShellKind::closed. Cost: one step for each tet, no memory.
+/// Walks around an edge. Fills `shell` completely only for ShellKind::closed. Cost: one step for
+/// each tet, no memory.
 ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell);
 
-/// A tet that contains the edge between two vertices, searched in the star of the first; nothing when there is none. Looks at
-/// `hint` first. At a vertex whose star is not connected through faces (touching fans), only the fan of its stored tet is searched.
-/// Cost: about 26 tets without a useful hint ([chen, 5.2]).
-std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b, Workspace& workspace,
-                                 TetHandle hint = {});
+/// A tet that contains the edge between two vertices, searched in the star of the first; nothing
+/// when there is none. Looks at `hint` first. At a vertex whose star is not connected through faces
+/// (touching fans), only the fan of its stored tet is searched. Cost: about 26 tets without a
+/// useful hint ([chen, 5.2]).
+std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b,
+                                 Workspace& workspace, TetHandle hint = {});
 
 /// The edge between two vertices if `t` contains both.
-inline std::optional<TetEdge> edge_in(const TetMesh& mesh, TetHandle t, VertexHandle a, VertexHandle b) {
+inline std::optional<TetEdge> edge_in(const TetMesh& mesh, TetHandle t, VertexHandle a,
+                                      VertexHandle b) {
   const unsigned i = mesh.local_index(t, a);
   const unsigned j = mesh.local_index(t, b);
   if (i == 4 || j == 4 || i == j) return std::nullopt;
   return TetEdge(t, kEdgeOf[i][j]);
 }
 
-/// Lazy range over the tets around an edge, open shells included: yields the edge as each tet names it. Works for boundary and
-/// constrained edges.
+/// Lazy range over the tets around an edge, open shells included: yields the edge as each tet names
+/// it. Works for boundary and constrained edges.
 class ShellRange {
  public:
   class Iterator {
@@ -75,7 +82,9 @@ class ShellRange {
       ++*this;
       return old;
     }
-    friend bool operator==(const Iterator& i, std::default_sentinel_t) { return i.mesh_ == nullptr; }
+    friend bool operator==(const Iterator& i, std::default_sentinel_t) {
+      return i.mesh_ == nullptr;
+    }
 
    private:
     friend class ShellRange;
@@ -93,6 +102,8 @@ class ShellRange {
   Iterator begin_;
 };
 
-inline ShellRange shell(const TetMesh& mesh, TetEdge edge) { return {mesh, edge}; }
+inline ShellRange shell(const TetMesh& mesh, TetEdge edge) {
+  return {mesh, edge};
+}
 
 }  // namespace tetmend

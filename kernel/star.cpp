@@ -11,8 +11,8 @@ namespace {
 
 /// Calls visit(tet, local index of v) for each tet of the star until it returns true.
 template <class Visit>
-void walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::vector<HalfFace>& queue,
-               Visit&& visit) {
+void walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+               std::vector<HalfFace>& queue, Visit&& visit) {
   queue.clear();
   const TetHandle first = mesh.tet_of(v);
   if (!first.is_valid()) return;
@@ -35,7 +35,8 @@ void walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::v
 
 }  // namespace
 
-void collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::vector<HalfFace>& out) {
+void collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+                  std::vector<HalfFace>& out) {
   walk_star(mesh, v, workspace, out, [](HalfFace) { return false; });
 }
 
@@ -63,7 +64,8 @@ std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Work
   return workspace.ring_buffer;
 }
 
-std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b, Workspace& workspace) {
+std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
+                                    Workspace& workspace) {
   std::optional<TetEdge> found;
   walk_star(mesh, a, workspace, workspace.search_buffer, [&](HalfFace opposite) {
     found = edge_in(mesh, opposite.tet(), a, b);

@@ -32,7 +32,8 @@ MeshData TetMesh::to_data() const {
     number[v] = i;
     data.points.push_back(points_[v]);
     if (!point_labels_.empty()) {
-      data.point_labels.push_back(vertex_origin_[v] == kNotFromFile ? 0 : point_labels_[vertex_origin_[v]]);
+      data.point_labels.push_back(
+          vertex_origin_[v] == kNotFromFile ? 0 : point_labels_[vertex_origin_[v]]);
     }
     if ((vertex_flags_[v] & kVertexRequired) != 0) data.required_vertices.push_back(i);
   }
@@ -40,9 +41,9 @@ MeshData TetMesh::to_data() const {
   for (std::uint32_t t = 0; t < cells_.size(); ++t) {
     if (is_deleted(TetHandle(t))) continue;
     const TetVertices& v = cells_[t].vertices;
-    data.tets.push_back({{number[v[0].index()], number[v[1].index()], number[v[2].index()],
-                          number[v[3].index()]},
-                         label_[t]});
+    data.tets.push_back(
+        {{number[v[0].index()], number[v[1].index()], number[v[2].index()], number[v[3].index()]},
+         label_[t]});
   }
   for (const SurfaceTriangle& triangle : surface_) {
     if (!triangle.named) continue;
@@ -51,7 +52,8 @@ MeshData TetMesh::to_data() const {
         {{number[v[0].index()], number[v[1].index()], number[v[2].index()]}, triangle.label});
   }
   for (const NamedEdge& edge : named_edges_) {
-    data.edges.push_back({{number[edge.vertices[0].index()], number[edge.vertices[1].index()]}, edge.label});
+    data.edges.push_back(
+        {{number[edge.vertices[0].index()], number[edge.vertices[1].index()]}, edge.label});
   }
   return data;
 }
@@ -110,7 +112,8 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
                       std::span<const std::uint32_t> tet_order) {
   std::vector<VertexHandle> new_vertex(points_.size());
   std::vector<TetHandle> new_tet(cells_.size());
-  for (std::uint32_t i = 0; i < vertex_order.size(); ++i) new_vertex[vertex_order[i]] = VertexHandle(i);
+  for (std::uint32_t i = 0; i < vertex_order.size(); ++i)
+    new_vertex[vertex_order[i]] = VertexHandle(i);
   for (std::uint32_t i = 0; i < tet_order.size(); ++i) new_tet[tet_order[i]] = TetHandle(i);
 
   gather(cells_, tet_order);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tetrahedral mesh: points, tets with neighbours, labels and constraints. Read-only from outside; see Transaction.
+// The tetrahedral mesh: points, tets with neighbours, labels and constraints. Read-only from
+// outside; see Transaction.
 #pragma once
 
 #include <array>
@@ -23,17 +24,22 @@ using Date = std::uint32_t;
 
 /// What building a mesh from a file's contents found and did.
 struct BuildReport {
-  bool mirrored = false;             ///< most tets were negative: the order of two vertices was swapped in every tet
-  std::size_t reordered_tets = 0;    ///< negative tets that only listed their vertices the other way round: put right
-  std::size_t inverted_tets = 0;     ///< tets of negative volume that were kept
-  std::size_t flat_tets = 0;         ///< tets of zero volume (or too close to tell) that were kept
-  std::size_t loose_triangles = 0;   ///< named triangles that are no face of any tet: kept for output, no constraint
-  std::size_t loose_edges = 0;       ///< named edges that are no edge of any tet: kept for output; its vertices are fixed
-  std::size_t unused_points = 0;     ///< points of no tet: kept
-  std::size_t constrained_faces = 0; ///< interior faces that must survive
+  bool mirrored =
+      false;  ///< most tets were negative: the order of two vertices was swapped in every tet
+  std::size_t reordered_tets =
+      0;  ///< negative tets that only listed their vertices the other way round: put right
+  std::size_t inverted_tets = 0;  ///< tets of negative volume that were kept
+  std::size_t flat_tets = 0;      ///< tets of zero volume (or too close to tell) that were kept
+  std::size_t loose_triangles =
+      0;  ///< named triangles that are no face of any tet: kept for output, no constraint
+  std::size_t loose_edges =
+      0;  ///< named edges that are no edge of any tet: kept for output; its vertices are fixed
+  std::size_t unused_points = 0;      ///< points of no tet: kept
+  std::size_t constrained_faces = 0;  ///< interior faces that must survive
 };
 
-/// A face that every operation keeps: a triangle of the boundary, a triangle named by the file, or a face between two labels.
+/// A face that every operation keeps: a triangle of the boundary, a triangle named by the file, or
+/// a face between two labels.
 struct SurfaceTriangle {
   std::array<VertexHandle, 3> vertices;
   Label label = 0;
@@ -42,33 +48,44 @@ struct SurfaceTriangle {
   bool loose = false;     ///< no face of any tet
 };
 
-/// Compact tetrahedral mesh. Per tet: four vertices and four neighbours ([chen, 5.2]), cached quality, label, flags; per vertex: a
-/// point, one incident tet, flags and the date of the last change around it. Deleted slots stay until collect_garbage().
-/// All const member functions may be called from several threads.
+/// Compact tetrahedral mesh. Per tet: four vertices and four neighbours ([chen, 5.2]), cached
+/// quality, label, flags; per vertex: a point, one incident tet, flags and the date of the last
+/// change around it. Deleted slots stay until collect_garbage(). All const member functions may be
+/// called from several threads.
 class TetMesh {
  public:
   TetMesh() = default;
-  /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is put right; tets that are inverted or flat are kept
-  /// and counted in `report`.
-  /// @throws Error when a face has more than two tets, when two tets lie on the same side of a face, or when an index is out of range;
+  /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is put right; tets
+  /// that are inverted or flat are kept and counted in `report`.
+  /// @throws Error when a face has more than two tets, when two tets lie on the same side of a
+  /// face, or when an index is out of range;
   ///   BuildError names the tet.
   /// Cost: linear, apart from sorting the few faces at each vertex.
   explicit TetMesh(const MeshData& data, BuildReport* report = nullptr);
 
-  /// The live part as plain arrays: vertices that came from the file first, in their order, then the others.
+  /// The live part as plain arrays: vertices that came from the file first, in their order, then
+  /// the others.
   MeshData to_data() const;
 
-  // --- sizes -----------------------------------------------------------------------------------------------------------------------
+  // --- sizes
+  // -----------------------------------------------------------------------------------------------------------------------
   std::size_t tet_count() const { return tet_count_; }
   std::size_t vertex_count() const { return vertex_count_; }
-  std::size_t tet_slots() const { return cells_.size(); }        ///< live and deleted; bound of TetHandle::index()
-  std::size_t vertex_slots() const { return points_.size(); }    ///< live and deleted; bound of VertexHandle::index()
+  std::size_t tet_slots() const {
+    return cells_.size();
+  }  ///< live and deleted; bound of TetHandle::index()
+  std::size_t vertex_slots() const {
+    return points_.size();
+  }  ///< live and deleted; bound of VertexHandle::index()
   bool is_deleted(TetHandle t) const { return !cells_[t.index()].vertices[0].is_valid(); }
   bool is_deleted(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexDeleted) != 0; }
 
-  // --- tets ------------------------------------------------------------------------------------------------------------------------
+  // --- tets
+  // ------------------------------------------------------------------------------------------------------------------------
   const TetVertices& vertices(TetHandle t) const { return cells_[t.index()].vertices; }
-  const std::array<HalfFace, 4>& neighbours(TetHandle t) const { return cells_[t.index()].neighbours; }
+  const std::array<HalfFace, 4>& neighbours(TetHandle t) const {
+    return cells_[t.index()].neighbours;
+  }
   /// The other side of a face: a half-face of the neighbouring tet, or the outside.
   HalfFace twin(HalfFace f) const { return cells_[f.tet().index()].neighbours[f.face()]; }
   Quality quality(TetHandle t) const { return quality_[t.index()]; }
@@ -80,7 +97,8 @@ class TetMesh {
   }
   bool is_boundary(HalfFace f) const { return twin(f).is_outside(); }
   bool is_constrained(HalfFace f) const { return (tet_flags_[f.tet().index()] >> f.face()) & 1u; }
-  /// A constraint of the edge itself. An edge of a constrained or boundary face is not marked here: its shell shows it.
+  /// A constraint of the edge itself. An edge of a constrained or boundary face is not marked here:
+  /// its shell shows it.
   bool is_constrained(TetEdge e) const {
     return (tet_flags_[e.tet().index()] >> (4 + e.edge())) & 1u;
   }
@@ -99,35 +117,44 @@ class TetMesh {
   }
   /// Minimum sine computed from the points; what quality() caches.
   Quality evaluate(const TetVertices& tv) const {
-    return static_cast<Quality>(minimum_sine(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3])));
+    return static_cast<Quality>(
+        minimum_sine(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3])));
   }
   bool is_certified_positive(const TetVertices& tv) const {
     return certified_positive(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3]));
   }
 
-  // --- vertices --------------------------------------------------------------------------------------------------------------------
+  // --- vertices
+  // --------------------------------------------------------------------------------------------------------------------
   const Point& point(VertexHandle v) const { return points_[v.index()]; }
   /// A tet that contains v; invalid for a vertex of no tet.
   TetHandle tet_of(VertexHandle v) const { return vertex_tet_[v.index()]; }
-  bool is_boundary(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexBoundary) != 0; }
-  /// On a boundary or constrained face or edge, or required by the file: must neither move nor vanish.
+  bool is_boundary(VertexHandle v) const {
+    return (vertex_flags_[v.index()] & kVertexBoundary) != 0;
+  }
+  /// On a boundary or constrained face or edge, or required by the file: must neither move nor
+  /// vanish.
   bool is_fixed(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFixed) != 0; }
   /// Latest date at which a tet of v's star was replaced or a vertex of its link moved.
   Date changed(VertexHandle v) const { return vertex_date_[v.index()]; }
 
-  // --- surface and constraints -----------------------------------------------------------------------------------------------------
+  // --- surface and constraints
+  // -----------------------------------------------------------------------------------------------------
   std::span<const SurfaceTriangle> surface_triangles() const { return surface_; }
 
-  // --- properties ------------------------------------------------------------------------------------------------------------------
+  // --- properties
+  // ------------------------------------------------------------------------------------------------------------------
   PropertyTable<TetHandle>& tet_properties() { return tet_properties_; }
   const PropertyTable<TetHandle>& tet_properties() const { return tet_properties_; }
   PropertyTable<VertexHandle>& vertex_properties() { return vertex_properties_; }
   const PropertyTable<VertexHandle>& vertex_properties() const { return vertex_properties_; }
 
-  /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made before become invalid.
+  /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
+  /// before become invalid.
   void collect_garbage();
-  /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are neighbours in memory. to_data() still
-  /// lists the vertices of the file in their order. Handles made before become invalid. Removes deleted slots.
+  /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are
+  /// neighbours in memory. to_data() still lists the vertices of the file in their order. Handles
+  /// made before become invalid. Removes deleted slots.
   void sort_spatially();
 
   /// Bytes held for each tet slot and each vertex slot, properties not counted.
@@ -135,10 +162,12 @@ class TetMesh {
     return sizeof(Cell) + sizeof(Quality) + sizeof(Label) + sizeof(TetFlags);
   }
   static constexpr std::size_t bytes_per_vertex() {
-    return sizeof(Point) + sizeof(TetHandle) + sizeof(VertexFlags) + sizeof(Date) + sizeof(std::uint32_t);
+    return sizeof(Point) + sizeof(TetHandle) + sizeof(VertexFlags) + sizeof(Date) +
+           sizeof(std::uint32_t);
   }
 
-  /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates. Properties are not compared.
+  /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates. Properties are
+  /// not compared.
   friend bool operator==(const TetMesh& a, const TetMesh& b);
 
  private:
@@ -153,7 +182,8 @@ class TetMesh {
   };
   static_assert(sizeof(Cell) == 32);
 
-  using TetFlags = std::uint16_t;  // bits 0-3: face f is constrained; bits 4-9: edge e is constrained; bit 10: touched
+  using TetFlags = std::uint16_t;  // bits 0-3: face f is constrained; bits 4-9: edge e is
+                                   // constrained; bit 10: touched
   static constexpr TetFlags kTetConstraints = 0x3FF;
   static constexpr TetFlags kTetTouched = 0x400;
   using VertexFlags = std::uint8_t;
@@ -164,7 +194,8 @@ class TetMesh {
   static constexpr VertexFlags kVertexRequired = 8;  // named by the file: written back
   static constexpr std::uint32_t kNotFromFile = 0xFFFFFFFFu;
 
-  void reorder(std::span<const std::uint32_t> vertex_order, std::span<const std::uint32_t> tet_order);
+  void reorder(std::span<const std::uint32_t> vertex_order,
+               std::span<const std::uint32_t> tet_order);
 
   std::vector<Cell> cells_;
   std::vector<Quality> quality_;
@@ -191,7 +222,8 @@ class TetMesh {
   PropertyTable<VertexHandle> vertex_properties_;
 };
 
-/// An error in the topology of a file's contents; names the tet so that the reader can add its line.
+/// An error in the topology of a file's contents; names the tet so that the reader can add its
+/// line.
 class BuildError : public Error {
  public:
   BuildError(const std::string& message, std::size_t tet) : Error(message), tet_(tet) {}

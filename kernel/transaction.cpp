@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Edits with their checks, and the way back.
 //
-//   replace_cavity: check old tets, vertices and constraints -> evaluate new tets -> glue faces -> save -> take slots -> fill -> link
-//   undo: the edits in reverse; slots go back to where they came from, in reverse, so that free lists agree as well
+//   replace_cavity: check old tets, vertices and constraints -> evaluate new tets -> glue faces ->
+//   save -> take slots -> fill -> link undo: the edits in reverse; slots go back to where they came
+//   from, in reverse, so that free lists agree as well
 #include "kernel/transaction.h"
 
 #include <algorithm>
@@ -31,7 +32,9 @@ Transaction::~Transaction() {
   --workspace_.depth_;
 }
 
-bool Transaction::empty() const { return workspace_.journal_.edits.size() == first_edit_; }
+bool Transaction::empty() const {
+  return workspace_.journal_.edits.size() == first_edit_;
+}
 
 void Transaction::keep() {
   kept_ = true;
@@ -49,9 +52,11 @@ std::span<const TetHandle> Transaction::created() const {
   return {};
 }
 
-// --- replace_cavity ------------------------------------------------------------------------------------------------------------------
+// --- replace_cavity
+// ------------------------------------------------------------------------------------------------------------------
 
-/// Fills cavity_set_ and constrained_edges_; refuses a cavity with a constrained face or a label border inside.
+/// Fills cavity_set_ and constrained_edges_; refuses a cavity with a constrained face or a label
+/// border inside.
 EditResult Transaction::check_old(std::span<const TetHandle> old) {
   workspace_.cavity_set_.clear();
   workspace_.constrained_edges_.clear();
@@ -61,7 +66,8 @@ EditResult Transaction::check_old(std::span<const TetHandle> old) {
     if (!mesh_.has_constraints(t)) continue;
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace twin = mesh_.neighbours(t)[f];
-      if (mesh_.is_constrained(HalfFace(t, f)) && workspace_.cavity_set_.contains(twin.tet().index())) {
+      if (mesh_.is_constrained(HalfFace(t, f)) &&
+          workspace_.cavity_set_.contains(twin.tet().index())) {
         return EditResult::constrained;
       }
     }
@@ -77,7 +83,8 @@ EditResult Transaction::check_old(std::span<const TetHandle> old) {
 }
 
 /// A vertex that vanishes must not be fixed; one that appears must not have tets elsewhere.
-EditResult Transaction::check_vertices(std::span<const TetHandle> old, std::span<const TetVertices> created) {
+EditResult Transaction::check_vertices(std::span<const TetHandle> old,
+                                       std::span<const TetVertices> created) {
   IndexSet& set = workspace_.vertex_set_;
   set.clear();
   for (const TetVertices& tet : created) {
@@ -109,7 +116,8 @@ EditResult Transaction::evaluate(std::span<const TetVertices> created) {
   return EditResult::made;
 }
 
-/// Finds for each face of each new tet what lies behind it, and checks that the outer surfaces agree.
+/// Finds for each face of each new tet what lies behind it, and checks that the outer surfaces
+/// agree.
 EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const TetVertices> created) {
   FaceTable& table = workspace_.face_table_;
   auto& gluing = workspace_.gluing_;
@@ -120,7 +128,8 @@ EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const Tet
   for (std::uint32_t i = 0; i < 4 * created.size(); ++i) {
     const TetVertices& tet = created[i / 4];
     const auto& local = kFaceVertices[i % 4];
-    const auto [entry, is_new] = table.find_or_insert({tet[local[0]], tet[local[1]], tet[local[2]]}, even);
+    const auto [entry, is_new] =
+        table.find_or_insert({tet[local[0]], tet[local[1]], tet[local[2]]}, even);
     if (is_new) {
       entry->value = i;
       ++open;
@@ -147,8 +156,8 @@ EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const Tet
   return open == 0 ? EditResult::made : EditResult::not_closed;
 }
 
-/// Where tets overlap, a cavity can be filled by positive tets one of whose faces exists elsewhere already; such a face would have four
-/// tets. Without overlaps that cannot happen.
+/// Where tets overlap, a cavity can be filled by positive tets one of whose faces exists elsewhere
+/// already; such a face would have four tets. Without overlaps that cannot happen.
 bool Transaction::repeats_a_face(std::span<const TetVertices> created) {
   const auto exists_outside = [&](const TetVertices& tet, unsigned f) {
     const auto& [x, y, z] = kFaceVertices[f];
@@ -191,9 +200,11 @@ bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
   return true;
 }
 
-EditResult Transaction::replace_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created) {
+EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
+                                       std::span<const TetVertices> created) {
   assert(!old.empty() && !created.empty());
-  for (const EditResult result : {check_old(old), check_vertices(old, created), evaluate(created)}) {
+  for (const EditResult result :
+       {check_old(old), check_vertices(old, created), evaluate(created)}) {
     if (result != EditResult::made) return result;
   }
   if (const EditResult result = glue(old, created); result != EditResult::made) return result;
@@ -222,9 +233,10 @@ void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
   for (const TetHandle t : old) {
     const std::uint32_t i = t.index();
     const TetMesh::Cell& cell = mesh_.cells_[i];
-    journal.removed.push_back(
-        {t, cell.vertices, cell.neighbours, mesh_.quality_[i], mesh_.label_[i], mesh_.tet_flags_[i]});
-    if (!mesh_.tet_properties_.empty()) journal.property_values.push_back(mesh_.tet_properties_.save(t));
+    journal.removed.push_back({t, cell.vertices, cell.neighbours, mesh_.quality_[i],
+                               mesh_.label_[i], mesh_.tet_flags_[i]});
+    if (!mesh_.tet_properties_.empty())
+      journal.property_values.push_back(mesh_.tet_properties_.save(t));
     for (const VertexHandle v : cell.vertices) {
       if (mesh_.vertex_tet_[v.index()] != t) continue;
       journal.links.push_back({v, t});
@@ -265,7 +277,8 @@ void Transaction::clear_slot(VertexHandle v) {
   mesh_.vertex_properties_.reset(v);
 }
 
-/// New tets first take the slots of the old, then free ones, then the mesh grows. Slots left over become free.
+/// New tets first take the slots of the old, then free ones, then the mesh grows. Slots left over
+/// become free.
 void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit) {
   Journal& journal = workspace_.journal_;
   edit.created_begin = size32(journal.created);
@@ -304,7 +317,8 @@ void Transaction::fill_slots(std::span<const TetVertices> created, Label label, 
       } else {
         cell.neighbours[f] = glued.twin;
         if (!glued.twin.is_outside()) {
-          mesh_.cells_[glued.twin.tet().index()].neighbours[glued.twin.face()] = HalfFace(slots[k], f);
+          mesh_.cells_[glued.twin.tet().index()].neighbours[glued.twin.face()] =
+              HalfFace(slots[k], f);
         }
       }
     }
@@ -339,8 +353,9 @@ void Transaction::remove_isolated(const Edit& replaced) {
     edit.kind = Edit::Kind::remove_vertex;
     edit.vertex = v;
     edit.point = mesh_.points_[v.index()];
-    journal.removed_vertices.push_back(
-        {mesh_.vertex_date_[v.index()], mesh_.vertex_origin_[v.index()], mesh_.vertex_flags_[v.index()]});
+    journal.removed_vertices.push_back({mesh_.vertex_date_[v.index()],
+                                        mesh_.vertex_origin_[v.index()],
+                                        mesh_.vertex_flags_[v.index()]});
     if (!mesh_.vertex_properties_.empty()) {
       journal.property_values.push_back(mesh_.vertex_properties_.save(v));
     }
@@ -351,7 +366,8 @@ void Transaction::remove_isolated(const Edit& replaced) {
   }
 }
 
-// --- vertices ------------------------------------------------------------------------------------------------------------------------
+// --- vertices
+// ------------------------------------------------------------------------------------------------------------------------
 
 VertexHandle Transaction::add_vertex(const Point& point) {
   Edit edit;
@@ -376,7 +392,8 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   return edit.vertex;
 }
 
-EditResult Transaction::move_vertex(VertexHandle v, const Point& point, std::span<const HalfFace> link) {
+EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
+                                    std::span<const HalfFace> link) {
   if (mesh_.is_fixed(v)) return EditResult::constrained;
   Point& stored = mesh_.points_[v.index()];
   const Point before = stored;
@@ -404,7 +421,8 @@ EditResult Transaction::move_vertex(VertexHandle v, const Point& point, std::spa
   return EditResult::made;
 }
 
-// --- the way back --------------------------------------------------------------------------------------------------------------------
+// --- the way back
+// --------------------------------------------------------------------------------------------------------------------
 
 void Transaction::undo() {
   auto& edits = workspace_.journal_.edits;
@@ -412,10 +430,18 @@ void Transaction::undo() {
     const Edit edit = edits.back();
     edits.pop_back();
     switch (edit.kind) {
-      case Edit::Kind::replace_cavity: undo_replace(edit); break;
-      case Edit::Kind::move_vertex: undo_move(edit); break;
-      case Edit::Kind::add_vertex: undo_add(edit); break;
-      case Edit::Kind::remove_vertex: undo_remove(edit); break;
+      case Edit::Kind::replace_cavity:
+        undo_replace(edit);
+        break;
+      case Edit::Kind::move_vertex:
+        undo_move(edit);
+        break;
+      case Edit::Kind::add_vertex:
+        undo_add(edit);
+        break;
+      case Edit::Kind::remove_vertex:
+        undo_remove(edit);
+        break;
     }
   }
 }
@@ -513,7 +539,8 @@ void Transaction::undo_remove(const Edit& edit) {
   ++mesh_.vertex_count_;
 }
 
-// --- comparison and commit -----------------------------------------------------------------------------------------------------------
+// --- comparison and commit
+// -----------------------------------------------------------------------------------------------------------
 
 void Transaction::compare(std::vector<Quality>& before, std::vector<Quality>& now) const {
   const Journal& journal = workspace_.journal_;

@@ -14,15 +14,16 @@ namespace tetmend {
 /// Why an edit was not made. The mesh is unchanged unless `made`.
 enum class EditResult : std::uint8_t {
   made,
-  inverted,    ///< a new tet is not certified positive or, in a folded mesh, has a face that exists elsewhere already; or a move
-               ///< would turn a positive tet over
-  constrained, ///< a constrained face, edge or vertex, or a border between labels would vanish
-  not_closed   ///< old and new tets do not have the same outer surface (a mistake of the caller)
+  inverted,  ///< a new tet is not certified positive or, in a folded mesh, has a face that exists
+             ///< elsewhere already; or a move would turn a positive tet over
+  constrained,  ///< a constrained face, edge or vertex, or a border between labels would vanish
+  not_closed    ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
 
-/// A scope for edits. Transactions nest: one opened while another is open on the same workspace is its child. Undo restores every slot
-/// of the mesh bit by bit, handle numbers included. The outermost keep() writes the workspace's date to the vertices around all
-/// changes and forgets the journal.
+/// A scope for edits. Transactions nest: one opened while another is open on the same workspace is
+/// its child. Undo restores every slot of the mesh bit by bit, handle numbers included. The
+/// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
+/// journal.
 class Transaction {
  public:
   Transaction(TetMesh& mesh, Workspace& workspace);
@@ -32,10 +33,11 @@ class Transaction {
 
   const TetMesh& mesh() const { return mesh_; }
 
-  /// Replaces the tets `old` by new ones that fill the same cavity. Vertices that no tet needs any more are deleted; new tets take
-  /// over the label, the constraints and, where possible, the slots of the old. New tets must be certified positive.
-  /// Preconditions: old tets are live and distinct. created vertices are live, and those not in `old` have no tet yet.
-  /// Cost: linear in the number of tets; allocates only when a buffer or the mesh outgrows its largest size so far.
+  /// Replaces the tets `old` by new ones that fill the same cavity. Vertices that no tet needs any
+  /// more are deleted; new tets take over the label, the constraints and, where possible, the slots
+  /// of the old. New tets must be certified positive. Preconditions: old tets are live and
+  /// distinct. created vertices are live, and those not in `old` have no tet yet. Cost: linear in
+  /// the number of tets; allocates only when a buffer or the mesh outgrows its largest size so far.
   EditResult replace_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created);
 
   /// Handles of the tets that the last successful replace_cavity created, in the order given to it.
@@ -44,13 +46,14 @@ class Transaction {
   /// A new vertex without tets. It becomes part of the mesh by a replace_cavity that uses it.
   VertexHandle add_vertex(const Point& point);
 
-  /// Moves a vertex that is not fixed and updates the qualities of its star, given as the link (see star.h). A tet of positive quality
-  /// must stay certified positive.
+  /// Moves a vertex that is not fixed and updates the qualities of its star, given as the link (see
+  /// star.h). A tet of positive quality must stay certified positive.
   EditResult move_vertex(VertexHandle v, const Point& point, std::span<const HalfFace> link);
 
   bool empty() const;
 
-  /// Ascending quality vectors of all that this transaction has touched: as it was when the transaction began, and as it is now.
+  /// Ascending quality vectors of all that this transaction has touched: as it was when the
+  /// transaction began, and as it is now.
   void compare(std::vector<Quality>& before, std::vector<Quality>& now) const;
 
   /// Makes the edits part of the enclosing transaction, or of the mesh if there is none.

@@ -12,11 +12,13 @@
 
 namespace tetmend {
 
-/// Scratch of one worker. The mesh holds nothing of the kind, so reading it is safe from any thread. A workspace belongs to one mesh;
-/// garbage collection and sorting of the mesh make it invalid.
+/// Scratch of one worker. The mesh holds nothing of the kind, so reading it is safe from any
+/// thread. A workspace belongs to one mesh; garbage collection and sorting of the mesh make it
+/// invalid.
 class Workspace {
  public:
-  /// Collects the free slots of the mesh; notes whether it has tets that are not positive. Cost: linear in the slots.
+  /// Collects the free slots of the mesh; notes whether it has tets that are not positive. Cost:
+  /// linear in the slots.
   explicit Workspace(const TetMesh& mesh);
 
   /// The date that commits write to the vertices around a change.
@@ -39,7 +41,8 @@ class Workspace {
   unsigned depth_ = 0;  // open transactions
   std::vector<TetHandle> free_tets_;
   std::vector<VertexHandle> free_vertices_;
-  bool may_overlap_ = false;  // the mesh had tets of no positive quality when the workspace was made
+  bool may_overlap_ =
+      false;  // the mesh had tets of no positive quality when the workspace was made
 
   // Buffers of Transaction.
   IndexSet cavity_set_;
@@ -47,7 +50,8 @@ class Workspace {
   IndexSet touched_set_;
   FaceTable face_table_;
   struct Gluing {
-    HalfFace twin;     // of a new face: number and face of another new tet if local, else what lies outside the cavity
+    HalfFace twin;  // of a new face: number and face of another new tet if local, else what lies
+                    // outside the cavity
     bool local;
     bool constrained;
   };

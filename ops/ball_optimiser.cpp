@@ -3,7 +3,8 @@
 //
 //   repeat: active = sines within a band above the worst
 //           direction = shortest vector in the hull of their gradients; stop when it is nearly zero
-//           step = halve from the last step until the worst quality rises; stop when the gain is small
+//           step = halve from the last step until the worst quality rises; stop when the gain is
+//           small
 #include "ops/ball_optimiser.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ struct BallArrays {
 };
 
 TETMEND_WIDE
-void evaluate_ball(const BallArrays& ball, std::size_t size, double px, double py, double pz, double* quality) {
+void evaluate_ball(const BallArrays& ball, std::size_t size, double px, double py, double pz,
+                   double* quality) {
   for (std::size_t i = 0; i < size; ++i) {
     const double ux = ball.ax[i] - px, uy = ball.ay[i] - py, uz = ball.az[i] - pz;
     const double vx = ball.bx[i] - px, vy = ball.by[i] - py, vz = ball.bz[i] - pz;
@@ -55,7 +57,9 @@ void evaluate_ball(const BallArrays& ball, std::size_t size, double px, double p
 
 }  // namespace
 
-void BallOptimiser::clear() { size_ = 0; }
+void BallOptimiser::clear() {
+  size_ = 0;
+}
 
 void BallOptimiser::reserve(std::size_t size) {
   if (size <= capacity_) return;
@@ -72,16 +76,30 @@ void BallOptimiser::reserve(std::size_t size) {
 void BallOptimiser::add(const Point& a, const Point& b, const Point& c) {
   reserve(size_ + 1);
   const Point n = (b - a).cross(c - a);
-  const std::array<double, kFields> row = {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z(),
-                                           n.x(), n.y(), n.z(), n.squaredNorm(), (b - a).squaredNorm(),
-                                           (c - b).squaredNorm(), (a - c).squaredNorm()};
+  const std::array<double, kFields> row = {a.x(),
+                                           a.y(),
+                                           a.z(),
+                                           b.x(),
+                                           b.y(),
+                                           b.z(),
+                                           c.x(),
+                                           c.y(),
+                                           c.z(),
+                                           n.x(),
+                                           n.y(),
+                                           n.z(),
+                                           n.squaredNorm(),
+                                           (b - a).squaredNorm(),
+                                           (c - b).squaredNorm(),
+                                           (a - c).squaredNorm()};
   for (std::size_t f = 0; f < kFields; ++f) data_[f * capacity_ + size_] = row[f];
   ++size_;
 }
 
 double BallOptimiser::worst(const Point& p) {
-  const BallArrays ball = {field(ax), field(ay), field(az), field(bx), field(by), field(bz), field(cx), field(cy),
-                           field(cz), field(nx), field(ny), field(nz), field(n2), field(ab2), field(bc2), field(ca2)};
+  const BallArrays ball = {field(ax), field(ay),  field(az),  field(bx), field(by), field(bz),
+                           field(cx), field(cy),  field(cz),  field(nx), field(ny), field(nz),
+                           field(n2), field(ab2), field(bc2), field(ca2)};
   evaluate_ball(ball, size_, p.x(), p.y(), p.z(), quality_.data());
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size_; ++i) smallest = std::min(smallest, quality_[i]);
@@ -120,8 +138,8 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
 
   const std::array<double, 3> far2 = {field(bc2)[i], field(ca2)[i], field(ab2)[i]};
   for (unsigned e = 0; e < 6 && count < kMaxActive; ++e) {
-    // e < 3: edge from p to corner e, shared by the faces opposite the other two corners; else the edge opposite corner e - 3, shared
-    // by the face opposite that corner and the one opposite p.
+    // e < 3: edge from p to corner e, shared by the faces opposite the other two corners; else the
+    // edge opposite corner e - 3, shared by the face opposite that corner and the one opposite p.
     const unsigned f = e < 3 ? (e + 1) % 3 : 3;
     const unsigned g = e < 3 ? (e + 2) % 3 : e - 3;
     const double length2 = e < 3 ? to[e].squaredNorm() : far2[e - 3];
@@ -151,7 +169,8 @@ double BallOptimiser::local_length(const Point& p) const {
   return sum / static_cast<double>(size_);
 }
 
-/// Follows one direction from p. Returns the gain, 0 if there is none; p and `best` follow, `step` is the last length tried.
+/// Follows one direction from p. Returns the gain, 0 if there is none; p and `best` follow, `step`
+/// is the last length tried.
 double BallOptimiser::ascend(Point& p, double& best, double width, double length, double& step) {
   const unsigned count = find_active(p, best, width);
   if (count == 0) return 0;
@@ -199,7 +218,8 @@ double BallOptimiser::optimise(Point& p, const Limits& limits) {
 
 namespace {
 
-/// Shortest vector in the hull of a simplex of up to four points; drops the points that do not carry it.
+/// Shortest vector in the hull of a simplex of up to four points; drops the points that do not
+/// carry it.
 Point reduce_simplex(std::array<Point, 4>& s, unsigned& count) {
   // All faces of the simplex, by bits; the best feasible one. At most 15 tiny systems.
   Point best = s[0];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Optimal covering mesh: pockets by growing length, then the core as an optimal cycle.
 //
-//   pocket(i, d) = best over k of pocket(i, k) + pocket(i+k, d-k) + triangle(i, i+k, i+d)      [chen, Eq. 1, Alg. 2]
-//   full reduction = pocket(0, m-1)
-//   core: shortest path around the ring; an arc i -> i+d costs pocket(i, d) + core side (i, i+d), an arc of length 1 the old tet
+//   pocket(i, d) = best over k of pocket(i, k) + pocket(i+k, d-k) + triangle(i, i+k, i+d) [chen,
+//   Eq. 1, Alg. 2] full reduction = pocket(0, m-1) core: shortest path around the ring; an arc i ->
+//   i+d costs pocket(i, d) + core side (i, i+d), an arc of length 1 the old tet
 #include "ops/covering_search.h"
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace tetmend {
 
 namespace {
 
-/// Minimum sine from squared quantities: V6^2 * smallest / product; 0 if not above the floor. `smallest` and `product` as in
-/// minimum_sine().
+/// Minimum sine from squared quantities: V6^2 * smallest / product; 0 if not above the floor.
+/// `smallest` and `product` as in minimum_sine().
 Quality sine_above(double v6, double smallest, double product, Quality floor) {
   if (!(v6 > 0)) return 0;
   const double r = floor > 0 ? floor : 0;
@@ -22,7 +22,9 @@ Quality sine_above(double v6, double smallest, double product, Quality floor) {
   return q > floor ? q : 0;
 }
 
-double min3(double x, double y, double z) { return std::min(std::min(x, y), z); }
+double min3(double x, double y, double z) {
+  return std::min(std::min(x, y), z);
+}
 
 }  // namespace
 
@@ -123,7 +125,8 @@ void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, u
   t.state = Triangle::valid;
 }
 
-/// Quality of the core tet (a, b, p_i, p_j); 0 if not above the floor. Precondition: ab2_ and normal_ab_ are set.
+/// Quality of the core tet (a, b, p_i, p_j); 0 if not above the floor. Precondition: ab2_ and
+/// normal_ab_ are set.
 template <unsigned Worst>
 Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
   ++evaluations_;
@@ -141,13 +144,15 @@ Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
 }
 
 template <unsigned Worst>
-void BasicCoveringSearch<Worst>::fill_pocket(const CoveringProblem& problem, unsigned i, unsigned d) {
+void BasicCoveringSearch<Worst>::fill_pocket(const CoveringProblem& problem, unsigned i,
+                                             unsigned d) {
   Pocket& pocket = pockets_[i][d];
   pocket.valid = false;
   const unsigned j = wrap(i + d);
   // A chord, unless the pocket is the whole polygon and j-i its last ring edge.
-  const bool locked = d + 1 < size_ ? (((problem.locked_vertices >> i) | (problem.locked_vertices >> j)) & 1u)
-                                    : ((problem.locked_edges >> j) & 1u);
+  const bool locked = d + 1 < size_
+                          ? (((problem.locked_vertices >> i) | (problem.locked_vertices >> j)) & 1u)
+                          : ((problem.locked_edges >> j) & 1u);
   if (locked) return;
   for (unsigned k = 1; k < d; ++k) {
     const unsigned apex = wrap(i + k);
@@ -187,13 +192,16 @@ bool BasicCoveringSearch<Worst>::fill_pockets(const CoveringProblem& problem) {
   return true;
 }
 
-/// The best core with at least one pocket. Any cycle meets a window of as many consecutive vertices as its longest arc spans.
+/// The best core with at least one pocket. Any cycle meets a window of as many consecutive vertices
+/// as its longest arc spans.
 template <unsigned Worst>
-bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Values& best, Covering& covering) {
+bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Values& best,
+                                           Covering& covering) {
   const bool is_virtual = problem.old_sides.empty();
   ab2_ = (b_ - a_).squaredNorm();
   for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = (p_[i] - a_).cross(p_[i] - b_).squaredNorm();
-  std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing> side_quality;  // [i][d], 0 = no arc
+  std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing>
+      side_quality;  // [i][d], 0 = no arc
   unsigned longest = is_virtual ? 1 : 0;
   for (unsigned i = 0; i < size_; ++i) {
     side_quality[i][1] = is_virtual ? side(i, wrap(i + 1)) : problem.old_sides[i];
@@ -227,10 +235,10 @@ bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Value
         if (d > 1) values.add(pockets_[i][d].values);
         values.add(side_quality[i][d]);
         const auto arcs = static_cast<std::uint8_t>(from.arcs + 1);
-        const bool better =
-            !path[t].valid || values.better_than(path[t].values) ||
-            (!path[t].values.better_than(values) && arcs < path[t].arcs);
-        if (better) path[t] = {values, static_cast<std::uint8_t>(t - d), arcs, true, from.changed || d > 1};
+        const bool better = !path[t].valid || values.better_than(path[t].values) ||
+                            (!path[t].values.better_than(values) && arcs < path[t].arcs);
+        if (better)
+          path[t] = {values, static_cast<std::uint8_t>(t - d), arcs, true, from.changed || d > 1};
       }
     }
     const Step& end = path[size_];
@@ -257,7 +265,8 @@ void BasicCoveringSearch<Worst>::add_triangles(unsigned i, unsigned d, Covering&
   if (d < 2) return;
   const unsigned apex = pockets_[i][d].apex;
   const unsigned k = apex >= i ? apex - i : apex + size_ - i;
-  covering.triangles[covering.triangle_count++] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(apex),
+  covering.triangles[covering.triangle_count++] = {static_cast<std::uint8_t>(i),
+                                                   static_cast<std::uint8_t>(apex),
                                                    static_cast<std::uint8_t>(wrap(i + d))};
   add_triangles(i, k, covering);
   add_triangles(apex, d - k, covering);

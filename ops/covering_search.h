@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The best covering mesh of a shell by dynamic programming ([chen, Alg. 1-3]). A pure unit: points in, triangles and core out.
+// The best covering mesh of a shell by dynamic programming ([chen, Alg. 1-3]). A pure unit: points
+// in, triangles and core out.
 //
-//        p_2 ------- p_1          A covering triangulates pockets of the ring (each triangle p_i p_k p_j gives the tets
-//       /  \  pocket /  \         (a, p_i, p_k, p_j) and (p_i, p_k, p_j, b)) and may leave a core, whose sides p_i p_j
-//     p_3   \   .---'   p_0       give the tets (a, b, p_i, p_j). Without a core the edge ab is gone: full reduction.
+//        p_2 ------- p_1          A covering triangulates pockets of the ring (each triangle p_i
+//        p_k p_j gives the tets
+//       /  \  pocket /  \         (a, p_i, p_k, p_j) and (p_i, p_k, p_j, b)) and may leave a core,
+//       whose sides p_i p_j
+//     p_3   \   .---'   p_0       give the tets (a, b, p_i, p_j). Without a core the edge ab is
+//     gone: full reduction.
 //       \    '-'  core  /         All tets positive is sufficient for a proper tiling.
 //        p_4 ------- p_5
 #pragma once
@@ -23,12 +27,15 @@ inline constexpr unsigned kMaxSearchRing = 16;
 struct CoveringProblem {
   Point a;
   Point b;
-  std::span<const Point> ring;  ///< 3 to kMaxSearchRing points; (a, b, ring[i], ring[i+1]) positive in a real shell
-  /// Qualities of the tets (a, b, ring[i], ring[i+1]) as they are. Empty for the virtual shell of a face removal, where no tet contains
-  /// ab and each side of the core is a new tet.
+  std::span<const Point>
+      ring;  ///< 3 to kMaxSearchRing points; (a, b, ring[i], ring[i+1]) positive in a real shell
+  /// Qualities of the tets (a, b, ring[i], ring[i+1]) as they are. Empty for the virtual shell of a
+  /// face removal, where no tet contains ab and each side of the core is a new tet.
   std::span<const Quality> old_sides;
-  Quality floor = 0;  ///< every new tet must be better than this; loss-free with the worst quality of the old tets
-  /// Ancestor edges, as bits: no chord may end at a locked ring vertex, no pocket may use a locked ring edge (i, i+1).
+  Quality floor = 0;  ///< every new tet must be better than this; loss-free with the worst quality
+                      ///< of the old tets
+  /// Ancestor edges, as bits: no chord may end at a locked ring vertex, no pocket may use a locked
+  /// ring edge (i, i+1).
   std::uint32_t locked_vertices = 0;
   std::uint32_t locked_edges = 0;
   bool allow_core = true;  ///< false: full reduction only, which is edge removal
@@ -45,14 +52,16 @@ struct Covering {
   unsigned tet_count() const { return 2 * triangle_count + degree; }
 };
 
-/// Tables of the search, re-used from call to call. `Worst` is the number of worst qualities by which coverings are ranked: the search is
-/// exact for the quality vectors cut to that length, compared lexicographically with +infinity as padding.
+/// Tables of the search, re-used from call to call. `Worst` is the number of worst qualities by
+/// which coverings are ranked: the search is exact for the quality vectors cut to that length,
+/// compared lexicographically with +infinity as padding.
 template <unsigned Worst>
 class BasicCoveringSearch {
  public:
-  /// Finds the best covering other than the old one. False if there is none above the floor. A covering with a core may be missed if it
-  /// does not rank above the old mesh. Ties of whole vectors go to the smaller degree, then to the lower indices. Cost: O(m^3) for ring
-  /// size m, no memory.
+  /// Finds the best covering other than the old one. False if there is none above the floor. A
+  /// covering with a core may be missed if it does not rank above the old mesh. Ties of whole
+  /// vectors go to the smaller degree, then to the lower indices. Cost: O(m^3) for ring size m, no
+  /// memory.
   bool run(const CoveringProblem& problem, Covering& best);
 
   /// Triangles and core sides that the last run evaluated.
@@ -98,7 +107,8 @@ class BasicCoveringSearch {
   Point a_;
   Point b_;
   std::array<Point, kMaxSearchRing> p_;
-  // Squared lengths and squared norms of face normals: to a and b from each ring vertex, and for each pair of them.
+  // Squared lengths and squared norms of face normals: to a and b from each ring vertex, and for
+  // each pair of them.
   double ab2_ = 0;
   std::array<double, kMaxSearchRing> a2_, b2_, normal_ab_;
   std::array<std::array<double, kMaxSearchRing>, kMaxSearchRing> pair2_, normal_a_, normal_b_;
@@ -106,7 +116,8 @@ class BasicCoveringSearch {
   std::array<Triangle, kMaxSearchRing*(kMaxSearchRing - 1) * (kMaxSearchRing - 2) / 6> triangles_;
 };
 
-/// Ranks by the three worst values, which decide nearly always; callers compare whole vectors before they accept.
+/// Ranks by the three worst values, which decide nearly always; callers compare whole vectors
+/// before they accept.
 using CoveringSearch = BasicCoveringSearch<3>;
 /// Ranks by whole vectors for rings of up to 16.
 using ExactCoveringSearch = BasicCoveringSearch<2 * kMaxSearchRing>;

@@ -20,7 +20,8 @@ class EdgeContraction final : public Operator {
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
     const VertexHandle v = target.vertex();
-    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid()) return Verdict::not_applicable;
+    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid())
+      return Verdict::not_applicable;
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
 
@@ -37,9 +38,11 @@ class EdgeContraction final : public Operator {
     scratch.kept_vertex = VertexHandle();
     for (const VertexHandle w : scratch.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
-      const double least = mesh.is_fixed(w) ? static_cast<double>(worst_old) : least_ratio_ * worst_old;
+      const double least =
+          mesh.is_fixed(w) ? static_cast<double>(worst_old) : least_ratio_ * worst_old;
       if (!contract(mesh, w, std::max(least, 0.0), scratch)) continue;
-      if (scratch.kept_vertex.is_valid() && !improves(scratch.qualities, scratch.best_qualities)) continue;
+      if (scratch.kept_vertex.is_valid() && !improves(scratch.qualities, scratch.best_qualities))
+        continue;
       scratch.kept_vertex = w;
       std::swap(scratch.best_qualities, scratch.qualities);
     }
@@ -57,7 +60,8 @@ class EdgeContraction final : public Operator {
       const auto [a, b, c] = mesh.vertices(f);
       if (a != w && b != w && c != w) scratch.new_tets.push_back({w, a, b, c});
     }
-    const Verdict verdict = to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    const Verdict verdict =
+        to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
     if (verdict != Verdict::accepted || mesh.is_fixed(w)) return verdict;
 
     collect_link(mesh, w, context.workspace, scratch.link);
@@ -82,7 +86,8 @@ class EdgeContraction final : public Operator {
     }
   }
 
-  /// Qualities (ascending) of the ball re-coned from w, into scratch.qualities. False as soon as one is not above `least`.
+  /// Qualities (ascending) of the ball re-coned from w, into scratch.qualities. False as soon as
+  /// one is not above `least`.
   static bool contract(const TetMesh& mesh, VertexHandle w, double least, Scratch& scratch) {
     scratch.ball.worst(mesh.point(w));
     scratch.qualities.clear();
@@ -104,15 +109,19 @@ class EdgeContraction final : public Operator {
 constexpr std::array<ParameterSpec, 2> kParameters = {{
     {"least_ratio", ParameterSpec::Kind::real, 0, 1, 0.3,
      "least worst quality before smoothing, as a share of the old worst quality"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8, "most directions that the smoothing follows"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8,
+     "most directions that the smoothing follows"},
 }};
 
 }  // namespace
 
 const OperatorInfo& edge_contraction_info() {
   static const OperatorInfo kInfo = {
-      "edge_contraction", TargetKind::vertex, "merge a vertex into its best neighbour and smooth that", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<EdgeContraction>(values); }};
+      "edge_contraction", TargetKind::vertex,
+      "merge a vertex into its best neighbour and smooth that", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<EdgeContraction>(values);
+      }};
   return kInfo;
 }
 

@@ -19,7 +19,8 @@ class EdgeRemoval final : public Operator {
     return propose_covering(context, context.scratch.shell, {}, false);
   }
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+    return to_verdict(
+        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
   }
 };
 
@@ -27,8 +28,13 @@ class EdgeRemoval final : public Operator {
 
 const OperatorInfo& edge_removal_info() {
   static const OperatorInfo kInfo = {
-      "edge_removal", TargetKind::edge, "remove an edge: best complete triangulation of its ring", {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<EdgeRemoval>(values); }};
+      "edge_removal",
+      TargetKind::edge,
+      "remove an edge: best complete triangulation of its ring",
+      {},
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<EdgeRemoval>(values);
+      }};
   return kInfo;
 }
 

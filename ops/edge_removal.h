@@ -6,8 +6,9 @@
 
 namespace tetmend {
 
-/// Target: an edge. Replaces its shell by the best complete triangulation of the ring ([shewchuk_two]; [chen, 4.1]). Refuses boundary and
-/// constrained edges and rings of more than 16. Cost: O(m^3) for degree m.
+/// Target: an edge. Replaces its shell by the best complete triangulation of the ring
+/// ([shewchuk_two]; [chen, 4.1]). Refuses boundary and constrained edges and rings of more than 16.
+/// Cost: O(m^3) for degree m.
 const OperatorInfo& edge_removal_info();
 
 }  // namespace tetmend

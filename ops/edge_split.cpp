@@ -24,9 +24,11 @@ class EdgeSplit final : public Operator {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
-    const Verdict verdict = find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
+    const Verdict verdict =
+        find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
     if (verdict != Verdict::accepted) return verdict;
-    return context.scratch.shell.degree <= max_degree_ ? Verdict::accepted : Verdict::not_applicable;
+    return context.scratch.shell.degree <= max_degree_ ? Verdict::accepted
+                                                       : Verdict::not_applicable;
   }
 
   /// Places the vertex before it exists: the ball of the new vertex is the shell.
@@ -63,7 +65,8 @@ class EdgeSplit final : public Operator {
       scratch.new_tets.push_back({shell.a, v, shell.ring[i], shell.next(i)});
       scratch.new_tets.push_back({v, shell.b, shell.ring[i], shell.next(i)});
     }
-    const Verdict verdict = to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    const Verdict verdict =
+        to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
     if (verdict != Verdict::accepted) return verdict;
     if (relax_) repair(context, transaction, v);
     transaction.compare(scratch.before, scratch.now);
@@ -71,7 +74,8 @@ class EdgeSplit final : public Operator {
   }
 
  private:
-  /// Smooths around the new vertex, reconnects its bad tets, smooths again. Whether that was good shows at the end.
+  /// Smooths around the new vertex, reconnects its bad tets, smooths again. Whether that was good
+  /// shows at the end.
   void repair(OperatorContext& context, Transaction& transaction, VertexHandle v) const {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
@@ -99,10 +103,12 @@ class EdgeSplit final : public Operator {
       for (unsigned e = 0; e < 6; ++e) {
         // An earlier transformation may have taken the slot.
         if (mesh.is_deleted(t) || mesh.quality(t) >= kBadThreshold) break;
-        if (find_searchable_shell(mesh, TetEdge(t, e), scratch.shell) != Verdict::accepted) continue;
+        if (find_searchable_shell(mesh, TetEdge(t, e), scratch.shell) != Verdict::accepted)
+          continue;
         if (propose_covering(context, scratch.shell, {}, true) != Verdict::accepted) continue;
         Transaction step(context.mesh, context.workspace);
-        if (step.replace_cavity(scratch.old_tets, scratch.new_tets) == EditResult::made && is_better(step, scratch)) {
+        if (step.replace_cavity(scratch.old_tets, scratch.new_tets) == EditResult::made &&
+            is_better(step, scratch)) {
           step.keep();
         }
       }
@@ -122,8 +128,9 @@ class EdgeSplit final : public Operator {
     transaction.move_vertex(v, point, scratch.link);
   }
 
-  /// DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5 - q)^4 over the bad tets must fall, unless
-  /// the worst tet is desperate. By the order alone, splits raise the worst tet a little and leave more bad tets than they found.
+  /// DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
+  /// - q)^4 over the bad tets must fall, unless the worst tet is desperate. By the order alone,
+  /// splits raise the worst tet a little and leave more bad tets than they found.
   bool is_worth_it(std::span<const Quality> before, std::span<const Quality> now) const {
     if (before[0] < desperate_) return true;
     const auto total = [](std::span<const Quality> qualities) {
@@ -142,11 +149,16 @@ class EdgeSplit final : public Operator {
 };
 
 constexpr std::array<ParameterSpec, 5> kParameters = {{
-    {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4, "least gain of the worst quality of the shell"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate, "below this worst quality, new bad tets are no reason to refuse"},
-    {"relax", ParameterSpec::Kind::flag, 0, 1, 0, "smooth and reconnect around the new vertex before judging"},
-    {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12, "largest shell that is split"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8, "most directions that each placement follows"},
+    {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4,
+     "least gain of the worst quality of the shell"},
+    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+     "below this worst quality, new bad tets are no reason to refuse"},
+    {"relax", ParameterSpec::Kind::flag, 0, 1, 0,
+     "smooth and reconnect around the new vertex before judging"},
+    {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12,
+     "largest shell that is split"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8,
+     "most directions that each placement follows"},
 }};
 
 }  // namespace
@@ -154,7 +166,9 @@ constexpr std::array<ParameterSpec, 5> kParameters = {{
 const OperatorInfo& edge_split_info() {
   static const OperatorInfo kInfo = {
       "edge_split", TargetKind::edge, "insert a vertex on an edge and smooth it", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<EdgeSplit>(values); }};
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<EdgeSplit>(values);
+      }};
   return kInfo;
 }
 

@@ -36,7 +36,8 @@ class Flip23 final : public Operator {
     return Verdict::accepted;
   }
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+    return to_verdict(
+        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
   }
 };
 
@@ -44,8 +45,13 @@ class Flip23 final : public Operator {
 
 const OperatorInfo& flip_2_3_info() {
   static const OperatorInfo kInfo = {
-      "flip_2_3", TargetKind::face, "replace the two tets of a face by three", {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<Flip23>(values); }};
+      "flip_2_3",
+      TargetKind::face,
+      "replace the two tets of a face by three",
+      {},
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<Flip23>(values);
+      }};
   return kInfo;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-//            a             A sandwiched face F forms a tet with a above and one with b below. Across an edge pq of F, the tets
-//          / | \           beyond (a, p, q) and (b, p, q) may share their fourth vertex w: then (p, w, q) is sandwiched as well,
-//     p --- F --- q ..w    and w enters the polygon between p and q. A vertex enters once, so the faces stay a disc without
+//            a             A sandwiched face F forms a tet with a above and one with b below.
+//            Across an edge pq of F, the tets
+//          / | \           beyond (a, p, q) and (b, p, q) may share their fourth vertex w: then (p,
+//          w, q) is sandwiched as well,
+//     p --- F --- q ..w    and w enters the polygon between p and q. A vertex enters once, so the
+//     faces stay a disc without
 //          \ | /           inner vertices.
 //            b
 #include "ops/multi_face_removal.h"
@@ -37,7 +40,8 @@ struct Sandwich {
 };
 
 /// The tet beyond the face (apex, p, q) of t, unless boundary or constraint is in the way.
-TetHandle beyond(const TetMesh& mesh, TetHandle t, VertexHandle apex, VertexHandle p, VertexHandle q) {
+TetHandle beyond(const TetMesh& mesh, TetHandle t, VertexHandle apex, VertexHandle p,
+                 VertexHandle q) {
   const TetVertices& tv = mesh.vertices(t);
   unsigned f = 0;
   while (tv[f] == apex || tv[f] == p || tv[f] == q) ++f;
@@ -47,7 +51,8 @@ TetHandle beyond(const TetMesh& mesh, TetHandle t, VertexHandle apex, VertexHand
   return twin.tet();
 }
 
-VertexHandle fourth(const TetMesh& mesh, TetHandle t, VertexHandle x, VertexHandle y, VertexHandle z) {
+VertexHandle fourth(const TetMesh& mesh, TetHandle t, VertexHandle x, VertexHandle y,
+                    VertexHandle z) {
   for (const VertexHandle v : mesh.vertices(t)) {
     if (v != x && v != y && v != z) return v;
   }
@@ -57,7 +62,8 @@ VertexHandle fourth(const TetMesh& mesh, TetHandle t, VertexHandle x, VertexHand
 class MultiFaceRemoval final : public Operator {
  public:
   explicit MultiFaceRemoval(const ParameterValues& values)
-      : Operator(multi_face_removal_info()), max_polygon_(static_cast<unsigned>(values.integer("max_polygon"))) {}
+      : Operator(multi_face_removal_info()),
+        max_polygon_(static_cast<unsigned>(values.integer("max_polygon"))) {}
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
@@ -78,16 +84,19 @@ class MultiFaceRemoval final : public Operator {
     problem.b = mesh.point(sandwich.b);
     problem.ring = {ring.data(), sandwich.size};
     problem.floor = mesh.quality(scratch.old_tets[0]);
-    for (const TetHandle t : scratch.old_tets) problem.floor = std::min(problem.floor, mesh.quality(t));
+    for (const TetHandle t : scratch.old_tets)
+      problem.floor = std::min(problem.floor, mesh.quality(t));
     Covering covering;
     if (!scratch.search.run(problem, covering)) return Verdict::no_improvement;
-    list_new_tets(covering, sandwich.a, sandwich.b, sandwich.ring, [](unsigned, unsigned) { return false; },
-                  scratch.new_tets);
+    list_new_tets(
+        covering, sandwich.a, sandwich.b, sandwich.ring, [](unsigned, unsigned) { return false; },
+        scratch.new_tets);
     return Verdict::accepted;
   }
 
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+    return to_verdict(
+        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
   }
 
  private:
@@ -114,7 +123,8 @@ class MultiFaceRemoval final : public Operator {
       const VertexHandle w = above.is_valid() ? fourth(mesh, above, s.a, p, q) : VertexHandle();
       const auto end = s.ring.begin() + s.size;
       const bool grows = above.is_valid() && below.is_valid() && above != below &&
-                         fourth(mesh, below, s.b, p, q) == w && w != s.b && std::find(s.ring.begin(), end, w) == end;
+                         fourth(mesh, below, s.b, p, q) == w && w != s.b &&
+                         std::find(s.ring.begin(), end, w) == end;
       if (!grows) {
         ++i;
         continue;
@@ -130,15 +140,18 @@ class MultiFaceRemoval final : public Operator {
 };
 
 constexpr std::array<ParameterSpec, 1> kParameters = {{
-    {"max_polygon", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 8, "most vertices of the polygon of sandwiched faces"},
+    {"max_polygon", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 8,
+     "most vertices of the polygon of sandwiched faces"},
 }};
 
 }  // namespace
 
 const OperatorInfo& multi_face_removal_info() {
   static const OperatorInfo kInfo = {
-      "multi_face_removal", TargetKind::face, "remove the faces sandwiched between two vertices", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<MultiFaceRemoval>(values); }};
+      "multi_face_removal", TargetKind::face, "remove the faces sandwiched between two vertices",
+      kParameters, [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<MultiFaceRemoval>(values);
+      }};
   return kInfo;
 }
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Multi-face removal: replaces the faces sandwiched between two vertices through the same search as a shell.
+// Multi-face removal: replaces the faces sandwiched between two vertices through the same search as
+// a shell.
 #pragma once
 
 #include "ops/operator.h"
 
 namespace tetmend {
 
-/// Target: a face. The faces that both apexes a and b of its two tets see, connected to it, form a polygon; its tets are replaced by the
-/// best covering of the virtual shell of ab, with a core (ab appears) or without (re-triangulation) ([chen, 5.4]; [shewchuk_two]).
-/// Parameter: max_polygon (8 vertices). Refuses boundary and constrained faces. Cost: O(m^3) for m polygon vertices.
+/// Target: a face. The faces that both apexes a and b of its two tets see, connected to it, form a
+/// polygon; its tets are replaced by the best covering of the virtual shell of ab, with a core (ab
+/// appears) or without (re-triangulation) ([chen, 5.4]; [shewchuk_two]). Parameter: max_polygon (8
+/// vertices). Refuses boundary and constrained faces. Cost: O(m^3) for m polygon vertices.
 const OperatorInfo& multi_face_removal_info();
 
 }  // namespace tetmend

@@ -40,10 +40,18 @@ Verdict Operator::attempt(OperatorContext& context, Target target) const {
     for (const VertexHandle v : of) vertices[count++] = v;
   };
   switch (target.kind) {
-    case TargetKind::tet: take(context.mesh.vertices(target.tet())); break;
-    case TargetKind::edge: take(context.mesh.vertices(target.edge())); break;
-    case TargetKind::face: take(context.mesh.vertices(target.face())); break;
-    case TargetKind::vertex: vertices[count++] = target.vertex(); break;
+    case TargetKind::tet:
+      take(context.mesh.vertices(target.tet()));
+      break;
+    case TargetKind::edge:
+      take(context.mesh.vertices(target.edge()));
+      break;
+    case TargetKind::face:
+      take(context.mesh.vertices(target.face()));
+      break;
+    case TargetKind::vertex:
+      vertices[count++] = target.vertex();
+      break;
   }
   context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level});
   const Verdict verdict = try_target(context, target);

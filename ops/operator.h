@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The verb: an operator tries to improve the mesh at one target. Operators never walk the mesh; the schedule owns every loop.
+// The verb: an operator tries to improve the mesh at one target. Operators never walk the mesh; the
+// schedule owns every loop.
 #pragma once
 
 #include <array>
@@ -55,7 +56,8 @@ struct OperatorInfo {
   std::unique_ptr<Operator> (*make)(const ParameterValues&);
 };
 
-/// Base of all operators. Instances are immutable and may be shared by workers; what they need to write lies in the context.
+/// Base of all operators. Instances are immutable and may be shared by workers; what they need to
+/// write lies in the context.
 class Operator {
  public:
   explicit Operator(const OperatorInfo& info) : info_(info) {}
@@ -65,9 +67,10 @@ class Operator {
 
   const OperatorInfo& info() const { return info_; }
 
-  /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the result only if the quality vector of all
-  /// that changed improves (see improves()). After a refusal the mesh is what it was, bit by bit.
-  /// Precondition: the target is of the operator's kind and names a live entity.
+  /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
+  /// result only if the quality vector of all that changed improves (see improves()). After a
+  /// refusal the mesh is what it was, bit by bit. Precondition: the target is of the operator's
+  /// kind and names a live entity.
   Verdict attempt(OperatorContext& context, Target target) const;
 
  protected:
@@ -76,7 +79,8 @@ class Operator {
   /// Finds what to do and leaves it in the scratch. Must not modify the mesh.
   virtual Verdict evaluate(OperatorContext& context, Target target) const = 0;
   /// Makes the edits. Anything but `accepted` undoes them.
-  virtual Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const = 0;
+  virtual Verdict apply(OperatorContext& context, Target target,
+                        Transaction& transaction) const = 0;
 
  private:
   Verdict try_target(OperatorContext& context, Target target) const;
@@ -92,10 +96,14 @@ constexpr std::string_view to_string(TargetKind kind) {
 /// The verdict for an edit that was not made.
 constexpr Verdict to_verdict(EditResult result) {
   switch (result) {
-    case EditResult::made: return Verdict::accepted;
-    case EditResult::inverted: return Verdict::inverted;
-    case EditResult::constrained: return Verdict::constrained;
-    case EditResult::not_closed: return Verdict::not_applicable;
+    case EditResult::made:
+      return Verdict::accepted;
+    case EditResult::inverted:
+      return Verdict::inverted;
+    case EditResult::constrained:
+      return Verdict::constrained;
+    case EditResult::not_closed:
+      return Verdict::not_applicable;
   }
   return Verdict::not_applicable;
 }
@@ -103,7 +111,8 @@ constexpr Verdict to_verdict(EditResult result) {
 /// True if all that the transaction changed is better now; leaves the vectors in the scratch.
 bool is_better(const Transaction& transaction, Scratch& scratch);
 
-/// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last comparison if it was accepted.
+/// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last
+/// comparison if it was accepted.
 void report_end(OperatorContext& context, Verdict verdict);
 
 }  // namespace tetmend

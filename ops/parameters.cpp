@@ -22,11 +22,13 @@ ParameterValues::ParameterValues(std::string_view owner, std::span<const Paramet
       valid += specs[i++].name;
     }
     if (i == specs.size()) {
-      throw Error(fmt::format("{} has no parameter '{}'; valid: {}", owner, name, valid.empty() ? "none" : valid));
+      throw Error(fmt::format("{} has no parameter '{}'; valid: {}", owner, name,
+                              valid.empty() ? "none" : valid));
     }
     const ParameterSpec& spec = specs[i];
     if (!(value >= spec.low && value <= spec.high)) {
-      throw Error(fmt::format("{}: {} = {} is outside {} to {}", owner, name, value, spec.low, spec.high));
+      throw Error(
+          fmt::format("{}: {} = {} is outside {} to {}", owner, name, value, spec.low, spec.high));
     }
     if (spec.kind != ParameterSpec::Kind::real && value != std::floor(value)) {
       throw Error(fmt::format("{}: {} = {} is not a whole number", owner, name, value));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parameters of operators: declared once with range, default and help, checked when an operator is made.
+// Parameters of operators: declared once with range, default and help, checked when an operator is
+// made.
 #pragma once
 
 #include <span>
@@ -25,8 +26,10 @@ using ParameterSettings = std::vector<std::pair<std::string, double>>;
 /// The values of all declared parameters: defaults, overridden by settings.
 class ParameterValues {
  public:
-  /// @throws Error for an unknown name (with the valid ones), a value out of range, or a fraction where an integer is wanted.
-  ParameterValues(std::string_view owner, std::span<const ParameterSpec> specs, const ParameterSettings& settings);
+  /// @throws Error for an unknown name (with the valid ones), a value out of range, or a fraction
+  /// where an integer is wanted.
+  ParameterValues(std::string_view owner, std::span<const ParameterSpec> specs,
+                  const ParameterSettings& settings);
 
   /// Precondition: the name is declared.
   double real(std::string_view name) const;

@@ -3,7 +3,8 @@
 //
 //   reduce(e, f, level):
 //     loop: transform the shell of e; done when e or f is gone; give up at the last level
-//           for each supporting face of e with a promising link edge e': reduce(e', face, level + 1)
+//           for each supporting face of e with a promising link edge e': reduce(e', face, level +
+//           1)
 //             when the shell of e became smaller: next round of the loop
 //           give up when no face helped
 #include "ops/recursive_shell_transformation.h"
@@ -56,7 +57,8 @@ class Recursion {
 };
 
 /// Finds the shell of ab. `gone`: no such edge; `reduced`: the face (a, b, face) is not in it.
-Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell) {
+Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hint,
+                                   VertexHandle face, Shell& shell) {
   const auto edge = find_edge(mesh_, a, b, context_.workspace, hint);
   if (!edge) return State::gone;
   if (find_searchable_shell(mesh_, *edge, shell) != Verdict::accepted) return State::blocked;
@@ -71,7 +73,8 @@ Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hin
 }
 
 /// As locate(), with the tets of the old shell as hints: often one of them still holds the edge.
-Recursion::State Recursion::relocate(VertexHandle a, VertexHandle b, VertexHandle face, Shell& shell) {
+Recursion::State Recursion::relocate(VertexHandle a, VertexHandle b, VertexHandle face,
+                                     Shell& shell) {
   TetHandle hint;
   for (unsigned i = 0; i < shell.degree && !hint.is_valid(); ++i) {
     const TetHandle t = shell.tets[i];
@@ -131,7 +134,8 @@ Verdict Recursion::try_transform(const Shell& shell, int level) {
 
 /// A tet at the face that also belongs to the shell of an ancestor must stay ([chen, 5.2 (2)]).
 bool Recursion::overlaps_ancestor(const Shell& shell, unsigned i, int level) const {
-  const std::array<VertexHandle, 5> around = {shell.a, shell.b, shell.ring[i], shell.previous(i), shell.next(i)};
+  const std::array<VertexHandle, 5> around = {shell.a, shell.b, shell.ring[i], shell.previous(i),
+                                              shell.next(i)};
   for (int n = 0; n < level; ++n) {
     const auto [x, y] = ancestors_[static_cast<std::size_t>(n)];
     const auto has = [&](VertexHandle v, VertexHandle apex) {
@@ -144,9 +148,10 @@ bool Recursion::overlaps_ancestor(const Shell& shell, unsigned i, int level) con
   return false;
 }
 
-/// The end of the supporting edge from which the link edge to ring vertex i starts that is worth removing, or nothing.
-/// (g, A, B) are the weights of (p_i, b, a) of the point where the line p- p+ meets the plane of the face: only if p- p+ passes beyond
-/// exactly one of the link edges does removing that edge remove the face.
+/// The end of the supporting edge from which the link edge to ring vertex i starts that is worth
+/// removing, or nothing. (g, A, B) are the weights of (p_i, b, a) of the point where the line p- p+
+/// meets the plane of the face: only if p- p+ passes beyond exactly one of the link edges does
+/// removing that edge remove the face.
 VertexHandle Recursion::pick_link_edge(const Shell& shell, unsigned i, int level) const {
   if (overlaps_ancestor(shell, i, level)) return {};
   const Point& a = mesh_.point(shell.a);
@@ -168,13 +173,15 @@ Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle
   ancestors_[static_cast<std::size_t>(level)] = {shell.a, shell.b};
   if (context_.trace == nullptr) return reduce(end, p, shell.tets[i], face, level + 1);
   const std::array<VertexHandle, 2> edge = {end, p};
-  context_.trace->attempt_begins({"recursive_shell_transformation", edge, static_cast<unsigned>(level + 1)});
+  context_.trace->attempt_begins(
+      {"recursive_shell_transformation", edge, static_cast<unsigned>(level + 1)});
   const Verdict verdict = reduce(end, p, shell.tets[i], face, level + 1);
   context_.trace->attempt_ends(to_string(verdict), {}, {});
   return verdict;
 }
 
-Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, int level) {
+Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face,
+                          int level) {
   Shell shell;
   State state = locate(a, b, hint, face, shell);
   for (;;) {
@@ -203,7 +210,10 @@ Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, Vertex
       if (state == State::blocked) return Verdict::constrained;
       smaller = shell.degree < degree;
     }
-    if (!smaller) return budget_ <= 0 ? Verdict::budget_spent : too_deep_ ? Verdict::depth_spent : Verdict::no_improvement;
+    if (!smaller)
+      return budget_ <= 0 ? Verdict::budget_spent
+             : too_deep_  ? Verdict::depth_spent
+                          : Verdict::no_improvement;
   }
 }
 
@@ -235,8 +245,10 @@ class RecursiveShellTransformation final : public Operator {
 };
 
 constexpr std::array<ParameterSpec, 3> kParameters = {{
-    {"max_level", ParameterSpec::Kind::integer, 0, kDeepest - 1, 5, "deepest recursion level; 0 means no recursion"},
-    {"budget", ParameterSpec::Kind::integer, 1, 1e6, 400, "most shell transformations for one target"},
+    {"max_level", ParameterSpec::Kind::integer, 0, kDeepest - 1, 5,
+     "deepest recursion level; 0 means no recursion"},
+    {"budget", ParameterSpec::Kind::integer, 1, 1e6, 400,
+     "most shell transformations for one target"},
     {"reflex_only", ParameterSpec::Kind::flag, 0, 1, 1, "recurse only on reflex link edges"},
 }};
 
@@ -245,8 +257,8 @@ constexpr std::array<ParameterSpec, 3> kParameters = {{
 const OperatorInfo& recursive_shell_transformation_info() {
   static const OperatorInfo kInfo = {
       "recursive_shell_transformation", TargetKind::edge,
-      "remove an edge by shell transformations on it and, recursively, on edges around it", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+      "remove an edge by shell transformations on it and, recursively, on edges around it",
+      kParameters, [](const ParameterValues& values) -> std::unique_ptr<Operator> {
         return std::make_unique<RecursiveShellTransformation>(values);
       }};
   return kInfo;

@@ -6,9 +6,10 @@
 
 namespace tetmend {
 
-/// Target: an edge. Transforms its shell; while it is not fully reduced, removes supporting faces by recursive calls on their reflex
-/// link edges ([chen, Alg. 4, 5.1-5.3]). Each transformation improves the quality vector of its own shell, so partial success is kept.
-/// Parameters: max_level (5), budget (400 transformations), reflex_only (1).
+/// Target: an edge. Transforms its shell; while it is not fully reduced, removes supporting faces
+/// by recursive calls on their reflex link edges ([chen, Alg. 4, 5.1-5.3]). Each transformation
+/// improves the quality vector of its own shell, so partial success is kept. Parameters: max_level
+/// (5), budget (400 transformations), reflex_only (1).
 const OperatorInfo& recursive_shell_transformation_info();
 
 }  // namespace tetmend

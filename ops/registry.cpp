@@ -9,7 +9,8 @@ namespace tetmend {
 
 void Registry::add(const OperatorInfo& info) {
   for (const OperatorInfo* other : infos_) {
-    if (other->name == info.name) throw Error("operator '" + std::string(info.name) + "' is registered twice");
+    if (other->name == info.name)
+      throw Error("operator '" + std::string(info.name) + "' is registered twice");
   }
   infos_.push_back(&info);
 }
@@ -24,7 +25,8 @@ const OperatorInfo& Registry::find(std::string_view name) const {
   throw Error("unknown operator '" + std::string(name) + "'; valid: " + valid);
 }
 
-std::unique_ptr<Operator> Registry::make(std::string_view name, const ParameterSettings& settings) const {
+std::unique_ptr<Operator> Registry::make(std::string_view name,
+                                         const ParameterSettings& settings) const {
   const OperatorInfo& info = find(name);
   return info.make(ParameterValues(info.name, info.parameters, settings));
 }

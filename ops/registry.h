@@ -23,7 +23,8 @@ class Registry {
   const OperatorInfo& find(std::string_view name) const;
 
   /// @throws Error for an unknown operator or parameter, or a value out of range.
-  std::unique_ptr<Operator> make(std::string_view name, const ParameterSettings& settings = {}) const;
+  std::unique_ptr<Operator> make(std::string_view name,
+                                 const ParameterSettings& settings = {}) const;
 
  private:
   std::vector<const OperatorInfo*> infos_;

@@ -7,15 +7,20 @@ namespace tetmend {
 
 Verdict find_searchable_shell(const TetMesh& mesh, TetEdge edge, Shell& shell) {
   switch (find_shell(mesh, edge, shell)) {
-    case ShellKind::closed: break;
+    case ShellKind::closed:
+      break;
     case ShellKind::boundary:
-    case ShellKind::constrained: return Verdict::constrained;
-    case ShellKind::too_large: return Verdict::not_applicable;
+    case ShellKind::constrained:
+      return Verdict::constrained;
+    case ShellKind::too_large:
+      return Verdict::not_applicable;
   }
-  return shell.degree >= 3 && shell.degree <= kMaxSearchRing ? Verdict::accepted : Verdict::not_applicable;
+  return shell.degree >= 3 && shell.degree <= kMaxSearchRing ? Verdict::accepted
+                                                             : Verdict::not_applicable;
 }
 
-Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks, bool allow_core) {
+Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks,
+                         bool allow_core) {
   const TetMesh& mesh = context.mesh;
   Scratch& scratch = context.scratch;
   const unsigned m = shell.degree;

@@ -16,15 +16,16 @@ struct ShellLocks {
 /// `accepted` for a closed shell small enough to be searched; the shell is left in `shell`.
 Verdict find_searchable_shell(const TetMesh& mesh, TetEdge edge, Shell& shell);
 
-/// Searches the best covering of a shell and leaves old and new tets in the scratch. `accepted` only if every new tet is better
-/// than the worst old one and the quality vector improves.
-Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks, bool allow_core);
+/// Searches the best covering of a shell and leaves old and new tets in the scratch. `accepted`
+/// only if every new tet is better than the worst old one and the quality vector improves.
+Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks,
+                         bool allow_core);
 
-/// Writes the tets of a covering: upper and lower tets of each triangle, then the sides of the core that are new. `is_old_side(i)` tells
-/// which ring sides of the core stay as they are.
+/// Writes the tets of a covering: upper and lower tets of each triangle, then the sides of the core
+/// that are new. `is_old_side(i)` tells which ring sides of the core stay as they are.
 template <class Ring, class IsOldSide>
-void list_new_tets(const Covering& covering, VertexHandle a, VertexHandle b, const Ring& ring, IsOldSide&& is_old_side,
-                   std::vector<TetVertices>& out) {
+void list_new_tets(const Covering& covering, VertexHandle a, VertexHandle b, const Ring& ring,
+                   IsOldSide&& is_old_side, std::vector<TetVertices>& out) {
   out.clear();
   for (unsigned n = 0; n < covering.triangle_count; ++n) {
     const auto& [i, k, j] = covering.triangles[n];

@@ -19,7 +19,8 @@ class ShellTransformation final : public Operator {
     return propose_covering(context, context.scratch.shell, {}, true);
   }
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+    return to_verdict(
+        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
   }
 };
 
@@ -27,8 +28,13 @@ class ShellTransformation final : public Operator {
 
 const OperatorInfo& shell_transformation_info() {
   static const OperatorInfo kInfo = {
-      "shell_transformation", TargetKind::edge, "best covering mesh of the shell of an edge, full or partial reduction", {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<ShellTransformation>(values); }};
+      "shell_transformation",
+      TargetKind::edge,
+      "best covering mesh of the shell of an edge, full or partial reduction",
+      {},
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<ShellTransformation>(values);
+      }};
   return kInfo;
 }
 

@@ -6,8 +6,9 @@
 
 namespace tetmend {
 
-/// Target: an edge. Replaces its shell by the best covering ([chen, Alg. 3]); the edge vanishes (full reduction) or keeps a smaller
-/// shell (partial reduction). Refuses boundary and constrained edges and rings of more than 16. Cost: O(m^3) for degree m.
+/// Target: an edge. Replaces its shell by the best covering ([chen, Alg. 3]); the edge vanishes
+/// (full reduction) or keeps a smaller shell (partial reduction). Refuses boundary and constrained
+/// edges and rings of more than 16. Cost: O(m^3) for degree m.
 const OperatorInfo& shell_transformation_info();
 
 }  // namespace tetmend

@@ -12,14 +12,18 @@ namespace {
 class Smoothing final : public Operator {
  public:
   explicit Smoothing(const ParameterValues& values)
-      : Operator(smoothing_info()), laplacian_(values.flag("laplacian")), optimise_(values.flag("optimise")), desperate_(values.real("desperate")) {
+      : Operator(smoothing_info()),
+        laplacian_(values.flag("laplacian")),
+        optimise_(values.flag("optimise")),
+        desperate_(values.real("desperate")) {
     limits_.steps = values.integer("steps");
   }
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
     const VertexHandle v = target.vertex();
-    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid()) return Verdict::not_applicable;
+    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid())
+      return Verdict::not_applicable;
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
 
@@ -41,7 +45,8 @@ class Smoothing final : public Operator {
         reached = value;
       }
     }
-    if (optimise_ && reached < kBadThreshold) reached = scratch.ball.optimise(scratch.point, limits_);
+    if (optimise_ && reached < kBadThreshold)
+      reached = scratch.ball.optimise(scratch.point, limits_);
     if (!(reached > start + kQualityTolerance)) return Verdict::no_improvement;
     // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others.
     if (start >= desperate_) {
@@ -52,7 +57,8 @@ class Smoothing final : public Operator {
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
-    return to_verdict(transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
+    return to_verdict(
+        transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
   }
 
  private:
@@ -75,9 +81,12 @@ class Smoothing final : public Operator {
 
 constexpr std::array<ParameterSpec, 4> kParameters = {{
     {"laplacian", ParameterSpec::Kind::flag, 0, 1, 1, "try the mean of the neighbours first"},
-    {"optimise", ParameterSpec::Kind::flag, 0, 1, 1, "then climb to the best place if bad tets remain"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate, "below this worst quality, new bad tets are no reason to refuse"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 40, "most directions that the optimisation follows"},
+    {"optimise", ParameterSpec::Kind::flag, 0, 1, 1,
+     "then climb to the best place if bad tets remain"},
+    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+     "below this worst quality, new bad tets are no reason to refuse"},
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 12,
+     "most directions that the optimisation follows"},
 }};
 
 }  // namespace
@@ -92,8 +101,11 @@ void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimise
 
 const OperatorInfo& smoothing_info() {
   static const OperatorInfo kInfo = {
-      "smoothing", TargetKind::vertex, "move a vertex: smart Laplacian, then optimisation of the worst tet", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> { return std::make_unique<Smoothing>(values); }};
+      "smoothing", TargetKind::vertex,
+      "move a vertex: smart Laplacian, then optimisation of the worst tet", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<Smoothing>(values);
+      }};
   return kInfo;
 }
 

@@ -8,7 +8,8 @@
 namespace tetmend {
 
 enum class Verdict : std::uint8_t {
-  accepted,        ///< the mesh is better now; from a stage of an attempt: nothing speaks against going on
+  accepted,  ///< the mesh is better now; from a stage of an attempt: nothing speaks against going
+             ///< on
   not_applicable,  ///< the target is gone or is not of the kind that the operator works on
   constrained,     ///< boundary or constraint in the way
   no_improvement,  ///< nothing better was found
@@ -19,13 +20,20 @@ enum class Verdict : std::uint8_t {
 
 constexpr std::string_view to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::accepted: return "accepted";
-    case Verdict::not_applicable: return "not applicable";
-    case Verdict::constrained: return "constrained";
-    case Verdict::no_improvement: return "no improvement";
-    case Verdict::inverted: return "inverted";
-    case Verdict::depth_spent: return "depth spent";
-    case Verdict::budget_spent: return "budget spent";
+    case Verdict::accepted:
+      return "accepted";
+    case Verdict::not_applicable:
+      return "not applicable";
+    case Verdict::constrained:
+      return "constrained";
+    case Verdict::no_improvement:
+      return "no improvement";
+    case Verdict::inverted:
+      return "inverted";
+    case Verdict::depth_spent:
+      return "depth spent";
+    case Verdict::budget_spent:
+      return "budget spent";
   }
   return "";
 }

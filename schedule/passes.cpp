@@ -9,7 +9,8 @@ namespace tetmend {
 
 namespace {
 
-/// A tet as it was when it was queued. Slots are re-used, so the vertices tell whether it is still there.
+/// A tet as it was when it was queued. Slots are re-used, so the vertices tell whether it is still
+/// there.
 struct QueuedTet {
   Quality quality;
   TetHandle tet;
@@ -22,7 +23,8 @@ bool is_there(const TetMesh& mesh, const QueuedTet& entry) {
 
 /// Something near the tet changed at `since` or later.
 bool changed_since(const TetMesh& mesh, const TetVertices& vertices, Date since) {
-  return std::any_of(vertices.begin(), vertices.end(), [&](VertexHandle v) { return mesh.changed(v) >= since; });
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](VertexHandle v) { return mesh.changed(v) >= since; });
 }
 
 /// Bad tets, worst first; equal ones in slot order.
@@ -63,7 +65,8 @@ std::array<unsigned, 6> sorted_edges(Rank&& rank) {
   std::array<double, 6> ranks{};
   for (unsigned e = 0; e < 6; ++e) ranks[e] = rank(e);
   std::array<unsigned, 6> edges = {0, 1, 2, 3, 4, 5};
-  std::stable_sort(edges.begin(), edges.end(), [&](unsigned x, unsigned y) { return ranks[x] < ranks[y]; });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [&](unsigned x, unsigned y) { return ranks[x] < ranks[y]; });
   return edges;
 }
 
@@ -121,7 +124,8 @@ void local_reconnection(Run& run, const LocalReconnection& options) {
   PassScope scope(run, "local_reconnection");
   Reconnection reconnection(run, options, scope);
   for (unsigned sweep = 0; sweep < options.sweeps; ++sweep) {
-    const auto queue = queue_bad_tets(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
+    const auto queue =
+        queue_bad_tets(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
     if (queue.empty()) return;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       if (!scope.proceed(i, queue.size())) return;
@@ -135,7 +139,8 @@ void smooth(Run& run, const SmoothingPass& options) {
   const auto smoothing = run.registry().make("smoothing", options.settings);
   QualityIndicators before = quality_indicators(run.mesh());
   for (unsigned cycle = 0; cycle < options.cycles; ++cycle) {
-    const auto points = list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
+    const auto points =
+        list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!scope.proceed(i, points.size())) return;
       scope.attempt(*smoothing, Target::of(points[i]));
@@ -149,7 +154,8 @@ void smooth(Run& run, const SmoothingPass& options) {
 void suppress_points(Run& run, const SuppressionPass& options) {
   PassScope scope(run, "point_suppression");
   const auto contraction = run.registry().make("edge_contraction", options.settings);
-  const auto points = list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
+  const auto points =
+      list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!scope.proceed(i, points.size())) return;
     scope.attempt(*contraction, Target::of(points[i]));

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The passes over a mesh: each walks the bad tets and tries operators on them. What schedules are made of.
+// The passes over a mesh: each walks the bad tets and tries operators on them. What schedules are
+// made of.
 #pragma once
 
 #include "schedule/run.h"
 
 namespace tetmend {
 
-// Options hold the operators to use by name and the parameters of the pass, so that a script can set them. `calendar` names the dates by
-// which unchanged neighbourhoods are passed over: passes with other settings, which may succeed where this one failed, need one of
-// their own.
+// Options hold the operators to use by name and the parameters of the pass, so that a script can
+// set them. `calendar` names the dates by which unchanged neighbourhoods are passed over: passes
+// with other settings, which may succeed where this one failed, need one of their own.
 struct LocalReconnection {
   std::string calendar = "local_reconnection";
   std::string edge_operator = "recursive_shell_transformation";  ///< empty: none
@@ -36,26 +37,30 @@ struct InsertionPass {
   std::string calendar = "point_insertion";
   ParameterSettings settings = {};
   Quality threshold = kBadThreshold;
-  double share = 1;  ///< of the mesh: at most that many tets are tried, the worst, but never fewer than kFewTets
+  double share = 1;  ///< of the mesh: at most that many tets are tried, the worst, but never fewer
+                     ///< than kFewTets
 };
 
 /// A pass limited to a share of the mesh may always try this many tets.
 inline constexpr std::size_t kFewTets = 200;
 
-/// [chen, Alg. 5]: bad tets from the worst up; edges of the tet in the order of their dihedral angle's sine, then faces, until the tet is gone.
+/// [chen, Alg. 5]: bad tets from the worst up; edges of the tet in the order of their dihedral
+/// angle's sine, then faces, until the tet is gone.
 void local_reconnection(Run& run, const LocalReconnection& options);
 
-/// [chen, 6.2]: smooths the movable vertices of bad tets, cycle by cycle, while an indicator improves. A vertex whose ball has not changed
-/// since it was last tried is passed over.
+/// [chen, 6.2]: smooths the movable vertices of bad tets, cycle by cycle, while an indicator
+/// improves. A vertex whose ball has not changed since it was last tried is passed over.
 void smooth(Run& run, const SmoothingPass& options);
 
 /// [chen, 6.3]: tries to remove each movable vertex of a bad tet by edge contraction, once.
 void suppress_points(Run& run, const SuppressionPass& options);
 
-/// [chen, 6.3]: tries to split the edges of bad tets, worst tets and longest edges first, each edge once.
+/// [chen, 6.3]: tries to split the edges of bad tets, worst tets and longest edges first, each edge
+/// once.
 void insert_points(Run& run, const InsertionPass& options);
 
-/// True if `now` is sufficient progress over `before`: q_worst or n_bad or, with n_bad no larger, q_aver improved noticeably.
+/// True if `now` is sufficient progress over `before`: q_worst or n_bad or, with n_bad no larger,
+/// q_aver improved noticeably.
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now);
 
 }  // namespace tetmend

@@ -26,15 +26,18 @@ Date Run::begin_sweep(std::string_view calendar) {
   return 0;
 }
 
-PassScope::PassScope(Run& run, std::string_view name) : run_(run), start_(std::chrono::steady_clock::now()) {
+PassScope::PassScope(Run& run, std::string_view name)
+    : run_(run), start_(std::chrono::steady_clock::now()) {
   record_.name = name;
   record_.round = run.round;
 }
 
 PassScope::~PassScope() {
-  record_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  record_.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   record_.after = quality_indicators(run_.mesh());
-  if (ProgressListener* listener = run_.listener()) listener->pass_done(record_.name, record_.round, record_.after);
+  if (ProgressListener* listener = run_.listener())
+    listener->pass_done(record_.name, record_.round, record_.after);
   run_.records.push_back(std::move(record_));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One run of a schedule: the mesh, the worker's tools, the calendar of passes, progress and cancellation.
+// One run of a schedule: the mesh, the worker's tools, the calendar of passes, progress and
+// cancellation.
 #pragma once
 
 #include <array>
@@ -37,8 +38,9 @@ struct PassRecord {
   std::size_t accepted() const { return verdicts[static_cast<std::size_t>(Verdict::accepted)]; }
 };
 
-/// State that passes share. A neighbourhood that has not changed since a pass last looked at it is not tried again: each sweep of a
-/// pass has a date, commits write it to the vertices that they change, and a pass remembers the date of its last sweep.
+/// State that passes share. A neighbourhood that has not changed since a pass last looked at it is
+/// not tried again: each sweep of a pass has a date, commits write it to the vertices that they
+/// change, and a pass remembers the date of its last sweep.
 class Run {
  public:
   Run(TetMesh& mesh, const Registry& registry);
@@ -57,7 +59,8 @@ class Run {
   unsigned round = 0;  ///< of the schedule; 0 before the main loop
   std::vector<PassRecord> records;
 
-  /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was none. Later commits carry the new date.
+  /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was
+  /// none. Later commits carry the new date.
   Date begin_sweep(std::string_view calendar);
 
  private:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //   repeat: reconnect, smooth, suppress points, smooth, insert points, smooth
-//           after the first round without progress: the thorough forms of reconnection and insertion
+//           after the first round without progress: the thorough forms of reconnection and
+//           insertion
 //   until rounds in sequence bring no progress, or 30 rounds are done
 //
-// DEVIATION: [chen, Alg. 6] smooths before the first reconnection. On a Delaunay mesh that costs more than all other smoothing
-// together, and the result is no better (docs/deviations.md).
+// DEVIATION: [chen, Alg. 6] smooths before the first reconnection. On a Delaunay mesh that costs
+// more than all other smoothing together, and the result is no better (docs/deviations.md).
 #include "schedule/shell_schedule.h"
 
 namespace tetmend {
@@ -13,7 +14,8 @@ void improve(Run& run, const ShellSchedule& schedule) {
   bool thorough = false;
   unsigned failed = 0;
   QualityIndicators before = quality_indicators(run.mesh());
-  while (failed < schedule.max_failed && run.round < schedule.max_rounds && before.n_bad > 0 && !run.cancelled()) {
+  while (failed < schedule.max_failed && run.round < schedule.max_rounds && before.n_bad > 0 &&
+         !run.cancelled()) {
     ++run.round;
     local_reconnection(run, schedule.reconnection);
     if (thorough) local_reconnection(run, schedule.unfiltered_reconnection);

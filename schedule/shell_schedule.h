@@ -8,7 +8,8 @@ namespace tetmend {
 
 struct ShellSchedule {
   unsigned max_rounds = 30;  ///< of the main loop
-  unsigned max_failed = 2;   ///< rounds in sequence without progress that end it, counted once the rounds are thorough
+  unsigned max_failed =
+      2;  ///< rounds in sequence without progress that end it, counted once the rounds are thorough
   LocalReconnection reconnection;
   SmoothingPass smoothing;
   SuppressionPass suppression;
@@ -21,9 +22,10 @@ struct ShellSchedule {
       .calendar = "relaxed insertion", .settings = {{"relax", 1}}, .share = 0.001};
 };
 
-/// Repeats reconnection, suppression and insertion, each followed by smoothing, until rounds make no more progress; then goes on with
-/// unfiltered recursion and relaxed insertion until that makes no more progress either. Never changes the surface. Stops early when no
-/// bad tet is left or the run is cancelled.
+/// Repeats reconnection, suppression and insertion, each followed by smoothing, until rounds make
+/// no more progress; then goes on with unfiltered recursion and relaxed insertion until that makes
+/// no more progress either. Never changes the surface. Stops early when no bad tet is left or the
+/// run is cancelled.
 void improve(Run& run, const ShellSchedule& schedule = {});
 
 }  // namespace tetmend

@@ -23,7 +23,8 @@ void TextTrace::attempt_ends(std::string_view verdict, std::span<const Quality> 
   auto out = std::back_inserter(text_);
   fmt::format_to(out, "{:{}}-> {}", "", 2 * depth_, verdict);
   if (!before.empty() && !now.empty()) {
-    fmt::format_to(out, ", {} tets {:.4f} -> {} tets {:.4f}", before.size(), before[0], now.size(), now[0]);
+    fmt::format_to(out, ", {} tets {:.4f} -> {} tets {:.4f}", before.size(), before[0], now.size(),
+                   now[0]);
   }
   text_ += '\n';
 }
