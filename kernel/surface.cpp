@@ -152,38 +152,6 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-/// Lines of vertices and triangles, each behind its prefix; vertices are counted from `first`.
-void put_lines(OutputFile& out, const SurfaceMesh& surface, std::string_view before_vertex,
-               std::string_view before_triangle, int first) {
-  for (const auto v : surface.mesh.vertices()) {
-    const OpenMesh::Vec3d& p = surface.mesh.point(v);
-    out.put(before_vertex);
-    for (unsigned i = 0; i < 3; ++i) {
-      if (i > 0) out.put(' ');
-      out.put_real(p[i]);
-    }
-    out.put('\n');
-  }
-  for (const auto f : surface.mesh.faces()) {
-    out.put(before_triangle);
-    unsigned i = 0;
-    for (const auto v : surface.mesh.fv_range(f)) {
-      if (i++ > 0) out.put(' ');
-      out.put_integer(v.idx() + first);
-    }
-    out.put('\n');
-  }
-}
-
-void put_stl(OutputFile& out, const SurfaceMesh& surface, const std::filesystem::path& file) {
-  const SilentOpenMesh silent;
-  std::ostringstream bytes;
-  if (!OpenMesh::IO::write_mesh(surface.mesh, bytes, ".stl", OpenMesh::IO::Options::Binary)) {
-    throw Error(file.string() + ": OpenMesh cannot write this surface");
-  }
-  out.put(bytes.str());
-}
-
 }  // namespace
 
 SurfaceMesh extract_boundary(const TetMesh& mesh) {
@@ -287,22 +255,16 @@ void check_surface_extension(const std::filesystem::path& file) {
 void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface) {
   check_surface_extension(file);
   const std::string extension = lower_extension(file);
-  const std::string vertices = std::to_string(surface.mesh.n_vertices());
-  const std::string triangles = std::to_string(surface.mesh.n_faces());
-  OutputFile out(file);
-  if (extension == ".off") {
-    out.put("OFF\n" + vertices + " " + triangles + " 0\n");
-    put_lines(out, surface, "", "3 ", 0);
-  } else if (extension == ".obj") {
-    put_lines(out, surface, "v ", "f ", 1);
-  } else if (extension == ".ply") {
-    out.put("ply\nformat ascii 1.0\nelement vertex " + vertices +
-            "\nproperty double x\nproperty double y\nproperty double z\nelement face " + triangles +
-            "\nproperty list uchar int vertex_indices\nend_header\n");
-    put_lines(out, surface, "", "3 ", 0);
-  } else {
-    put_stl(out, surface, file);
+  const SilentOpenMesh silent;
+  const auto options = extension == ".stl" ? OpenMesh::IO::Options(OpenMesh::IO::Options::Binary)
+                                           : OpenMesh::IO::Options();
+  constexpr std::streamsize kDigits = 9;  // all that a float holds
+  std::ostringstream bytes;
+  if (!OpenMesh::IO::write_mesh(surface.mesh, bytes, extension, options, kDigits)) {
+    throw Error(file.string() + ": OpenMesh cannot write this surface");
   }
+  OutputFile out(file);
+  out.put(bytes.str());
   out.commit();
 }
 

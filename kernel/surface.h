@@ -42,10 +42,8 @@ SurfaceMesh extract_constraints(const TetMesh& mesh);
 /// own. The label is the tet's.
 SurfaceMesh extract_bad_faces(const TetMesh& mesh, Quality threshold = kBadThreshold);
 
-/// Writes .off, .obj, .ply (text, coordinates that read back as the same doubles) or .stl (binary,
-/// single precision by definition). The file appears under its name only when it is complete.
-/// DEVIATION: only .stl goes through OpenMesh's writer. Those for the other formats round all
-/// coordinates to single precision, whatever precision is asked for (OpenMesh 9).
+/// Writes .off, .obj, .ply (text) or .stl (binary) through OpenMesh's own writers, which hold
+/// coordinates in single precision. The file appears under its name only when it is complete.
 /// @throws Error for another extension, or when writing fails.
 void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface);
 
