@@ -160,12 +160,14 @@ EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const Tet
 /// already; such a face would have four tets. Without overlaps that cannot happen.
 bool Transaction::repeats_a_face(std::span<const TetVertices> created) {
   const auto exists_outside = [&](const TetVertices& tet, unsigned f) {
-    const auto& [x, y, z] = kFaceVertices[f];
+    const auto& local = kFaceVertices[f];
+    const VertexHandle y = tet[local[1]];
+    const VertexHandle z = tet[local[2]];
     auto& around = workspace_.search_buffer;
-    collect_link(mesh_, tet[x], workspace_, around);
+    collect_link(mesh_, tet[local[0]], workspace_, around);
     return std::any_of(around.begin(), around.end(), [&](HalfFace opposite) {
       const TetHandle t = opposite.tet();
-      return mesh_.local_index(t, tet[y]) < 4 && mesh_.local_index(t, tet[z]) < 4 &&
+      return mesh_.local_index(t, y) < 4 && mesh_.local_index(t, z) < 4 &&
              !workspace_.cavity_set_.contains(t.index());
     });
   };

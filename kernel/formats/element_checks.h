@@ -15,7 +15,7 @@
 namespace tetmend::formats {
 
 /// Vertex numbers are 32 bits wide, and the greatest value is left free for "none".
-inline constexpr std::size_t most_vertices = UINT32_MAX - 1;
+inline constexpr std::size_t kMostVertices = UINT32_MAX - 1;
 
 template <std::size_t N>
 bool has_repeated_vertex(const std::array<std::uint32_t, N>& vertices) {

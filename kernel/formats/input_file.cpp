@@ -73,9 +73,9 @@ void InputFile::fail_at_byte(const char* where, std::string_view reason) const {
 }
 
 std::string in_quotes(std::string_view word) {
-  constexpr std::size_t longest = 40;
+  constexpr std::size_t kLongest = 40;
   std::string text = "'";
-  for (const char c : word.substr(0, longest)) {
+  for (const char c : word.substr(0, kLongest)) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte >= 0x7f) {
       text += fmt::format("\\x{:02x}", byte);
@@ -83,7 +83,7 @@ std::string in_quotes(std::string_view word) {
       text += c;
     }
   }
-  text += word.size() > longest ? "...'" : "'";
+  text += word.size() > kLongest ? "...'" : "'";
   return text;
 }
 

@@ -19,22 +19,22 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::array<std::string_view, 5> kept_sections = {"Vertices", "Edges", "Triangles",
-                                                           "Tetrahedra", "RequiredVertices"};
+constexpr std::array<std::string_view, 5> kEptSections = {"Vertices", "Edges", "Triangles",
+                                                          "Tetrahedra", "RequiredVertices"};
 
 // Volume elements that the library has no use for. To pass over them would tear holes into the
 // mesh.
-constexpr std::array<std::string_view, 17> foreign_volumes = {
+constexpr std::array<std::string_view, 17> kForeignVolumes = {
     "Hexahedra",   "Hexaedra",   "Prisms",      "Pyramids",     "Polyhedra",    "TetrahedraP2",
     "PrismsP2",    "PyramidsP2", "HexahedraQ2", "TetrahedraP3", "TetrahedraP4", "HexahedraQ3",
     "HexahedraQ4", "PyramidsP3", "PyramidsP4",  "PrismsP3",     "PrismsP4"};
 
 // Sections of rows that may hold any words, one row to a line.
-constexpr std::array<std::string_view, 2> text_sections = {"Comments", "IRefGroups"};
+constexpr std::array<std::string_view, 2> kTextSections = {"Comments", "IRefGroups"};
 
 // The other section names of libMeshb 7; families are recognized by their beginning or end in
 // `is_section`.
-constexpr std::array<std::string_view, 63> passed_sections = {
+constexpr std::array<std::string_view, 63> kPassedSections = {
     "Corners",
     "Ridges",
     "RequiredEdges",
@@ -104,8 +104,8 @@ bool contains(const std::array<std::string_view, N>& names, std::string_view wor
 }
 
 bool is_section(std::string_view word) {
-  return word == "End" || contains(kept_sections, word) || contains(foreign_volumes, word) ||
-         contains(text_sections, word) || contains(passed_sections, word) ||
+  return word == "End" || contains(kEptSections, word) || contains(kForeignVolumes, word) ||
+         contains(kTextSections, word) || contains(kPassedSections, word) ||
          word.starts_with("SolAt") || word.starts_with("ISolAt") || word.starts_with("DSolAt") ||
          word.starts_with("HOSolAt") || word.ends_with("Ordering") ||
          word.ends_with("ReferenceElement");
@@ -169,7 +169,7 @@ class Reader {
                       "Vertices, Triangles, Tetrahedra or End",
                       in_quotes(name)));
     }
-    if (contains(kept_sections, name)) {
+    if (contains(kEptSections, name)) {
       if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
       seen_.push_back(name);
       if (name != "Vertices" && !seen("Vertices")) {
@@ -179,7 +179,7 @@ class Reader {
         read_kept_section(name);
       }
     } else {
-      if (contains(foreign_volumes, name)) refuse_volumes(name);
+      if (contains(kForeignVolumes, name)) refuse_volumes(name);
       pass_over(name);
     }
     return true;
@@ -205,7 +205,7 @@ class Reader {
   // Numbers are not counted, only passed over to the next word: that holds for sections of every
   // shape.
   void pass_over(std::string_view name) {
-    if (contains(text_sections, name)) return pass_over_lines();
+    if (contains(kTextSections, name)) return pass_over_lines();
     for (;;) {
       const char* before = text_.position();
       const std::string_view word = text_.word();
@@ -224,7 +224,7 @@ class Reader {
 
   void read_vertices() {
     const std::size_t count = text_.count("vertices", std::string_view("0 0 0 0\n").size());
-    if (count > most_vertices) text_.fail(fmt::format("{} vertices are too many", count));
+    if (count > kMostVertices) text_.fail(fmt::format("{} vertices are too many", count));
     mesh_.points.resize(count);
     mesh_.point_labels.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -241,8 +241,8 @@ class Reader {
 
   template <class Element>
   void read_elements(std::vector<Element>& elements, std::string_view what) {
-    constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
-    elements.resize(text_.count(what, 2 * numbers));
+    constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    elements.resize(text_.count(what, 2 * kNumbers));
     for (Element& element : elements) {
       for (std::uint32_t& vertex : element.vertices) vertex = read_vertex_number();
       if (has_repeated_vertex(element.vertices)) {

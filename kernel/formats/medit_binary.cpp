@@ -35,7 +35,7 @@ enum Keyword : std::int32_t {
 };
 
 // Volume elements that the library has no use for, linear and of higher order.
-constexpr std::array<std::int32_t, 16> foreign_volumes = {9,  10, 30, 33, 46,  49,  86,  87,
+constexpr std::array<std::int32_t, 16> kForeignVolumes = {9,  10, 30, 33, 46,  49,  86,  87,
                                                           96, 97, 98, 99, 100, 101, 102, 103};
 
 class Reader {
@@ -113,8 +113,8 @@ class Reader {
     read_dimension();
     for (const Section& section : sections_) {
       const auto keyword = section.keyword;
-      if (std::find(foreign_volumes.begin(), foreign_volumes.end(), keyword) !=
-          foreign_volumes.end()) {
+      if (std::find(kForeignVolumes.begin(), kForeignVolumes.end(), keyword) !=
+          kForeignVolumes.end()) {
         bytes_.seek(section.begin);
         if (bytes_.number<Integer>("a count") > 0) {
           bytes_.fail_at(section.begin,
@@ -175,14 +175,14 @@ class Reader {
 
   template <class Real, class Integer>
   void read_vertices(const Section& section) {
-    constexpr std::size_t row_size = 3 * sizeof(Real) + sizeof(Integer);
-    const std::size_t count = count_rows<Integer>(section, row_size, "vertices");
-    if (count > most_vertices)
+    constexpr std::size_t kRowSize = 3 * sizeof(Real) + sizeof(Integer);
+    const std::size_t count = count_rows<Integer>(section, kRowSize, "vertices");
+    if (count > kMostVertices)
       bytes_.fail_at(section.begin, fmt::format("{} vertices are too many", count));
     mesh_.points.resize(count);
     mesh_.point_labels.resize(count);
     const char* row = bytes_.here();
-    for (std::size_t i = 0; i < count; ++i, row += row_size) {
+    for (std::size_t i = 0; i < count; ++i, row += kRowSize) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const char* at = row + axis * sizeof(Real);
         const Real value = load<Real>(at, bytes_.swap());
@@ -219,8 +219,8 @@ class Reader {
   template <class Integer, class Element>
   void read_elements(const Section& section, std::vector<Element>& elements,
                      std::string_view what) {
-    constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
-    elements.resize(count_rows<Integer>(section, numbers * sizeof(Integer), what));
+    constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    elements.resize(count_rows<Integer>(section, kNumbers * sizeof(Integer), what));
     const char* row = bytes_.here();
     for (Element& element : elements) {
       const char* at = row;
@@ -233,7 +233,7 @@ class Reader {
       }
       if (is_asked_for(question_, elements, element)) question_->place = bytes_.place_of(row);
       element.label = read_label<Integer>(at);
-      row += numbers * sizeof(Integer);
+      row += kNumbers * sizeof(Integer);
     }
   }
 
@@ -290,8 +290,8 @@ class Writer {
 
   /// Not less than the size of the file in version 2.
   std::size_t file_size() const {
-    constexpr std::size_t headers = 256;
-    return headers + 28 * mesh_.points.size() + 12 * mesh_.edges.size() +
+    constexpr std::size_t kHeaders = 256;
+    return kHeaders + 28 * mesh_.points.size() + 12 * mesh_.edges.size() +
            16 * mesh_.triangles.size() + 4 * mesh_.required_vertices.size() +
            20 * mesh_.tets.size();
   }
@@ -325,8 +325,8 @@ class Writer {
 
   template <class Element>
   void write_elements(std::int32_t keyword, const std::vector<Element>& elements) {
-    constexpr std::size_t numbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
-    begin_rows(keyword, elements.size(), numbers * integer_size());
+    constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    begin_rows(keyword, elements.size(), kNumbers * integer_size());
     for (const Element& element : elements) {
       for (const std::uint32_t vertex : element.vertices) put_integer(std::int64_t{vertex} + 1);
       put_integer(element.label);

@@ -25,28 +25,29 @@ struct Codec {
   void (*write)(const std::filesystem::path&, const MeshData&);
 };
 
-constexpr std::array<MeshFormat, 5> formats_table = {{{"MEDIT ASCII", ".mesh"},
+constexpr std::array<MeshFormat, 5> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                       {"MEDIT binary", ".meshb"},
                                                       {"TetGen", ".node"},
                                                       {"TetGen", ".ele"},
                                                       {"legacy VTK", ".vtk"}}};
 
 // In the order of formats_table.
-constexpr std::array<Codec, 5> codecs = {{{formats::read_medit_ascii, formats::write_medit_ascii},
-                                          {formats::read_medit_binary, formats::write_medit_binary},
-                                          {formats::read_tetgen, formats::write_tetgen},
-                                          {formats::read_tetgen, formats::write_tetgen},
-                                          {formats::read_vtk_legacy, formats::write_vtk_legacy}}};
+constexpr std::array<Codec, 5> kCodecs = {
+    {{formats::read_medit_ascii, formats::write_medit_ascii},
+     {formats::read_medit_binary, formats::write_medit_binary},
+     {formats::read_tetgen, formats::write_tetgen},
+     {formats::read_tetgen, formats::write_tetgen},
+     {formats::read_vtk_legacy, formats::write_vtk_legacy}}};
 
 const Codec& find_codec(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::string valid;
-  for (std::size_t i = 0; i < formats_table.size(); ++i) {
-    if (formats_table[i].extension == extension) return codecs[i];
+  for (std::size_t i = 0; i < kFormatsTable.size(); ++i) {
+    if (kFormatsTable[i].extension == extension) return kCodecs[i];
     valid += valid.empty() ? "" : ", ";
-    valid += formats_table[i].extension;
+    valid += kFormatsTable[i].extension;
   }
   throw Error(fmt::format("{}: the extension '{}' is not that of a mesh format: expected one of {}",
                           file.string(), file.extension().string(), valid));
@@ -55,7 +56,7 @@ const Codec& find_codec(const std::filesystem::path& file) {
 }  // namespace
 
 std::span<const MeshFormat> mesh_formats() {
-  return formats_table;
+  return kFormatsTable;
 }
 
 MeshData read_mesh(const std::filesystem::path& file) {

@@ -19,7 +19,7 @@ namespace tetmend {
 OutputFile::OutputFile(const std::filesystem::path& target)
     : name_(target.string()),
       target_(target),
-      buffer_(std::make_unique_for_overwrite<char[]>(capacity)) {
+      buffer_(std::make_unique_for_overwrite<char[]>(kCapacity)) {
   std::error_code ignored;
   // Renaming onto a link would replace the link, not the file that the user keeps behind it.
   if (const auto real = std::filesystem::canonical(target, ignored); !ignored) target_ = real;
@@ -50,22 +50,22 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::put(std::string_view text) {
-  if (text.size() > capacity - used_) flush();
-  if (text.size() > capacity) return write_out(text.data(), text.size());
+  if (text.size() > kCapacity - used_) flush();
+  if (text.size() > kCapacity) return write_out(text.data(), text.size());
   if (text.empty()) return;
   std::memcpy(buffer_.get() + used_, text.data(), text.size());
   used_ += text.size();
 }
 
 void OutputFile::put_integer(std::int64_t value) {
-  constexpr std::size_t longest = 24;
-  char* begin = room_for(longest);
-  used_ += static_cast<std::size_t>(std::to_chars(begin, begin + longest, value).ptr - begin);
+  constexpr std::size_t kLongest = 24;
+  char* begin = room_for(kLongest);
+  used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongest, value).ptr - begin);
 }
 
 void OutputFile::put_real(double value) {
-  constexpr std::size_t longest = 32;
-  char* begin = room_for(longest);
+  constexpr std::size_t kLongest = 32;
+  char* begin = room_for(kLongest);
   used_ += static_cast<std::size_t>(fmt::format_to(begin, FMT_COMPILE("{}"), value) - begin);
 }
 

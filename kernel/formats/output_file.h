@@ -47,14 +47,14 @@ class OutputFile {
 
  private:
   char* room_for(std::size_t size) {
-    if (capacity - used_ < size) flush();
+    if (kCapacity - used_ < size) flush();
     return buffer_.get() + used_;
   }
   void flush();
   void write_out(const char* bytes, std::size_t size);
   [[noreturn]] void fail(int error) const;
 
-  static constexpr std::size_t capacity = std::size_t{1} << 18;
+  static constexpr std::size_t kCapacity = std::size_t{1} << 18;
   std::string name_;  // as the user gave it, for messages
   std::filesystem::path target_;
   std::filesystem::path temporary_;

@@ -27,8 +27,8 @@ bool is_digit(char c) {
 
 TextReader::TextReader(const InputFile& file, char comment)
     : file_(file), end_(file.end()), next_(file.begin()), word_(file.begin()), comment_(comment) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  if (std::string_view(next_, bytes_left()).starts_with(mark)) next_ += mark.size();
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (std::string_view(next_, bytes_left()).starts_with(kMark)) next_ += kMark.size();
 }
 
 bool TextReader::ends_word(char c) const {
@@ -107,8 +107,8 @@ std::int64_t TextReader::integer(std::string_view what, std::int64_t low, std::i
   const char* digits = next_ + (negative ? 1 : 0);
   const char* p = digits;
   std::int64_t value = 0;
-  constexpr std::ptrdiff_t always_fits = 18;
-  while (is_digit(*p) && p - digits < always_fits) value = 10 * value + (*p++ - '0');
+  constexpr std::ptrdiff_t kAlwaysFits = 18;
+  while (is_digit(*p) && p - digits < kAlwaysFits) value = 10 * value + (*p++ - '0');
   if (p != digits && ends_word(*p)) {
     next_ = p;
     if (negative) value = -value;

@@ -19,7 +19,7 @@ class TextReader {
  public:
   /// No character opens a comment: a line break is white space before it can be looked at as a
   /// comment.
-  static constexpr char no_comments = '\n';
+  static constexpr char kNoComments = '\n';
 
   /// From `comment` to the end of the line text is passed over. A byte order mark of UTF-8 is
   /// passed over too.

@@ -17,45 +17,45 @@ namespace {
 using Kind = VtkType::Kind;
 
 // Sizes are those of VTK on 64-bit Linux; its writer stores vtkIdType as int.
-constexpr std::array<VtkType, 25> types = {{{"bit", Kind::bit, 0},
-                                            {"char", Kind::signed_integer, 1},
-                                            {"signed_char", Kind::signed_integer, 1},
-                                            {"unsigned_char", Kind::unsigned_integer, 1},
-                                            {"short", Kind::signed_integer, 2},
-                                            {"unsigned_short", Kind::unsigned_integer, 2},
-                                            {"int", Kind::signed_integer, 4},
-                                            {"unsigned_int", Kind::unsigned_integer, 4},
-                                            {"vtkidtype", Kind::signed_integer, 4},
-                                            {"long", Kind::signed_integer, 8},
-                                            {"unsigned_long", Kind::unsigned_integer, 8},
-                                            {"float", Kind::real, 4},
-                                            {"double", Kind::real, 8},
-                                            {"vtktypeint8", Kind::signed_integer, 1},
-                                            {"vtktypeuint8", Kind::unsigned_integer, 1},
-                                            {"vtktypeint16", Kind::signed_integer, 2},
-                                            {"vtktypeuint16", Kind::unsigned_integer, 2},
-                                            {"vtktypeint32", Kind::signed_integer, 4},
-                                            {"vtktypeuint32", Kind::unsigned_integer, 4},
-                                            {"vtktypeint64", Kind::signed_integer, 8},
-                                            {"vtktypeuint64", Kind::unsigned_integer, 8},
-                                            {"vtktypefloat32", Kind::real, 4},
-                                            {"vtktypefloat64", Kind::real, 8},
-                                            {"string", Kind::text, 0},
-                                            {"utf8_string", Kind::text, 0}}};
+constexpr std::array<VtkType, 25> kTypes = {{{"bit", Kind::bit, 0},
+                                             {"char", Kind::signed_integer, 1},
+                                             {"signed_char", Kind::signed_integer, 1},
+                                             {"unsigned_char", Kind::unsigned_integer, 1},
+                                             {"short", Kind::signed_integer, 2},
+                                             {"unsigned_short", Kind::unsigned_integer, 2},
+                                             {"int", Kind::signed_integer, 4},
+                                             {"unsigned_int", Kind::unsigned_integer, 4},
+                                             {"vtkidtype", Kind::signed_integer, 4},
+                                             {"long", Kind::signed_integer, 8},
+                                             {"unsigned_long", Kind::unsigned_integer, 8},
+                                             {"float", Kind::real, 4},
+                                             {"double", Kind::real, 8},
+                                             {"vtktypeint8", Kind::signed_integer, 1},
+                                             {"vtktypeuint8", Kind::unsigned_integer, 1},
+                                             {"vtktypeint16", Kind::signed_integer, 2},
+                                             {"vtktypeuint16", Kind::unsigned_integer, 2},
+                                             {"vtktypeint32", Kind::signed_integer, 4},
+                                             {"vtktypeuint32", Kind::unsigned_integer, 4},
+                                             {"vtktypeint64", Kind::signed_integer, 8},
+                                             {"vtktypeuint64", Kind::unsigned_integer, 8},
+                                             {"vtktypefloat32", Kind::real, 4},
+                                             {"vtktypefloat64", Kind::real, 8},
+                                             {"string", Kind::text, 0},
+                                             {"utf8_string", Kind::text, 0}}};
 
 std::int64_t load_integer(std::size_t width, bool is_signed, const char* from) {
   switch (width) {
     case 1:
       return is_signed ? load<std::int8_t>(from, false) : load<std::uint8_t>(from, false);
     case 2:
-      return is_signed ? load<std::int16_t>(from, vtk_swaps) : load<std::uint16_t>(from, vtk_swaps);
+      return is_signed ? load<std::int16_t>(from, kVtkSwaps) : load<std::uint16_t>(from, kVtkSwaps);
     case 4:
-      return is_signed ? load<std::int32_t>(from, vtk_swaps)
-                       : std::int64_t{load<std::uint32_t>(from, vtk_swaps)};
+      return is_signed ? load<std::int32_t>(from, kVtkSwaps)
+                       : std::int64_t{load<std::uint32_t>(from, kVtkSwaps)};
     default:
       // An unsigned value beyond 2^63 becomes negative, which every caller refuses as it does the
       // true value.
-      return load<std::int64_t>(from, vtk_swaps);
+      return load<std::int64_t>(from, kVtkSwaps);
   }
 }
 
@@ -79,7 +79,7 @@ const VtkType& find_vtk_type(TextReader& text, std::string_view word) {
   std::string lower(word.substr(0, 20));
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const VtkType& type : types) {
+  for (const VtkType& type : kTypes) {
     if (type.name == lower) return type;
   }
   text.fail(
@@ -154,7 +154,7 @@ const char* VtkIntegers::locate(TextReader& text, std::size_t i) const {
 
 double load_vtk_real(const VtkType& type, const char* from) {
   if (type.kind == Kind::real) {
-    return type.size == 4 ? load<float>(from, vtk_swaps) : load<double>(from, vtk_swaps);
+    return type.size == 4 ? load<float>(from, kVtkSwaps) : load<double>(from, kVtkSwaps);
   }
   return static_cast<double>(load_integer(type.size, type.kind == Kind::signed_integer, from));
 }

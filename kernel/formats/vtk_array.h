@@ -14,7 +14,7 @@
 namespace tetmend::formats {
 
 /// Binary files are big-endian.
-inline constexpr bool vtk_swaps = std::endian::native == std::endian::little;
+inline constexpr bool kVtkSwaps = std::endian::native == std::endian::little;
 
 /// A data type of the format.
 struct VtkType {
@@ -46,7 +46,7 @@ class VtkIntegers {
   std::int64_t operator[](std::size_t i) const {
     if (width_ == 0) return parsed_[i];
     const char* from = begin_ + i * width_;
-    if (width_ == 4 && is_signed_) return load<std::int32_t>(from, vtk_swaps);  // nearly all files
+    if (width_ == 4 && is_signed_) return load<std::int32_t>(from, kVtkSwaps);  // nearly all files
     return load_other(from);
   }
   /// Where value `i` stands in the file, for an error message.

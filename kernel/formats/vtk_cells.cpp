@@ -15,7 +15,7 @@ namespace tetmend::formats {
 namespace {
 
 // Cells without volume, which a mesh of tetrahedra can do without.
-constexpr std::array<std::int64_t, 21> passed_cells = {0,  1,  2,  4,  6,  7,  8,  9,  21, 22, 23,
+constexpr std::array<std::int64_t, 21> kPassedCells = {0,  1,  2,  4,  6,  7,  8,  9,  21, 22, 23,
                                                        28, 30, 34, 35, 36, 68, 69, 70, 75, 76};
 
 class Assembly {
@@ -88,7 +88,7 @@ class Assembly {
     if (type == 10) return add_element(mesh_.tets, cell, begin, size);
     if (type == 5) return add_element(mesh_.triangles, cell, begin, size);
     if (type == 3) return add_element(mesh_.edges, cell, begin, size);
-    if (std::find(passed_cells.begin(), passed_cells.end(), type) != passed_cells.end()) return;
+    if (std::find(kPassedCells.begin(), kPassedCells.end(), type) != kPassedCells.end()) return;
     text_.fail_at(
         cells_.types.locate(text_, cell),
         fmt::format(

@@ -28,7 +28,7 @@ namespace tetmend::formats {
 namespace {
 
 // Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
-constexpr std::array<std::string_view, 15> vtk_label_names = {
+constexpr std::array<std::string_view, 15> kVtkLabelNames = {
     "cellentityids", "label",       "labels",       "medit:ref", "gmsh:physical",
     "tetgen:ref",    "region",      "regionid",     "region_id", "material",
     "materialids",   "material_id", "cell_scalars", "domain",    "gmsh:geometrical"};
@@ -43,7 +43,7 @@ std::string lower_case(std::string_view word) {
 class Reader {
  public:
   Reader(const InputFile& file, TetPlace* question)
-      : text_(file, TextReader::no_comments), question_(question) {}
+      : text_(file, TextReader::kNoComments), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -65,26 +65,26 @@ class Reader {
  private:
   enum class DataOf { nothing, cells, points };
   struct Labels {
-    std::size_t rank = vtk_label_names.size();
+    std::size_t rank = kVtkLabelNames.size();
     std::vector<Label> values;
   };
 
   void read_header() {
-    constexpr std::string_view opening = "# vtk datafile version ";
+    constexpr std::string_view kOpening = "# vtk datafile version ";
     const char* begin = text_.position();
     const std::string first = lower_case(text_.skip_line().substr(0, 60));
     if (first.empty() && text_.bytes_left() == 0) {
       text_.fail_at(begin, "the file is empty: expected '# vtk DataFile Version'");
     }
-    if (!first.starts_with(opening) || first.size() < opening.size() + 3) {
+    if (!first.starts_with(kOpening) || first.size() < kOpening.size() + 3) {
       text_.fail_at(
           begin,
           fmt::format("{} is not the beginning of a legacy VTK file: expected '# vtk DataFile "
                       "Version'",
                       in_quotes(first)));
     }
-    major_version_ = first[opening.size()] - '0';
-    if (major_version_ < 1 || major_version_ > 5 || first[opening.size() + 1] != '.') {
+    major_version_ = first[kOpening.size()] - '0';
+    if (major_version_ < 1 || major_version_ > 5 || first[kOpening.size() + 1] != '.') {
       text_.fail_at(begin, fmt::format("the version in {} is unknown: expected 1.0 to 5.1",
                                        in_quotes(first)));
     }
@@ -153,7 +153,7 @@ class Reader {
     refuse_second(has_points_, "POINTS");
     has_points_ = true;
     const std::size_t count = read_count("points");
-    if (count > most_vertices) text_.fail(fmt::format("{} vertices are too many", count));
+    if (count > kMostVertices) text_.fail(fmt::format("{} vertices are too many", count));
     const VtkType& type = read_type();
     if (type.kind == VtkType::Kind::bit || type.kind == VtkType::Kind::text) {
       text_.fail(fmt::format("points cannot be of type '{}': expected float or double", type.name));
@@ -314,8 +314,8 @@ class Reader {
                   std::size_t columns) {
     const std::size_t count = checked_vtk_count(text_, binary_, type, rows, columns);
     const auto* found =
-        std::find(vtk_label_names.begin(), vtk_label_names.end(), lower_case(name.substr(0, 30)));
-    const auto rank = static_cast<std::size_t>(found - vtk_label_names.begin());
+        std::find(kVtkLabelNames.begin(), kVtkLabelNames.end(), lower_case(name.substr(0, 30)));
+    const auto rank = static_cast<std::size_t>(found - kVtkLabelNames.begin());
     Labels& labels = data_of_ == DataOf::points ? point_labels_ : cell_labels_;
     const bool is_number = type.kind != VtkType::Kind::text && type.kind != VtkType::Kind::bit;
     if (data_of_ == DataOf::nothing || columns != 1 || rows != data_count_ || !is_number ||

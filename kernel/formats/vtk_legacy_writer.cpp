@@ -37,7 +37,7 @@ void write_types(OutputFile& out, std::size_t count, std::int32_t type) {
   for (std::size_t i = 0; i < count; ++i) put_big_endian(out, type);
 }
 
-constexpr std::string_view label_array = "SCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n";
+constexpr std::string_view kLabelArray = "SCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n";
 
 void write_mesh_data(OutputFile& out, const MeshData& mesh) {
   out.put("# vtk DataFile Version 3.0\nwritten by tetmend\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
@@ -56,12 +56,12 @@ void write_mesh_data(OutputFile& out, const MeshData& mesh) {
   write_types(out, mesh.tets.size(), 10);
   write_types(out, mesh.triangles.size(), 5);
   write_types(out, mesh.edges.size(), 3);
-  out.put(fmt::format("\nCELL_DATA {}\n{}", cells, label_array));
+  out.put(fmt::format("\nCELL_DATA {}\n{}", cells, kLabelArray));
   write_labels(out, mesh.tets);
   write_labels(out, mesh.triangles);
   write_labels(out, mesh.edges);
   if (!mesh.point_labels.empty()) {
-    out.put(fmt::format("\nPOINT_DATA {}\n{}", mesh.points.size(), label_array));
+    out.put(fmt::format("\nPOINT_DATA {}\n{}", mesh.points.size(), kLabelArray));
     for (const Label label : mesh.point_labels) put_big_endian(out, label);
   }
   out.put("\n");

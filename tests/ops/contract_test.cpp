@@ -366,7 +366,9 @@ void check_all(const std::vector<Candidate>& candidates, bool must_succeed, Try&
   for (const Candidate& candidate : candidates) {
     std::size_t attempts = 0;
     std::size_t accepted = 0;
-    for (const auto& [name, mesh] : all) {
+    for (const auto& entry : all) {
+      const auto& name = entry.first;
+      const auto& mesh = entry.second;
       const Outcome outcome = attempt(*candidate.op, mesh);
       attempts += outcome.attempts;
       accepted += outcome.accepted;
@@ -409,8 +411,9 @@ TEST_CASE("each operator keeps its contract with each parameter at the ends of i
 
 TEST_CASE("operators keep the contract when they work one after the other on the same mesh") {
   const Registry registry = builtin_operators();
-  for (const auto& [name, mesh] : meshes()) {
-    Worker worker(mesh);
+  for (const auto& entry : meshes()) {
+    const auto& name = entry.first;
+    Worker worker(entry.second);
     Portrait known = portrait(worker.mesh);
     std::size_t turn = 0;
     for (unsigned round = 0; round < 2; ++round) {

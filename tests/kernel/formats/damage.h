@@ -47,11 +47,11 @@ inline bool reads_soundly(const std::filesystem::path& file) {
 inline void change_each_byte(const std::filesystem::path& file,
                              const std::filesystem::path& damaged) {
   const std::string content = read_text(damaged);
-  constexpr std::array<char, 9> values = {'\0', '\xff', '\x7f', ' ', '9', '-', 'e', '\n', '#'};
+  constexpr std::array<char, 9> kValues = {'\0', '\xff', '\x7f', ' ', '9', '-', 'e', '\n', '#'};
   ByteSetter setter(damaged);
   std::size_t unsound = 0;
   for (std::size_t i = 0; i < content.size(); ++i) {
-    for (const char value : values) {
+    for (const char value : kValues) {
       setter.set(i, value);
       unsound += reads_soundly(file) ? 0 : 1;
     }

@@ -83,18 +83,18 @@ struct BadFile {
 /// Two tets on five vertices, with labels at the ends of their range and coordinates that are hard
 /// to print.
 inline MeshData awkward_mesh() {
-  constexpr Label low = std::numeric_limits<Label>::min();
-  constexpr Label high = std::numeric_limits<Label>::max();
+  constexpr Label kLow = std::numeric_limits<Label>::min();
+  constexpr Label kHigh = std::numeric_limits<Label>::max();
   MeshData mesh;
   mesh.points = {{0.1, 1.0 / 3.0, -0.0},
                  {5e-324, std::numeric_limits<double>::max(), 1},
                  {-1.2345678901234567e-300, 2e22, 123456789012345680.0},
                  {std::nextafter(1.0, 2.0), -4e-7, 1e23},
                  {0, 0, -1e100}};
-  mesh.point_labels = {0, 7, low, high, -1};
-  mesh.tets = {{{0, 1, 2, 3}, high}, {{4, 2, 1, 0}, low}};
-  mesh.triangles = {{{0, 2, 1}, 12}, {{3, 0, 1}, low}, {{4, 3, 2}, 0}};
-  mesh.edges = {{{0, 4}, 3}, {{2, 1}, high}};
+  mesh.point_labels = {0, 7, kLow, kHigh, -1};
+  mesh.tets = {{{0, 1, 2, 3}, kHigh}, {{4, 2, 1, 0}, kLow}};
+  mesh.triangles = {{{0, 2, 1}, 12}, {{3, 0, 1}, kLow}, {{4, 3, 2}, 0}};
+  mesh.edges = {{{0, 4}, 3}, {{2, 1}, kHigh}};
   mesh.required_vertices = {4, 0};
   return mesh;
 }

@@ -9,9 +9,9 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
-const std::string points = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
-const std::string tets = "Tetrahedra\n1\n1 2 3 4 7\n";
+const std::string kHead = "MeshVersionFormatted 2\nDimension 3\n";
+const std::string kPoints = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+const std::string kTets = "Tetrahedra\n1\n1 2 3 4 7\n";
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   const auto at = text.find(from);
@@ -40,8 +40,8 @@ TEST_CASE("a MEDIT file with comments, odd white space and Windows line ends is 
 }
 
 TEST_CASE("sections of a MEDIT file may come in any order and End may be missing") {
-  const MeshData mesh =
-      read(head + tets + "RequiredVertices\n1\n3\nTriangles\n1\n1 2 3 5\nEdges 1 1 4 6\n" + points);
+  const MeshData mesh = read(
+      kHead + kTets + "RequiredVertices\n1\n3\nTriangles\n1\n1 2 3 5\nEdges 1 1 4 6\n" + kPoints);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{2});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 5}});
@@ -50,17 +50,17 @@ TEST_CASE("sections of a MEDIT file may come in any order and End may be missing
 
 TEST_CASE("known sections that are not kept are passed over in a MEDIT file") {
   const MeshData mesh =
-      read(head + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + points +
+      read(kHead + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + kPoints +
            "Corners\n2\n1\n2\nRidges\n1\n1\nQuadrilaterals\n1\n1 2 3 4 0\nHexahedra\n0\n"
            "Comments\n2\nsome words here\nTime flies? no: words\nSolAtVertices\n4\n1 "
            "1\n0.5\nnan\n-inf\n1e5\n"
            "NormalAtVertices 1 1 1\nNormals 1 0 0 1\nTetrahedraP1Ordering 1 0 1 2 3\n" +
-           tets + "End\nanything");
+           kTets + "End\nanything");
   CHECK(mesh.tets.size() == 1);
 }
 
 TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
-  const std::string good = head + points + tets + "End\n";
+  const std::string good = kHead + kPoints + kTets + "End\n";
   const std::vector<BadFile> files = {
       {"other format", "solid cube\n", ":1: ", "'solid' is not the beginning of a MEDIT file"},
       {"binary noise", std::string("\x01\0\0\0\x02", 5), ":1: ", "'\\x01\\x00\\x00\\x00\\x02'"},
@@ -72,9 +72,10 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
       {"2D", replaced(good, "Dimension 3", "Dimension 2"), ":2: ", "expected Dimension 3"},
       {"unknown word", replaced(good, "Tetrahedra", "Tetraeder"),
        ":9: ", "'Tetraeder' is not expected here"},
-      {"no vertices", head + tets + "End\n", ":6: ", "the section Vertices is missing"},
-      {"no tets", head + points + "End\n", ":9: ", "the section Tetrahedra is missing"},
-      {"twice", head + points + points + tets, ":9: ", "'Vertices' appears for the second time"},
+      {"no vertices", kHead + kTets + "End\n", ":6: ", "the section Vertices is missing"},
+      {"no tets", kHead + kPoints + "End\n", ":9: ", "the section Tetrahedra is missing"},
+      {"twice", kHead + kPoints + kPoints + kTets,
+       ":9: ", "'Vertices' appears for the second time"},
       {"too many rows", replaced(good, "Tetrahedra\n1\n", "Tetrahedra\n1\n4 3 2 1 0\n"),
        ":12: ", "'1' is not expected here"},
       {"too few rows", replaced(good, "Vertices\n4", "Vertices\n5"),
@@ -84,9 +85,9 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
       {"index 5", replaced(good, "1 2 3 4 7", "1 2 5 4 7"), ":11: ", "'5' is out of range"},
       {"repeated vertex", replaced(good, "1 2 3 4 7", "1 2 3 2 7"),
        ":11: ", "a vertex is repeated in the tetrahedron '1 2 3 2'"},
-      {"repeated in edge", head + points + "Edges\n1\n3 3 0\n" + tets,
+      {"repeated in edge", kHead + kPoints + "Edges\n1\n3 3 0\n" + kTets,
        ":11: ", "repeated in the edge '3 3'"},
-      {"required 9", head + points + "RequiredVertices\n1\n9\n" + tets,
+      {"required 9", kHead + kPoints + "RequiredVertices\n1\n9\n" + kTets,
        ":11: ", "'9' is out of range"},
       {"text in number", replaced(good, "1 0 0 0", "1.0x 0 0 0"), ":6: ", "'1.0x' is not a number"},
       {"text in integer", replaced(good, "1 2 3 4 7", "1 2 3 4 12abc"),
@@ -110,15 +111,15 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
        ":10: ", "'-1' is out of range"},
       {"count of words", replaced(good, "Vertices\n4", "Vertices\nfour"),
        ":4: ", "'four' is not an integer"},
-      {"hexahedra", head + points + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n" + tets,
+      {"hexahedra", kHead + kPoints + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n" + kTets,
        ":9: ", "'Hexahedra' cannot be read"},
-      {"second order", head + points + "TetrahedraP2\n1\n1 2 3 4 0\n",
+      {"second order", kHead + kPoints + "TetrahedraP2\n1\n1 2 3 4 0\n",
        ":9: ", "'TetrahedraP2' cannot be read"},
-      {"cut in a number", head + points + "Tetrahedra\n1\n1 2 3 4 7",
+      {"cut in a number", kHead + kPoints + "Tetrahedra\n1\n1 2 3 4 7",
        ":11: ", "the file ends right behind '7'"},
-      {"cut in rows", head + points + "Tetrahedra\n2\n1 2 3 4 0\n1 2\n",
+      {"cut in rows", kHead + kPoints + "Tetrahedra\n2\n1 2 3 4 0\n1 2\n",
        ":10: ", "2 tetrahedra cannot fit into the 15 bytes"},
-      {"cut in a row", head + points + "Tetrahedra\n1\n1 2 3 4 \n",
+      {"cut in a row", kHead + kPoints + "Tetrahedra\n1\n1 2 3 4 \n",
        ":12: ", "the file ends where the reference of an element is expected"},
       {"long word", replaced(good, "1 0 0 0", std::string(100000, 'x')),
        ":6: ", "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"},

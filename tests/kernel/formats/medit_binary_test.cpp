@@ -75,12 +75,12 @@ class Meshb {
   Bytes bytes_;
 };
 
-const std::vector<std::vector<double>> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0, 1}};
+const std::vector<std::vector<double>> kCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0, 1}};
 
 Meshb tetrahedron(int version, std::endian order = std::endian::little) {
   Meshb file(version, order);
   file.rows(8, 1, {1, 2, 3, 4, -7})
-      .vertices(corners, 5);    // tets first: sections may come in any order
+      .vertices(kCorners, 5);   // tets first: sections may come in any order
   file.rows(38, 1, {1, 2, 3});  // passed over
   file.rows(6, 1, {1, 2, 3, 8}).rows(5, 1, {1, 4, 9}).rows(15, 2, {4, 1});
   return file;
@@ -115,7 +115,7 @@ TEST_CASE("a binary MEDIT file without an end keyword is read") {
   write_text(folder / "a.meshb", tetrahedron(2).str());
   CHECK(read_mesh(folder / "a.meshb").tets.size() == 1);
   Meshb last(3, std::endian::little);
-  last.vertices(corners, 0);
+  last.vertices(kCorners, 0);
   // Position 0 marks the last section.
   const std::string content = Bytes()
                                   .text(last.str())
@@ -146,7 +146,7 @@ TEST_CASE("a bad binary MEDIT file is refused with byte and reason") {
   };
   const auto with_tets = [](int version, std::int64_t count,
                             const std::vector<std::int64_t>& values) {
-    return Meshb(version, std::endian::little).rows(8, count, values).vertices(corners, 0).end();
+    return Meshb(version, std::endian::little).rows(8, count, values).vertices(kCorners, 0).end();
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<BadFile> files = {
@@ -184,7 +184,7 @@ TEST_CASE("a bad binary MEDIT file is refused with byte and reason") {
       {"not finite", with_bytes(good, 64, Bytes().add(nan)), "64: ", "nan is not a finite number"},
       {"no vertices", Meshb(2, std::endian::little).rows(8, 0, {}).end(),
        "40: ", "the section Vertices is missing"},
-      {"no tets", Meshb(3, std::endian::little).vertices(corners, 0).end(), "",
+      {"no tets", Meshb(3, std::endian::little).vertices(kCorners, 0).end(), "",
        "the section Tetrahedra is missing"},
       {"hexahedra", Meshb(2, std::endian::little).rows(10, 1, {1, 2, 3, 4, 5, 6, 7, 8, 0}).end(),
        "28: ", "elements of keyword 10 cannot be read"},

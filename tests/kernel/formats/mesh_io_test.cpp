@@ -24,7 +24,7 @@ MeshData mesh_for(std::string_view extension) {
   return mesh;
 }
 
-constexpr std::string_view vtk_ascii =
+constexpr std::string_view kVtkAscii =
     "# vtk DataFile Version 5.1\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n"
     "0 0 0 1 0 0 0 1 0\n0 0 1 1 1 1\nMETADATA\nINFORMATION 0\n\nCELLS 4 10\nOFFSETS vtktypeint64\n"
     "0 4 7 10\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2 1 2 3\nCELL_TYPES 3\n10\n5\n5\n"
@@ -144,7 +144,7 @@ TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
 
 TEST_CASE("an ASCII VTK file of version 5.1 cut at any byte is an error or gives a sound mesh") {
   const TempFolder folder;
-  write_text(folder / "a.vtk", vtk_ascii);
+  write_text(folder / "a.vtk", kVtkAscii);
   CHECK(read_mesh(folder / "a.vtk").triangles.size() == 2);
   cut_at_each_byte(folder / "a.vtk");
 }
@@ -159,6 +159,6 @@ TEST_CASE("a file with any byte changed is an error or gives a sound mesh") {
   }
   change_each_byte(folder / "mesh.node", folder / "mesh.face");
   change_each_byte(folder / "mesh.node", folder / "mesh.edge");
-  write_text(folder / "ascii.vtk", vtk_ascii);
+  write_text(folder / "ascii.vtk", kVtkAscii);
   change_each_byte(folder / "ascii.vtk", folder / "ascii.vtk");
 }

@@ -9,12 +9,12 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::string good_node = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
-const std::string good_ele = "1 4 0\n0 0 1 2 3\n";
+const std::string kGoodNode = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
+const std::string kGoodEle = "1 4 0\n0 0 1 2 3\n";
 
 struct Files {
-  std::string node = good_node;
-  std::string ele = good_ele;
+  std::string node = kGoodNode;
+  std::string ele = kGoodEle;
   std::string face = {};
   std::string edge = {};
 };
@@ -76,9 +76,9 @@ TEST_CASE("an edge file of an older mesh is emptied when a mesh without edges is
 
 TEST_CASE("a missing companion of a TetGen file is an error that names it") {
   const TempFolder folder;
-  write_text(folder / "a.node", good_node);
+  write_text(folder / "a.node", kGoodNode);
   CHECK(error_of_reading(folder / "a.node") == "a.ele: cannot be read: No such file or directory");
-  write_text(folder / "b.ele", good_ele);
+  write_text(folder / "b.ele", kGoodEle);
   CHECK(error_of_reading(folder / "b.ele") == "b.node: cannot be read: No such file or directory");
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("a bad TetGen file is refused with file, line, word and reason") {
        {.node = "2 3 0 0\n0 0 0 0\n   # the last is missing\n"},
        "a.node:4: ",
        "the file ends where a vertex is expected"},
-      {"too many", {.node = good_node + "4 1 1 1\n"}, "a.node:6: ", "'4' follows the last vertex"},
+      {"too many", {.node = kGoodNode + "4 1 1 1\n"}, "a.node:6: ", "'4' follows the last vertex"},
       {"text", {.node = "1 3 0 0\n0 0 0 1.0x\n"}, "a.node:2: ", "'1.0x' is not a number"},
       {"nan", {.node = "1 3 0 0\n0 0 0 nan\n"}, "a.node:2: ", "'nan' is not a finite number"},
       {"marker", {.node = "1 3 0 1\n0 0 0 0 1.5\n"}, "a.node:2: ", "'1.5' is not an integer"},

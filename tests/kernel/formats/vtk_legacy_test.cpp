@@ -9,11 +9,11 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::string head = "# vtk DataFile Version 2.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-const std::string points = "POINTS 4 double\n0 0 0 1 0 0\n0 1 0 0 0 1\n";
-const std::string cells = "CELLS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_TYPES 2\n10\n5\n";
-const std::string head5 = "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-const std::string cells5 =
+const std::string kHead = "# vtk DataFile Version 2.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+const std::string kPoints = "POINTS 4 double\n0 0 0 1 0 0\n0 1 0 0 0 1\n";
+const std::string kCells = "CELLS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_TYPES 2\n10\n5\n";
+const std::string kHead5 = "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
+const std::string kCells5 =
     "CELLS 3 7\nOFFSETS vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2\nCELL_TYPES "
     "2\n10\n5\n";
 
@@ -24,7 +24,7 @@ MeshData read(const std::string& content) {
 }
 
 std::vector<Label> labels_of(const std::string& data) {
-  const MeshData mesh = read(head + points + cells + data);
+  const MeshData mesh = read(kHead + kPoints + kCells + data);
   REQUIRE(mesh.tets.size() == 1);
   REQUIRE(mesh.triangles.size() == 1);
   return {mesh.tets[0].label, mesh.triangles[0].label};
@@ -49,7 +49,7 @@ TEST_CASE(
       "medit:ref 1 2 vtktypeint64\n-3 4\npairs 2 2 unsigned_char\n1 2 3 4\n"
       "POINT_DATA 4\nscalars material int\nlookup_table default\n1 0 0 9\n";
   CHECK(labels_of(data) == std::vector<Label>{-3, 4});
-  CHECK(read(head + points + cells + data).point_labels == std::vector<Label>{1, 0, 0, 9});
+  CHECK(read(kHead + kPoints + kCells + data).point_labels == std::vector<Label>{1, 0, 0, 9});
 }
 
 TEST_CASE(
@@ -74,7 +74,7 @@ TEST_CASE(
 
 TEST_CASE("points, lines and polygons of a VTK file are kept or passed over by their type") {
   const MeshData mesh =
-      read(head + points +
+      read(kHead + kPoints +
            "CELLS 5 18\n1 3\n4 0 1 2 3\n4 0 1 2 3\n2 1 3\n2 0 1\nCELL_TYPES 5\n1 9 10 3 4\n"
            "CELL_DATA 5\nSCALARS label int\nLOOKUP_TABLE default\n1 2 3 4 5\n");
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}});
@@ -83,7 +83,7 @@ TEST_CASE("points, lines and polygons of a VTK file are kept or passed over by t
 }
 
 TEST_CASE("a VTK file of version 5.1 is read in ASCII") {
-  const MeshData mesh = read(head5 + points + "METADATA\nINFORMATION 0\n\n" + cells5);
+  const MeshData mesh = read(kHead5 + kPoints + "METADATA\nINFORMATION 0\n\n" + kCells5);
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 0}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 0}});
 }
@@ -141,8 +141,8 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
     REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
   };
-  const std::string good = head + points + cells;
-  const std::string good5 = head5 + points + cells5;
+  const std::string good = kHead + kPoints + kCells;
+  const std::string good5 = kHead5 + kPoints + kCells5;
   const std::vector<BadFile> files = {
       {"text", "hello\n", ":1: ", "'hello' is not the beginning of a legacy VTK file"},
       {"XML", "<?xml version=\"1.0\"?>\n<VTKFile>\n",
@@ -152,9 +152,9 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
        ":3: ", "'UTF-8' is not expected here: expected ASCII or BINARY"},
       {"polydata", replaced(good, "UNSTRUCTURED_GRID", "POLYDATA"),
        ":4: ", "the data set 'POLYDATA' cannot be read"},
-      {"no points", head + "CELLS 0 0\nCELL_TYPES 0\n", ":7: ", "the section POINTS is missing"},
-      {"no cells", head + points, ":8: ", "the section CELLS is missing"},
-      {"no types", head + points + "CELLS 1 5\n4 0 1 2 3\n",
+      {"no points", kHead + "CELLS 0 0\nCELL_TYPES 0\n", ":7: ", "the section POINTS is missing"},
+      {"no cells", kHead + kPoints, ":8: ", "the section CELLS is missing"},
+      {"no types", kHead + kPoints + "CELLS 1 5\n4 0 1 2 3\n",
        ":10: ", "the section CELL_TYPES is missing"},
       {"unknown word", good + "CELLDATA 2\n", ":14: ", "'CELLDATA' is not expected here"},
       {"array before data", good + "SCALARS a int\n", ":14: ", "'SCALARS' is not expected here"},
@@ -197,10 +197,10 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
       {"second order", replaced(good, "10\n5", "24\n5"),
        ":12: ", "(tetrahedron of higher order) cannot be read"},
       {"unknown type", replaced(good, "10\n5", "10\n-5"), ":13: ", "type '-5' (another volume)"},
-      {"twice", good + points, ":14: ", "'POINTS' appears for the second time"},
+      {"twice", good + kPoints, ":14: ", "'POINTS' appears for the second time"},
       {"data of others", good + "CELL_DATA 3\n",
        ":14: ", "data of 3 cells do not belong to this mesh: expected 2"},
-      {"data before cells", head + points + cell_data, ":8: ", "expected the cells before"},
+      {"data before cells", kHead + kPoints + cell_data, ":8: ", "expected the cells before"},
       {"label", good + cell_data + "SCALARS label long\nLOOKUP_TABLE d\n1 2147483648\n",
        ":17: ", "the label 2147483648 is out of range"},
       {"label word", good + cell_data + "SCALARS label int\nLOOKUP_TABLE d\n1 x\n",
@@ -209,7 +209,7 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
        ":16: ", "cannot fit"},
       {"cut", good + cell_data + "SCALARS label int\nLOOKUP_TABLE d\n1 2",
        ":17: ", "the file ends right behind '2'"},
-      {"5.1 without offsets", head5 + points + "CELLS 2 9\n4 0 1 2 3\n",
+      {"5.1 without offsets", kHead5 + kPoints + "CELLS 2 9\n4 0 1 2 3\n",
        ":9: ", "'4' is not expected here: expected OFFSETS"},
       {"5.1 of reals", replaced(good5, "OFFSETS vtktypeint64", "OFFSETS double"),
        ":9: ", "cannot be of type double"},
