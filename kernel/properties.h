@@ -51,6 +51,7 @@ class PropertyTable {
   PropertyTable& operator=(PropertyTable&&) noexcept = default;
   ~PropertyTable() = default;
 
+  /// Precondition: no transaction is open.
   /// @throws Error if a property of that name exists.
   template <class T>
   PropertyHandle<HandleType, T> add(std::string_view name, T initial) {

@@ -204,7 +204,7 @@ bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
 
 EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
                                        std::span<const TetVertices> created) {
-  assert(!old.empty() && !created.empty());
+  assert(!kept_ && !old.empty() && !created.empty());
   for (const EditResult result :
        {check_old(old), check_vertices(old, created), evaluate(created)}) {
     if (result != EditResult::made) return result;
@@ -372,6 +372,7 @@ void Transaction::remove_isolated(const Edit& replaced) {
 // ------------------------------------------------------------------------------------------------------------------------
 
 VertexHandle Transaction::add_vertex(const Point& point) {
+  assert(!kept_);
   Edit edit;
   edit.kind = Edit::Kind::add_vertex;
   if (!workspace_.free_vertices_.empty()) {
@@ -396,6 +397,7 @@ VertexHandle Transaction::add_vertex(const Point& point) {
 
 EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
                                     std::span<const HalfFace> link) {
+  assert(!kept_);
   if (mesh_.is_fixed(v)) return EditResult::constrained;
   Point& stored = mesh_.points_[v.index()];
   const Point before = stored;

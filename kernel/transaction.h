@@ -56,7 +56,8 @@ class Transaction {
   /// transaction began, and as it is now.
   void compare(std::vector<Quality>& before, std::vector<Quality>& now) const;
 
-  /// Makes the edits part of the enclosing transaction, or of the mesh if there is none.
+  /// Makes the edits part of the enclosing transaction, or of the mesh if there is none. No edit
+  /// may follow.
   void keep();
   /// Undoes all edits of this scope now. More may follow.
   void undo();
