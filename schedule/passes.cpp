@@ -65,8 +65,9 @@ std::array<unsigned, 6> sorted_edges(Rank&& rank) {
   std::array<double, 6> ranks{};
   for (unsigned e = 0; e < 6; ++e) ranks[e] = rank(e);
   std::array<unsigned, 6> edges = {0, 1, 2, 3, 4, 5};
-  std::stable_sort(edges.begin(), edges.end(),
-                   [&](unsigned x, unsigned y) { return ranks[x] < ranks[y]; });
+  std::sort(edges.begin(), edges.end(), [&](unsigned x, unsigned y) {
+    return ranks[x] != ranks[y] ? ranks[x] < ranks[y] : x < y;
+  });
   return edges;
 }
 
