@@ -47,6 +47,7 @@ struct Journal {
   };
   struct RemovedVertex {
     Date date;
+    Date moved;
     std::uint32_t origin;
     std::uint8_t flags;
   };

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tetmend {
@@ -55,6 +56,59 @@ class IndexSet {
   }
 
   std::vector<std::uint64_t> slots_;  // stamp << 32 | index
+  std::uint32_t stamp_ = 1;
+  std::size_t size_ = 0;
+};
+
+/// A set of pairs of indices, likewise.
+class PairSet {
+ public:
+  PairSet() : slots_(256) {}
+
+  void clear() {
+    size_ = 0;
+    if (++stamp_ == 0) {
+      slots_.assign(slots_.size(), Slot());
+      stamp_ = 1;
+    }
+  }
+  /// True if the pair was not yet in the set. (a, b) and (b, a) are the same.
+  bool insert(std::uint32_t a, std::uint32_t b) {
+    Slot& slot = probe(key(a, b));
+    if (slot.stamp == stamp_) return false;
+    slot = {key(a, b), stamp_};
+    if (++size_ * 2 > slots_.size()) grow();
+    return true;
+  }
+  bool contains(std::uint32_t a, std::uint32_t b) const {
+    return const_cast<PairSet*>(this)->probe(key(a, b)).stamp == stamp_;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t stamp = 0;
+  };
+
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return a < b ? static_cast<std::uint64_t>(a) << 32 | b
+                 : static_cast<std::uint64_t>(b) << 32 | a;
+  }
+  /// The slot that holds the key, or the free slot where it belongs.
+  Slot& probe(std::uint64_t key) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = ((key ^ key >> 29) * 0x9E3779B97F4A7C15ull >> 32) & mask;
+    while (slots_[i].stamp == stamp_ && slots_[i].key != key) i = (i + 1) & mask;
+    return slots_[i];
+  }
+  void grow() {
+    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(slots_.size() * 2));
+    for (const Slot& slot : old) {
+      if (slot.stamp == stamp_) probe(slot.key) = slot;
+    }
+  }
+
+  std::vector<Slot> slots_;
   std::uint32_t stamp_ = 1;
   std::size_t size_ = 0;
 };

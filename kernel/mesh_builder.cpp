@@ -127,6 +127,7 @@ void MeshBuilder::copy_points() {
   mesh_.vertex_tet_.assign(n, TetHandle());
   mesh_.vertex_flags_.assign(n, 0);
   mesh_.vertex_date_.assign(n, 0);
+  mesh_.vertex_moved_.assign(n, 0);
   mesh_.vertex_origin_.resize(n);
   for (std::uint32_t v = 0; v < n; ++v) mesh_.vertex_origin_[v] = v;
   mesh_.vertex_count_ = n;

@@ -15,7 +15,7 @@ constexpr std::array<std::array<std::uint8_t, 2>, 6> kOtherVertices = {
 
 }  // namespace
 
-ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell) {
+ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell, const Territory& territory) {
   const TetVertices& first = mesh.vertices(edge.tet());
   const unsigned e = edge.edge();
   shell.a = first[kEdgeVertices[e][0]];
@@ -39,6 +39,7 @@ ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell) {
     t = twin.tet();
     entered = ahead;
     ahead = mesh.vertices(t)[twin.face()];
+    if (!territory.holds(ahead)) return ShellKind::border;
     leave = mesh.local_index(t, entered);
   } while (t != edge.tet());
   return ShellKind::closed;

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <optional>
 
+#include "kernel/territory.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -29,7 +30,8 @@ enum class ShellKind : std::uint8_t {
   closed,       ///< the tets go all the way round and no face between them is constrained
   boundary,     ///< the edge lies on the boundary
   constrained,  ///< the edge is constrained or lies on a constrained face
-  too_large     ///< degree above kMaxDegree
+  too_large,    ///< degree above kMaxDegree
+  border        ///< leaves the territory
 };
 
 /// The ring of a closed shell. Ring arithmetic is modulo degree.
@@ -44,14 +46,16 @@ struct Shell {
   VertexHandle previous(unsigned i) const { return ring[i == 0 ? degree - 1 : i - 1]; }
 };
 
-/// Walks around an edge. Fills `shell` completely only for ShellKind::closed. Cost: one step for
-/// each tet, no memory.
-ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell);
+/// Walks around an edge. Fills `shell` completely only for ShellKind::closed. Precondition: the tet
+/// of the edge lies in the territory. Cost: one step for each tet, no memory.
+ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
+                     const Territory& territory = {});
 
 /// A tet that contains the edge between two vertices, searched in the star of the first; nothing
-/// when there is none. Looks at `hint` first. At a vertex whose star is not connected through faces
-/// (touching fans), only the fan of its stored tet is searched. Cost: about 26 tets without a
-/// useful hint ([chen, 5.2]).
+/// when there is none, or when the search leaves the territory of the workspace, which notes it.
+/// Looks at `hint` first. At a vertex whose star is not connected through faces (touching fans),
+/// only the fan of its stored tet is searched. Cost: about 26 tets without a useful hint
+/// ([chen, 5.2]).
 std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b,
                                  Workspace& workspace, TetHandle hint = {});
 

@@ -9,35 +9,39 @@ namespace tetmend {
 
 namespace {
 
-/// Calls visit(tet, local index of v) for each tet of the star until it returns true.
+/// Calls visit(half-face opposite v) for each tet of the star until it returns true. False if the
+/// walk ends at the border of the territory.
 template <class Visit>
-void walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+bool walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
                std::vector<HalfFace>& queue, Visit&& visit) {
   queue.clear();
   const TetHandle first = mesh.tet_of(v);
-  if (!first.is_valid()) return;
+  if (!first.is_valid()) return true;
+  if (!workspace.holds(mesh.vertices(first))) return false;
   IndexSet& seen = workspace.star_set;
   seen.clear();
   seen.insert(first.index());
   queue.push_back(HalfFace(first, mesh.local_index(first, v)));
-  if (visit(queue.back())) return;
+  if (visit(queue.back())) return true;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const HalfFace opposite = queue[i];
     const auto& neighbours = mesh.neighbours(opposite.tet());
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace twin = neighbours[f];
       if (f == opposite.face() || twin.is_outside() || !seen.insert(twin.tet().index())) continue;
+      if (!workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return false;
       queue.push_back(HalfFace(twin.tet(), mesh.local_index(twin.tet(), v)));
-      if (visit(queue.back())) return;
+      if (visit(queue.back())) return true;
     }
   }
+  return true;
 }
 
 }  // namespace
 
-void collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
                   std::vector<HalfFace>& out) {
-  walk_star(mesh, v, workspace, out, [](HalfFace) { return false; });
+  return walk_star(mesh, v, workspace, out, [](HalfFace) { return false; });
 }
 
 std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {

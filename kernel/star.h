@@ -14,17 +14,20 @@ class Workspace;
 
 /// Link of a vertex as half-faces: for each tet of the star, the half-face opposite v. Spreads
 /// through faces from the stored tet; the order follows from the connectivity alone. `out` is
-/// cleared first. Cost: linear in the star.
-void collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+/// cleared first. False, with a part of the link, if the star leaves the territory of the
+/// workspace. Cost: linear in the star.
+bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
                   std::vector<HalfFace>& out);
 
 /// Link, star (the tets around v) and one-ring (their other vertices, each once). The span is valid
-/// until the next call of the same function with the same workspace.
+/// until the next call of the same function with the same workspace. Precondition: the star lies in
+/// the territory of the workspace.
 std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
 std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
 std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
 
-/// Edge (a, b) in the star of a; nothing if there is none. Precondition: a is a live vertex with a
+/// Edge (a, b) in the star of a; nothing if there is none in the territory of the workspace.
+/// Precondition: a is a live vertex with a
 /// tet.
 std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
                                     Workspace& workspace);

@@ -124,6 +124,7 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
   gather(vertex_tet_, vertex_order);
   gather(vertex_flags_, vertex_order);
   gather(vertex_date_, vertex_order);
+  gather(vertex_moved_, vertex_order);
   gather(vertex_origin_, vertex_order);
   tet_properties_.gather(tet_order);
   vertex_properties_.gather(vertex_order);
@@ -145,11 +146,42 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
   }
 }
 
+namespace {
+
+/// Like resize(), but with little room to spare: the arrays are the memory of a run.
+template <class T>
+void grow(std::vector<T>& values, std::size_t count, const T& value) {
+  const std::size_t size = values.size() + count;
+  if (size > values.capacity()) values.reserve(size + size / 16);
+  values.resize(size, value);
+}
+
+}  // namespace
+
+void TetMesh::grow_tets(std::size_t count) {
+  grow(cells_, count, {});
+  grow(quality_, count, Quality{0});
+  grow(label_, count, Label{0});
+  grow(tet_flags_, count, TetFlags{0});
+  tet_properties_.resize(cells_.size());
+}
+
+void TetMesh::grow_vertices(std::size_t count) {
+  grow(points_, count, Point(Point::Zero()));
+  grow(vertex_tet_, count, {});
+  grow(vertex_flags_, count, kVertexDeleted);
+  grow(vertex_date_, count, Date{0});
+  grow(vertex_moved_, count, Date{0});
+  grow(vertex_origin_, count, kNotFromFile);
+  vertex_properties_.resize(points_.size());
+}
+
 bool operator==(const TetMesh& a, const TetMesh& b) {
   return a.cells_ == b.cells_ && a.quality_ == b.quality_ && a.label_ == b.label_ &&
          a.tet_flags_ == b.tet_flags_ && a.points_ == b.points_ && a.vertex_tet_ == b.vertex_tet_ &&
          a.vertex_flags_ == b.vertex_flags_ && a.vertex_date_ == b.vertex_date_ &&
-         a.tet_count_ == b.tet_count_ && a.vertex_count_ == b.vertex_count_;
+         a.vertex_moved_ == b.vertex_moved_ && a.tet_count_ == b.tet_count_ &&
+         a.vertex_count_ == b.vertex_count_;
 }
 
 }  // namespace tetmend

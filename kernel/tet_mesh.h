@@ -137,6 +137,8 @@ class TetMesh {
   bool is_fixed(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFixed) != 0; }
   /// Latest date at which a tet of v's star was replaced or a vertex of its link moved.
   Date changed(VertexHandle v) const { return vertex_date_[v.index()]; }
+  /// Date at which v itself moved last.
+  Date moved(VertexHandle v) const { return vertex_moved_[v.index()]; }
 
   // --- surface and constraints
   // -----------------------------------------------------------------------------------------------------
@@ -162,7 +164,7 @@ class TetMesh {
     return sizeof(Cell) + sizeof(Quality) + sizeof(Label) + sizeof(TetFlags);
   }
   static constexpr std::size_t bytes_per_vertex() {
-    return sizeof(Point) + sizeof(TetHandle) + sizeof(VertexFlags) + sizeof(Date) +
+    return sizeof(Point) + sizeof(TetHandle) + sizeof(VertexFlags) + 2 * sizeof(Date) +
            sizeof(std::uint32_t);
   }
 
@@ -172,6 +174,7 @@ class TetMesh {
 
  private:
   friend class Transaction;
+  friend class Workspace;
   friend class MeshBuilder;
   friend struct TetMeshTestAccess;  // defined in a test only: makes broken meshes
 
@@ -194,6 +197,9 @@ class TetMesh {
   static constexpr VertexFlags kVertexRequired = 8;  // named by the file: written back
   static constexpr std::uint32_t kNotFromFile = 0xFFFFFFFFu;
 
+  /// Adds deleted slots.
+  void grow_tets(std::size_t count);
+  void grow_vertices(std::size_t count);
   void reorder(std::span<const std::uint32_t> vertex_order,
                std::span<const std::uint32_t> tet_order);
 
@@ -207,6 +213,7 @@ class TetMesh {
   std::vector<TetHandle> vertex_tet_;
   std::vector<VertexFlags> vertex_flags_;
   std::vector<Date> vertex_date_;
+  std::vector<Date> vertex_moved_;
   std::vector<std::uint32_t> vertex_origin_;  // number in the file, or kNotFromFile
   std::size_t vertex_count_ = 0;
 

@@ -164,7 +164,7 @@ bool Transaction::repeats_a_face(std::span<const TetVertices> created) {
     const VertexHandle y = tet[local[1]];
     const VertexHandle z = tet[local[2]];
     auto& around = workspace_.search_buffer;
-    collect_link(mesh_, tet[local[0]], workspace_, around);
+    if (!collect_link(mesh_, tet[local[0]], workspace_, around)) return true;  // cannot tell
     return std::any_of(around.begin(), around.end(), [&](HalfFace opposite) {
       const TetHandle t = opposite.tet();
       return mesh_.local_index(t, y) < 4 && mesh_.local_index(t, z) < 4 &&
@@ -210,6 +210,7 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
     if (result != EditResult::made) return result;
   }
   if (const EditResult result = glue(old, created); result != EditResult::made) return result;
+  if (!workspace_.has_room_for(created.size(), old.size())) return EditResult::no_room;
   if (workspace_.may_overlap_ && repeats_a_face(created)) return EditResult::inverted;
   if (!mark_constrained_edges(created)) return EditResult::constrained;
 
@@ -220,8 +221,8 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
   take_slots(old, created.size(), edit);
   fill_slots(created, label, edit);
   link_vertices(created, edit);
-  mesh_.tet_count_ += created.size();
-  mesh_.tet_count_ -= old.size();
+  workspace_.tet_count(mesh_) += created.size();
+  workspace_.tet_count(mesh_) -= old.size();
   workspace_.journal_.edits.push_back(edit);
   remove_isolated(edit);
   return EditResult::made;
@@ -251,11 +252,7 @@ void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
 
 TetHandle Transaction::append_tet() {
   const TetHandle t(static_cast<std::uint32_t>(mesh_.cells_.size()));
-  mesh_.cells_.emplace_back();
-  mesh_.quality_.push_back(0);
-  mesh_.label_.push_back(0);
-  mesh_.tet_flags_.push_back(0);
-  mesh_.tet_properties_.resize(mesh_.cells_.size());
+  mesh_.grow_tets(1);
   return t;
 }
 
@@ -275,6 +272,7 @@ void Transaction::clear_slot(VertexHandle v) {
   mesh_.vertex_tet_[i] = TetHandle();
   mesh_.vertex_flags_[i] = TetMesh::kVertexDeleted;
   mesh_.vertex_date_[i] = 0;
+  mesh_.vertex_moved_[i] = 0;
   mesh_.vertex_origin_[i] = TetMesh::kNotFromFile;
   mesh_.vertex_properties_.reset(v);
 }
@@ -287,9 +285,9 @@ void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, 
   for (std::size_t k = 0; k < count; ++k) {
     if (k < old.size()) {
       journal.created.push_back(old[k]);
-    } else if (!workspace_.free_tets_.empty()) {
-      journal.created.push_back(workspace_.free_tets_.back());
-      workspace_.free_tets_.pop_back();
+    } else if (!workspace_.free_.tets.empty()) {
+      journal.created.push_back(workspace_.free_.tets.back());
+      workspace_.free_.tets.pop_back();
     } else {
       journal.created.push_back(append_tet());
       ++edit.appended;
@@ -298,7 +296,7 @@ void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, 
   edit.created_end = size32(journal.created);
   for (std::size_t k = count; k < old.size(); ++k) {
     clear_slot(old[k]);
-    workspace_.free_tets_.push_back(old[k]);
+    workspace_.free_.tets.push_back(old[k]);
   }
 }
 
@@ -355,15 +353,15 @@ void Transaction::remove_isolated(const Edit& replaced) {
     edit.kind = Edit::Kind::remove_vertex;
     edit.vertex = v;
     edit.point = mesh_.points_[v.index()];
-    journal.removed_vertices.push_back({mesh_.vertex_date_[v.index()],
-                                        mesh_.vertex_origin_[v.index()],
-                                        mesh_.vertex_flags_[v.index()]});
+    journal.removed_vertices.push_back(
+        {mesh_.vertex_date_[v.index()], mesh_.vertex_moved_[v.index()],
+         mesh_.vertex_origin_[v.index()], mesh_.vertex_flags_[v.index()]});
     if (!mesh_.vertex_properties_.empty()) {
       journal.property_values.push_back(mesh_.vertex_properties_.save(v));
     }
     clear_slot(v);
-    workspace_.free_vertices_.push_back(v);
-    --mesh_.vertex_count_;
+    workspace_.free_.vertices.push_back(v);
+    --workspace_.vertex_count(mesh_);
     journal.edits.push_back(edit);
   }
 }
@@ -375,22 +373,21 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   assert(!kept_);
   Edit edit;
   edit.kind = Edit::Kind::add_vertex;
-  if (!workspace_.free_vertices_.empty()) {
-    edit.vertex = workspace_.free_vertices_.back();
-    workspace_.free_vertices_.pop_back();
+  if (!workspace_.free_.vertices.empty()) {
+    edit.vertex = workspace_.free_.vertices.back();
+    workspace_.free_.vertices.pop_back();
+  } else if (!workspace_.territory_.is_whole()) {
+    workspace_.note_border();
+    return {};
   } else {
     edit.vertex = VertexHandle(size32(mesh_.points_));
     edit.appended = 1;
-    mesh_.points_.emplace_back(Point::Zero());
-    mesh_.vertex_tet_.emplace_back();
-    mesh_.vertex_flags_.push_back(0);
-    mesh_.vertex_date_.push_back(0);
-    mesh_.vertex_origin_.push_back(TetMesh::kNotFromFile);
-    mesh_.vertex_properties_.resize(mesh_.points_.size());
+    mesh_.grow_vertices(1);
   }
+  workspace_.territory_.claim(edit.vertex);
   mesh_.points_[edit.vertex.index()] = point;
   mesh_.vertex_flags_[edit.vertex.index()] = 0;
-  ++mesh_.vertex_count_;
+  ++workspace_.vertex_count(mesh_);
   workspace_.journal_.edits.push_back(edit);
   return edit.vertex;
 }
@@ -465,11 +462,11 @@ void Transaction::undo_replace(const Edit& edit) {
       mesh_.tet_properties_.resize(mesh_.cells_.size());
     } else {
       clear_slot(t);
-      workspace_.free_tets_.push_back(t);
+      workspace_.free_.tets.push_back(t);
     }
   }
   if (removed > created) {
-    workspace_.free_tets_.resize(workspace_.free_tets_.size() - (removed - created));
+    workspace_.free_.tets.resize(workspace_.free_.tets.size() - (removed - created));
   }
   for (std::uint32_t k = edit.removed_end; k-- > edit.removed_begin;) {
     const Journal::RemovedTet& saved = journal.removed[k];
@@ -495,8 +492,8 @@ void Transaction::undo_replace(const Edit& edit) {
   for (std::uint32_t k = edit.links_end; k-- > edit.links_begin;) {
     mesh_.vertex_tet_[journal.links[k].vertex.index()] = journal.links[k].tet;
   }
-  mesh_.tet_count_ += removed;
-  mesh_.tet_count_ -= created;
+  workspace_.tet_count(mesh_) += removed;
+  workspace_.tet_count(mesh_) -= created;
   journal.removed.resize(edit.removed_begin);
   journal.created.resize(edit.created_begin);
   journal.links.resize(edit.links_begin);
@@ -512,16 +509,17 @@ void Transaction::undo_move(const Edit& edit) {
 }
 
 void Transaction::undo_add(const Edit& edit) {
-  --mesh_.vertex_count_;
+  --workspace_.vertex_count(mesh_);
   if (edit.appended == 0) {
     clear_slot(edit.vertex);
-    workspace_.free_vertices_.push_back(edit.vertex);
+    workspace_.free_.vertices.push_back(edit.vertex);
     return;
   }
   mesh_.points_.pop_back();
   mesh_.vertex_tet_.pop_back();
   mesh_.vertex_flags_.pop_back();
   mesh_.vertex_date_.pop_back();
+  mesh_.vertex_moved_.pop_back();
   mesh_.vertex_origin_.pop_back();
   mesh_.vertex_properties_.resize(mesh_.points_.size());
 }
@@ -533,14 +531,15 @@ void Transaction::undo_remove(const Edit& edit) {
   journal.removed_vertices.pop_back();
   mesh_.points_[i] = edit.point;
   mesh_.vertex_date_[i] = saved.date;
+  mesh_.vertex_moved_[i] = saved.moved;
   mesh_.vertex_origin_[i] = saved.origin;
   mesh_.vertex_flags_[i] = saved.flags;
   if (!mesh_.vertex_properties_.empty()) {
     mesh_.vertex_properties_.restore(edit.vertex, journal.property_values.back());
     journal.property_values.pop_back();
   }
-  workspace_.free_vertices_.pop_back();
-  ++mesh_.vertex_count_;
+  workspace_.free_.vertices.pop_back();
+  ++workspace_.vertex_count(mesh_);
 }
 
 // --- comparison and commit
@@ -581,7 +580,9 @@ void Transaction::commit() {
       if (mesh_.is_deleted(t)) continue;
       for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_date_[v.index()] = date;
     }
-    // The moved vertex itself keeps its date: its move was the answer to its star as it is.
+    if (edit.kind == Edit::Kind::move_vertex) mesh_.vertex_moved_[edit.vertex.index()] = date;
+    if (edit.kind == Edit::Kind::add_vertex) workspace_.added_vertices_.push_back(edit.vertex);
+    // The star of the moved vertex did not change but for the move: it keeps its date.
     for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
       const TetHandle t = journal.qualities[k].tet;
       if (mesh_.is_deleted(t)) continue;

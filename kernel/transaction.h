@@ -17,13 +17,14 @@ enum class EditResult : std::uint8_t {
   inverted,  ///< a new tet is not certified positive or, in a folded mesh, has a face that exists
              ///< elsewhere already; or a move would turn a positive tet over
   constrained,  ///< a constrained face, edge or vertex, or a border between labels would vanish
+  no_room,      ///< no free slot left in the territory of the workspace
   not_closed    ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
 
 /// A scope for edits. Transactions nest: one opened while another is open on the same workspace is
 /// its child. Undo restores every slot of the mesh bit by bit, handle numbers included. The
 /// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
-/// journal.
+/// journal. Tets and vertices given to a transaction must lie in the territory of the workspace.
 class Transaction {
  public:
   Transaction(TetMesh& mesh, Workspace& workspace);
@@ -44,6 +45,7 @@ class Transaction {
   std::span<const TetHandle> created() const;
 
   /// A new vertex without tets. It becomes part of the mesh by a replace_cavity that uses it.
+  /// Invalid when the territory of the workspace has no free slot left.
   VertexHandle add_vertex(const Point& point);
 
   /// Moves a vertex that is not fixed and updates the qualities of its star, given as the link (see

@@ -29,7 +29,7 @@ class EdgeContraction final : public Operator {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
     const VertexHandle v = target.vertex();
-    collect_link(mesh, v, context.workspace, scratch.link);
+    if (!collect_link(mesh, v, context.workspace, scratch.link)) return Verdict::deferred;
     load_ball(mesh, scratch.link, scratch.ball);
     Quality worst_old = mesh.quality(scratch.link[0].tet());
     for (const HalfFace f : scratch.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
@@ -64,7 +64,7 @@ class EdgeContraction final : public Operator {
         to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
     if (verdict != Verdict::accepted || mesh.is_fixed(w)) return verdict;
 
-    collect_link(mesh, w, context.workspace, scratch.link);
+    if (!collect_link(mesh, w, context.workspace, scratch.link)) return Verdict::deferred;
     load_ball(mesh, scratch.link, scratch.ball);
     const double start = scratch.ball.worst(mesh.point(w));
     scratch.point = mesh.point(w);

@@ -24,8 +24,7 @@ class EdgeSplit final : public Operator {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
-    const Verdict verdict =
-        find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
+    const Verdict verdict = find_searchable_shell(context, target.edge(), context.scratch.shell);
     if (verdict != Verdict::accepted) return verdict;
     return context.scratch.shell.degree <= max_degree_ ? Verdict::accepted
                                                        : Verdict::not_applicable;
@@ -59,6 +58,7 @@ class EdgeSplit final : public Operator {
     Scratch& scratch = context.scratch;
     const Shell& shell = scratch.shell;
     const VertexHandle v = transaction.add_vertex(scratch.point);
+    if (!v.is_valid()) return Verdict::deferred;
     scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + shell.degree);
     scratch.new_tets.clear();
     for (unsigned i = 0; i < shell.degree; ++i) {
@@ -97,13 +97,13 @@ class EdgeSplit final : public Operator {
   void reconnect(OperatorContext& context, VertexHandle v) const {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
-    collect_link(mesh, v, context.workspace, scratch.link);
+    if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
     for (const HalfFace opposite : scratch.link) {
       const TetHandle t = opposite.tet();
       for (unsigned e = 0; e < 6; ++e) {
         // An earlier transformation may have taken the slot.
         if (mesh.is_deleted(t) || mesh.quality(t) >= kBadThreshold) break;
-        if (find_searchable_shell(mesh, TetEdge(t, e), scratch.shell) != Verdict::accepted)
+        if (find_searchable_shell(context, TetEdge(t, e), scratch.shell) != Verdict::accepted)
           continue;
         if (propose_covering(context, scratch.shell, {}, true) != Verdict::accepted) continue;
         Transaction step(context.mesh, context.workspace);
@@ -120,7 +120,7 @@ class EdgeSplit final : public Operator {
     const TetMesh& mesh = context.mesh;
     if (mesh.is_fixed(v)) return;
     Scratch& scratch = context.scratch;
-    collect_link(mesh, v, context.workspace, scratch.link);
+    if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
     load_ball(mesh, scratch.link, scratch.ball);
     Point point = mesh.point(v);
     const double start = scratch.ball.worst(point);

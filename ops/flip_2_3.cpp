@@ -24,6 +24,7 @@ class Flip23 final : public Operator {
     const HalfFace twin = mesh.twin(face);
     const VertexHandle a = mesh.vertices(face.tet())[face.face()];
     const VertexHandle b = mesh.vertices(twin.tet())[twin.face()];
+    if (!context.workspace.holds(b)) return Verdict::deferred;
     const Quality floor = std::min(mesh.quality(face.tet()), mesh.quality(twin.tet()));
     const auto ring = mesh.vertices(face);
     scratch.old_tets.assign({face.tet(), twin.tet()});

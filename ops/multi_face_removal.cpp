@@ -39,15 +39,17 @@ struct Sandwich {
   }
 };
 
-/// The tet beyond the face (apex, p, q) of t, unless boundary or constraint is in the way.
-TetHandle beyond(const TetMesh& mesh, TetHandle t, VertexHandle apex, VertexHandle p,
+/// The tet beyond the face (apex, p, q) of t, unless boundary, constraint or border is in the way.
+TetHandle beyond(const OperatorContext& context, TetHandle t, VertexHandle apex, VertexHandle p,
                  VertexHandle q) {
+  const TetMesh& mesh = context.mesh;
   const TetVertices& tv = mesh.vertices(t);
   unsigned f = 0;
   while (tv[f] == apex || tv[f] == p || tv[f] == q) ++f;
   const HalfFace face(t, f);
   const HalfFace twin = mesh.twin(face);
   if (twin.is_outside() || mesh.is_constrained(face)) return {};
+  if (!context.workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return {};
   return twin.tet();
 }
 
@@ -75,7 +77,9 @@ class MultiFaceRemoval final : public Operator {
   Verdict evaluate(OperatorContext& context, Target target) const override {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
-    const Sandwich sandwich = grow(mesh, target.face(), scratch);
+    const HalfFace twin = mesh.twin(target.face());
+    if (!context.workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return Verdict::deferred;
+    const Sandwich sandwich = grow(context, target.face());
 
     std::array<Point, kMaxSearchRing> ring;
     for (unsigned i = 0; i < sandwich.size; ++i) ring[i] = mesh.point(sandwich.ring[i]);
@@ -101,7 +105,9 @@ class MultiFaceRemoval final : public Operator {
 
  private:
   /// Leaves the tets of the sandwich in scratch.old_tets.
-  Sandwich grow(const TetMesh& mesh, HalfFace face, Scratch& scratch) const {
+  Sandwich grow(const OperatorContext& context, HalfFace face) const {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
     const HalfFace twin = mesh.twin(face);
     Sandwich s;
     s.a = mesh.vertices(face.tet())[face.face()];
@@ -118,8 +124,8 @@ class MultiFaceRemoval final : public Operator {
     for (unsigned i = 0; i < s.size && s.size < max_polygon_;) {
       const VertexHandle p = s.ring[i];
       const VertexHandle q = s.ring[i + 1 == s.size ? 0 : i + 1];
-      const TetHandle above = beyond(mesh, s.upper[i], s.a, p, q);
-      const TetHandle below = beyond(mesh, s.lower[i], s.b, p, q);
+      const TetHandle above = beyond(context, s.upper[i], s.a, p, q);
+      const TetHandle below = beyond(context, s.lower[i], s.b, p, q);
       const VertexHandle w = above.is_valid() ? fourth(mesh, above, s.a, p, q) : VertexHandle();
       const auto end = s.ring.begin() + s.size;
       const bool grows = above.is_valid() && below.is_valid() && above != below &&

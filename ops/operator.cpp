@@ -11,6 +11,13 @@ bool is_better(const Transaction& transaction, Scratch& scratch) {
 }
 
 Verdict Operator::try_target(OperatorContext& context, Target target) const {
+  context.workspace.forget_border();
+  const Verdict verdict = run_stages(context, target);
+  const bool crosses = verdict != Verdict::accepted && context.workspace.met_border();
+  return crosses ? Verdict::deferred : verdict;
+}
+
+Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   Verdict verdict = precondition(context, target);
   if (verdict == Verdict::accepted) verdict = evaluate(context, target);
   if (verdict != Verdict::accepted) return verdict;

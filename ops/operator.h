@@ -69,8 +69,9 @@ class Operator {
 
   /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
   /// result only if the quality vector of all that changed improves (see improves()). After a
-  /// refusal the mesh is what it was, bit by bit. Precondition: the target is of the operator's
-  /// kind and names a live entity.
+  /// refusal the mesh is what it was, bit by bit. Anything but `accepted` is `deferred` if the
+  /// territory of the workspace was in the way. Precondition: the target is of the operator's
+  /// kind, names a live entity and lies in that territory.
   Verdict attempt(OperatorContext& context, Target target) const;
 
  protected:
@@ -83,6 +84,7 @@ class Operator {
                         Transaction& transaction) const = 0;
 
  private:
+  Verdict run_stages(OperatorContext& context, Target target) const;
   Verdict try_target(OperatorContext& context, Target target) const;
 
   const OperatorInfo& info_;
@@ -104,6 +106,8 @@ constexpr Verdict to_verdict(EditResult result) {
       return Verdict::constrained;
     case EditResult::not_closed:
       return Verdict::not_applicable;
+    case EditResult::no_room:
+      return Verdict::deferred;
   }
   return Verdict::not_applicable;
 }

@@ -60,8 +60,8 @@ class Recursion {
 Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hint,
                                    VertexHandle face, Shell& shell) {
   const auto edge = find_edge(mesh_, a, b, context_.workspace, hint);
-  if (!edge) return State::gone;
-  if (find_searchable_shell(mesh_, *edge, shell) != Verdict::accepted) return State::blocked;
+  if (!edge) return context_.workspace.met_border() ? State::blocked : State::gone;
+  if (find_searchable_shell(context_, *edge, shell) != Verdict::accepted) return State::blocked;
   if (shell.a != a) {  // the tet names the edge the other way round: keep the caller's sense
     std::swap(shell.a, shell.b);
     std::reverse(shell.ring.begin(), shell.ring.begin() + shell.degree);
@@ -227,7 +227,7 @@ class RecursiveShellTransformation final : public Operator {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
-    return find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
+    return find_searchable_shell(context, target.edge(), context.scratch.shell);
   }
   Verdict evaluate(OperatorContext&, Target) const override { return Verdict::accepted; }
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {

@@ -5,8 +5,8 @@
 
 namespace tetmend {
 
-Verdict find_searchable_shell(const TetMesh& mesh, TetEdge edge, Shell& shell) {
-  switch (find_shell(mesh, edge, shell)) {
+Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shell& shell) {
+  switch (find_shell(context.mesh, edge, shell, context.workspace.territory())) {
     case ShellKind::closed:
       break;
     case ShellKind::boundary:
@@ -14,6 +14,9 @@ Verdict find_searchable_shell(const TetMesh& mesh, TetEdge edge, Shell& shell) {
       return Verdict::constrained;
     case ShellKind::too_large:
       return Verdict::not_applicable;
+    case ShellKind::border:
+      context.workspace.note_border();
+      return Verdict::deferred;
   }
   return shell.degree >= 3 && shell.degree <= kMaxSearchRing ? Verdict::accepted
                                                              : Verdict::not_applicable;

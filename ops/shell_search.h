@@ -13,8 +13,9 @@ struct ShellLocks {
   std::uint32_t edges = 0;
 };
 
-/// `accepted` for a closed shell small enough to be searched; the shell is left in `shell`.
-Verdict find_searchable_shell(const TetMesh& mesh, TetEdge edge, Shell& shell);
+/// `accepted` for a closed shell in the worker's territory that is small enough to be searched; the
+/// shell is left in `shell`.
+Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shell& shell);
 
 /// Searches the best covering of a shell and leaves old and new tets in the scratch. `accepted`
 /// only if every new tet is better than the worst old one and the quality vector improves.

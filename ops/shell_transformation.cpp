@@ -13,7 +13,7 @@ class ShellTransformation final : public Operator {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
-    return find_searchable_shell(context.mesh, target.edge(), context.scratch.shell);
+    return find_searchable_shell(context, target.edge(), context.scratch.shell);
   }
   Verdict evaluate(OperatorContext& context, Target) const override {
     return propose_covering(context, context.scratch.shell, {}, true);

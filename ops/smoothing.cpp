@@ -31,7 +31,7 @@ class Smoothing final : public Operator {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
     const VertexHandle v = target.vertex();
-    collect_link(mesh, v, context.workspace, scratch.link);
+    if (!collect_link(mesh, v, context.workspace, scratch.link)) return Verdict::deferred;
     load_ball(mesh, scratch.link, scratch.ball);
     const double start = scratch.ball.worst(mesh.point(v));
     const double start_deficit = scratch.ball.total_deficit();

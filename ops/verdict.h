@@ -15,8 +15,11 @@ enum class Verdict : std::uint8_t {
   no_improvement,  ///< nothing better was found
   inverted,        ///< the best that was found is not certified positive
   depth_spent,     ///< the recursion reached its level limit
-  budget_spent     ///< the call reached its limit of transformations
+  budget_spent,    ///< the call reached its limit of transformations
+  deferred         ///< another worker's part of the mesh is in the way: to be tried again later
 };
+
+inline constexpr std::size_t kVerdictCount = 8;
 
 constexpr std::string_view to_string(Verdict verdict) {
   switch (verdict) {
@@ -34,6 +37,8 @@ constexpr std::string_view to_string(Verdict verdict) {
       return "depth spent";
     case Verdict::budget_spent:
       return "budget spent";
+    case Verdict::deferred:
+      return "deferred";
   }
   return "";
 }

@@ -3,23 +3,39 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
+
+#include <tbb/parallel_sort.h>
+
+#include "schedule/sweep.h"
 
 namespace tetmend {
 
 namespace {
 
-/// A tet as it was when it was queued. Slots are re-used, so the vertices tell whether it is still
-/// there.
-struct QueuedTet {
-  Quality quality;
+/// A tet as it was when it was queued, worst first. Slots are re-used, so the vertices tell whether
+/// it is still there.
+struct BadTet {
+  Quality quality = 0;
   TetHandle tet;
   TetVertices vertices;
+  std::uint16_t todo = 0x3FF;  // bits 0-5: edges, 6-9: faces
+
+  std::span<const VertexHandle> corners() const { return vertices; }
+  bool is_there(const TetMesh& mesh) const { return mesh.vertices(tet) == vertices; }
+  friend bool operator<(const BadTet& x, const BadTet& y) {
+    return x.quality != y.quality ? x.quality < y.quality : x.tet < y.tet;
+  }
 };
 
-bool is_there(const TetMesh& mesh, const QueuedTet& entry) {
-  return entry.tet.index() < mesh.tet_slots() && mesh.vertices(entry.tet) == entry.vertices;
-}
+/// A movable vertex of a bad tet, in slot order.
+struct BadPoint {
+  VertexHandle vertex;
+
+  std::span<const VertexHandle> corners() const { return {&vertex, 1}; }
+  bool is_there(const TetMesh& mesh) const { return !mesh.is_deleted(vertex); }
+  friend bool operator<(BadPoint x, BadPoint y) { return x.vertex < y.vertex; }
+  friend bool operator==(BadPoint x, BadPoint y) { return x.vertex == y.vertex; }
+};
 
 /// Something near the tet changed at `since` or later.
 bool changed_since(const TetMesh& mesh, const TetVertices& vertices, Date since) {
@@ -27,35 +43,44 @@ bool changed_since(const TetMesh& mesh, const TetVertices& vertices, Date since)
                      [&](VertexHandle v) { return mesh.changed(v) >= since; });
 }
 
-/// Bad tets, worst first; equal ones in slot order.
-std::vector<QueuedTet> queue_bad_tets(const TetMesh& mesh, Quality threshold, Date since) {
-  std::vector<QueuedTet> queue;
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_deleted(t) || mesh.quality(t) >= threshold) continue;
-    if (!changed_since(mesh, mesh.vertices(t), since)) continue;
-    queue.push_back({mesh.quality(t), t, mesh.vertices(t)});
+/// A tet around all of the vertices changed at `since` or later: what changed has them all as
+/// vertices, or one of them moved.
+template <std::size_t N>
+bool changed_around(const TetMesh& mesh, const std::array<VertexHandle, N>& vertices, Date since) {
+  bool all = true;
+  for (const VertexHandle v : vertices) {
+    if (mesh.moved(v) >= since) return true;
+    all = all && mesh.changed(v) >= since;
   }
-  std::sort(queue.begin(), queue.end(), [](const QueuedTet& a, const QueuedTet& b) {
-    return a.quality != b.quality ? a.quality < b.quality : a.tet < b.tet;
+  return all;
+}
+
+/// Bad tets in slot order.
+std::vector<BadTet> collect_bad_tets(PassScope& scope, const TetMesh& mesh, Quality threshold,
+                                     Date since) {
+  return collect<BadTet>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadTet>& out) {
+    const TetHandle t(i);
+    if (mesh.quality(t) >= threshold || mesh.is_deleted(t)) return;
+    if (changed_since(mesh, mesh.vertices(t), since)) {
+      out.push_back({mesh.quality(t), t, mesh.vertices(t)});
+    }
   });
-  return queue;
 }
 
 /// Movable vertices of bad tets around which something changed, in slot order.
-std::vector<VertexHandle> list_bad_points(const TetMesh& mesh, Quality threshold, Date since) {
-  std::vector<bool> seen(mesh.vertex_slots(), false);
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_deleted(t) || mesh.quality(t) >= threshold) continue;
-    for (const VertexHandle v : mesh.vertices(t)) {
-      if (!mesh.is_fixed(v) && mesh.changed(v) >= since) seen[v.index()] = true;
-    }
-  }
-  std::vector<VertexHandle> points;
-  for (std::uint32_t i = 0; i < seen.size(); ++i) {
-    if (seen[i]) points.push_back(VertexHandle(i));
-  }
+std::vector<BadPoint> collect_bad_points(PassScope& scope, const TetMesh& mesh, Quality threshold,
+                                         Date since) {
+  auto points =
+      collect<BadPoint>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadPoint>& out) {
+        const TetHandle t(i);
+        if (mesh.quality(t) >= threshold || mesh.is_deleted(t)) return;
+        for (const VertexHandle v : mesh.vertices(t)) {
+          if (!mesh.is_fixed(v) && mesh.changed(v) >= since) out.push_back({v});
+        }
+      });
+  const PassScope::Scan timed(scope);
+  tbb::parallel_sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   return points;
 }
 
@@ -87,34 +112,55 @@ std::array<unsigned, 6> edges_by_sine(const TetMesh& mesh, const TetVertices& tv
 
 class Reconnection {
  public:
-  Reconnection(Run& run, const LocalReconnection& options, PassScope& scope)
-      : mesh_(run.mesh()), scope_(scope) {
+  Reconnection(const Registry& registry, const LocalReconnection& options) {
     if (!options.edge_operator.empty()) {
-      edges_ = run.registry().make(options.edge_operator, options.edge_settings);
+      edges_ = registry.make(options.edge_operator, options.edge_settings);
     }
     if (!options.face_operator.empty()) {
-      faces_ = run.registry().make(options.face_operator, options.face_settings);
+      faces_ = registry.make(options.face_operator, options.face_settings);
     }
   }
 
-  void remove(const QueuedTet& entry) {
+  /// Tries edges and faces whose neighbourhood changed at `since` or later until the tet is gone.
+  /// False if some were deferred; these are noted in the entry.
+  bool remove(Worker& worker, BadTet& entry, Date since) const {
+    const TetMesh& mesh = worker.mesh();
+    std::uint16_t deferred = 0;
     if (edges_) {
-      for (const unsigned e : edges_by_sine(mesh_, entry.vertices)) {
-        scope_.attempt(*edges_, Target::of(TetEdge(entry.tet, e)));
-        if (!is_there(mesh_, entry)) return;
+      for (const unsigned e : edges_by_sine(mesh, entry.vertices)) {
+        const TetEdge edge(entry.tet, e);
+        if ((entry.todo >> e & 1u) == 0 || !changed_around(mesh, mesh.vertices(edge), since))
+          continue;
+        const auto [a, b] = mesh.vertices(edge);
+        if (worker.tried_edges.contains(a.index(), b.index())) continue;
+        const Verdict verdict = worker.attempt(*edges_, Target::of(edge));
+        if (!entry.is_there(mesh)) return true;
+        if (verdict == Verdict::deferred) deferred |= static_cast<std::uint16_t>(1u << e);
+        if (verdict != Verdict::accepted) worker.tried_edges.insert(a.index(), b.index());
       }
     }
     if (faces_) {
       for (unsigned f = 0; f < 4; ++f) {
-        scope_.attempt(*faces_, Target::of(HalfFace(entry.tet, f)));
-        if (!is_there(mesh_, entry)) return;
+        const HalfFace face(entry.tet, f);
+        if ((entry.todo >> (6 + f) & 1u) == 0 || mesh.is_boundary(face) ||
+            !changed_around(mesh, mesh.vertices(face), since))
+          continue;
+        const HalfFace twin = mesh.twin(face);
+        const VertexHandle a = entry.vertices[f];
+        const VertexHandle b = mesh.vertices(twin.tet())[twin.face()];
+        // All faces between two vertices are tried together.
+        if (worker.tried_faces.contains(a.index(), b.index())) continue;
+        const Verdict verdict = worker.attempt(*faces_, Target::of(face));
+        if (!entry.is_there(mesh)) return true;
+        if (verdict == Verdict::deferred) deferred |= static_cast<std::uint16_t>(64u << f);
+        if (verdict != Verdict::accepted) worker.tried_faces.insert(a.index(), b.index());
       }
     }
+    entry.todo = deferred;
+    return deferred == 0;
   }
 
  private:
-  const TetMesh& mesh_;
-  PassScope& scope_;
   std::unique_ptr<Operator> edges_;
   std::unique_ptr<Operator> faces_;
 };
@@ -123,30 +169,28 @@ class Reconnection {
 
 void local_reconnection(Run& run, const LocalReconnection& options) {
   PassScope scope(run, "local_reconnection");
-  Reconnection reconnection(run, options, scope);
-  for (unsigned sweep = 0; sweep < options.sweeps; ++sweep) {
-    const auto queue =
-        queue_bad_tets(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
-    if (queue.empty()) return;
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      if (!scope.proceed(i, queue.size())) return;
-      if (is_there(run.mesh(), queue[i])) reconnection.remove(queue[i]);
-    }
+  const Reconnection reconnection(run.registry(), options);
+  for (unsigned sweep = 0; sweep < options.sweeps && !run.cancelled(); ++sweep) {
+    const Date since = run.begin_sweep(options.calendar);
+    auto tets = collect_bad_tets(scope, run.mesh(), options.threshold, since);
+    if (tets.empty()) return;
+    work_off(run, scope, std::move(tets), 0, [&](Worker& worker, BadTet& entry) {
+      return reconnection.remove(worker, entry, since);
+    });
   }
 }
 
 void smooth(Run& run, const SmoothingPass& options) {
   PassScope scope(run, "smoothing");
   const auto smoothing = run.registry().make("smoothing", options.settings);
-  QualityIndicators before = quality_indicators(run.mesh());
-  for (unsigned cycle = 0; cycle < options.cycles; ++cycle) {
-    const auto points =
-        list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!scope.proceed(i, points.size())) return;
-      scope.attempt(*smoothing, Target::of(points[i]));
-    }
-    const QualityIndicators now = quality_indicators(run.mesh());
+  QualityIndicators before = scope.measure();
+  for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
+    const Date since = run.begin_sweep(options.calendar);
+    work_off(run, scope, collect_bad_points(scope, run.mesh(), options.threshold, since), 0,
+             [&](Worker& worker, BadPoint point) {
+               return worker.attempt(*smoothing, Target::of(point.vertex)) != Verdict::deferred;
+             });
+    const QualityIndicators now = scope.measure();
     if (!is_progress(before, now)) return;
     before = now;
   }
@@ -155,38 +199,46 @@ void smooth(Run& run, const SmoothingPass& options) {
 void suppress_points(Run& run, const SuppressionPass& options) {
   PassScope scope(run, "point_suppression");
   const auto contraction = run.registry().make("edge_contraction", options.settings);
-  const auto points =
-      list_bad_points(run.mesh(), options.threshold, run.begin_sweep(options.calendar));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!scope.proceed(i, points.size())) return;
-    scope.attempt(*contraction, Target::of(points[i]));
-  }
+  const Date since = run.begin_sweep(options.calendar);
+  work_off(run, scope, collect_bad_points(scope, run.mesh(), options.threshold, since), 0,
+           [&](Worker& worker, BadPoint point) {
+             return worker.attempt(*contraction, Target::of(point.vertex)) != Verdict::deferred;
+           });
 }
 
 void insert_points(Run& run, const InsertionPass& options) {
   PassScope scope(run, "point_insertion");
   const TetMesh& mesh = run.mesh();
   const auto split = run.registry().make("edge_split", options.settings);
-  auto queue = queue_bad_tets(mesh, options.threshold, run.begin_sweep(options.calendar));
-  const auto most = static_cast<std::size_t>(options.share * static_cast<double>(mesh.tet_count()));
-  if (queue.size() > std::max(most, kFewTets)) queue.resize(std::max(most, kFewTets));
-  std::unordered_set<std::uint64_t> tried;
-  for (std::size_t i = 0; i < queue.size(); ++i) {
-    if (!scope.proceed(i, queue.size())) return;
-    const QueuedTet& entry = queue[i];
-    if (!is_there(mesh, entry)) continue;
+  const Date since = run.begin_sweep(options.calendar);
+  auto tets = collect_bad_tets(scope, mesh, options.threshold, since);
+  const auto most = std::max(
+      static_cast<std::size_t>(options.share * static_cast<double>(mesh.tet_count())), kFewTets);
+  if (tets.size() > most) {
+    std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(most), tets.end());
+    tets.resize(most);
+  }
+  const auto try_tet = [&](Worker& worker, BadTet& entry) {
     const auto longest_first = sorted_edges([&](unsigned e) {
       const auto& [v, w] = kEdgeVertices[e];
       return -(mesh.point(entry.vertices[v]) - mesh.point(entry.vertices[w])).squaredNorm();
     });
+    std::uint16_t deferred = 0;
     for (const unsigned e : longest_first) {
-      const auto [v, w] = mesh.vertices(TetEdge(entry.tet, e));
-      const std::uint64_t low = std::min(v, w).index();
-      if (!tried.insert(low << 32 | std::max(v, w).index()).second) continue;
-      scope.attempt(*split, Target::of(TetEdge(entry.tet, e)));
-      if (!is_there(mesh, entry)) break;
+      const TetEdge edge(entry.tet, e);
+      if ((entry.todo >> e & 1u) == 0 || !changed_around(mesh, mesh.vertices(edge), since))
+        continue;
+      const auto [v, w] = mesh.vertices(edge);
+      if (!worker.tried_edges.insert(v.index(), w.index())) continue;
+      const Verdict verdict = worker.attempt(*split, Target::of(edge));
+      if (!entry.is_there(mesh)) return true;
+      if (verdict == Verdict::deferred) deferred |= static_cast<std::uint16_t>(1u << e);
     }
-  }
+    entry.todo = deferred;
+    return deferred == 0;
+  };
+  constexpr double kNewVerticesPerTet = 0.5;
+  work_off(run, scope, std::move(tets), kNewVerticesPerTet, try_tet);
 }
 
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now) {

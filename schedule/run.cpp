@@ -1,29 +1,132 @@
 // SPDX-License-Identifier: MIT
 #include "schedule/run.h"
 
+#include <algorithm>
 #include <numeric>
+#include <queue>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace tetmend {
+
+namespace {
+
+/// Small enough for many blocks, large enough that most operations stay inside one.
+constexpr std::size_t kVerticesPerBlock = 6000;
+constexpr std::size_t kMostBlocks = 65535;
+constexpr std::size_t kTicksBetweenReports = 256;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// When the last of some threads is done that take tasks of the given lengths in that order.
+double span_of(std::span<const double> sorted, std::size_t threads) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
+  for (std::size_t i = 0; i < threads; ++i) free_at.push(0);
+  double last = 0;
+  for (const double seconds : sorted) {
+    const double end = free_at.top() + seconds;
+    free_at.pop();
+    free_at.push(end);
+    last = std::max(last, end);
+  }
+  return last;
+}
+
+}  // namespace
+
+TimeSplit& TimeSplit::operator+=(const TimeSplit& other) {
+  total += other.total;
+  scans += other.scans;
+  blocks += other.blocks;
+  for (std::size_t i = 0; i < kSpans; ++i) spans[i] += other.spans[i];
+  return *this;
+}
 
 std::size_t PassRecord::attempts() const {
   return std::accumulate(verdicts.begin(), verdicts.end(), std::size_t{0});
 }
 
 Run::Run(TetMesh& mesh, const Registry& registry)
-    : mesh_(mesh),
-      registry_(registry),
-      workspace_(mesh),
-      scratch_(std::make_unique<Scratch>()),
-      context_{mesh_, workspace_, *scratch_} {}
+    : mesh_(mesh), registry_(registry), worker_(mesh, Workspace(mesh)) {
+  set_block_count(mesh.vertex_count() / kVerticesPerBlock);
+}
+
+void Run::set_trace(TraceSink* trace) {
+  trace_ = trace;
+  worker_.context().trace = trace;
+}
+
+void Run::set_block_count(std::size_t blocks) {
+  block_count_ = std::clamp<std::size_t>(blocks, 1, kMostBlocks);
+  partitions_ = {};
+}
 
 Date Run::begin_sweep(std::string_view calendar) {
-  const Date now = workspace_.date() + 1;
-  workspace_.set_date(now);
+  Workspace& workspace = worker_.workspace();
+  const Date now = workspace.date() + 1;
+  workspace.set_date(now);
   for (auto& [name, date] : last_sweep_) {
     if (name == calendar) return std::exchange(date, now);
   }
   last_sweep_.emplace_back(calendar, now);
   return 0;
+}
+
+Partition& Run::partition(unsigned shift) {
+  auto& [partition, added] = partitions_[shift];
+  if (!partition) {
+    partition = std::make_unique<Partition>(mesh_, block_count_, shift);
+  } else {
+    partition->include(mesh_, added);
+  }
+  added.clear();
+  return *partition;
+}
+
+void Run::on_all_threads(const std::function<void(Worker&)>& work) {
+  const auto work_here = [&] {
+    std::unique_ptr<Worker>& mine = workers_.local();
+    if (!mine) {
+      mine = std::make_unique<Worker>(mesh_, Workspace::without_slots(worker_.workspace()));
+    }
+    mine->context().trace = trace_;
+    mine->workspace().set_date(worker_.workspace().date());
+    work(*mine);
+  };
+  if (trace_ != nullptr) return work_here();
+  const int threads = tbb::this_task_arena::max_concurrency();
+  tbb::parallel_for(
+      0, threads, [&](int) { work_here(); }, tbb::simple_partitioner());
+}
+
+void Run::collect_from_workers(PassScope& scope) {
+  for (std::unique_ptr<Worker>& worker : workers_) {
+    if (!worker) continue;
+    worker->workspace().settle(mesh_);
+    scope.take_verdicts(*worker);
+    note_added_vertices(*worker);
+  }
+}
+
+void Run::note_added_vertices(Worker& worker) {
+  std::vector<VertexHandle>& added = worker.workspace().added_vertices();
+  for (ShiftedBlocks& blocks : partitions_) {
+    if (blocks.partition) blocks.added.insert(blocks.added.end(), added.begin(), added.end());
+  }
+  added.clear();
+}
+
+void Run::report_progress(std::string_view phase, double share) {
+  if (listener_ == nullptr) return;
+  const std::unique_lock<std::mutex> lock(listener_busy_, std::try_to_lock);
+  if (lock) listener_->progress(phase, round, share);
+}
+
+void Run::report_done(const PassRecord& record) {
+  if (listener_ != nullptr) listener_->pass_done(record.name, record.round, record.after);
 }
 
 PassScope::PassScope(Run& run, std::string_view name)
@@ -33,29 +136,49 @@ PassScope::PassScope(Run& run, std::string_view name)
 }
 
 PassScope::~PassScope() {
-  record_.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  record_.after = quality_indicators(run_.mesh());
-  if (ProgressListener* listener = run_.listener())
-    listener->pass_done(record_.name, record_.round, record_.after);
+  record_.after = measure();
+  record_.seconds = record_.split.total = seconds_since(start_);
+  run_.report_done(record_);
   run_.records.push_back(std::move(record_));
 }
 
-Verdict PassScope::attempt(const Operator& op, Target target) {
-  const Verdict verdict = op.attempt(run_.context(), target);
-  ++record_.verdicts[static_cast<std::size_t>(verdict)];
-  return verdict;
+PassScope::Scan::~Scan() {
+  scope_.record_.split.scans += seconds_since(start_);
 }
 
-bool PassScope::proceed(std::size_t done, std::size_t total) {
-  constexpr std::size_t kTicksBetweenReports = 256;
-  if (ticks_++ % kTicksBetweenReports == 0) {
-    if (ProgressListener* listener = run_.listener()) {
-      listener->progress(record_.name, record_.round,
-                         total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1.0);
-    }
+QualityIndicators PassScope::measure() {
+  const Scan timed(*this);
+  return quality_indicators(run_.mesh());
+}
+
+void PassScope::expect(std::size_t items) {
+  record_.items += items;
+  expected_ = items;
+  ticks_ = 0;
+}
+
+bool PassScope::proceed(std::size_t n) {
+  if (n % kTicksBetweenReports == 0) {
+    const std::size_t done = ticks_.fetch_add(kTicksBetweenReports);
+    run_.report_progress(record_.name, std::min(1.0, static_cast<double>(done) /
+                                                         static_cast<double>(expected_ + 1)));
   }
   return !run_.cancelled();
+}
+
+void PassScope::take_verdicts(Worker& worker) {
+  for (std::size_t i = 0; i < kVerdictCount; ++i) {
+    record_.verdicts[i] += std::exchange(worker.verdicts[i], 0);
+  }
+}
+
+void PassScope::note_blocks(std::span<const double> seconds) {
+  std::vector<double> sorted(seconds.begin(), seconds.end());
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  record_.split.blocks += std::accumulate(sorted.begin(), sorted.end(), 0.0);
+  for (std::size_t i = 0; i < TimeSplit::kSpans; ++i) {
+    record_.split.spans[i] += span_of(sorted, std::size_t{1} << i);
+  }
 }
 
 }  // namespace tetmend

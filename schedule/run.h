@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: MIT
-// One run of a schedule: the mesh, the worker's tools, the calendar of passes, progress and
-// cancellation.
+// One run of a schedule: the mesh, its workers, the calendar of passes, progress and cancellation.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "kernel/statistics.h"
 #include "ops/registry.h"
+#include "schedule/partition.h"
+#include "schedule/worker.h"
 
 namespace tetmend {
 
-/// Told how far a run has come. Called often; must be quick.
+class PassScope;
+
+/// Told how far a run has come. Called often, by any thread, never by two at once; must be quick.
 class ProgressListener {
  public:
   virtual ~ProgressListener() = default;
@@ -26,12 +33,33 @@ class ProgressListener {
   virtual void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) = 0;
 };
 
+/// How the time of passes splits up: what more threads would make of it. Measured on one thread.
+struct TimeSplit {
+  static constexpr std::size_t kSpans = 9;  ///< 1, 2, 4, ... 256 threads
+
+  double total = 0;
+  double scans = 0;                    ///< over the whole mesh, which split evenly
+  double blocks = 0;                   ///< sum over all blocks
+  std::array<double, kSpans> spans{};  ///< of the blocks on 2^i threads, largest block first
+
+  /// All that only one thread can do.
+  double alone() const { return std::max(0.0, total - scans - blocks); }
+  /// Seconds on 2^i threads.
+  double at(std::size_t i) const {
+    return alone() + scans / static_cast<double>(std::size_t{1} << i) + spans[i];
+  }
+  TimeSplit& operator+=(const TimeSplit& other);
+};
+
 /// What one pass did.
 struct PassRecord {
   std::string name;
   unsigned round = 0;
   double seconds = 0;
-  std::array<std::size_t, 7> verdicts{};  ///< by Verdict
+  std::array<std::size_t, kVerdictCount> verdicts{};  ///< by Verdict
+  std::size_t items = 0;                              ///< tets or vertices that were tried
+  std::size_t deferred = 0;  ///< of them, those that had to be tried again with other borders
+  TimeSplit split;
   QualityIndicators after;
 
   std::size_t attempts() const;
@@ -41,6 +69,9 @@ struct PassRecord {
 /// State that passes share. A neighbourhood that has not changed since a pass last looked at it is
 /// not tried again: each sweep of a pass has a date, commits write it to the vertices that they
 /// change, and a pass remembers the date of its last sweep.
+///
+/// Passes use the threads of the caller's oneTBB arena. The mesh is divided into blocks by its size
+/// alone, so that the result is the same, bit for bit, for every number of threads.
 class Run {
  public:
   Run(TetMesh& mesh, const Registry& registry);
@@ -48,13 +79,17 @@ class Run {
   TetMesh& mesh() { return mesh_; }
   const TetMesh& mesh() const { return mesh_; }
   const Registry& registry() const { return registry_; }
-  OperatorContext& context() { return context_; }
+  /// The worker of the whole mesh.
+  Worker& worker() { return worker_; }
 
   void set_listener(ProgressListener* listener) { listener_ = listener; }
-  ProgressListener* listener() const { return listener_; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
   bool cancelled() const { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
+  /// All attempts are told to the sink, by one thread. Null: no trace.
+  void set_trace(TraceSink* trace);
+  /// For experiments: another number of blocks than the size of the mesh asks for. 1: no division.
+  void set_block_count(std::size_t blocks);
 
   unsigned round = 0;  ///< of the schedule; 0 before the main loop
   std::vector<PassRecord> records;
@@ -63,14 +98,38 @@ class Run {
   /// none. Later commits carry the new date.
   Date begin_sweep(std::string_view calendar);
 
+  // The rest is for sweeps; see sweep.h.
+
+  /// How many partitions there are, with shifted blocks each; 0 for a mesh that is not divided.
+  unsigned partition_count() const { return block_count_ > 1 ? kPartitions : 0; }
+  Partition& partition(unsigned shift);
+  /// Calls `work` on every thread of the arena, with a worker of its own.
+  void on_all_threads(const std::function<void(Worker&)>& work);
+  /// Takes over what workers did in their territories. Precondition: none is active.
+  void collect_from_workers(PassScope& scope);
+  /// New vertices of a worker get a block in every partition before it is used next.
+  void note_added_vertices(Worker& worker);
+  /// Tells the listener, unless another thread is just doing so.
+  void report_progress(std::string_view phase, double share);
+  void report_done(const PassRecord& record);
+
  private:
+  static constexpr unsigned kPartitions = 3;
+  struct ShiftedBlocks {
+    std::unique_ptr<Partition> partition;  // made when first needed
+    std::vector<VertexHandle> added;       // since it was last used
+  };
+
   TetMesh& mesh_;
   const Registry& registry_;
-  Workspace workspace_;
-  std::unique_ptr<Scratch> scratch_;
-  OperatorContext context_;
+  Worker worker_;
+  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers_;
+  std::size_t block_count_ = 1;
+  std::array<ShiftedBlocks, kPartitions> partitions_;
   ProgressListener* listener_ = nullptr;
+  std::mutex listener_busy_;
   const std::atomic<bool>* cancel_ = nullptr;
+  TraceSink* trace_ = nullptr;
   std::vector<std::pair<std::string, Date>> last_sweep_;
 };
 
@@ -82,16 +141,37 @@ class PassScope {
   PassScope(const PassScope&) = delete;
   PassScope& operator=(const PassScope&) = delete;
 
-  /// Attempts and counts.
-  Verdict attempt(const Operator& op, Target target);
-  /// Reports progress now and then. False when the run is cancelled.
-  bool proceed(std::size_t done, std::size_t total);
+  /// Times a scan of the whole mesh.
+  class Scan {
+   public:
+    explicit Scan(PassScope& scope) : scope_(scope) {}
+    ~Scan();
+    Scan(const Scan&) = delete;
+    Scan& operator=(const Scan&) = delete;
+
+   private:
+    PassScope& scope_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  };
+
+  /// Indicators of the mesh, timed as a scan.
+  QualityIndicators measure();
+  /// That many items will be tried.
+  void expect(std::size_t items);
+  /// Asked before the n-th item of some range, by any thread. Reports progress now and then. False
+  /// when the run is cancelled.
+  bool proceed(std::size_t n);
+  void take_verdicts(Worker& worker);
+  void note_deferred(std::size_t items) { record_.deferred += items; }
+  /// The time of each block of a parallel phase.
+  void note_blocks(std::span<const double> seconds);
 
  private:
   Run& run_;
   PassRecord record_;
   std::chrono::steady_clock::time_point start_;
-  std::size_t ticks_ = 0;
+  std::atomic<std::size_t> ticks_ = 0;
+  std::size_t expected_ = 0;
 };
 
 }  // namespace tetmend

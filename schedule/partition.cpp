@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The borders of the blocks are quantiles of the keys of a sample of the vertices.
+#include "schedule/partition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace tetmend {
+
+namespace {
+
+/// A cube around the mesh, shifted by other fractions of its size in each direction, so that the
+/// faces between the cells of the curve, large and small, lie elsewhere.
+std::array<Point, 2> shifted_box(const TetMesh& mesh, unsigned shift) {
+  Point low = Point::Constant(std::numeric_limits<double>::infinity());
+  Point high = -low;
+  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
+    if (mesh.is_deleted(VertexHandle(i))) continue;
+    low = low.cwiseMin(mesh.point(VertexHandle(i)));
+    high = high.cwiseMax(mesh.point(VertexHandle(i)));
+  }
+  const double side = (high - low).maxCoeff();
+  // Multiples of irrational numbers never fall on the same fraction of a cell again.
+  const auto fraction = [shift](double step) { return shift * step - std::floor(shift * step); };
+  const Point offset(fraction(0.754877666), fraction(0.569840291), fraction(0.318309886));
+  const Point origin = low - side * offset;
+  return {origin, origin + Point::Constant(2 * side)};
+}
+
+constexpr std::size_t kGrain = 4096;
+
+}  // namespace
+
+Partition::Partition(const TetMesh& mesh, std::size_t blocks, unsigned shift)
+    : curve_(shifted_box(mesh, shift)), starts_(blocks, 0), block_(mesh.vertex_slots(), 0) {
+  if (blocks == 1) return;
+  constexpr std::size_t kSamplesPerBlock = 256;
+  const std::size_t stride = std::max<std::size_t>(1, block_.size() / (blocks * kSamplesPerBlock));
+  std::vector<std::uint64_t> sample;
+  sample.reserve(block_.size() / stride + 1);
+  for (std::size_t i = 0; i < block_.size(); i += stride) {
+    const VertexHandle v(static_cast<std::uint32_t>(i));
+    if (!mesh.is_deleted(v)) sample.push_back(curve_.key(mesh.point(v)));
+  }
+  std::sort(sample.begin(), sample.end());
+  for (std::size_t b = 1; b < blocks && !sample.empty(); ++b) {
+    starts_[b] = sample[b * sample.size() / blocks];
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, block_.size(), kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        const VertexHandle v(static_cast<std::uint32_t>(i));
+                        if (!mesh.is_deleted(v)) block_[i] = find_block(mesh.point(v));
+                      }
+                    });
+}
+
+void Partition::include(const TetMesh& mesh, std::span<const VertexHandle> added) {
+  block_.resize(mesh.vertex_slots(), 0);
+  for (const VertexHandle v : added) {
+    if (!mesh.is_deleted(v)) block_[v.index()] = find_block(mesh.point(v));
+  }
+}
+
+BlockId Partition::find_block(const Point& p) const {
+  const auto after = std::upper_bound(starts_.begin() + 1, starts_.end(), curve_.key(p));
+  return static_cast<BlockId>(after - starts_.begin() - 1);
+}
+
+}  // namespace tetmend

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/sweep.h"
+
+namespace tetmend {
+
+namespace {
+
+/// The part of `slots` from `begin` on, `count` long.
+template <class Handle>
+std::vector<Handle> deal(const std::vector<Handle>& slots, std::size_t begin, std::size_t end) {
+  return {slots.begin() + static_cast<std::ptrdiff_t>(begin),
+          slots.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+/// Free slots for each load, in proportion to its items. All of the mesh's are dealt out.
+std::vector<Workspace::FreeSlots> deal_slots(Run& run, std::span<const BlockLoad> loads,
+                                             double new_vertices) {
+  // Most operations leave fewer tets than they find; what runs out of slots is deferred.
+  constexpr std::size_t kLeast = 64;
+  std::size_t items = 0;
+  for (const BlockLoad& load : loads) items += kLeast + load.end - load.begin;
+  const auto vertices = static_cast<std::size_t>(new_vertices * static_cast<double>(items));
+  Workspace& all = run.worker().workspace();
+  all.provide(run.mesh(), items, vertices);
+  Workspace::FreeSlots pool = std::exchange(all.free_slots(), {});
+  const std::size_t tets = pool.tets.size();
+  const std::size_t points = pool.vertices.size();
+
+  std::vector<Workspace::FreeSlots> dealt(loads.size());
+  std::size_t done = 0;
+  for (std::size_t n = 0; n < loads.size(); ++n) {
+    const std::size_t next = done + kLeast + loads[n].end - loads[n].begin;
+    dealt[n].tets = deal(pool.tets, tets * done / items, tets * next / items);
+    dealt[n].vertices = deal(pool.vertices, points * done / items, points * next / items);
+    done = next;
+  }
+  return dealt;
+}
+
+}  // namespace
+
+void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<const BlockLoad> loads,
+                double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work) {
+  if (loads.empty()) return;
+  std::vector<Workspace::FreeSlots> slots = deal_slots(run, loads, new_vertices);
+  partition.include(run.mesh(), {});  // slots that were just made have a block, too
+  std::vector<double> seconds(loads.size(), 0);
+  std::vector<std::size_t> largest_first(loads.size());
+  for (std::size_t n = 0; n < loads.size(); ++n) largest_first[n] = n;
+  std::stable_sort(largest_first.begin(), largest_first.end(), [&](std::size_t x, std::size_t y) {
+    return loads[x].end - loads[x].begin > loads[y].end - loads[y].begin;
+  });
+  std::atomic<std::size_t> next = 0;
+  run.on_all_threads([&](Worker& worker) {
+    for (std::size_t k = next++; k < loads.size(); k = next++) {
+      const std::size_t n = largest_first[k];
+      const auto start = std::chrono::steady_clock::now();
+      worker.workspace().enter(Territory(partition.blocks(), loads[n].block), slots[n]);
+      work(worker, loads[n]);
+      worker.workspace().leave(slots[n]);
+      seconds[n] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+  });
+  Workspace::FreeSlots& all = run.worker().workspace().free_slots();
+  for (const Workspace::FreeSlots& part : slots) {
+    all.tets.insert(all.tets.end(), part.tets.begin(), part.tets.end());
+    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+  }
+  run.collect_from_workers(scope);
+  scope.note_blocks(seconds);
+}
+
+}  // namespace tetmend

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// One sweep over many targets, on all threads: each block of the mesh is worked off by one thread,
+// what crosses a border is tried again with shifted blocks, and what is left then by one thread
+// alone.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "schedule/run.h"
+
+namespace tetmend {
+
+/// What lies in one block.
+struct BlockLoad {
+  BlockId block = 0;
+  std::size_t begin = 0, end = 0;  ///< of the items
+};
+
+/// Runs `work` for each load in the territory of its block, the largest first, on the threads of
+/// the current arena. Free slots are dealt out by the size of the loads, `new_vertices` for each
+/// item. Nothing depends on the number of threads.
+void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<const BlockLoad> loads,
+                double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work);
+
+/// Fewer items than this are not worth a division into blocks.
+inline constexpr std::size_t kFewItems = 256;
+
+namespace detail {
+
+/// The items sorted into loads by block; those that lie in no single block go to `rest`.
+template <class Item>
+std::vector<BlockLoad> divide(const Partition& partition, std::vector<Item>& items,
+                              std::vector<Item>& rest) {
+  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+  std::vector<std::uint32_t> home(items.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), 4096),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        const auto vertices = items[i].corners();
+                        const BlockId block = partition.block(vertices[0]);
+                        const bool whole = std::all_of(
+                            vertices.begin(), vertices.end(),
+                            [&](VertexHandle v) { return partition.block(v) == block; });
+                        home[i] = whole ? block : kNone;
+                      }
+                    });
+  std::vector<std::size_t> start(partition.block_count() + 1, 0);
+  for (const std::uint32_t block : home) {
+    if (block != kNone) ++start[block + 1];
+  }
+  for (std::size_t b = 0; b + 1 < start.size(); ++b) start[b + 1] += start[b];
+  std::vector<BlockLoad> loads;
+  for (std::size_t b = 0; b + 1 < start.size(); ++b) {
+    if (start[b] < start[b + 1]) {
+      loads.push_back({static_cast<BlockId>(b), start[b], start[b + 1]});
+    }
+  }
+  std::vector<Item> sorted(start.back());
+  rest.clear();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (home[i] == kNone) {
+      rest.push_back(items[i]);
+    } else {
+      sorted[start[home[i]]++] = items[i];
+    }
+  }
+  items = std::move(sorted);
+  return loads;
+}
+
+/// Works off a sorted range. Items that are to be tried again stay at its front; returns their end.
+template <class Item, class TryItem>
+std::size_t work_off_range(PassScope& scope, Worker& worker, std::vector<Item>& items,
+                           std::size_t begin, std::size_t end, const TryItem& try_item) {
+  worker.tried_edges.clear();
+  worker.tried_faces.clear();
+  std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin),
+            items.begin() + static_cast<std::ptrdiff_t>(end));
+  std::size_t kept = begin;
+  for (std::size_t i = begin; i < end && scope.proceed(i - begin); ++i) {
+    Item item = items[i];
+    if (item.is_there(worker.mesh()) && !try_item(worker, item)) items[kept++] = item;
+  }
+  return kept;
+}
+
+}  // namespace detail
+
+/// Tries every item once where its neighbourhood is in one worker's hands: at most a few times.
+/// An Item has `corners()`, the vertices whose territory it needs; `is_there(mesh)`; and `<`, a
+/// total order in which items are tried. `try_item(worker, item)` is false if the attempt was
+/// deferred; it may change the item to remember what is left to do.
+template <class Item, class TryItem>
+void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_vertices,
+              const TryItem& try_item) {
+  scope.expect(items.size());
+  std::vector<Item> rest;
+  for (unsigned shift = 0; shift < run.partition_count(); ++shift) {
+    if (items.size() < kFewItems || run.cancelled()) break;
+    Partition& partition = run.partition(shift);
+    const std::vector<BlockLoad> loads = detail::divide(partition, items, rest);
+    std::vector<std::size_t> kept(partition.block_count(), 0);
+    run_blocks(run, scope, partition, loads, new_vertices,
+               [&](Worker& worker, const BlockLoad& load) {
+                 kept[load.block] =
+                     detail::work_off_range(scope, worker, items, load.begin, load.end, try_item);
+               });
+    for (const BlockLoad& load : loads) {
+      rest.insert(rest.end(), items.begin() + static_cast<std::ptrdiff_t>(load.begin),
+                  items.begin() + static_cast<std::ptrdiff_t>(kept[load.block]));
+    }
+    std::swap(items, rest);
+    scope.note_deferred(items.size());
+  }
+  detail::work_off_range(scope, run.worker(), items, 0, items.size(), try_item);
+  scope.take_verdicts(run.worker());
+  run.note_added_vertices(run.worker());
+}
+
+/// Calls take(i, out) for every i below `size`; what it appends to `out` comes back in the order of
+/// i.
+template <class Item, class Take>
+std::vector<Item> collect(PassScope& scope, std::size_t size, const Take& take) {
+  constexpr std::size_t kChunk = 1 << 16;
+  const PassScope::Scan timed(scope);
+  std::vector<std::vector<Item>> parts((size + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
+    const std::size_t end = std::min(size, (n + 1) * kChunk);
+    for (std::size_t i = n * kChunk; i < end; ++i) take(static_cast<std::uint32_t>(i), parts[n]);
+  });
+  std::vector<Item> all;
+  std::size_t total = 0;
+  for (const auto& part : parts) total += part.size();
+  all.reserve(total);
+  for (auto& part : parts) {
+    all.insert(all.end(), part.begin(), part.end());
+    part = {};
+  }
+  return all;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What one thread works with.
+#pragma once
+
+#include <array>
+
+#include "kernel/index_set.h"
+#include "ops/operator.h"
+
+namespace tetmend {
+
+/// Tools and tallies of one thread. The whole mesh is its territory unless its workspace has
+/// entered another.
+class Worker {
+ public:
+  /// `workspace` is the one with the free slots of the mesh, or a Workspace::without_slots().
+  Worker(TetMesh& mesh, Workspace workspace)
+      : workspace_(std::move(workspace)), context_{mesh, workspace_, scratch_} {}
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  const TetMesh& mesh() const { return context_.mesh; }
+  Workspace& workspace() { return workspace_; }
+  OperatorContext& context() { return context_; }
+
+  /// Attempts and counts.
+  Verdict attempt(const Operator& op, Target target) {
+    const Verdict verdict = op.attempt(context_, target);
+    ++verdicts[static_cast<std::size_t>(verdict)];
+    return verdict;
+  }
+
+  std::array<std::size_t, kVerdictCount> verdicts{};  ///< by Verdict, since last taken
+  // What was tried already and needs no second attempt; emptied for each block.
+  PairSet tried_edges;  ///< by their ends
+  PairSet tried_faces;  ///< by the two vertices opposite
+
+ private:
+  Workspace workspace_;
+  Scratch scratch_;
+  OperatorContext context_;
+};
+
+}  // namespace tetmend
