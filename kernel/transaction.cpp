@@ -546,11 +546,31 @@ void Transaction::undo_remove(const Edit& edit) {
 // -----------------------------------------------------------------------------------------------------------
 
 void Transaction::compare(std::vector<Quality>& before, std::vector<Quality>& now) const {
+  list_qualities(before, now);
+  std::sort(before.begin(), before.end());
+  std::sort(now.begin(), now.end());
+}
+
+void Transaction::list_qualities(std::vector<Quality>& before, std::vector<Quality>& now) const {
   const Journal& journal = workspace_.journal_;
-  IndexSet& touched = workspace_.touched_set_;
-  touched.clear();
   before.clear();
   now.clear();
+  if (journal.edits.size() == first_edit_ + 1) {  // no tet was touched twice
+    const Edit& edit = journal.edits.back();
+    for (std::uint32_t k = edit.removed_begin; k < edit.removed_end; ++k) {
+      before.push_back(journal.removed[k].quality);
+    }
+    for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) {
+      now.push_back(mesh_.quality(journal.created[k]));
+    }
+    for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+      before.push_back(journal.qualities[k].quality);
+      now.push_back(mesh_.quality(journal.qualities[k].tet));
+    }
+    return;
+  }
+  IndexSet& touched = workspace_.touched_set_;
+  touched.clear();
   // The first time an edit touches a slot tells what was in it when the transaction began.
   const auto touch = [&](TetHandle t) {
     if (!touched.insert(t.index())) return false;
@@ -567,8 +587,6 @@ void Transaction::compare(std::vector<Quality>& before, std::vector<Quality>& no
       if (touch(journal.qualities[k].tet)) before.push_back(journal.qualities[k].quality);
     }
   }
-  std::sort(before.begin(), before.end());
-  std::sort(now.begin(), now.end());
 }
 
 void Transaction::commit() {

@@ -57,6 +57,8 @@ class Transaction {
   /// Ascending quality vectors of all that this transaction has touched: as it was when the
   /// transaction began, and as it is now.
   void compare(std::vector<Quality>& before, std::vector<Quality>& now) const;
+  /// The same values in no particular order.
+  void list_qualities(std::vector<Quality>& before, std::vector<Quality>& now) const;
 
   /// Makes the edits part of the enclosing transaction, or of the mesh if there is none. No edit
   /// may follow.

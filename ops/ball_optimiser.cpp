@@ -17,65 +17,72 @@ namespace {
 
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
 // Several tets at once on processors that can; the same operations in the same order everywhere.
-#define TETMEND_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define TETMEND_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define TETMEND_WIDE
 #endif
 
-struct BallArrays {
-  const double *ax, *ay, *az, *bx, *by, *bz, *cx, *cy, *cz, *nx, *ny, *nz, *n2, *ab2, *bc2, *ca2;
-};
+/// Squares, with the signs, of the minimum sines of four tets with a common vertex p.
+using Lanes = BallOptimiser::Lanes;
+using Values = BallOptimiser::Values;
 
+// A vector of the compiler: one register or several, as the processor has them.
+using Vector = double __attribute__((vector_size(sizeof(Values))));
+
+/// Returns the smallest.
 TETMEND_WIDE
-void evaluate_ball(const BallArrays& ball, std::size_t size, double px, double py, double pz,
-                   double* quality) {
-  for (std::size_t i = 0; i < size; ++i) {
-    const double ux = ball.ax[i] - px, uy = ball.ay[i] - py, uz = ball.az[i] - pz;
-    const double vx = ball.bx[i] - px, vy = ball.by[i] - py, vz = ball.bz[i] - pz;
-    const double wx = ball.cx[i] - px, wy = ball.cy[i] - py, wz = ball.cz[i] - pz;
-    const double lx = vy * wz - vz * wy, ly = vz * wx - vx * wz, lz = vx * wy - vy * wx;
-    const double mx = wy * uz - wz * uy, my = wz * ux - wx * uz, mz = wx * uy - wy * ux;
-    const double kx = uy * vz - uz * vy, ky = uz * vx - ux * vz, kz = ux * vy - uy * vx;
-    const double na = lx * lx + ly * ly + lz * lz;  // face opposite a
-    const double nb = mx * mx + my * my + mz * mz;
-    const double nc = kx * kx + ky * ky + kz * kz;
-    const double np = ball.n2[i];
-    const double u2 = ux * ux + uy * uy + uz * uz;
-    const double v2 = vx * vx + vy * vy + vz * vz;
-    const double w2 = wx * wx + wy * wy + wz * wz;
-    const double v6 = ball.nx[i] * ux + ball.ny[i] * uy + ball.nz[i] * uz;
-    const double at_p = std::min(std::min(u2 * na, v2 * nb), w2 * nc) * np;
-    const double ab = ball.ab2[i] * (na * nb);
-    const double bc = ball.bc2[i] * (nb * nc);
-    const double ca = ball.ca2[i] * (nc * na);
-    const double smallest = std::min(std::min(ab, bc), std::min(ca, at_p));
-    const double product = (np * na) * (nb * nc);
-    const double ratio = smallest / (product > 0 ? product : 1.0);
-    quality[i] = product > 0 ? v6 * std::sqrt(ratio) : 0.0;
+double evaluate_ball(const Lanes* lanes, std::size_t count, double px, double py, double pz,
+                     Values* squares) {
+  using B = BallOptimiser;
+  const Vector zero = {};
+  Vector smallest = zero + std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto* ball = reinterpret_cast<const Vector*>(&lanes[n]);
+    const Vector ux = ball[B::ax] - px, uy = ball[B::ay] - py, uz = ball[B::az] - pz;
+    const Vector vx = ball[B::bx] - px, vy = ball[B::by] - py, vz = ball[B::bz] - pz;
+    const Vector wx = ball[B::cx] - px, wy = ball[B::cy] - py, wz = ball[B::cz] - pz;
+    const Vector lx = vy * wz - vz * wy, ly = vz * wx - vx * wz, lz = vx * wy - vy * wx;
+    const Vector mx = wy * uz - wz * uy, my = wz * ux - wx * uz, mz = wx * uy - wy * ux;
+    const Vector kx = uy * vz - uz * vy, ky = uz * vx - ux * vz, kz = ux * vy - uy * vx;
+    const Vector na = lx * lx + ly * ly + lz * lz;  // face opposite a
+    const Vector nb = mx * mx + my * my + mz * mz;
+    const Vector nc = kx * kx + ky * ky + kz * kz;
+    const Vector np = ball[B::n2];
+    const Vector at_a = (ux * ux + uy * uy + uz * uz) * na;
+    const Vector at_b = (vx * vx + vy * vy + vz * vz) * nb;
+    const Vector at_c = (wx * wx + wy * wy + wz * wz) * nc;
+    const Vector v6 = ball[B::nx] * ux + ball[B::ny] * uy + ball[B::nz] * uz;
+    const Vector ab = ball[B::ab2] * (na * nb);
+    const Vector bc = ball[B::bc2] * (nb * nc);
+    const Vector ca = ball[B::ca2] * (nc * na);
+    Vector at_p = at_a < at_b ? at_a : at_b;
+    at_p = (at_p < at_c ? at_p : at_c) * np;
+    Vector least = ab < bc ? ab : bc;
+    least = least < ca ? least : ca;
+    least = least < at_p ? least : at_p;
+    const Vector product = (np * na) * (nb * nc);
+    const Vector ratio = least / (product > zero ? product : zero + 1.0);
+    const Vector size = v6 < zero ? -v6 : v6;
+    const Vector square = product > zero ? v6 * size * ratio : zero;
+    *reinterpret_cast<Vector*>(&squares[n]) = square;
+    smallest = square < smallest ? square : smallest;
   }
+  double worst = smallest[0];
+  for (std::size_t i = 1; i < B::kLanes; ++i) worst = smallest[i] < worst ? smallest[i] : worst;
+  return worst;
+}
+
+double signed_root(double square) {
+  return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
 
 }  // namespace
 
-void BallOptimiser::clear() {
-  size_ = 0;
-}
-
-void BallOptimiser::reserve(std::size_t size) {
-  if (size <= capacity_) return;
-  const std::size_t capacity = std::max<std::size_t>(64, 2 * size);
-  std::vector<double> data(kFields * capacity);
-  for (std::size_t f = 0; f < kFields; ++f) {
-    std::copy_n(data_.data() + f * capacity_, size_, data.data() + f * capacity);
-  }
-  data_ = std::move(data);
-  quality_.resize(capacity);
-  capacity_ = capacity;
-}
-
 void BallOptimiser::add(const Point& a, const Point& b, const Point& c) {
-  reserve(size_ + 1);
-  const Point n = (b - a).cross(c - a);
+  const std::size_t n = size_ / kLanes;
+  const std::size_t k = size_ % kLanes;
+  if (n == lanes_.size()) lanes_.emplace_back();
+  const Point normal = (b - a).cross(c - a);
   const std::array<double, kFields> row = {a.x(),
                                            a.y(),
                                            a.z(),
@@ -85,78 +92,93 @@ void BallOptimiser::add(const Point& a, const Point& b, const Point& c) {
                                            c.x(),
                                            c.y(),
                                            c.z(),
-                                           n.x(),
-                                           n.y(),
-                                           n.z(),
-                                           n.squaredNorm(),
+                                           normal.x(),
+                                           normal.y(),
+                                           normal.z(),
+                                           normal.squaredNorm(),
                                            (b - a).squaredNorm(),
                                            (c - b).squaredNorm(),
                                            (a - c).squaredNorm()};
-  for (std::size_t f = 0; f < kFields; ++f) data_[f * capacity_ + size_] = row[f];
+  auto& of = lanes_[n].of;
+  for (std::size_t f = 0; f < kFields; ++f) {
+    if (k == 0) {
+      of[f].fill(row[f]);
+    } else {
+      of[f][k] = row[f];
+    }
+  }
   ++size_;
 }
 
+double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares) {
+  const std::size_t count = (size_ + kLanes - 1) / kLanes;
+  if (squares.size() < count) squares.resize(lanes_.size());
+  return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data());
+}
+
 double BallOptimiser::worst(const Point& p) {
-  const BallArrays ball = {field(ax), field(ay),  field(az),  field(bx), field(by), field(bz),
-                           field(cx), field(cy),  field(cz),  field(nx), field(ny), field(nz),
-                           field(n2), field(ab2), field(bc2), field(ca2)};
-  evaluate_ball(ball, size_, p.x(), p.y(), p.z(), quality_.data());
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < size_; ++i) smallest = std::min(smallest, quality_[i]);
-  return smallest;
+  return signed_root(worst_square(p, square_));
+}
+
+double BallOptimiser::quality(std::size_t i) const {
+  return signed_root(square_[i / kLanes].of[i % kLanes]);
 }
 
 double BallOptimiser::total_deficit() const {
   double sum = 0;
-  for (std::size_t i = 0; i < size_; ++i) sum += deficit(quality_[i]);
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (square_[i / kLanes].of[i % kLanes] < kBadThreshold * kBadThreshold) {
+      sum += deficit(quality(i));
+    }
+  }
   return sum;
 }
 
-/// Gradients of the sines of one tet that lie below the band.
+/// Gradients of the sines of one tet that lie below the band. Which do is decided by squares: few
+/// do.
 void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, unsigned& count) {
-  const Point a(field(ax)[i], field(ay)[i], field(az)[i]);
-  const Point b(field(bx)[i], field(by)[i], field(bz)[i]);
-  const Point c(field(cx)[i], field(cy)[i], field(cz)[i]);
-  const Point normal(field(nx)[i], field(ny)[i], field(nz)[i]);
-  const std::array<Point, 3> to = {a - p, b - p, c - p};
+  const Point normal = corner(nx, i);
+  const std::array<Point, 3> to = {corner(ax, i) - p, corner(bx, i) - p, corner(cx, i) - p};
   const double v6 = normal.dot(to[0]);
-  // Faces opposite a, b, c; their normals m and d log|m| / dp.
-  std::array<double, 4> norm{};
-  std::array<Point, 4> log_norm;
+  // Faces opposite a, b, c: their normals; the last is the link triangle.
+  std::array<Point, 3> face;
+  std::array<double, 4> norm2{};
   for (unsigned f = 0; f < 3; ++f) {
-    const Point& s = to[(f + 1) % 3];
-    const Point& t = to[(f + 2) % 3];
-    const Point m = s.cross(t);
-    const double square = m.squaredNorm();
-    if (!(square > 0)) return;
-    norm[f] = std::sqrt(square);
-    log_norm[f] = (s - t).cross(m) / square;
+    face[f] = to[(f + 1) % 3].cross(to[(f + 2) % 3]);
+    norm2[f] = face[f].squaredNorm();
+    if (!(norm2[f] > 0)) return;
   }
-  norm[3] = std::sqrt(field(n2)[i]);
-  log_norm[3] = Point::Zero();
-  if (!(norm[3] > 0)) return;
+  norm2[3] = value(n2, i);
+  if (!(norm2[3] > 0)) return;
+  const auto log_gradient = [&](unsigned f) -> Point {  // d log|normal| / dp
+    if (f == 3) return Point::Zero();
+    return (to[(f + 1) % 3] - to[(f + 2) % 3]).cross(face[f]) / norm2[f];
+  };
 
-  const std::array<double, 3> far2 = {field(bc2)[i], field(ca2)[i], field(ab2)[i]};
+  const std::array<double, 3> far2 = {value(bc2, i), value(ca2, i), value(ab2, i)};
+  const double signed_square = v6 * std::abs(v6);
+  const double band_square = band * std::abs(band);
   for (unsigned e = 0; e < 6 && count < kMaxActive; ++e) {
     // e < 3: edge from p to corner e, shared by the faces opposite the other two corners; else the
     // edge opposite corner e - 3, shared by the face opposite that corner and the one opposite p.
     const unsigned f = e < 3 ? (e + 1) % 3 : 3;
     const unsigned g = e < 3 ? (e + 2) % 3 : e - 3;
     const double length2 = e < 3 ? to[e].squaredNorm() : far2[e - 3];
-    const double scale = std::sqrt(length2) / (norm[f] * norm[g]);
-    const double sine = v6 * scale;
-    if (sine > band) continue;
-    Point log_part = -log_norm[f] - log_norm[g];
+    const double product = norm2[f] * norm2[g];
+    if (signed_square * length2 > band_square * product) continue;
+    const double scale = std::sqrt(length2 / product);
+    Point log_part = -log_gradient(f) - log_gradient(g);
     if (e < 3) log_part -= to[e] / length2;
-    gradients_[count++] = -scale * normal + sine * log_part;
+    gradients_[count++] = -scale * normal + v6 * scale * log_part;
   }
 }
 
 unsigned BallOptimiser::find_active(const Point& p, double worst, double width) {
   const double band = worst + width * std::max(std::abs(worst), 0.02);
+  const double band_square = band * std::abs(band);
   unsigned count = 0;
   for (std::size_t i = 0; i < size_ && count < kMaxActive; ++i) {
-    if (quality_[i] <= band) add_gradients(i, p, band, count);
+    if (square_[i / kLanes].of[i % kLanes] <= band_square) add_gradients(i, p, band, count);
   }
   return count;
 }
@@ -164,28 +186,33 @@ unsigned BallOptimiser::find_active(const Point& p, double worst, double width) 
 double BallOptimiser::local_length(const Point& p) const {
   double sum = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    sum += std::sqrt((Point(field(ax)[i], field(ay)[i], field(az)[i]) - p).squaredNorm());
+    sum += (corner(ax, i) - p).norm();
   }
   return sum / static_cast<double>(size_);
 }
 
 /// Follows one direction from p. Returns the gain, 0 if there is none; p and `best` follow, `step`
 /// is the last length tried.
-double BallOptimiser::ascend(Point& p, double& best, double width, double length, double& step) {
+double BallOptimiser::ascend(Point& p, double& best, double width, double length, double& step,
+                             double least_step) {
   const unsigned count = find_active(p, best, width);
   if (count == 0) return 0;
   const Point direction = shortest_in_hull(gradients_.data(), count);
   const double slope = direction.norm();  // of the slowest active sine along the unit direction
   if (!(slope * length > 1e-3)) return 0;
   const Point unit = direction / slope;
+  const double start = best;
   double gain = 0;
   double taken = 0;
-  for (step = std::min(2 * step, 0.5 * length); step > 1e-4 * length; step *= 0.5) {
-    const double value = worst(p + step * unit) - best;
-    if (gain > 0 && value <= gain) break;
-    if (value > gain) {
-      gain = value;
+  for (step = std::min(2 * step, 0.5 * length); step > least_step * length; step *= 0.5) {
+    const double reached = signed_root(worst_square(p + step * unit, trial_));
+    const double rise = reached - start;
+    if (gain > 0 && rise <= gain) break;
+    if (rise > gain) {
+      gain = rise;
       taken = step;
+      best = reached;
+      std::swap(square_, trial_);
       if (gain > 0.8 * step * slope) break;
     }
   }
@@ -193,19 +220,18 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
     p += taken * unit;
     step = taken;
   }
-  best = worst(p);
   return gain;
 }
 
 double BallOptimiser::optimise(Point& p, const Limits& limits) {
-  // A wide band sees the ridge ahead, a narrow one the slope at hand.
-  constexpr std::array<double, 3> kWidths = {0.03, 0.15, 0.004};
+  // A narrow band sees the slope at hand, a wide one the ridge ahead.
+  constexpr std::array<double, 2> kWidths = {0.03, 0.15};
   double best = worst(p);
   const double length = local_length(p);
   double step = 0.25 * length;
   std::size_t width = 0;
   for (int i = 0; i < limits.steps && best < limits.enough && width < kWidths.size(); ++i) {
-    if (ascend(p, best, kWidths[width], length, step) < limits.least_gain) {
+    if (ascend(p, best, kWidths[width], length, step, limits.least_step) < limits.least_gain) {
       if (best >= kBadThreshold) break;
       ++width;
       step = 0.1 * length;
@@ -218,20 +244,23 @@ double BallOptimiser::optimise(Point& p, const Limits& limits) {
 
 namespace {
 
-/// Shortest vector in the hull of a simplex of up to four points; drops the points that do not
-/// carry it.
+/// Shortest vector in the hull of a simplex of up to four points, whose last is new: the face that
+/// carries the vector has it as a corner. Drops the other points.
 Point reduce_simplex(std::array<Point, 4>& s, unsigned& count) {
-  // All faces of the simplex, by bits; the best feasible one. At most 15 tiny systems.
-  Point best = s[0];
-  double best_square = std::numeric_limits<double>::infinity();
-  unsigned best_mask = 1;
-  for (unsigned mask = 1; mask < (1u << count); ++mask) {
-    std::array<Point, 4> q = s;
+  // The faces with the new point, by bits of the others; the best feasible one. At most 8 tiny
+  // systems.
+  const unsigned last = count - 1;
+  Point best = s[last];
+  double best_square = best.squaredNorm();
+  unsigned best_mask = 0;
+  for (unsigned mask = 1; mask < (1u << last); ++mask) {
+    std::array<Point, 4> q;
     unsigned n = 0;
-    for (unsigned i = 0; i < count; ++i) {
+    for (unsigned i = 0; i < last; ++i) {
       if (mask >> i & 1u) q[n++] = s[i];
     }
-    Point x = q[0];
+    q[n++] = s[last];
+    Point x;
     if (n == 2) {
       const Point d = q[1] - q[0];
       const double t = -q[0].dot(d) / d.squaredNorm();
@@ -246,7 +275,7 @@ Point reduce_simplex(std::array<Point, 4>& s, unsigned& count) {
       const double v = (q[2] - x).cross(q[0] - x).dot(normal);
       const double w = (q[0] - x).cross(q[1] - x).dot(normal);
       if (!(u > 0 && v > 0 && w > 0)) continue;
-    } else if (n == 4) {
+    } else {
       const double whole = (q[1] - q[0]).dot((q[2] - q[0]).cross(q[3] - q[0]));
       const double d0 = q[1].dot(q[2].cross(q[3])) / whole;
       const double d1 = -q[0].dot(q[2].cross(q[3])) / whole;
@@ -263,9 +292,10 @@ Point reduce_simplex(std::array<Point, 4>& s, unsigned& count) {
     }
   }
   unsigned n = 0;
-  for (unsigned i = 0; i < count; ++i) {
+  for (unsigned i = 0; i < last; ++i) {
     if (best_mask >> i & 1u) s[n++] = s[i];
   }
+  s[n++] = s[last];
   count = n;
   return best;
 }

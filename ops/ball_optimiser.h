@@ -21,46 +21,58 @@ class BallOptimiser {
     int steps = 40;            ///< directions tried
     double enough = 0.6;       ///< stop when the worst quality exceeds this
     double least_gain = 1e-5;  ///< stop when a step gains less
+    double least_step = 1e-2;  ///< shortest step, as a share of the size of the ball
   };
 
-  void clear();
+  void clear() { size_ = 0; }
   /// A link triangle; (p, a, b, c) is positive for a vertex p inside the ball.
   void add(const Point& a, const Point& b, const Point& c);
   std::size_t size() const { return size_; }
 
   /// Smallest minimum sine of the ball with its vertex at p. Keeps the values of the single tets,
-  /// see qualities(). Cost: linear.
+  /// see quality(). Cost: linear.
   double worst(const Point& p);
-  /// Minimum sines of the tets at the last call of worst(), in the order of add().
-  const double* qualities() const { return quality_.data(); }
+  /// Minimum sine of the i-th tet added, at the last call of worst().
+  double quality(std::size_t i) const;
   /// Sum of deficit() over the tets at the last call of worst().
   double total_deficit() const;
 
   /// Ascends from p; returns the best quality and moves p there. At least worst(p) of the start.
   double optimise(Point& p, const Limits& limits);
 
+  // Four tets side by side; a lane that is not in use repeats another.
+  static constexpr std::size_t kLanes = 4;
+  // Corners, normal of the triangle, squared normal, squared edges.
+  enum Field { ax, ay, az, bx, by, bz, cx, cy, cz, nx, ny, nz, n2, ab2, bc2, ca2, kFields };
+  struct alignas(sizeof(double) * kLanes) Lanes {
+    std::array<std::array<double, kLanes>, kFields> of;
+  };
+  struct alignas(sizeof(double) * kLanes) Values {
+    std::array<double, kLanes> of;
+  };
+
  private:
   static constexpr unsigned kMaxActive = 16;
 
-  void reserve(std::size_t size);
+  double worst_square(const Point& p, std::vector<Values>& squares);
   unsigned find_active(const Point& p, double worst, double width);
-  double ascend(Point& p, double& best, double width, double length, double& step);
+  double ascend(Point& p, double& best, double width, double length, double& step,
+                double least_step);
   void add_gradients(std::size_t tet, const Point& p, double band, unsigned& count);
   double local_length(const Point& p) const;
+  double value(Field f, std::size_t tet) const { return lanes_[tet / kLanes].of[f][tet % kLanes]; }
+  Point corner(Field x, std::size_t tet) const {
+    const Lanes& lanes = lanes_[tet / kLanes];
+    const std::size_t k = tet % kLanes;
+    return {lanes.of[x][k], lanes.of[x + 1][k], lanes.of[x + 2][k]};
+  }
 
   std::size_t size_ = 0;
-  std::size_t capacity_ = 0;  // of each array below
-  // Structure of arrays: corners, normal of the triangle with offset, squared normal, squared
-  // edges.
-  enum Field { ax, ay, az, bx, by, bz, cx, cy, cz, nx, ny, nz, n2, ab2, bc2, ca2, kFields };
-  std::vector<double> data_;
-  std::vector<double> quality_;
+  std::vector<Lanes> lanes_;
+  // Squares of the qualities with their signs: the root is taken of few.
+  std::vector<Values> square_;
+  std::vector<Values> trial_;
   std::array<Point, kMaxActive> gradients_;
-
-  double* field(Field f) { return data_.data() + static_cast<std::size_t>(f) * capacity_; }
-  const double* field(Field f) const {
-    return data_.data() + static_cast<std::size_t>(f) * capacity_;
-  }
 };
 
 /// Shortest vector in the convex hull of `count` points. Source: Wolfe's method, in the form of an

@@ -94,7 +94,7 @@ class EdgeContraction final : public Operator {
     for (std::size_t i = 0; i < scratch.link.size(); ++i) {
       const auto [a, b, c] = mesh.vertices(scratch.link[i]);
       if (a == w || b == w || c == w) continue;
-      const double q = scratch.ball.qualities()[i];
+      const double q = scratch.ball.quality(i);
       if (!(q > least)) return false;
       scratch.qualities.push_back(static_cast<Quality>(q));
     }
@@ -107,9 +107,9 @@ class EdgeContraction final : public Operator {
 };
 
 constexpr std::array<ParameterSpec, 2> kParameters = {{
-    {"least_ratio", ParameterSpec::Kind::real, 0, 1, 0.3,
+    {"least_ratio", ParameterSpec::Kind::real, 0, 1, 0.7,
      "least worst quality before smoothing, as a share of the old worst quality"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 8,
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 5,
      "most directions that the smoothing follows"},
 }};
 

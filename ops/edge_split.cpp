@@ -49,7 +49,7 @@ class EdgeSplit final : public Operator {
     scratch.point = 0.5 * (a + b);
     const double reached = scratch.ball.optimise(scratch.point, limits_);
     // What is left to be gained by smoothing the neighbours is limited.
-    constexpr double kRelaxedShare = 0.5;
+    constexpr double kRelaxedShare = 0.2;
     const double least = relax_ ? kRelaxedShare * std::max(floor, 0.0f) : floor + least_gain_;
     return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }
@@ -87,7 +87,7 @@ class EdgeSplit final : public Operator {
       if (round > 0) break;
       reconnect(context, v);
       // The second round of smoothing is as dear as the first; it cannot make up for this much.
-      constexpr Quality kHopeless = 0.85f;
+      constexpr Quality kHopeless = 0.5f;
       transaction.compare(scratch.before, scratch.now);
       if (scratch.now[0] < kHopeless * std::max(scratch.before[0], 0.0f)) break;
     }

@@ -2,11 +2,22 @@
 // The fixed order of an attempt.
 #include "ops/operator.h"
 
+#include <algorithm>
+
 namespace tetmend {
 
 bool is_better(const Transaction& transaction, Scratch& scratch) {
   if (transaction.empty()) return false;
-  transaction.compare(scratch.before, scratch.now);
+  transaction.list_qualities(scratch.before, scratch.now);
+  // The worst tets decide nearly always; then nothing needs to be sorted.
+  if (!scratch.before.empty() && !scratch.now.empty()) {
+    const Quality worst_before = *std::min_element(scratch.before.begin(), scratch.before.end());
+    const Quality worst_now = *std::min_element(scratch.now.begin(), scratch.now.end());
+    if (worst_now < worst_before) return false;
+    if (worst_now > worst_before + kQualityTolerance) return true;
+  }
+  std::sort(scratch.before.begin(), scratch.before.end());
+  std::sort(scratch.now.begin(), scratch.now.end());
   return improves(scratch.now, scratch.before);
 }
 
@@ -30,8 +41,10 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
 }
 
 void report_end(OperatorContext& context, Verdict verdict) {
-  const Scratch& scratch = context.scratch;
+  Scratch& scratch = context.scratch;
   if (verdict == Verdict::accepted) {
+    std::sort(scratch.before.begin(), scratch.before.end());
+    std::sort(scratch.now.begin(), scratch.now.end());
     context.trace->attempt_ends(to_string(verdict), scratch.before, scratch.now);
   } else {
     context.trace->attempt_ends(to_string(verdict), {}, {});

@@ -112,7 +112,8 @@ constexpr Verdict to_verdict(EditResult result) {
   return Verdict::not_applicable;
 }
 
-/// True if all that the transaction changed is better now; leaves the vectors in the scratch.
+/// True if all that the transaction changed is better now; leaves the qualities in the scratch, in
+/// no particular order.
 bool is_better(const Transaction& transaction, Scratch& scratch);
 
 /// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last

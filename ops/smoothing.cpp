@@ -85,7 +85,7 @@ constexpr std::array<ParameterSpec, 4> kParameters = {{
      "then climb to the best place if bad tets remain"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 12,
+    {"steps", ParameterSpec::Kind::integer, 1, 1000, 6,
      "most directions that the optimisation follows"},
 }};
 

@@ -55,16 +55,24 @@ bool changed_around(const TetMesh& mesh, const std::array<VertexHandle, N>& vert
   return all;
 }
 
-/// Bad tets in slot order.
+/// The worst of the bad tets.
 std::vector<BadTet> collect_bad_tets(PassScope& scope, const TetMesh& mesh, Quality threshold,
-                                     Date since) {
-  return collect<BadTet>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadTet>& out) {
-    const TetHandle t(i);
-    if (mesh.quality(t) >= threshold || mesh.is_deleted(t)) return;
-    if (changed_since(mesh, mesh.vertices(t), since)) {
-      out.push_back({mesh.quality(t), t, mesh.vertices(t)});
-    }
-  });
+                                     Worst worst, Date since) {
+  auto tets =
+      collect<BadTet>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadTet>& out) {
+        const TetHandle t(i);
+        if (mesh.quality(t) >= threshold || mesh.is_deleted(t)) return;
+        if (changed_since(mesh, mesh.vertices(t), since)) {
+          out.push_back({mesh.quality(t), t, mesh.vertices(t)});
+        }
+      });
+  if (worst.below >= threshold || tets.size() <= worst.at_least) return tets;
+  const auto least = tets.begin() + static_cast<std::ptrdiff_t>(worst.at_least);
+  std::nth_element(tets.begin(), least, tets.end());
+  tets.erase(std::remove_if(least, tets.end(),
+                            [&](const BadTet& tet) { return tet.quality >= worst.below; }),
+             tets.end());
+  return tets;
 }
 
 /// Movable vertices of bad tets around which something changed, in slot order.
@@ -172,7 +180,7 @@ void local_reconnection(Run& run, const LocalReconnection& options) {
   const Reconnection reconnection(run.registry(), options);
   for (unsigned sweep = 0; sweep < options.sweeps && !run.cancelled(); ++sweep) {
     const Date since = run.begin_sweep(options.calendar);
-    auto tets = collect_bad_tets(scope, run.mesh(), options.threshold, since);
+    auto tets = collect_bad_tets(scope, run.mesh(), options.threshold, options.worst, since);
     if (tets.empty()) return;
     work_off(run, scope, std::move(tets), 0, [&](Worker& worker, BadTet& entry) {
       return reconnection.remove(worker, entry, since);
@@ -211,13 +219,7 @@ void insert_points(Run& run, const InsertionPass& options) {
   const TetMesh& mesh = run.mesh();
   const auto split = run.registry().make("edge_split", options.settings);
   const Date since = run.begin_sweep(options.calendar);
-  auto tets = collect_bad_tets(scope, mesh, options.threshold, since);
-  const auto most = std::max(
-      static_cast<std::size_t>(options.share * static_cast<double>(mesh.tet_count())), kFewTets);
-  if (tets.size() > most) {
-    std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(most), tets.end());
-    tets.resize(most);
-  }
+  auto tets = collect_bad_tets(scope, mesh, options.threshold, options.worst, since);
   const auto try_tet = [&](Worker& worker, BadTet& entry) {
     const auto longest_first = sorted_edges([&](unsigned e) {
       const auto& [v, w] = kEdgeVertices[e];
@@ -242,8 +244,8 @@ void insert_points(Run& run, const InsertionPass& options) {
 }
 
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now) {
-  constexpr double kQualityStep = 1e-3;
-  const double bad_step = std::max(1.0, 0.03 * static_cast<double>(before.n_bad));
+  constexpr double kQualityStep = 5e-3;
+  const double bad_step = std::max(1.0, 0.05 * static_cast<double>(before.n_bad));
   if (now.q_worst > before.q_worst + kQualityStep) return true;
   if (static_cast<double>(now.n_bad) <= static_cast<double>(before.n_bad) - bad_step) return true;
   return now.n_bad <= before.n_bad && now.n_bad > 0 && now.q_aver > before.q_aver + kQualityStep;

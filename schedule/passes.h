@@ -7,6 +7,12 @@
 
 namespace tetmend {
 
+/// Limits a pass to the worst tets: those below `below`, and always the worst `at_least`.
+struct Worst {
+  Quality below = 1;
+  std::size_t at_least = 200;
+};
+
 // Options hold the operators to use by name and the parameters of the pass, so that a script can
 // set them. `calendar` names the dates by which unchanged neighbourhoods are passed over: passes
 // with other settings, which may succeed where this one failed, need one of their own.
@@ -18,13 +24,14 @@ struct LocalReconnection {
   ParameterSettings face_settings = {};
   Quality threshold = kBadThreshold;  ///< tets below it are tried
   unsigned sweeps = 2;                ///< new bad tets are tried in the next sweep
+  Worst worst = {};
 };
 
 struct SmoothingPass {
   std::string calendar = "smoothing";
   ParameterSettings settings = {};
   Quality threshold = kBadThreshold;
-  unsigned cycles = 5;  ///< at most; ends earlier when a cycle brings no progress
+  unsigned cycles = 4;  ///< at most; ends earlier when a cycle brings no progress
 };
 
 struct SuppressionPass {
@@ -37,12 +44,8 @@ struct InsertionPass {
   std::string calendar = "point_insertion";
   ParameterSettings settings = {};
   Quality threshold = kBadThreshold;
-  double share = 1;  ///< of the mesh: at most that many tets are tried, the worst, but never fewer
-                     ///< than kFewTets
+  Worst worst = {};
 };
-
-/// A pass limited to a share of the mesh may always try this many tets.
-inline constexpr std::size_t kFewTets = 200;
 
 /// [chen, Alg. 5]: bad tets from the worst up; edges of the tet in the order of their dihedral
 /// angle's sine, then faces, until the tet is gone.

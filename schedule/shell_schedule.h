@@ -7,25 +7,35 @@
 namespace tetmend {
 
 struct ShellSchedule {
-  unsigned max_rounds = 30;  ///< of the main loop
-  unsigned max_failed =
-      2;  ///< rounds in sequence without progress that end it, counted once the rounds are thorough
+  unsigned max_rounds = 30;     ///< in all
+  double least_progress = 0.1;  ///< a round that leaves more than 1 - this share of the bad tets is
+                                ///< the last before the rounds become thorough
+  unsigned max_failed = 1;      ///< thorough rounds in sequence without progress that end the loop
+  unsigned last_rounds = 4;     ///< for the very worst tets
   LocalReconnection reconnection;
   SmoothingPass smoothing;
   SuppressionPass suppression;
   InsertionPass insertion;
-  // Added when a round brought no progress and the rounds become thorough.
+  // Of the thorough rounds: dear forms for the worst tets.
   LocalReconnection unfiltered_reconnection = {.calendar = "unfiltered reconnection",
                                                .edge_settings = {{"reflex_only", 0}},
-                                               .threshold = 0.35f};
-  InsertionPass relaxed_insertion = {
-      .calendar = "relaxed insertion", .settings = {{"relax", 1}}, .share = 0.001};
+                                               .worst = {.below = 0.25f, .at_least = 100}};
+  InsertionPass relaxed_insertion = {.calendar = "relaxed insertion",
+                                     .settings = {{"relax", 1}},
+                                     .worst = {.below = 0.25f, .at_least = 100}};
+  // Of the last rounds: for few tets, a new mild bad tet is no reason to refuse.
+  LocalReconnection last_reconnection = {.calendar = "last reconnection",
+                                         .edge_settings = {{"reflex_only", 0}},
+                                         .worst = {.below = 0, .at_least = 32}};
+  InsertionPass last_insertion = {.calendar = "last insertion",
+                                  .settings = {{"relax", 1}, {"desperate", 0.35}},
+                                  .worst = {.below = 0, .at_least = 32}};
 };
 
-/// Repeats reconnection, suppression and insertion, each followed by smoothing, until rounds make
-/// no more progress; then goes on with unfiltered recursion and relaxed insertion until that makes
-/// no more progress either. Never changes the surface. Stops early when no bad tet is left or the
-/// run is cancelled.
+/// Repeats reconnection, suppression and insertion, each followed by smoothing, until rounds bring
+/// little; goes on with unfiltered recursion and relaxed insertion for the worst tets until that
+/// brings little either; ends with a few rounds for the very worst. Never changes the surface.
+/// Stops early when no bad tet is left or the run is cancelled.
 void improve(Run& run, const ShellSchedule& schedule = {});
 
 }  // namespace tetmend

@@ -144,7 +144,7 @@ TEST_CASE("the worst of a ball is the smallest minimum sine, tet by tet") {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       const Triangle& t = triangles[i];
       const double direct = minimum_sine(p, t[0], t[1], t[2]);
-      CHECK(ball.qualities()[i] == doctest::Approx(direct).epsilon(1e-12));
+      CHECK(ball.quality(i) == doctest::Approx(direct).epsilon(1e-12));
     }
   }
 }
@@ -162,7 +162,7 @@ TEST_CASE("a ball keeps its triangles when its arrays grow") {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
     const double direct = minimum_sine(p, t[0], t[1], t[2]);
-    CHECK(ball.qualities()[i] == doctest::Approx(direct).epsilon(1e-9));
+    CHECK(ball.quality(i) == doctest::Approx(direct).epsilon(1e-9));
   }
 }
 
@@ -320,7 +320,7 @@ TEST_CASE("degenerate triangles give quality 0 and no wrong numbers") {
     CHECK(std::isfinite(reached));
     CHECK(p.allFinite());
     CHECK(reached >= before);
-    for (std::size_t i = 0; i < 3; ++i) CHECK(ball.qualities()[i] == doctest::Approx(0));
+    for (std::size_t i = 0; i < 3; ++i) CHECK(ball.quality(i) == doctest::Approx(0));
   }
 }
 
