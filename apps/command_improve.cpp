@@ -16,6 +16,7 @@
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
 #include "apps/progress_line.h"
+#include "apps/threads.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/integrity.h"
@@ -26,7 +27,6 @@ namespace tetmend::apps {
 namespace {
 
 constexpr std::string_view kShell = "shell";
-constexpr int kMaxThreads = 1024;
 
 struct Options {
   std::filesystem::path input;
@@ -83,10 +83,7 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
   }
   const Stopwatch watch(report.seconds.building);
   progress.show("building the mesh");
-  TetMesh mesh = build_mesh(options.input, data, report.build);
-  data = {};
-  mesh.sort_spatially();
-  return mesh;
+  return build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build);
 }
 
 void run_schedule(TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
@@ -144,6 +141,7 @@ std::size_t peak_memory() {
 
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
+  const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
   report.arguments = invocation.arguments;
@@ -195,13 +193,7 @@ void add_improve(CLI::App& app, Invocation& invocation) {
                    "What is tried in which order; see\n"
                    "'tetmend schedules' (default: shell)")
       ->type_name("NAME");
-  command
-      ->add_option("--threads", options->threads,
-                   "Worker threads, 1 to 1024 (default: 1). This\n"
-                   "version works on one whatever is asked for; the\n"
-                   "result is the same for every number")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMaxThreads).description(""));
+  add_threads_option(*command, options->threads);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

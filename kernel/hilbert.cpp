@@ -4,6 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include <tbb/parallel_sort.h>
+
+#include "kernel/chunks.h"
 
 namespace tetmend {
 
@@ -15,12 +20,20 @@ constexpr int kBits = 21;
 
 HilbertCurve::HilbertCurve(std::span<const Point> points) {
   if (points.empty()) return;
-  Point low = points[0];
-  Point high = points[0];
-  for (const Point& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+  using Box = std::pair<Point, Point>;
+  const auto extend = [](Box& box, const Point& low, const Point& high) {
+    box.first = box.first.cwiseMin(low);
+    box.second = box.second.cwiseMax(high);
+  };
+  const auto boxes = map_chunks<Box>(points.size(), [&](std::size_t begin, std::size_t end) {
+    Box box(points[begin], points[begin]);
+    for (std::size_t i = begin; i < end; ++i) extend(box, points[i], points[i]);
+    return box;
+  });
+  Box all = boxes[0];
+  for (const Box& box : boxes) extend(all, box.first, box.second);
+  const Point& low = all.first;
+  const Point& high = all.second;
   origin_ = low;
   const double side = (high - low).maxCoeff();
   scale_ = side > 0 ? ((1 << kBits) - 1) / side : 0;
@@ -55,6 +68,19 @@ std::uint64_t HilbertCurve::key(const Point& p) const {
     for (const std::uint32_t axis : x) key = key << 1 | (((axis ^ t) >> bit) & 1u);
   }
   return key;
+}
+
+void sort_along_curve(std::span<const Point> points, std::vector<std::uint32_t>& numbers) {
+  const HilbertCurve curve(points);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(numbers.size());
+  for_chunks(numbers.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      keyed[i] = {curve.key(points[numbers[i]]), numbers[i]};
+  });
+  tbb::parallel_sort(keyed.begin(), keyed.end());
+  for_chunks(numbers.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) numbers[i] = keyed[i].second;
+  });
 }
 
 }  // namespace tetmend

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "kernel/chunks.h"
+#include "kernel/grouping.h"
 #include "kernel/hilbert.h"
 
 namespace tetmend {
@@ -71,28 +73,26 @@ void TetMesh::collect_garbage() {
 }
 
 void TetMesh::sort_spatially() {
-  const HilbertCurve curve(points_);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  std::vector<std::uint32_t> vertex_order;
+  vertex_order.reserve(vertex_count_);
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    if (!is_deleted(VertexHandle(v))) keyed.emplace_back(curve.key(points_[v]), v);
+    if (!is_deleted(VertexHandle(v))) vertex_order.push_back(v);
   }
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> vertex_order(keyed.size());
+  sort_along_curve(points_, vertex_order);
   std::vector<std::uint32_t> rank(points_.size());
-  for (std::uint32_t i = 0; i < keyed.size(); ++i) {
-    vertex_order[i] = keyed[i].second;
-    rank[keyed[i].second] = i;
-  }
-  keyed.clear();
-  for (std::uint32_t t = 0; t < cells_.size(); ++t) {
-    if (is_deleted(TetHandle(t))) continue;
-    std::uint32_t first = Handle<void>::kInvalid;
-    for (const VertexHandle v : cells_[t].vertices) first = std::min(first, rank[v.index()]);
-    keyed.emplace_back(first, t);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> tet_order(keyed.size());
-  for (std::uint32_t i = 0; i < keyed.size(); ++i) tet_order[i] = keyed[i].second;
+  for (std::uint32_t i = 0; i < vertex_order.size(); ++i) rank[vertex_order[i]] = i;
+  // Tets by their first vertex; the deleted ones last.
+  const auto none = static_cast<std::uint32_t>(vertex_order.size());
+  std::vector<std::uint32_t> first(cells_.size(), none);
+  for_chunks(cells_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      if (is_deleted(TetHandle(static_cast<std::uint32_t>(t)))) continue;
+      for (const VertexHandle v : cells_[t].vertices)
+        first[t] = std::min(first[t], rank[v.index()]);
+    }
+  });
+  std::vector<std::uint32_t> tet_order = group_by_key(first, none + 1).order;
+  tet_order.resize(tet_count_);
   reorder(vertex_order, tet_order);
 }
 
