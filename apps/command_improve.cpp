@@ -17,6 +17,7 @@
 #include "apps/interruption.h"
 #include "apps/progress_line.h"
 #include "apps/threads.h"
+#include "kernel/chunks.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/integrity.h"
@@ -103,11 +104,15 @@ void run_schedule(TetMesh& mesh, ProgressLine& progress, ImproveReport& report) 
 }
 
 double touched_share(const TetMesh& mesh) {
-  std::size_t touched = 0;
-  for (std::size_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(static_cast<std::uint32_t>(i));
-    if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++touched;
-  }
+  const std::size_t touched =
+      count_in_chunks(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const TetHandle t(static_cast<std::uint32_t>(i));
+          if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++count;
+        }
+        return count;
+      });
   return static_cast<double>(touched) / static_cast<double>(mesh.tet_count());
 }
 
