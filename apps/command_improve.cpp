@@ -21,6 +21,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/integrity.h"
+#include "kernel/mesh_view.h"
 #include "kernel/surface.h"
 #include "schedule/shell_schedule.h"
 
@@ -171,7 +172,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
   {
     const Stopwatch watch(report.seconds.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
-    write_mesh(options.output, mesh.to_data());
+    write_mesh(options.output, MeshView(mesh));
   }
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);

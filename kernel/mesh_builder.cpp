@@ -28,6 +28,24 @@
 
 namespace tetmend {
 
+namespace {
+
+/// Room that is taken before it is needed costs addresses, not memory: an improved mesh may be a
+/// little larger, and arrays that grow would be there twice meanwhile.
+template <class T>
+void resize_with_room(std::vector<T>& values, std::size_t size) {
+  values.reserve(size + size / 4);
+  values.resize(size);
+}
+
+/// Assigning an empty list would keep the memory.
+template <class T>
+void release(std::vector<T>& values) {
+  std::vector<T>().swap(values);
+}
+
+}  // namespace
+
 class MeshBuilder {
  public:
   MeshBuilder(MeshData&& data, TetMesh& mesh, BuildReport& report)
@@ -104,18 +122,6 @@ class MeshBuilder {
   std::vector<char> swapped_;            // single tets that were put right; empty: none
 };
 
-namespace {
-
-/// Room that is taken before it is needed costs addresses, not memory: an improved mesh may be a
-/// little larger, and arrays that grow would be there twice meanwhile.
-template <class T>
-void resize_with_room(std::vector<T>& values, std::size_t size) {
-  values.reserve(size + size / 4);
-  values.resize(size);
-}
-
-}  // namespace
-
 void MeshBuilder::check_indices() const {
   const std::size_t n = data_.points.size();
   const auto& tets = data_.tets;
@@ -170,7 +176,7 @@ void MeshBuilder::place_vertices(bool sorted) {
         slot_of_[mesh_.vertex_origin_[v]] = static_cast<std::uint32_t>(v);
       }
     });
-    data_.points = {};
+    release(data_.points);
   } else {
     mesh_.points_ = std::move(data_.points);
   }
@@ -206,7 +212,7 @@ Grouping MeshBuilder::place_tets(bool sorted) {
       mesh_.label_[t] = tet.label;
     }
   });
-  data_.tets = {};
+  release(data_.tets);
   resize_with_room(mesh_.quality_, n);
   resize_with_room(mesh_.tet_flags_, n);
   mesh_.tet_count_ = n;
@@ -426,7 +432,7 @@ void MeshBuilder::build_surface(const FaceBuckets& buckets) {
       add_surface_face(f, triangle);
     }
   }
-  data_.triangles = {};
+  release(data_.triangles);
   const std::vector<HalfFace> unnamed = unnamed_faces();
   mesh_.surface_.reserve(named + unnamed.size());
   for (const HalfFace f : unnamed) add_surface_face(f, {mesh_.vertices(f), 0, false, false, false});

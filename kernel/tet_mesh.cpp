@@ -9,54 +9,30 @@
 #include "kernel/chunks.h"
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend {
 
 MeshData TetMesh::to_data() const {
-  // Vertices of the file keep their order; the rest follows by slot.
-  std::vector<std::uint32_t> order;
-  order.reserve(vertex_count_);
-  for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    if (!is_deleted(VertexHandle(v))) order.push_back(v);
-  }
-  const auto by_origin = [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(vertex_origin_[a], a) < std::pair(vertex_origin_[b], b);
-  };
-  if (!std::is_sorted(order.begin(), order.end(), by_origin)) {
-    std::sort(order.begin(), order.end(), by_origin);
-  }
-
+  const MeshView view(*this);
   MeshData data;
-  std::vector<std::uint32_t> number(points_.size());
-  data.points.reserve(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const std::uint32_t v = order[i];
-    number[v] = i;
-    data.points.push_back(points_[v]);
-    if (!point_labels_.empty()) {
-      data.point_labels.push_back(
-          vertex_origin_[v] == kNotFromFile ? 0 : point_labels_[vertex_origin_[v]]);
-    }
-    if ((vertex_flags_[v] & kVertexRequired) != 0) data.required_vertices.push_back(i);
+  data.points.resize(view.point_count());
+  for_chunks(view.point_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) data.points[i] = view.point(i);
+  });
+  for (std::size_t i = 0; view.has_point_labels() && i < view.point_count(); ++i) {
+    data.point_labels.push_back(view.point_label(i));
   }
-  data.tets.reserve(tet_count_);
-  for (std::uint32_t t = 0; t < cells_.size(); ++t) {
-    if (is_deleted(TetHandle(t))) continue;
-    const TetVertices& v = cells_[t].vertices;
-    data.tets.push_back(
-        {{number[v[0].index()], number[v[1].index()], number[v[2].index()], number[v[3].index()]},
-         label_[t]});
-  }
-  for (const SurfaceTriangle& triangle : surface_) {
-    if (!triangle.named) continue;
-    const auto& v = triangle.vertices;
-    data.triangles.push_back(
-        {{number[v[0].index()], number[v[1].index()], number[v[2].index()]}, triangle.label});
-  }
-  for (const NamedEdge& edge : named_edges_) {
-    data.edges.push_back(
-        {{number[edge.vertices[0].index()], number[edge.vertices[1].index()]}, edge.label});
-  }
+  data.tets.resize(view.tet_count());
+  tbb::parallel_for(std::size_t{0}, view.tet_blocks(), [&](std::size_t block) {
+    std::vector<MeshData::Tet> buffer;
+    const auto tets = view.tets(block, buffer);
+    std::copy(tets.begin(), tets.end(),
+              data.tets.begin() + static_cast<std::ptrdiff_t>(view.first_tet(block)));
+  });
+  data.triangles.assign(view.triangles().begin(), view.triangles().end());
+  data.edges.assign(view.edges().begin(), view.edges().end());
+  data.required_vertices.assign(view.required_vertices().begin(), view.required_vertices().end());
   return data;
 }
 

@@ -176,6 +176,7 @@ class TetMesh {
  private:
   friend class Transaction;
   friend class MeshBuilder;
+  friend class MeshView;
   friend struct TetMeshTestAccess;  // defined in a test only: makes broken meshes
 
   struct Cell {
