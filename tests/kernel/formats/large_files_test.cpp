@@ -96,8 +96,8 @@ TEST_CASE("of several errors in a large text file the first is told with its lin
   }
   for (const std::size_t line : lines) {
     std::string bad = good;
-    bad.replace(offset_of_line(bad, last_line - 1), 1, "x");  // a later error
-    bad.replace(offset_of_line(bad, line), 1, "?");
+    bad[offset_of_line(bad, last_line - 1)] = 'x';  // a later error
+    bad[offset_of_line(bad, line)] = '?';
     write_text(folder / "b.mesh", bad);
     for (const int threads : {1, 4}) {
       const std::string error =
