@@ -83,11 +83,10 @@ void OutputFile::put_blocks(
     std::size_t blocks, const std::function<void(std::size_t block, OutputBuffer& buffer)>& fill) {
   flush();
   // Blocks leave in order: with so many under way, the last but so many has left its buffer.
-  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  const std::size_t under_way =
-      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1
-          ? 1
-          : 2 * threads;
+  const std::size_t threads = std::min<std::size_t>(
+      static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const std::size_t under_way = threads == 1 ? 1 : 2 * threads;
   std::vector<OutputBuffer> buffers(under_way);
   std::size_t next = 0;
   const auto begin = [&](tbb::flow_control& control) {
