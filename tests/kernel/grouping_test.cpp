@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Groups of items by key against a stable sort.
+// Groups of items by key against a sort by key and item.
 #include "kernel/grouping.h"
 
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -24,8 +25,9 @@ TEST_CASE(
       for (std::uint32_t& k : key) k = static_cast<std::uint32_t>(random()) % keys;
       std::vector<std::uint32_t> order(items);
       std::iota(order.begin(), order.end(), 0u);
-      std::stable_sort(order.begin(), order.end(),
-                       [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+      std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(key[a], a) < std::pair(key[b], b);
+      });
       for (const int threads : {1, 4}) {
         const Grouping grouping = on_threads(threads, [&] { return group_by_key(key, keys); });
         CHECK(grouping.order == order);
