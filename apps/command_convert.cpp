@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/threads.h"
 #include "kernel/formats/mesh_io.h"
 
 namespace tetmend::apps {
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::filesystem::path input;
   std::filesystem::path output;
+  int threads = 1;
 };
 
 /// No adjacency is built, so that a mesh of broken topology can be converted too.
@@ -22,6 +24,7 @@ int run_convert(const Options& options) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_writable(options.output);
+  const ThreadLimit limit(options.threads);
   const MeshData data = read_mesh(options.input);
   write_mesh(options.output, data);
   fmt::print("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
@@ -37,6 +40,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another file format");
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write")->required()->type_name("");
+  add_threads_option(*command, options->threads);
   command->footer(fmt::format(
       R"(Keeps points, tets, triangles, edges and their labels, and their order;
 coordinates keep all their bits. Required vertices survive in MEDIT files only.

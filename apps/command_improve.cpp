@@ -16,9 +16,12 @@
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
 #include "apps/progress_line.h"
+#include "apps/threads.h"
+#include "kernel/chunks.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/integrity.h"
+#include "kernel/mesh_view.h"
 #include "kernel/surface.h"
 #include "schedule/shell_schedule.h"
 
@@ -26,7 +29,6 @@ namespace tetmend::apps {
 namespace {
 
 constexpr std::string_view kShell = "shell";
-constexpr int kMaxThreads = 1024;
 
 struct Options {
   std::filesystem::path input;
@@ -83,10 +85,7 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
   }
   const Stopwatch watch(report.seconds.building);
   progress.show("building the mesh");
-  TetMesh mesh = build_mesh(options.input, data, report.build);
-  data = {};
-  mesh.sort_spatially();
-  return mesh;
+  return build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build);
 }
 
 void run_schedule(TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
@@ -106,11 +105,15 @@ void run_schedule(TetMesh& mesh, ProgressLine& progress, ImproveReport& report) 
 }
 
 double touched_share(const TetMesh& mesh) {
-  std::size_t touched = 0;
-  for (std::size_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(static_cast<std::uint32_t>(i));
-    if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++touched;
-  }
+  const std::size_t touched =
+      count_in_chunks(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const TetHandle t(static_cast<std::uint32_t>(i));
+          if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++count;
+        }
+        return count;
+      });
   return static_cast<double>(touched) / static_cast<double>(mesh.tet_count());
 }
 
@@ -144,6 +147,7 @@ std::size_t peak_memory() {
 
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
+  const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
   report.arguments = invocation.arguments;
@@ -168,7 +172,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
   {
     const Stopwatch watch(report.seconds.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
-    write_mesh(options.output, mesh.to_data());
+    write_mesh(options.output, MeshView(mesh));
   }
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);
@@ -195,13 +199,7 @@ void add_improve(CLI::App& app, Invocation& invocation) {
                    "What is tried in which order; see\n"
                    "'tetmend schedules' (default: shell)")
       ->type_name("NAME");
-  command
-      ->add_option("--threads", options->threads,
-                   "Worker threads, 1 to 1024 (default: 1). This\n"
-                   "version works on one whatever is asked for; the\n"
-                   "result is the same for every number")
-      ->type_name("N")
-      ->check(CLI::Range(1, kMaxThreads).description(""));
+  add_threads_option(*command, options->threads);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

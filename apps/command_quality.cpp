@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/threads.h"
 #include "kernel/formats/mesh_io.h"
 #include "schedule/report.h"
 
@@ -20,6 +21,7 @@ struct Options {
   std::filesystem::path file;
   std::vector<std::string> measures;
   bool json = false;
+  int threads = 1;
 };
 
 std::vector<const QualityMeasure*> find_measures(const std::vector<std::string>& names) {
@@ -57,9 +59,10 @@ void print_json(const std::filesystem::path& file, const MeshStatistics& statist
 
 int run_quality(const Options& options) {
   check_mesh_extension(options.file);
+  const ThreadLimit limit(options.threads);
   const auto measures = find_measures(options.measures);
   BuildReport build;
-  const TetMesh mesh = build_mesh(options.file, read_mesh(options.file), build);
+  const TetMesh mesh = build_mesh(options.file, read_mesh(options.file), MeshOrder::of_file, build);
   const MeshStatistics statistics = compute_statistics(mesh);
   std::vector<MeasureSummary> extra;
   for (const QualityMeasure* measure : measures) extra.push_back(summarize(mesh, *measure));
@@ -95,6 +98,7 @@ void add_quality(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
+  add_threads_option(*command, options->threads);
   command->footer(fmt::format(R"(The angles are those between the faces of a tet, in degrees.
   lambda          share of the angles that are <= 30 or >= 150
   lambda_1..5     its parts: angles within 6, 6-12, ... 24-30 degrees of 0 or 180

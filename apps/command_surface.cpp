@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/threads.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/surface.h"
 
@@ -18,6 +19,7 @@ struct Options {
   std::filesystem::path output;
   bool bad = false;
   bool constraints = false;
+  int threads = 1;
 };
 
 int run_surface(const Options& options) {
@@ -28,8 +30,10 @@ int run_surface(const Options& options) {
     throw UsageError(error.what());
   }
   check_writable(options.output);
+  const ThreadLimit limit(options.threads);
   BuildReport build;
-  const TetMesh mesh = build_mesh(options.input, read_mesh(options.input), build);
+  const TetMesh mesh =
+      build_mesh(options.input, read_mesh(options.input), MeshOrder::of_file, build);
   const SurfaceMesh surface = options.bad           ? extract_bad_faces(mesh)
                               : options.constraints ? extract_constraints(mesh)
                                                     : extract_boundary(mesh);
@@ -57,6 +61,7 @@ void add_surface(CLI::App& app, Invocation& invocation) {
                  "volume that improving keeps: between two labels,\n"
                  "or named by the file")
       ->excludes(bad);
+  add_threads_option(*command, options->threads);
   command->footer(fmt::format(
       R"(The triangles of the boundary are listed counterclockwise as seen from outside.
 Where the surface is not manifold, vertices appear twice.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -49,9 +50,11 @@ std::string mesh_format_list() {
   return text + '\n';
 }
 
-TetMesh build_mesh(const std::filesystem::path& file, const MeshData& data, BuildReport& report) {
+TetMesh build_mesh(const std::filesystem::path& file, MeshData data, MeshOrder order,
+                   BuildReport& report) {
   try {
-    return TetMesh(data, &report);
+    return order == MeshOrder::spatial ? TetMesh::sorted(std::move(data), &report)
+                                       : TetMesh(std::move(data), &report);
   } catch (const BuildError& error) {
     throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
   } catch (const Error& error) {

@@ -4,6 +4,8 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include "kernel/chunks.h"
+
 namespace tetmend {
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -13,16 +15,28 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 }
 
 ExactOrientation count_orientations(const TetMesh& mesh) {
-  ExactOrientation count;
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_deleted(t)) continue;
-    const TetVertices& v = mesh.vertices(t);
-    const int sign =
-        exact_orientation(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-    ++(sign > 0 ? count.positive : sign < 0 ? count.negative : count.zero);
+  const auto parts =
+      map_chunks<ExactOrientation>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        ExactOrientation count;
+        for (std::size_t slot = begin; slot < end; ++slot) {
+          const TetHandle t(static_cast<std::uint32_t>(slot));
+          if (mesh.is_deleted(t)) continue;
+          const TetVertices& v = mesh.vertices(t);
+          const int sign = mesh.is_certified_positive(v)
+                               ? 1
+                               : exact_orientation(mesh.point(v[0]), mesh.point(v[1]),
+                                                   mesh.point(v[2]), mesh.point(v[3]));
+          ++(sign > 0 ? count.positive : sign < 0 ? count.negative : count.zero);
+        }
+        return count;
+      });
+  ExactOrientation sum;
+  for (const ExactOrientation& part : parts) {
+    sum.positive += part.positive;
+    sum.zero += part.zero;
+    sum.negative += part.negative;
   }
-  return count;
+  return sum;
 }
 
 }  // namespace tetmend

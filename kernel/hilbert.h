@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "kernel/mesh_data.h"
 
@@ -22,5 +23,9 @@ class HilbertCurve {
   Point origin_ = Point::Zero();
   double scale_ = 0;  // cells per unit length
 };
+
+/// Sorts numbers of points along the curve through all `points`; points of one cell by their
+/// number.
+void sort_along_curve(std::span<const Point> points, std::vector<std::uint32_t>& numbers);
 
 }  // namespace tetmend

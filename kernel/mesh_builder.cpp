@@ -2,67 +2,102 @@
 // Builds a TetMesh from plain arrays: orientation, adjacency, constraints, qualities.
 //
 //   check indices
-//   orient: swap two vertices of every tet if most are negative; of single tets that are not
-//   positive if their neighbours ask for it match faces: bucket the half-faces by smallest vertex,
-//   sort each bucket by the other two, pair equal ones surface: named triangles in file order, then
-//   boundary faces and label interfaces that no triangle names constraints: face bits, edge bits,
-//   fixed vertices
+//   slots: as the file has vertices and tets, or along a curve, so that all that follows works on
+//   neighbours in memory; the arrays of the file are released on the way
+//   orient: swap two vertices of every tet if most are negative
+//   match faces, vertex by vertex those of which it is the smallest; where that fails swap two
+//   vertices of single tets that are not positive, if their neighbours ask for it, and match again
+//   surface: named triangles in file order, then boundary faces and label interfaces that no
+//   triangle names
+//   constraints: face bits, edge bits, fixed vertices
 #include <algorithm>
+#include <atomic>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "kernel/chunks.h"
+#include "kernel/face_buckets.h"
+#include "kernel/grouping.h"
+#include "kernel/hilbert.h"
 #include "kernel/shell.h"
 #include "kernel/tet_mesh.h"
 #include "kernel/workspace.h"
 
 namespace tetmend {
 
+namespace {
+
+/// Room that is taken before it is needed costs addresses, not memory: an improved mesh may be a
+/// little larger, and arrays that grow would be there twice meanwhile.
+template <class T>
+void resize_with_room(std::vector<T>& values, std::size_t size) {
+  values.reserve(size + size / 4);
+  values.resize(size);
+}
+
+/// Assigning an empty list would keep the memory.
+template <class T>
+void release(std::vector<T>& values) {
+  std::vector<T>().swap(values);
+}
+
+}  // namespace
+
 class MeshBuilder {
  public:
-  MeshBuilder(const MeshData& data, TetMesh& mesh, BuildReport& report)
-      : data_(data), mesh_(mesh), report_(report) {}
+  MeshBuilder(MeshData&& data, TetMesh& mesh, BuildReport& report)
+      : data_(std::move(data)), mesh_(mesh), report_(report) {}
 
-  void build() {
+  void build(bool sorted) {
     check_indices();
-    copy_points();
-    copy_tets();
+    place_vertices(sorted);
+    const FaceBuckets buckets(mesh_, place_tets(sorted));
     orient();
-    match_all_faces();
-    build_surface();
+    match_faces(buckets);
+    build_surface(buckets);
     link_vertices();
-    evaluate();
     mark_edges();
     mark_vertices();
   }
 
  private:
-  /// A half-face in the bucket of its smallest vertex; `even` tells in which sense the tet lists
-  /// (smallest, low, high).
-  struct FaceRecord {
-    std::uint32_t low;
-    std::uint32_t high;
-    std::uint32_t half_face;
-    bool even;
+  struct Signs {
+    std::size_t positive = 0;  // by the computed volume
+    std::size_t negative = 0;
+    std::size_t inverted = 0;  // certainly
+    std::size_t flat = 0;      // or too close to tell
   };
+  using Entry = FaceBuckets::Entry;
 
   void check_indices() const;
-  void copy_points();
-  void copy_tets();
+  void place_vertices(bool sorted);
+  Grouping place_tets(bool sorted);
+  Signs evaluate();
   void orient();
+  void match_faces(const FaceBuckets& buckets);
+  std::vector<std::uint32_t> match(const FaceBuckets& buckets);
   void reorder_tets();
-  void fill_buckets();
-  void match_all_faces();
-  std::size_t count_same_side() const;
-  void match_pair(const FaceRecord& a, const FaceRecord& b);
-  void build_surface();
+  void check_buckets(const FaceBuckets& buckets, const std::vector<std::uint32_t>& vertices,
+                     bool senses) const;
+  void build_surface(const FaceBuckets& buckets);
   void add_surface_face(HalfFace f, SurfaceTriangle triangle);
+  std::vector<HalfFace> unnamed_faces() const;
   void link_vertices();
-  void evaluate();
   void mark_edges();
   void mark_vertices();
-  [[noreturn]] void fail_same_side(const FaceRecord& a, const FaceRecord& b) const;
 
+  // The file's numbers of what has a slot.
+  std::uint32_t file_tet(std::size_t t) const {
+    return file_tet_.empty() ? static_cast<std::uint32_t>(t) : file_tet_[t];
+  }
+  std::uint32_t file_code(HalfFace f) const { return 4 * file_tet(f.tet().index()) + f.face(); }
+  /// The slot of the file's vertex.
+  VertexHandle vertex(std::uint32_t number) const {
+    return VertexHandle(slot_of_.empty() ? number : slot_of_[number]);
+  }
   void swap_orientation(std::size_t t) {
     std::swap(mesh_.cells_[t].vertices[2], mesh_.cells_[t].vertices[3]);
   }
@@ -70,43 +105,49 @@ class MeshBuilder {
     const TetVertices& v = mesh_.cells_[t].vertices;
     return volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
   }
+  /// As the file lists it.
   std::string describe(std::size_t t) const {
-    const auto& v = data_.tets[t].vertices;
-    return fmt::format("tet {} (vertices {} {} {} {})", t + 1, v[0] + 1, v[1] + 1, v[2] + 1,
-                       v[3] + 1);
-  }
-  bool is_flat(std::size_t t, double v6) const {
-    const TetVertices& v = mesh_.cells_[t].vertices;
-    const double sign = v6 < 0 ? -1.0 : 1.0;
-    return sign > 0 ? !mesh_.is_certified_positive(v)
-                    : !mesh_.is_certified_positive({v[0], v[1], v[3], v[2]});
+    TetVertices v = mesh_.cells_[t].vertices;
+    if (report_.mirrored != (!swapped_.empty() && swapped_[t] != 0)) std::swap(v[2], v[3]);
+    const auto number = [&](unsigned i) { return mesh_.vertex_origin_[v[i].index()] + 1; };
+    return fmt::format("tet {} (vertices {} {} {} {})", file_tet(t) + 1, number(0), number(1),
+                       number(2), number(3));
   }
 
-  const MeshData& data_;
+  MeshData data_;
   TetMesh& mesh_;
   BuildReport& report_;
-  std::vector<std::uint32_t> bucket_begin_;  // by smallest vertex
-  std::vector<FaceRecord> records_;
+  std::vector<std::uint32_t> slot_of_;   // by the file's vertex number; empty: the same
+  std::vector<std::uint32_t> file_tet_;  // by slot; empty: the same
+  std::vector<char> swapped_;            // single tets that were put right; empty: none
 };
 
 void MeshBuilder::check_indices() const {
   const std::size_t n = data_.points.size();
-  if (data_.tets.empty()) throw Error("the mesh has no tetrahedra");
-  if (data_.tets.size() >= (std::size_t{1} << 29) || n >= (std::size_t{1} << 31)) {
+  const auto& tets = data_.tets;
+  if (tets.empty()) throw Error("the mesh has no tetrahedra");
+  if (tets.size() >= (std::size_t{1} << 29) || n >= (std::size_t{1} << 31)) {
     throw Error(fmt::format("{} tetrahedra and {} points are more than 32-bit indices can name",
-                            data_.tets.size(), n));
+                            tets.size(), n));
   }
-  for (std::size_t t = 0; t < data_.tets.size(); ++t) {
-    const auto& v = data_.tets[t].vertices;
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (v[i] >= n) {
-        throw BuildError(fmt::format("{}: no point {}, there are {}", describe(t), v[i] + 1ull, n),
-                         t);
-      }
-      for (std::size_t j = 0; j < i; ++j) {
-        if (v[i] == v[j]) throw BuildError(describe(t) + ": the same vertex twice", t);
-      }
-    }
+  const auto is_wrong = [n](const MeshData::Tet& tet) {
+    const auto& [a, b, c, d] = tet.vertices;
+    return std::max(std::max(a, b), std::max(c, d)) >= n || a == b || a == c || a == d || b == c ||
+           b == d || c == d;
+  };
+  const auto wrong = map_chunks<std::size_t>(tets.size(), [&](std::size_t begin, std::size_t end) {
+    while (begin < end && !is_wrong(tets[begin])) ++begin;
+    return begin < end ? begin : tets.size();
+  });
+  if (const std::size_t t = *std::min_element(wrong.begin(), wrong.end()); t < tets.size()) {
+    const auto& v = tets[t].vertices;
+    const auto* missing = std::find_if(v.begin(), v.end(), [n](std::uint32_t i) { return i >= n; });
+    const std::string reason = missing == v.end()
+                                   ? "the same vertex twice"
+                                   : fmt::format("no point {}, there are {}", *missing + 1ull, n);
+    throw BuildError(fmt::format("tet {} (vertices {} {} {} {}): {}", t + 1, v[0] + 1ull,
+                                 v[1] + 1ull, v[2] + 1ull, v[3] + 1ull, reason),
+                     t);
   }
   const auto check = [n](std::span<const std::uint32_t> vertices, const char* what,
                          std::size_t number) {
@@ -121,175 +162,232 @@ void MeshBuilder::check_indices() const {
   check(data_.required_vertices, "required vertex", 0);
 }
 
-void MeshBuilder::copy_points() {
+void MeshBuilder::place_vertices(bool sorted) {
   const std::size_t n = data_.points.size();
-  mesh_.points_ = data_.points;
-  mesh_.vertex_tet_.assign(n, TetHandle());
-  mesh_.vertex_flags_.assign(n, 0);
-  mesh_.vertex_date_.assign(n, 0);
-  mesh_.vertex_moved_.assign(n, 0);
-  mesh_.vertex_origin_.resize(n);
-  for (std::uint32_t v = 0; v < n; ++v) mesh_.vertex_origin_[v] = v;
+  resize_with_room(mesh_.vertex_origin_, n);
+  std::iota(mesh_.vertex_origin_.begin(), mesh_.vertex_origin_.end(), 0u);
+  if (sorted) {
+    sort_along_curve(data_.points, mesh_.vertex_origin_);
+    slot_of_.resize(n);
+    resize_with_room(mesh_.points_, n);
+    for_chunks(n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        mesh_.points_[v] = data_.points[mesh_.vertex_origin_[v]];
+        slot_of_[mesh_.vertex_origin_[v]] = static_cast<std::uint32_t>(v);
+      }
+    });
+    release(data_.points);
+  } else {
+    mesh_.points_ = std::move(data_.points);
+  }
+  resize_with_room(mesh_.vertex_tet_, n);
+  resize_with_room(mesh_.vertex_flags_, n);
+  resize_with_room(mesh_.vertex_date_, n);
+  resize_with_room(mesh_.vertex_moved_, n);
   mesh_.vertex_count_ = n;
   mesh_.vertex_properties_.resize(n);
-  mesh_.point_labels_ = data_.point_labels;
+  mesh_.point_labels_ = std::move(data_.point_labels);
 }
 
-void MeshBuilder::copy_tets() {
+/// Gives the tets by their smallest vertex.
+Grouping MeshBuilder::place_tets(bool sorted) {
   const std::size_t n = data_.tets.size();
-  mesh_.cells_.resize(n);
-  mesh_.label_.resize(n);
-  mesh_.tet_flags_.assign(n, 0);
-  mesh_.quality_.assign(n,
-                        0);  // computed in the end; a workspace that looks at them is needed before
+  Grouping groups;
+  {
+    std::vector<std::uint32_t> smallest(n);
+    for_chunks(n, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const auto& v = data_.tets[t].vertices;
+        smallest[t] = std::min({vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3])}).index();
+      }
+    });
+    groups = group_by_key(smallest, static_cast<std::uint32_t>(mesh_.points_.size()));
+  }
+  if (sorted) file_tet_ = std::exchange(groups.order, {});
+  resize_with_room(mesh_.cells_, n);
+  resize_with_room(mesh_.label_, n);
+  for_chunks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const MeshData::Tet& tet = data_.tets[file_tet(t)];
+      for (std::size_t i = 0; i < 4; ++i) mesh_.cells_[t].vertices[i] = vertex(tet.vertices[i]);
+      mesh_.label_[t] = tet.label;
+    }
+  });
+  release(data_.tets);
+  resize_with_room(mesh_.quality_, n);
+  resize_with_room(mesh_.tet_flags_, n);
   mesh_.tet_count_ = n;
   mesh_.tet_properties_.resize(n);
-  for (std::size_t t = 0; t < n; ++t) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      mesh_.cells_[t].vertices[i] = VertexHandle(data_.tets[t].vertices[i]);
-    }
-    mesh_.label_[t] = data_.tets[t].label;
-  }
+  return groups;
 }
 
-/// Counts, for the orientation at hand, the faces on whose one side two tets lie.
-std::size_t MeshBuilder::count_same_side() const {
-  std::size_t count = 0;
-  for (std::size_t i = 1; i < records_.size(); ++i) {
-    const FaceRecord& a = records_[i - 1];
-    const FaceRecord& b = records_[i];
-    const bool same_bucket = !std::binary_search(bucket_begin_.begin(), bucket_begin_.end(), i);
-    if (same_bucket && a.low == b.low && a.high == b.high && a.even == b.even) ++count;
+/// Computes the qualities, and counts signs on the way.
+MeshBuilder::Signs MeshBuilder::evaluate() {
+  const auto parts =
+      map_chunks<Signs>(mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {
+        Signs signs;
+        for (std::size_t t = begin; t < end; ++t) {
+          const TetVertices& v = mesh_.cells_[t].vertices;
+          mesh_.quality_[t] = mesh_.evaluate(v);
+          if (mesh_.is_certified_positive(v)) {
+            ++signs.positive;
+            continue;
+          }
+          const double v6 = tet_volume6(t);
+          signs.positive += v6 > 0 ? 1 : 0;
+          signs.negative += v6 < 0 ? 1 : 0;
+          const bool inverted = v6 < 0 && mesh_.is_certified_positive({v[0], v[1], v[3], v[2]});
+          ++(inverted ? signs.inverted : signs.flat);
+        }
+        return signs;
+      });
+  Signs sum;
+  for (const Signs& part : parts) {
+    sum.positive += part.positive;
+    sum.negative += part.negative;
+    sum.inverted += part.inverted;
+    sum.flat += part.flat;
   }
-  return count;
+  report_.inverted_tets = sum.inverted;
+  report_.flat_tets = sum.flat;
+  return sum;
 }
 
 void MeshBuilder::orient() {
-  std::size_t negative = 0;
-  std::size_t positive = 0;
-  for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) {
-    const double v6 = tet_volume6(t);
-    if (v6 < 0) ++negative;
-    if (v6 > 0) ++positive;
-  }
-  if (negative > positive) {
-    report_.mirrored = true;
-    for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) swap_orientation(t);
-  }
-  fill_buckets();
+  const Signs signs = evaluate();
+  if (signs.negative <= signs.positive) return;
+  report_.mirrored = true;
+  for_chunks(mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) swap_orientation(t);
+  });
+  evaluate();
+}
+
+void MeshBuilder::match_faces(const FaceBuckets& buckets) {
+  std::vector<std::uint32_t> trouble = match(buckets);
+  if (trouble.empty()) return;
+  check_buckets(buckets, trouble, false);
   // A negative tet is folded over, or it lists its vertices the other way round. Only the latter
   // clashes with its neighbours.
-  if (count_same_side() > 0) reorder_tets();
+  reorder_tets();
+  trouble = match(buckets);
+  check_buckets(buckets, trouble, true);
+  evaluate();
+}
+
+/// Makes neighbours of the tets that share a face. Gives the vertices where two tets lie on the
+/// same side of a face or more than two have it.
+std::vector<std::uint32_t> MeshBuilder::match(const FaceBuckets& buckets) {
+  constexpr std::size_t kVerticesOfChunk = 2048;
+  const auto parts = map_chunks<std::vector<std::uint32_t>>(
+      mesh_.points_.size(),
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> trouble;
+        FacePairs pairs;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto v = static_cast<std::uint32_t>(i);
+          bool sound = true;
+          pairs.begin(buckets.bound(v));
+          buckets.visit(v, [&](const Entry& entry) {
+            Entry other;
+            const FacePairs::Found found = pairs.add(entry, other);
+            if (found == FacePairs::Found::first) return;
+            sound &= found == FacePairs::Found::second && entry.even != other.even;
+            if (found == FacePairs::Found::third) return;
+            mesh_.cells_[entry.face.tet().index()].neighbours[entry.face.face()] = other.face;
+            mesh_.cells_[other.face.tet().index()].neighbours[other.face.face()] = entry.face;
+          });
+          if (!sound) trouble.push_back(v);
+        }
+        return trouble;
+      },
+      kVerticesOfChunk);
+  std::vector<std::uint32_t> trouble;
+  for (const auto& part : parts) trouble.insert(trouble.end(), part.begin(), part.end());
+  return trouble;
+}
+
+/// Throws for the first tet, as the file counts them, that is one too many at a face, or that lies
+/// on the same side of a face as another one.
+void MeshBuilder::check_buckets(const FaceBuckets& buckets,
+                                const std::vector<std::uint32_t>& vertices, bool senses) const {
+  std::size_t first = mesh_.cells_.size();
+  std::string message;
+  const auto blame = [&](HalfFace f, const std::string& what) {
+    const std::size_t t = file_tet(f.tet().index());
+    if (t >= first) return;
+    first = t;
+    message = describe(f.tet().index()) + what;
+  };
+  std::vector<Entry> entries;
+  for (const std::uint32_t v : vertices) {
+    entries.clear();
+    buckets.visit(v, [&](const Entry& entry) { entries.push_back(entry); });
+    std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+      return std::tuple(a.low, a.high, file_code(a.face)) <
+             std::tuple(b.low, b.high, file_code(b.face));
+    });
+    for (std::size_t i = 0; i < entries.size();) {
+      std::size_t j = i + 1;
+      while (j < entries.size() && entries[j].same_face(entries[i])) ++j;
+      if (j - i > 2) {
+        blame(entries[i + 2].face, ": a face of it has more than two tets");
+      } else if (senses && j - i == 2 && entries[i].even == entries[i + 1].even) {
+        blame(entries[i + 1].face, fmt::format(" and {} lie on the same side of their common face",
+                                               describe(entries[i].face.tet().index())));
+      }
+      i = j;
+    }
+  }
+  if (!message.empty()) throw BuildError(message, first);
 }
 
 /// Gives each tet that is not certainly positive the sense that its neighbours ask for, from the
-/// positive tets inwards.
+/// positive tets inwards. Forgets the neighbours.
 void MeshBuilder::reorder_tets() {
-  const std::size_t n = mesh_.cells_.size();
-  // Neighbours by half-face, with the top bit set where both tets list the face in the same sense.
-  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-  constexpr std::uint32_t kSame = 0x80000000u;
-  std::vector<std::uint32_t> across(4 * n, kNone);
-  for (std::size_t i = 1; i < records_.size(); ++i) {
-    const FaceRecord& a = records_[i - 1];
-    const FaceRecord& b = records_[i];
-    const bool same_bucket = !std::binary_search(bucket_begin_.begin(), bucket_begin_.end(), i);
-    if (!same_bucket || a.low != b.low || a.high != b.high) continue;
-    across[a.half_face] = b.half_face | (a.even == b.even ? kSame : 0);
-    across[b.half_face] = a.half_face | (a.even == b.even ? kSame : 0);
-  }
+  const auto n = static_cast<std::uint32_t>(mesh_.cells_.size());
+  const auto is_even = [&](HalfFace f) {
+    auto v = mesh_.vertices(f);
+    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+    return v[1] < v[2];
+  };
+  std::vector<std::uint32_t> slots(n);  // in the order of the file
+  for (std::uint32_t t = 0; t < n; ++t) slots[file_tet(t)] = t;
   std::vector<char> settled(n, 0);
-  std::vector<char> swapped(n, 0);
+  swapped_.assign(n, 0);
   std::vector<std::uint32_t> queue;
   const auto settle = [&](std::uint32_t t, bool swap) {
     settled[t] = 1;
-    swapped[t] = swap;
+    swapped_[t] = swap;
     queue.push_back(t);
   };
   const auto spread = [&] {
     while (!queue.empty()) {
       const std::uint32_t t = queue.back();
       queue.pop_back();
-      for (std::uint32_t f = 4 * t; f < 4 * t + 4; ++f) {
-        if (across[f] == kNone) continue;
-        const std::uint32_t u = (across[f] & ~kSame) >> 2;
-        if (!settled[u]) settle(u, (swapped[t] != 0) != ((across[f] & kSame) != 0));
+      for (unsigned f = 0; f < 4; ++f) {
+        const HalfFace here(TetHandle(t), f);
+        const HalfFace twin = mesh_.twin(here);
+        if (twin.is_outside()) continue;
+        const std::uint32_t u = twin.tet().index();
+        if (!settled[u]) settle(u, (swapped_[t] != 0) != (is_even(here) == is_even(twin)));
       }
     }
   };
-  for (std::uint32_t t = 0; t < n; ++t) {
+  for (const std::uint32_t t : slots) {
     if (mesh_.is_certified_positive(mesh_.cells_[t].vertices)) settle(t, false);
   }
   spread();
-  for (std::uint32_t t = 0; t < n; ++t) {  // parts without a positive tet
+  for (const std::uint32_t t : slots) {  // parts without a positive tet
     if (settled[t]) continue;
     settle(t, tet_volume6(t) < 0);
     spread();
   }
   for (std::uint32_t t = 0; t < n; ++t) {
-    if (!swapped[t]) continue;
+    mesh_.cells_[t].neighbours = {};
+    if (!swapped_[t]) continue;
     swap_orientation(t);
     ++report_.reordered_tets;
-  }
-  fill_buckets();
-}
-
-void MeshBuilder::fill_buckets() {
-  const std::size_t faces = 4 * mesh_.cells_.size();
-  bucket_begin_.assign(mesh_.points_.size() + 1, 0);
-  records_.resize(faces);
-  const auto smallest = [&](std::uint32_t code) {
-    const auto v = mesh_.vertices(HalfFace::from_code(code));
-    return std::min({v[0], v[1], v[2]}).index();
-  };
-  for (std::uint32_t code = 0; code < faces; ++code) ++bucket_begin_[smallest(code) + 1];
-  for (std::size_t v = 1; v < bucket_begin_.size(); ++v) bucket_begin_[v] += bucket_begin_[v - 1];
-  std::vector<std::uint32_t> next(bucket_begin_.begin(), bucket_begin_.end() - 1);
-  for (std::uint32_t code = 0; code < faces; ++code) {
-    auto v = mesh_.vertices(HalfFace::from_code(code));
-    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-    const bool even = v[1] < v[2];
-    records_[next[v[0].index()]++] = {std::min(v[1], v[2]).index(), std::max(v[1], v[2]).index(),
-                                      code, even};
-  }
-  for (std::size_t v = 0; v + 1 < bucket_begin_.size(); ++v) {
-    std::sort(records_.begin() + bucket_begin_[v], records_.begin() + bucket_begin_[v + 1],
-              [](const FaceRecord& a, const FaceRecord& b) {
-                return std::tie(a.low, a.high, a.half_face) < std::tie(b.low, b.high, b.half_face);
-              });
-  }
-}
-
-void MeshBuilder::fail_same_side(const FaceRecord& a, const FaceRecord& b) const {
-  const std::size_t t = HalfFace::from_code(a.half_face).tet().index();
-  const std::size_t u = HalfFace::from_code(b.half_face).tet().index();
-  throw BuildError(
-      fmt::format("{} and {} lie on the same side of their common face", describe(u), describe(t)),
-      u);
-}
-
-void MeshBuilder::match_pair(const FaceRecord& a, const FaceRecord& b) {
-  if (a.even == b.even) fail_same_side(a, b);
-  const HalfFace f = HalfFace::from_code(a.half_face);
-  const HalfFace g = HalfFace::from_code(b.half_face);
-  mesh_.cells_[f.tet().index()].neighbours[f.face()] = g;
-  mesh_.cells_[g.tet().index()].neighbours[g.face()] = f;
-}
-
-void MeshBuilder::match_all_faces() {
-  for (std::size_t v = 0; v + 1 < bucket_begin_.size(); ++v) {
-    const std::size_t end = bucket_begin_[v + 1];
-    for (std::size_t i = bucket_begin_[v]; i < end;) {
-      std::size_t j = i + 1;
-      while (j < end && records_[j].low == records_[i].low && records_[j].high == records_[i].high)
-        ++j;
-      if (j - i > 2) {
-        const std::size_t t = HalfFace::from_code(records_[i + 2].half_face).tet().index();
-        throw BuildError(fmt::format("{}: a face of it has more than two tets", describe(t)), t);
-      }
-      if (j - i == 2) match_pair(records_[i], records_[i + 1]);
-      i = j;
-    }
   }
 }
 
@@ -309,55 +407,100 @@ void MeshBuilder::add_surface_face(HalfFace f, SurfaceTriangle triangle) {
   mesh_.surface_.push_back(triangle);
 }
 
-void MeshBuilder::build_surface() {
-  for (const MeshData::Triangle& named : data_.triangles) {
-    auto v = named.vertices;
-    const SurfaceTriangle triangle{{VertexHandle(v[0]), VertexHandle(v[1]), VertexHandle(v[2])},
-                                   named.label,
-                                   true,
-                                   false,
-                                   false};
-    std::sort(v.begin(), v.end());
-    const auto begin = records_.begin() + bucket_begin_[v[0]];
-    const auto end = records_.begin() + bucket_begin_[v[0] + 1];
-    const auto found = std::find_if(
-        begin, end, [&](const FaceRecord& r) { return r.low == v[1] && r.high == v[2]; });
-    const HalfFace f = found == end ? HalfFace() : HalfFace::from_code(found->half_face);
+void MeshBuilder::build_surface(const FaceBuckets& buckets) {
+  const std::size_t named = data_.triangles.size();
+  std::vector<HalfFace> faces(named);
+  for_chunks(named, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& v = data_.triangles[i].vertices;
+      faces[i] = buckets.find({vertex(v[0]).index(), vertex(v[1]).index(), vertex(v[2]).index()});
+    }
+  });
+  mesh_.surface_.reserve(named);
+  for (std::size_t i = 0; i < named; ++i) {
+    const auto& v = data_.triangles[i].vertices;
+    SurfaceTriangle triangle{
+        {vertex(v[0]), vertex(v[1]), vertex(v[2])}, data_.triangles[i].label, true, false, false};
+    const HalfFace f = faces[i];
     const bool repeated =
-        found != end &&
+        f != HalfFace() &&
         (mesh_.is_constrained(f) || (mesh_.twin(f).is_outside() && mesh_.twin(f) != HalfFace()));
-    if (found == end || repeated) {
+    if (f == HalfFace() || repeated) {
+      triangle.loose = true;
       mesh_.surface_.push_back(triangle);
-      mesh_.surface_.back().loose = true;
       ++report_.loose_triangles;
     } else {
       add_surface_face(f, triangle);
     }
   }
-  for (std::uint32_t code = 0; code < 4 * mesh_.cells_.size(); ++code) {
-    const HalfFace f = HalfFace::from_code(code);
-    const HalfFace twin = mesh_.twin(f);
-    const bool unnamed_boundary = twin == HalfFace();
-    const bool interface = !twin.is_outside() && f < twin && !mesh_.is_constrained(f) &&
-                           mesh_.label(f.tet()) != mesh_.label(twin.tet());
-    if (unnamed_boundary || interface)
-      add_surface_face(f, {mesh_.vertices(f), 0, false, false, false});
-  }
+  release(data_.triangles);
+  const std::vector<HalfFace> unnamed = unnamed_faces();
+  mesh_.surface_.reserve(named + unnamed.size());
+  for (const HalfFace f : unnamed) add_surface_face(f, {mesh_.vertices(f), 0, false, false, false});
 }
 
-void MeshBuilder::link_vertices() {
-  for (std::uint32_t t = 0; t < mesh_.cells_.size(); ++t) {
-    for (const VertexHandle v : mesh_.cells_[t].vertices)
-      mesh_.vertex_tet_[v.index()] = TetHandle(t);
+/// Faces of the boundary and between two labels that no triangle names, as the file orders their
+/// tets.
+std::vector<HalfFace> MeshBuilder::unnamed_faces() const {
+  const auto is_wanted = [&](HalfFace f) {
+    const HalfFace twin = mesh_.twin(f);
+    if (twin.is_outside()) return twin == HalfFace();
+    return mesh_.label(f.tet()) != mesh_.label(twin.tet()) && !mesh_.is_constrained(f) &&
+           file_code(f) < file_code(twin);
+  };
+  const auto parts = map_chunks<std::vector<HalfFace>>(
+      mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<HalfFace> found;
+        for (std::size_t t = begin; t < end; ++t) {
+          for (unsigned i = 0; i < 4; ++i) {
+            const HalfFace f(TetHandle(static_cast<std::uint32_t>(t)), i);
+            if (is_wanted(f)) found.push_back(f);
+          }
+        }
+        return found;
+      });
+  std::vector<HalfFace> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  if (!file_tet_.empty()) {
+    std::sort(all.begin(), all.end(),
+              [&](HalfFace a, HalfFace b) { return file_code(a) < file_code(b); });
   }
+  return all;
+}
+
+/// The tet of a vertex is the last one in the file.
+void MeshBuilder::link_vertices() {
+  std::vector<std::uint32_t> last(mesh_.points_.size(), 0);  // number in the file, plus 1
+  const std::size_t n = mesh_.cells_.size();
+  for_chunks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = end; t-- > begin;) {
+      const std::uint32_t number = file_tet(t) + 1;
+      for (const VertexHandle v : mesh_.cells_[t].vertices) {
+        const std::atomic_ref<std::uint32_t> latest(last[v.index()]);
+        std::uint32_t seen = latest.load(std::memory_order_relaxed);
+        while (seen < number &&
+               !latest.compare_exchange_weak(seen, number, std::memory_order_relaxed)) {
+        }
+      }
+    }
+  });
+  for_chunks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (const VertexHandle v : mesh_.cells_[t].vertices) {
+        if (last[v.index()] == file_tet(t) + 1) {
+          mesh_.vertex_tet_[v.index()] = TetHandle(static_cast<std::uint32_t>(t));
+        }
+      }
+    }
+  });
   for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
 }
 
 void MeshBuilder::mark_edges() {
   Workspace workspace(mesh_);
   for (const MeshData::Edge& named : data_.edges) {
-    const VertexHandle a(named.vertices[0]);
-    const VertexHandle b(named.vertices[1]);
+    const VertexHandle a = vertex(named.vertices[0]);
+    const VertexHandle b = vertex(named.vertices[1]);
     mesh_.named_edges_.push_back({{a, b}, named.label});
     // Of a loose edge as well: a deleted vertex could not be written.
     for (const VertexHandle v : {a, b})
@@ -379,27 +522,22 @@ void MeshBuilder::mark_vertices() {
                                                           : TetMesh::kVertexBoundary;
     for (const VertexHandle v : triangle.vertices) mesh_.vertex_flags_[v.index()] |= flag;
   }
-  for (const std::uint32_t v : data_.required_vertices) {
-    mesh_.vertex_flags_[v] |= TetMesh::kVertexConstrained | TetMesh::kVertexRequired;
+  for (const std::uint32_t number : data_.required_vertices) {
+    mesh_.vertex_flags_[vertex(number).index()] |=
+        TetMesh::kVertexConstrained | TetMesh::kVertexRequired;
   }
 }
 
-void MeshBuilder::evaluate() {
-  const std::size_t n = mesh_.cells_.size();
-  for (std::size_t t = 0; t < n; ++t) {
-    const double v6 = tet_volume6(t);
-    mesh_.quality_[t] = mesh_.evaluate(mesh_.cells_[t].vertices);
-    if (is_flat(t, v6)) {
-      ++report_.flat_tets;
-    } else if (v6 < 0) {
-      ++report_.inverted_tets;
-    }
-  }
-}
-
-TetMesh::TetMesh(const MeshData& data, BuildReport* report) {
+TetMesh::TetMesh(MeshData data, BuildReport* report) {
   BuildReport own;
-  MeshBuilder(data, *this, report ? *report : own).build();
+  MeshBuilder(std::move(data), *this, report ? *report : own).build(false);
+}
+
+TetMesh TetMesh::sorted(MeshData data, BuildReport* report) {
+  BuildReport own;
+  TetMesh mesh;
+  MeshBuilder(std::move(data), mesh, report ? *report : own).build(true);
+  return mesh;
 }
 
 }  // namespace tetmend

@@ -12,6 +12,8 @@
 #include <limits>
 #include <numbers>
 
+#include "kernel/chunks.h"
+
 namespace tetmend {
 
 namespace {
@@ -28,6 +30,10 @@ class CompensatedSum {
     error_ += (sum_ - (sum - added)) + (x - added);
     sum_ = sum;
   }
+  void add(const CompensatedSum& other) {
+    add(other.sum_);
+    error_ += other.error_;
+  }
   double value() const { return sum_ + error_; }
 
  private:
@@ -39,11 +45,14 @@ double share(double part, std::size_t whole) {
   return whole == 0 ? 0 : part / static_cast<double>(whole);
 }
 
-/// Counts angles by class. Class 2 j is the open interval below edge j, class 2 j + 1 edge j itself
+/// The classes of angles. Class 2 j is the open interval below edge j, class 2 j + 1 edge j itself
 /// (give or take kAngleTolerance): bins and bands close their intervals on different sides.
-class AngleCounter {
+class AngleClasses {
  public:
-  AngleCounter() {
+  static constexpr std::size_t kMaxEdges = 48;
+  using Counts = std::array<std::size_t, 2 * kMaxEdges + 1>;
+
+  AngleClasses() {
     for (int degrees = 1; degrees < 180; ++degrees) {
       const bool band_edge = degrees % 6 == 0 && std::min(degrees, 180 - degrees) <= 30;
       if (degrees % 5 == 0 || band_edge) {
@@ -62,13 +71,13 @@ class AngleCounter {
   }
 
   /// @param key cos |cos| of the angle, within [-1, 1]
-  void add(double key) {
+  std::size_t find(double key) const {
     std::size_t j = first_[cell_of(key)];
     while (key < passed_[j]) ++j;
-    ++count_[2 * j + (key <= reached_[j] ? 1 : 0)];
+    return 2 * j + (key <= reached_[j] ? 1 : 0);
   }
 
-  void write(MeshStatistics& result) const {
+  void write(const Counts& counts, MeshStatistics& result) const {
     std::array<std::size_t, 5> band_count{};
     std::size_t all = 0;
     for (std::size_t c = 0; c <= 2 * edges_; ++c) {
@@ -76,11 +85,11 @@ class AngleCounter {
       const double high = c / 2 < edges_ ? edge_[c / 2] : 180;
       const double angle = c % 2 == 1 ? high : 0.5 * (low + high);  // stands for its class
       const double distance = std::min(angle, 180 - angle);
-      result.histogram[static_cast<std::size_t>(angle / 5)] += count_[c];
+      result.histogram[static_cast<std::size_t>(angle / 5)] += counts[c];
       if (distance <= 30) {
-        band_count[std::min<std::size_t>(4, static_cast<std::size_t>(distance / 6))] += count_[c];
+        band_count[std::min<std::size_t>(4, static_cast<std::size_t>(distance / 6))] += counts[c];
       }
-      all += count_[c];
+      all += counts[c];
     }
     std::size_t bad = 0;
     for (std::size_t i = 0; i < band_count.size(); ++i) {
@@ -91,7 +100,6 @@ class AngleCounter {
   }
 
  private:
-  static constexpr std::size_t kMaxEdges = 48;
   static constexpr double kCellsPerUnit =
       512;  // fine enough for one edge a cell, small enough for L1
 
@@ -108,14 +116,13 @@ class AngleCounter {
   std::array<double, kMaxEdges> reached_{};  // keys at most this are at the edge or beyond
   std::array<double, kMaxEdges> passed_{};   // keys below this are beyond the edge
   std::array<std::uint8_t, 2 * static_cast<std::size_t>(kCellsPerUnit) + 1> first_{};
-  std::array<std::size_t, 2 * kMaxEdges + 1> count_{};
 };
 
-/// What the angles of one tet contribute: keys to count and the extreme signed squared cotangents.
+/// The angles of one tet: cosine and sine of each, times one factor and squared, with the sign of
+/// the cosine.
 struct TetAngles {
-  std::array<double, 6> key;
-  double sharpest = -kInfinity;  // of the smallest angle
-  double bluntest = kInfinity;   // of the largest angle
+  std::array<double, 6> cosine_square;
+  std::array<double, 6> sine_square;
 
   TetAngles(const std::array<Point, 4>& p, double v6) {
     std::array<Point, 4> normal;
@@ -127,16 +134,68 @@ struct TetAngles {
       const auto& [i, j] = kEdgeVertices[e];
       const auto& [k, l] = kEdgeVertices[5 - e];  // the faces at edge ij lie opposite k and l
       const double cosine = -normal[k].dot(normal[l]);
-      const double signed_square = cosine * std::abs(cosine);
-      const double sine_square = v6 * v6 * (p[j] - p[i]).squaredNorm();
-      const double scale = cosine * cosine + sine_square;
-      const double cosine_key = scale > 0 ? signed_square / scale : 1.0;
-      const double cotangent = scale > 0 ? signed_square / sine_square : kInfinity;
-      key[e] = cosine_key > -1 ? std::min(cosine_key, 1.0) : -1.0;  // not a number after overflow
+      cosine_square[e] = cosine * std::abs(cosine);
+      sine_square[e] = v6 * v6 * (p[j] - p[i]).squaredNorm();
+    }
+  }
+  double key(std::size_t e) const {
+    const double scale = std::abs(cosine_square[e]) + sine_square[e];
+    const double value = scale > 0 ? cosine_square[e] / scale : 1.0;
+    return value > -1 ? std::min(value, 1.0) : -1.0;  // not a number after overflow
+  }
+  double cotangent_square(std::size_t e) const {
+    const double scale = std::abs(cosine_square[e]) + sine_square[e];
+    return scale > 0 ? cosine_square[e] / sine_square[e] : kInfinity;
+  }
+};
+
+/// The smallest and the largest angle of many tets, and whose they are. Keys choose the few tets of
+/// which the cotangents, which tell angles near 0 and 180 apart, are worth a division.
+class ExtremeAngles {
+ public:
+  void add(TetHandle t, const TetAngles& angles, double greatest_key, double smallest_key) {
+    constexpr double kRounding = 1e-12;
+    if (sharpest_tet_.is_valid() && greatest_key < greatest_key_ - kRounding &&
+        smallest_key > smallest_key_ + kRounding) {
+      return;
+    }
+    greatest_key_ = std::max(greatest_key_, greatest_key);
+    smallest_key_ = std::min(smallest_key_, smallest_key);
+    double sharpest = -kInfinity;
+    double bluntest = kInfinity;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const double cotangent = angles.cotangent_square(e);
       sharpest = std::max(sharpest, cotangent);
       bluntest = std::min(bluntest, cotangent);
     }
+    add(t, sharpest, t, bluntest);
   }
+  /// Precondition: the tets of `later` follow those met so far.
+  void add(const ExtremeAngles& later) {
+    if (!later.sharpest_tet_.is_valid()) return;
+    add(later.sharpest_tet_, later.sharpest_, later.bluntest_tet_, later.bluntest_);
+  }
+  TetHandle sharpest_tet() const { return sharpest_tet_; }
+  TetHandle bluntest_tet() const { return bluntest_tet_; }
+
+ private:
+  void add(TetHandle t, double sharpest, TetHandle u, double bluntest) {
+    if (!sharpest_tet_.is_valid() || sharpest > sharpest_) {
+      sharpest_ = sharpest;
+      sharpest_tet_ = t;
+    }
+    if (!bluntest_tet_.is_valid() || bluntest < bluntest_) {
+      bluntest_ = bluntest;
+      bluntest_tet_ = u;
+    }
+  }
+
+  double greatest_key_ = -kInfinity;
+  double smallest_key_ = kInfinity;
+  double sharpest_ = -kInfinity;  // signed squared cotangents
+  double bluntest_ = kInfinity;
+  TetHandle sharpest_tet_;
+  TetHandle bluntest_tet_;
 };
 
 std::array<Point, 4> corners(const TetMesh& mesh, TetHandle t) {
@@ -149,102 +208,156 @@ std::array<double, 6> angles_of(const TetMesh& mesh, TetHandle t) {
   return dihedral_angles(p[0], p[1], p[2], p[3]);
 }
 
+/// The statistics of some tets, before means and shares are taken.
+struct PartialStatistics {
+  std::size_t boundary_triangles = 0;
+  std::size_t inverted = 0;
+  std::size_t flat = 0;
+  std::size_t n_bad = 0;
+  double q_worst = kInfinity;
+  CompensatedSum v6;
+  CompensatedSum quality;
+  CompensatedSum bad;
+  AngleClasses::Counts angles{};
+  ExtremeAngles extremes;
+
+  void add(const TetMesh& mesh, TetHandle t, const AngleClasses& classes) {
+    const std::array<Point, 4> p = corners(mesh, t);
+    const double volume = volume6(p[0], p[1], p[2], p[3]);
+    v6.add(volume);
+    if (!certified_positive(p[0], p[1], p[2], p[3])) {
+      ++(certified_positive(p[0], p[1], p[3], p[2]) ? inverted : flat);
+    }
+    for (const HalfFace twin : mesh.neighbours(t)) boundary_triangles += twin.is_outside() ? 1 : 0;
+
+    const double q = minimum_sine(p[0], p[1], p[2], p[3]);
+    quality.add(q);
+    q_worst = std::min(q_worst, q);
+    if (static_cast<Quality>(q) < kBadThreshold) {  // as the queues of bad tets see it
+      ++n_bad;
+      bad.add(q);
+    }
+
+    const TetAngles of_tet(p, volume);
+    double greatest = -kInfinity;
+    double smallest = kInfinity;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const double key = of_tet.key(e);
+      ++angles[classes.find(key)];
+      greatest = std::max(greatest, key);
+      smallest = std::min(smallest, key);
+    }
+    extremes.add(t, of_tet, greatest, smallest);
+  }
+  void add(const PartialStatistics& later) {
+    boundary_triangles += later.boundary_triangles;
+    inverted += later.inverted;
+    flat += later.flat;
+    n_bad += later.n_bad;
+    q_worst = std::min(q_worst, later.q_worst);
+    v6.add(later.v6);
+    quality.add(later.quality);
+    bad.add(later.bad);
+    for (std::size_t c = 0; c < angles.size(); ++c) angles[c] += later.angles[c];
+    extremes.add(later.extremes);
+  }
+};
+
+/// Sums up in chunks: `Partial` takes tets by add(mesh, tet, arguments...) and later chunks by
+/// add().
+template <class Partial, class... Arguments>
+Partial sum_up(const TetMesh& mesh, const Arguments&... arguments) {
+  const auto parts = map_chunks<Partial>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    Partial part;
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const TetHandle t(static_cast<std::uint32_t>(slot));
+      if (!mesh.is_deleted(t)) part.add(mesh, t, arguments...);
+    }
+    return part;
+  });
+  Partial sum;
+  for (const Partial& part : parts) sum.add(part);
+  return sum;
+}
+
 }  // namespace
 
 MeshStatistics compute_statistics(const TetMesh& mesh) {
+  const AngleClasses classes;
+  const auto sum = sum_up<PartialStatistics>(mesh, classes);
   MeshStatistics result;
-  AngleCounter counter;
-  CompensatedSum sum_v6;
-  CompensatedSum sum_quality;
-  CompensatedSum sum_bad;
-  double q_worst = kInfinity;
-  double sharpest = -kInfinity;
-  double bluntest = kInfinity;
-  TetHandle sharpest_tet;
-  TetHandle bluntest_tet;
-
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
-    const TetHandle t(slot);
-    if (mesh.is_deleted(t)) continue;
-    const std::array<Point, 4> p = corners(mesh, t);
-    const double v6 = volume6(p[0], p[1], p[2], p[3]);
-    sum_v6.add(v6);
-    if (!certified_positive(p[0], p[1], p[2], p[3])) {
-      ++(certified_positive(p[0], p[1], p[3], p[2]) ? result.inverted : result.flat);
-    }
-    for (const HalfFace twin : mesh.neighbours(t)) {
-      result.boundary_triangles += twin.is_outside() ? 1 : 0;
-    }
-
-    const double q = minimum_sine(p[0], p[1], p[2], p[3]);
-    sum_quality.add(q);
-    q_worst = std::min(q_worst, q);
-    if (static_cast<Quality>(q) < kBadThreshold) {  // as the queues of bad tets see it
-      ++result.n_bad;
-      sum_bad.add(q);
-    }
-
-    const TetAngles angles(p, v6);
-    for (const double key : angles.key) counter.add(key);
-    if (!sharpest_tet.is_valid() || angles.sharpest > sharpest) {
-      sharpest = angles.sharpest;
-      sharpest_tet = t;
-    }
-    if (!bluntest_tet.is_valid() || angles.bluntest < bluntest) {
-      bluntest = angles.bluntest;
-      bluntest_tet = t;
-    }
-  }
-
   result.tets = mesh.tet_count();
   result.vertices = mesh.vertex_count();
   if (result.tets == 0) return result;
-  result.volume = sum_v6.value() / 6;
-  result.q_worst = q_worst;
-  result.q_mean = share(sum_quality.value(), result.tets);
-  result.q_aver = share(sum_bad.value(), result.n_bad);
-  const auto sharp_angles = angles_of(mesh, sharpest_tet);
-  const auto blunt_angles = angles_of(mesh, bluntest_tet);
+  result.boundary_triangles = sum.boundary_triangles;
+  result.inverted = sum.inverted;
+  result.flat = sum.flat;
+  result.volume = sum.v6.value() / 6;
+  result.q_worst = sum.q_worst;
+  result.q_mean = share(sum.quality.value(), result.tets);
+  result.n_bad = sum.n_bad;
+  result.q_aver = share(sum.bad.value(), result.n_bad);
+  const auto sharp_angles = angles_of(mesh, sum.extremes.sharpest_tet());
+  const auto blunt_angles = angles_of(mesh, sum.extremes.bluntest_tet());
   result.theta_min = *std::min_element(sharp_angles.begin(), sharp_angles.end());
   result.theta_max = *std::max_element(blunt_angles.begin(), blunt_angles.end());
-  counter.write(result);
+  classes.write(sum.angles, result);
   return result;
 }
 
 QualityIndicators quality_indicators(const TetMesh& mesh) {
-  QualityIndicators result;
-  Quality worst = std::numeric_limits<Quality>::infinity();
-  CompensatedSum sum_bad;
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
-    const TetHandle t(slot);
-    if (mesh.is_deleted(t)) continue;
-    const Quality q = mesh.quality(t);
-    worst = std::min(worst, q);
-    if (q < kBadThreshold) {
-      ++result.n_bad;
-      sum_bad.add(static_cast<double>(q));
+  struct Partial {
+    Quality worst = std::numeric_limits<Quality>::infinity();
+    std::size_t n_bad = 0;
+    CompensatedSum bad;
+  };
+  const auto parts = map_chunks<Partial>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    Partial part;
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const TetHandle t(static_cast<std::uint32_t>(slot));
+      const Quality q = mesh.quality(t);
+      // Most tets are neither: of these the vertices, which tell the deleted ones, are not
+      // fetched.
+      if (!(q < kBadThreshold) && !(q < part.worst)) continue;
+      if (mesh.is_deleted(t)) continue;
+      part.worst = std::min(part.worst, q);
+      if (q < kBadThreshold) {
+        ++part.n_bad;
+        part.bad.add(static_cast<double>(q));
+      }
     }
+    return part;
+  });
+  QualityIndicators result;
+  Partial sum;
+  for (const Partial& part : parts) {
+    sum.worst = std::min(sum.worst, part.worst);
+    sum.bad.add(part.bad);
+    result.n_bad += part.n_bad;
   }
-  if (mesh.tet_count() > 0) result.q_worst = static_cast<double>(worst);
-  result.q_aver = share(sum_bad.value(), result.n_bad);
+  if (mesh.tet_count() > 0) result.q_worst = static_cast<double>(sum.worst);
+  result.q_aver = share(sum.bad.value(), result.n_bad);
   return result;
 }
 
 MeasureSummary summarize(const TetMesh& mesh, const QualityMeasure& measure) {
-  MeasureSummary result{&measure, 0, 0};
-  if (mesh.tet_count() == 0) return result;
-  result.worst = kInfinity;
-  CompensatedSum sum;
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
-    const TetHandle t(slot);
-    if (mesh.is_deleted(t)) continue;
-    const auto p = corners(mesh, t);
-    const double value = measure.evaluate(p[0], p[1], p[2], p[3]);
-    result.worst = std::min(result.worst, value);
-    sum.add(value);
-  }
-  result.mean = share(sum.value(), mesh.tet_count());
-  return result;
+  struct Partial {
+    double worst = kInfinity;
+    CompensatedSum values;
+    void add(const TetMesh& of, TetHandle t, const QualityMeasure& by) {
+      const auto p = corners(of, t);
+      const double value = by.evaluate(p[0], p[1], p[2], p[3]);
+      worst = std::min(worst, value);
+      values.add(value);
+    }
+    void add(const Partial& later) {
+      worst = std::min(worst, later.worst);
+      values.add(later.values);
+    }
+  };
+  if (mesh.tet_count() == 0) return {&measure, 0, 0};
+  const auto sum = sum_up<Partial>(mesh, measure);
+  return {&measure, sum.worst, share(sum.values.value(), mesh.tet_count())};
 }
 
 }  // namespace tetmend

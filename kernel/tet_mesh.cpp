@@ -6,55 +6,33 @@
 #include <limits>
 #include <numeric>
 
+#include "kernel/chunks.h"
+#include "kernel/grouping.h"
 #include "kernel/hilbert.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend {
 
 MeshData TetMesh::to_data() const {
-  // Vertices of the file keep their order; the rest follows by slot.
-  std::vector<std::uint32_t> order;
-  order.reserve(vertex_count_);
-  for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    if (!is_deleted(VertexHandle(v))) order.push_back(v);
-  }
-  const auto by_origin = [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(vertex_origin_[a], a) < std::pair(vertex_origin_[b], b);
-  };
-  if (!std::is_sorted(order.begin(), order.end(), by_origin)) {
-    std::sort(order.begin(), order.end(), by_origin);
-  }
-
+  const MeshView view(*this);
   MeshData data;
-  std::vector<std::uint32_t> number(points_.size());
-  data.points.reserve(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
-    const std::uint32_t v = order[i];
-    number[v] = i;
-    data.points.push_back(points_[v]);
-    if (!point_labels_.empty()) {
-      data.point_labels.push_back(
-          vertex_origin_[v] == kNotFromFile ? 0 : point_labels_[vertex_origin_[v]]);
-    }
-    if ((vertex_flags_[v] & kVertexRequired) != 0) data.required_vertices.push_back(i);
+  data.points.resize(view.point_count());
+  for_chunks(view.point_count(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) data.points[i] = view.point(i);
+  });
+  for (std::size_t i = 0; view.has_point_labels() && i < view.point_count(); ++i) {
+    data.point_labels.push_back(view.point_label(i));
   }
-  data.tets.reserve(tet_count_);
-  for (std::uint32_t t = 0; t < cells_.size(); ++t) {
-    if (is_deleted(TetHandle(t))) continue;
-    const TetVertices& v = cells_[t].vertices;
-    data.tets.push_back(
-        {{number[v[0].index()], number[v[1].index()], number[v[2].index()], number[v[3].index()]},
-         label_[t]});
-  }
-  for (const SurfaceTriangle& triangle : surface_) {
-    if (!triangle.named) continue;
-    const auto& v = triangle.vertices;
-    data.triangles.push_back(
-        {{number[v[0].index()], number[v[1].index()], number[v[2].index()]}, triangle.label});
-  }
-  for (const NamedEdge& edge : named_edges_) {
-    data.edges.push_back(
-        {{number[edge.vertices[0].index()], number[edge.vertices[1].index()]}, edge.label});
-  }
+  data.tets.resize(view.tet_count());
+  tbb::parallel_for(std::size_t{0}, view.tet_blocks(), [&](std::size_t block) {
+    std::vector<MeshData::Tet> buffer;
+    const auto tets = view.tets(block, buffer);
+    std::copy(tets.begin(), tets.end(),
+              data.tets.begin() + static_cast<std::ptrdiff_t>(view.first_tet(block)));
+  });
+  data.triangles.assign(view.triangles().begin(), view.triangles().end());
+  data.edges.assign(view.edges().begin(), view.edges().end());
+  data.required_vertices.assign(view.required_vertices().begin(), view.required_vertices().end());
   return data;
 }
 
@@ -71,28 +49,26 @@ void TetMesh::collect_garbage() {
 }
 
 void TetMesh::sort_spatially() {
-  const HilbertCurve curve(points_);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  std::vector<std::uint32_t> vertex_order;
+  vertex_order.reserve(vertex_count_);
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    if (!is_deleted(VertexHandle(v))) keyed.emplace_back(curve.key(points_[v]), v);
+    if (!is_deleted(VertexHandle(v))) vertex_order.push_back(v);
   }
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> vertex_order(keyed.size());
+  sort_along_curve(points_, vertex_order);
   std::vector<std::uint32_t> rank(points_.size());
-  for (std::uint32_t i = 0; i < keyed.size(); ++i) {
-    vertex_order[i] = keyed[i].second;
-    rank[keyed[i].second] = i;
-  }
-  keyed.clear();
-  for (std::uint32_t t = 0; t < cells_.size(); ++t) {
-    if (is_deleted(TetHandle(t))) continue;
-    std::uint32_t first = Handle<void>::kInvalid;
-    for (const VertexHandle v : cells_[t].vertices) first = std::min(first, rank[v.index()]);
-    keyed.emplace_back(first, t);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<std::uint32_t> tet_order(keyed.size());
-  for (std::uint32_t i = 0; i < keyed.size(); ++i) tet_order[i] = keyed[i].second;
+  for (std::uint32_t i = 0; i < vertex_order.size(); ++i) rank[vertex_order[i]] = i;
+  // Tets by their first vertex; the deleted ones last.
+  const auto none = static_cast<std::uint32_t>(vertex_order.size());
+  std::vector<std::uint32_t> first(cells_.size(), none);
+  for_chunks(cells_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      if (is_deleted(TetHandle(static_cast<std::uint32_t>(t)))) continue;
+      for (const VertexHandle v : cells_[t].vertices)
+        first[t] = std::min(first[t], rank[v.index()]);
+    }
+  });
+  std::vector<std::uint32_t> tet_order = group_by_key(first, none + 1).order;
+  tet_order.resize(tet_count_);
   reorder(vertex_order, tet_order);
 }
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
+#include "kernel/chunks.h"
 
 namespace tetmend {
 
@@ -30,8 +30,6 @@ std::array<Point, 2> shifted_box(const TetMesh& mesh, unsigned shift) {
   return {origin, origin + Point::Constant(2 * side)};
 }
 
-constexpr std::size_t kGrain = 4096;
-
 }  // namespace
 
 Partition::Partition(const TetMesh& mesh, std::size_t blocks, unsigned shift)
@@ -49,13 +47,12 @@ Partition::Partition(const TetMesh& mesh, std::size_t blocks, unsigned shift)
   for (std::size_t b = 1; b < blocks && !sample.empty(); ++b) {
     starts_[b] = sample[b * sample.size() / blocks];
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, block_.size(), kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        const VertexHandle v(static_cast<std::uint32_t>(i));
-                        if (!mesh.is_deleted(v)) block_[i] = find_block(mesh.point(v));
-                      }
-                    });
+  for_chunks(block_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const VertexHandle v(static_cast<std::uint32_t>(i));
+      if (!mesh.is_deleted(v)) block_[i] = find_block(mesh.point(v));
+    }
+  });
 }
 
 void Partition::include(const TetMesh& mesh, std::span<const VertexHandle> added) {

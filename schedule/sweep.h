@@ -8,8 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
+#include "kernel/chunks.h"
 #include "schedule/run.h"
 
 namespace tetmend {
@@ -37,17 +36,15 @@ std::vector<BlockLoad> divide(const Partition& partition, std::vector<Item>& ite
                               std::vector<Item>& rest) {
   constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   std::vector<std::uint32_t> home(items.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), 4096),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        const auto vertices = items[i].corners();
-                        const BlockId block = partition.block(vertices[0]);
-                        const bool whole = std::all_of(
-                            vertices.begin(), vertices.end(),
-                            [&](VertexHandle v) { return partition.block(v) == block; });
-                        home[i] = whole ? block : kNone;
-                      }
-                    });
+  for_chunks(items.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto vertices = items[i].corners();
+      const BlockId block = partition.block(vertices[0]);
+      const bool whole = std::all_of(vertices.begin(), vertices.end(),
+                                     [&](VertexHandle v) { return partition.block(v) == block; });
+      home[i] = whole ? block : kNone;
+    }
+  });
   std::vector<std::size_t> start(partition.block_count() + 1, 0);
   for (const std::uint32_t block : home) {
     if (block != kNone) ++start[block + 1];
@@ -125,12 +122,11 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
 /// i.
 template <class Item, class Take>
 std::vector<Item> collect(PassScope& scope, std::size_t size, const Take& take) {
-  constexpr std::size_t kChunk = 1 << 16;
   const PassScope::Scan timed(scope);
-  std::vector<std::vector<Item>> parts((size + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
-    const std::size_t end = std::min(size, (n + 1) * kChunk);
-    for (std::size_t i = n * kChunk; i < end; ++i) take(static_cast<std::uint32_t>(i), parts[n]);
+  auto parts = map_chunks<std::vector<Item>>(size, [&](std::size_t begin, std::size_t end) {
+    std::vector<Item> part;
+    for (std::size_t i = begin; i < end; ++i) take(static_cast<std::uint32_t>(i), part);
+    return part;
   });
   std::vector<Item> all;
   std::size_t total = 0;
@@ -138,7 +134,7 @@ std::vector<Item> collect(PassScope& scope, std::size_t size, const Take& take) 
   all.reserve(total);
   for (auto& part : parts) {
     all.insert(all.end(), part.begin(), part.end());
-    part = {};
+    std::vector<Item>().swap(part);
   }
   return all;
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -52,7 +53,7 @@ std::string repeated_vertex_message(const Element& element, std::uint32_t base) 
 inline void drop_zero_point_labels(MeshData& mesh) {
   auto& labels = mesh.point_labels;
   if (std::all_of(labels.begin(), labels.end(), [](Label label) { return label == 0; })) {
-    labels = {};
+    std::vector<Label>().swap(labels);
   }
 }
 

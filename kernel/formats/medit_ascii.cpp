@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,8 +14,9 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/element_checks.h"
-#include "kernel/formats/output_file.h"
+#include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
+#include "kernel/formats/text_rows.h"
 
 namespace tetmend::formats {
 namespace {
@@ -227,37 +229,38 @@ class Reader {
     if (count > kMostVertices) text_.fail(fmt::format("{} vertices are too many", count));
     mesh_.points.resize(count);
     mesh_.point_labels.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
+    read_rows(text_, count, [this](TextReader& text, std::size_t i) {
       Point& point = mesh_.points[i];
-      for (int axis = 0; axis < 3; ++axis) point[axis] = text_.real("a coordinate of a vertex");
-      mesh_.point_labels[i] = text_.label("the reference of a vertex");
-    }
+      for (int axis = 0; axis < 3; ++axis) point[axis] = text.real("a coordinate of a vertex");
+      mesh_.point_labels[i] = text.label("the reference of a vertex");
+    });
   }
 
-  std::uint32_t read_vertex_number() {
+  std::uint32_t read_vertex_number(TextReader& text) const {
     const auto count = static_cast<std::int64_t>(mesh_.points.size());
-    return static_cast<std::uint32_t>(text_.integer("a vertex number", 1, count) - 1);
+    return static_cast<std::uint32_t>(text.integer("a vertex number", 1, count) - 1);
   }
 
   template <class Element>
   void read_elements(std::vector<Element>& elements, std::string_view what) {
     constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
     elements.resize(text_.count(what, 2 * kNumbers));
-    for (Element& element : elements) {
-      for (std::uint32_t& vertex : element.vertices) vertex = read_vertex_number();
+    read_rows(text_, elements.size(), [&](TextReader& text, std::size_t i) {
+      Element& element = elements[i];
+      for (std::uint32_t& vertex : element.vertices) vertex = read_vertex_number(text);
       if (has_repeated_vertex(element.vertices)) {
-        text_.fail(repeated_vertex_message(element, 1));
+        text.fail(repeated_vertex_message(element, 1));
       }
       if (is_asked_for(question_, elements, element)) {
-        question_->place = text_.place_of(text_.last_word());
+        question_->place = text.place_of(text.last_word());
       }
-      element.label = text_.label("the reference of an element");
-    }
+      element.label = text.label("the reference of an element");
+    });
   }
 
   void read_required_vertices() {
     mesh_.required_vertices.resize(text_.count("required vertices", 2));
-    for (std::uint32_t& vertex : mesh_.required_vertices) vertex = read_vertex_number();
+    for (std::uint32_t& vertex : mesh_.required_vertices) vertex = read_vertex_number(text_);
   }
 
   bool seen(std::string_view name) const {
@@ -277,16 +280,34 @@ class Reader {
 };
 
 template <class Element>
-void write_elements(OutputFile& out, std::string_view name, const std::vector<Element>& elements) {
-  out.put(fmt::format("{}\n{}\n", name, elements.size()));
-  for (const Element& element : elements) {
-    for (const std::uint32_t vertex : element.vertices) {
-      out.put_integer(std::int64_t{vertex} + 1);
-      out.put(' ');
-    }
-    out.put_integer(element.label);
-    out.put('\n');
+void write_row(OutputBuffer& out, const Element& element) {
+  for (const std::uint32_t vertex : element.vertices) {
+    out.put_integer(std::int64_t{vertex} + 1);
+    out.put(' ');
   }
+  out.put_integer(element.label);
+  out.put('\n');
+}
+
+void write_vertex(OutputBuffer& out, const Point& point, Label label) {
+  for (int axis = 0; axis < 3; ++axis) {
+    out.put_real(point[axis]);
+    out.put(' ');
+  }
+  out.put_integer(label);
+  out.put('\n');
+}
+
+void begin_section(OutputFile& out, std::string_view name, std::size_t count) {
+  out.put(fmt::format("{}\n{}\n", name, count));
+}
+
+template <class Element>
+void write_elements(OutputFile& out, std::string_view name, std::span<const Element> elements) {
+  if (elements.empty()) return;
+  begin_section(out, name, elements.size());
+  put_rows(out, elements.size(),
+           [&](std::size_t i, OutputBuffer& buffer) { write_row(buffer, elements[i]); });
 }
 
 }  // namespace
@@ -296,28 +317,26 @@ MeshData read_medit_ascii(const std::filesystem::path& file, TetPlace* question)
   return Reader(input, question).read();
 }
 
-void write_medit_ascii(const std::filesystem::path& file, const MeshData& mesh) {
+void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
   out.put("MeshVersionFormatted 2\nDimension 3\n");
-  out.put(fmt::format("Vertices\n{}\n", mesh.points.size()));
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      out.put_real(mesh.points[i][axis]);
-      out.put(' ');
-    }
-    out.put_integer(mesh.point_labels.empty() ? 0 : mesh.point_labels[i]);
-    out.put('\n');
-  }
-  if (!mesh.edges.empty()) write_elements(out, "Edges", mesh.edges);
-  if (!mesh.triangles.empty()) write_elements(out, "Triangles", mesh.triangles);
-  if (!mesh.required_vertices.empty()) {
-    out.put(fmt::format("RequiredVertices\n{}\n", mesh.required_vertices.size()));
-    for (const std::uint32_t vertex : mesh.required_vertices) {
+  begin_section(out, "Vertices", mesh.point_count());
+  put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
+    write_vertex(buffer, mesh.point(i), mesh.point_label(i));
+  });
+  write_elements(out, "Edges", mesh.edges());
+  write_elements(out, "Triangles", mesh.triangles());
+  if (!mesh.required_vertices().empty()) {
+    begin_section(out, "RequiredVertices", mesh.required_vertices().size());
+    for (const std::uint32_t vertex : mesh.required_vertices()) {
       out.put_integer(std::int64_t{vertex} + 1);
       out.put('\n');
     }
   }
-  write_elements(out, "Tetrahedra", mesh.tets);
+  begin_section(out, "Tetrahedra", mesh.tet_count());
+  put_tets(out, mesh, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
+    write_row(buffer, tet);
+  });
   out.put("End\n");
   out.commit();
 }

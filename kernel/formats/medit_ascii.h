@@ -6,6 +6,7 @@
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
 
@@ -15,6 +16,6 @@ namespace tetmend::formats {
 MeshData read_medit_ascii(const std::filesystem::path& file, TetPlace* question = nullptr);
 
 /// Tetrahedra come last, so that a file cut short never passes for a complete one. @throws Error
-void write_medit_ascii(const std::filesystem::path& file, const MeshData& mesh);
+void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh);
 
 }  // namespace tetmend::formats

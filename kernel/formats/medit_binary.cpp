@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@
 
 #include "kernel/formats/byte_reader.h"
 #include "kernel/formats/element_checks.h"
-#include "kernel/formats/output_file.h"
+#include "kernel/formats/output_rows.h"
 
 namespace tetmend::formats {
 namespace {
@@ -257,7 +258,7 @@ class Reader {
 
 class Writer {
  public:
-  Writer(OutputFile& out, const MeshData& mesh) : out_(out), mesh_(mesh) {}
+  Writer(OutputFile& out, const MeshView& mesh) : out_(out), mesh_(mesh) {}
 
   void write() {
     version_ = 4;
@@ -270,36 +271,30 @@ class Writer {
     position_ = 2 * sizeof(std::int32_t);
     begin_section(dimension, sizeof(std::int32_t));
     out_.put_bytes(std::int32_t{3});
-    write_vertices();
-    if (!mesh_.edges.empty()) write_elements(edges, mesh_.edges);
-    if (!mesh_.triangles.empty()) write_elements(triangles, mesh_.triangles);
-    if (!mesh_.required_vertices.empty()) write_required_vertices();
-    write_elements(tetrahedra,
-                   mesh_.tets);  // last: a file cut short never passes for a complete one
+    if (version_ == 4) {
+      write_rows<std::int64_t>();
+    } else {
+      write_rows<std::int32_t>();
+    }
     out_.put_bytes(std::int32_t{end_of_mesh});
     put_position(0);
   }
 
  private:
   std::size_t most_rows() const {
-    return std::max({mesh_.points.size(), mesh_.tets.size(), mesh_.triangles.size(),
-                     mesh_.edges.size(), mesh_.required_vertices.size()});
+    return std::max({mesh_.point_count(), mesh_.tet_count(), mesh_.triangles().size(),
+                     mesh_.edges().size(), mesh_.required_vertices().size()});
   }
-  std::size_t integer_size() const { return version_ == 4 ? 8 : 4; }
   std::size_t position_size() const { return version_ >= 3 ? 8 : 4; }
 
   /// Not less than the size of the file in version 2.
   std::size_t file_size() const {
     constexpr std::size_t kHeaders = 256;
-    return kHeaders + 28 * mesh_.points.size() + 12 * mesh_.edges.size() +
-           16 * mesh_.triangles.size() + 4 * mesh_.required_vertices.size() +
-           20 * mesh_.tets.size();
+    return kHeaders + 28 * mesh_.point_count() + 12 * mesh_.edges().size() +
+           16 * mesh_.triangles().size() + 4 * mesh_.required_vertices().size() +
+           20 * mesh_.tet_count();
   }
 
-  void put_integer(std::int64_t value) {
-    if (version_ == 4) return out_.put_bytes(value);
-    out_.put_bytes(static_cast<std::int32_t>(value));
-  }
   void put_position(std::size_t position) {
     if (version_ >= 3) return out_.put_bytes(static_cast<std::int64_t>(position));
     out_.put_bytes(static_cast<std::int32_t>(position));
@@ -310,38 +305,54 @@ class Writer {
     out_.put_bytes(keyword);
     put_position(position_);
   }
+  template <class Integer>
   void begin_rows(std::int32_t keyword, std::size_t rows, std::size_t row_size) {
-    begin_section(keyword, integer_size() + rows * row_size);
-    put_integer(static_cast<std::int64_t>(rows));
+    begin_section(keyword, sizeof(Integer) + rows * row_size);
+    out_.put_bytes(static_cast<Integer>(rows));
   }
 
-  void write_vertices() {
-    begin_rows(vertices, mesh_.points.size(), 3 * sizeof(double) + integer_size());
-    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-      for (int axis = 0; axis < 3; ++axis) out_.put_bytes(mesh_.points[i][axis]);
-      put_integer(mesh_.point_labels.empty() ? 0 : mesh_.point_labels[i]);
+  template <class Integer, std::size_t N>
+  static void put_row(OutputBuffer& out, const std::array<std::uint32_t, N>& row, Label label) {
+    for (const std::uint32_t vertex : row) {
+      out.put_bytes(static_cast<Integer>(std::int64_t{vertex} + 1));
     }
+    out.put_bytes(static_cast<Integer>(label));
   }
 
-  template <class Element>
-  void write_elements(std::int32_t keyword, const std::vector<Element>& elements) {
+  template <class Integer>
+  void write_rows() {
+    begin_rows<Integer>(vertices, mesh_.point_count(), 3 * sizeof(double) + sizeof(Integer));
+    put_rows(out_, mesh_.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
+      for (int axis = 0; axis < 3; ++axis) buffer.put_bytes(mesh_.point(i)[axis]);
+      buffer.put_bytes(static_cast<Integer>(mesh_.point_label(i)));
+    });
+    write_elements<Integer>(edges, mesh_.edges());
+    write_elements<Integer>(triangles, mesh_.triangles());
+    if (!mesh_.required_vertices().empty()) {
+      begin_rows<Integer>(required_vertices, mesh_.required_vertices().size(), sizeof(Integer));
+      for (const std::uint32_t vertex : mesh_.required_vertices()) {
+        out_.put_bytes(static_cast<Integer>(std::int64_t{vertex} + 1));
+      }
+    }
+    // Last: a file cut short never passes for a complete one.
+    begin_rows<Integer>(tetrahedra, mesh_.tet_count(), 5 * sizeof(Integer));
+    put_tets(out_, mesh_, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
+      put_row<Integer>(buffer, tet.vertices, tet.label);
+    });
+  }
+
+  template <class Integer, class Element>
+  void write_elements(std::int32_t keyword, std::span<const Element> elements) {
+    if (elements.empty()) return;
     constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
-    begin_rows(keyword, elements.size(), kNumbers * integer_size());
-    for (const Element& element : elements) {
-      for (const std::uint32_t vertex : element.vertices) put_integer(std::int64_t{vertex} + 1);
-      put_integer(element.label);
-    }
-  }
-
-  void write_required_vertices() {
-    begin_rows(required_vertices, mesh_.required_vertices.size(), integer_size());
-    for (const std::uint32_t vertex : mesh_.required_vertices) {
-      put_integer(std::int64_t{vertex} + 1);
-    }
+    begin_rows<Integer>(keyword, elements.size(), kNumbers * sizeof(Integer));
+    put_rows(out_, elements.size(), [&](std::size_t i, OutputBuffer& buffer) {
+      put_row<Integer>(buffer, elements[i].vertices, elements[i].label);
+    });
   }
 
   OutputFile& out_;
-  const MeshData& mesh_;
+  const MeshView& mesh_;
   std::int32_t version_ = 2;
   std::size_t position_ = 0;
 };
@@ -353,7 +364,7 @@ MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question
   return Reader(input, question).read();
 }
 
-void write_medit_binary(const std::filesystem::path& file, const MeshData& mesh) {
+void write_medit_binary(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
   Writer(out, mesh).write();
   out.commit();

@@ -6,6 +6,7 @@
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
 
@@ -15,6 +16,6 @@ MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question
 
 /// Version 2, or 3 when the file grows beyond 2 GiB, or 4 when a count needs more than 31 bits; in
 /// the byte order of this machine, as the format wants it. @throws Error
-void write_medit_binary(const std::filesystem::path& file, const MeshData& mesh);
+void write_medit_binary(const std::filesystem::path& file, const MeshView& mesh);
 
 }  // namespace tetmend::formats

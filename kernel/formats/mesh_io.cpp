@@ -22,7 +22,7 @@ namespace {
 
 struct Codec {
   MeshData (*read)(const std::filesystem::path&, formats::TetPlace* question);
-  void (*write)(const std::filesystem::path&, const MeshData&);
+  void (*write)(const std::filesystem::path&, const MeshView&);
 };
 
 constexpr std::array<MeshFormat, 5> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
@@ -75,6 +75,10 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
   assert(mesh.point_labels.empty() || mesh.point_labels.size() == mesh.points.size());
+  write_mesh(file, MeshView(mesh));
+}
+
+void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
   find_codec(file).write(file, mesh);
 }
 

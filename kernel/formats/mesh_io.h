@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kernel/mesh_data.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend {
 
@@ -50,5 +51,7 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 /// @throws Error when the file cannot be written, with the reason of the operating system, or when
 /// the extension is unknown.
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh);
+/// The same for what a view shows: write_mesh(file, MeshView(tet_mesh)) needs no copy of the mesh.
+void write_mesh(const std::filesystem::path& file, const MeshView& mesh);
 
 }  // namespace tetmend

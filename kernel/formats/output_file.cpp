@@ -2,24 +2,48 @@
 // A file that appears under its name only when it is complete.
 #include "kernel/formats/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include "kernel/error.h"
 
 namespace tetmend {
 
+void OutputBuffer::put_integer(std::int64_t value) {
+  constexpr std::size_t kLongest = 24;
+  char* begin = room_for(kLongest);
+  used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongest, value).ptr - begin);
+}
+
+void OutputBuffer::put_real(double value) {
+  constexpr std::size_t kLongest = 32;
+  char* begin = room_for(kLongest);
+  used_ += static_cast<std::size_t>(fmt::format_to(begin, FMT_COMPILE("{}"), value) - begin);
+}
+
+void OutputBuffer::grow(std::size_t size) {
+  constexpr std::size_t kLeast = std::size_t{1} << 16;
+  capacity_ = std::max({kLeast, 2 * capacity_, used_ + size});
+  auto larger = std::make_unique_for_overwrite<char[]>(capacity_);
+  std::copy_n(bytes_.get(), used_, larger.get());
+  bytes_ = std::move(larger);
+}
+
 OutputFile::OutputFile(const std::filesystem::path& target)
-    : name_(target.string()),
-      target_(target),
-      buffer_(std::make_unique_for_overwrite<char[]>(kCapacity)) {
+    : name_(target.string()), target_(target) {
   std::error_code ignored;
   // Renaming onto a link would replace the link, not the file that the user keeps behind it.
   if (const auto real = std::filesystem::canonical(target, ignored); !ignored) target_ = real;
@@ -50,23 +74,37 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::put(std::string_view text) {
-  if (text.size() > kCapacity - used_) flush();
-  if (text.size() > kCapacity) return write_out(text.data(), text.size());
-  if (text.empty()) return;
-  std::memcpy(buffer_.get() + used_, text.data(), text.size());
-  used_ += text.size();
+  if (text.size() < kFull) return buffer_.put(text), flush_if_full();
+  flush();
+  write_out(text);
 }
 
-void OutputFile::put_integer(std::int64_t value) {
-  constexpr std::size_t kLongest = 24;
-  char* begin = room_for(kLongest);
-  used_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongest, value).ptr - begin);
-}
-
-void OutputFile::put_real(double value) {
-  constexpr std::size_t kLongest = 32;
-  char* begin = room_for(kLongest);
-  used_ += static_cast<std::size_t>(fmt::format_to(begin, FMT_COMPILE("{}"), value) - begin);
+void OutputFile::put_blocks(
+    std::size_t blocks, const std::function<void(std::size_t block, OutputBuffer& buffer)>& fill) {
+  flush();
+  // Blocks leave in order: with so many under way, the last but so many has left its buffer.
+  const std::size_t threads = std::min<std::size_t>(
+      static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const std::size_t under_way = threads == 1 ? 1 : 2 * threads;
+  std::vector<OutputBuffer> buffers(under_way);
+  std::size_t next = 0;
+  const auto begin = [&](tbb::flow_control& control) {
+    if (next == blocks) control.stop();
+    return next++;
+  };
+  const auto fill_buffer = [&](std::size_t block) {
+    OutputBuffer& buffer = buffers[block % under_way];
+    buffer.clear();
+    fill(block, buffer);
+    return block;
+  };
+  const auto write = [&](std::size_t block) { write_out(buffers[block % under_way].content()); };
+  tbb::parallel_pipeline(
+      under_way,
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, begin) &
+          tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, fill_buffer) &
+          tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, write));
 }
 
 void OutputFile::finish() {
@@ -84,17 +122,16 @@ void OutputFile::commit() {
 }
 
 void OutputFile::flush() {
-  write_out(buffer_.get(), used_);
-  used_ = 0;
+  write_out(buffer_.content());
+  buffer_.clear();
 }
 
-void OutputFile::write_out(const char* bytes, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(fd_, bytes, size);
+void OutputFile::write_out(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
-    bytes += written;
-    size -= static_cast<std::size_t>(written);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
 
@@ -19,6 +20,6 @@ MeshData read_tetgen(const std::filesystem::path& node_or_ele, TetPlace* questio
 /// when such a file exists: left from an older mesh it would be read back as a part of this one.
 /// Required vertices have no place in the format. All files are complete under temporary names
 /// before the first is renamed. @throws Error
-void write_tetgen(const std::filesystem::path& node_or_ele, const MeshData& mesh);
+void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh);
 
 }  // namespace tetmend::formats

@@ -89,6 +89,18 @@ std::string_view TextReader::skip_line() {
   return {begin, static_cast<std::size_t>(stop - begin)};
 }
 
+const char* TextReader::line_after(std::size_t distance) const {
+  if (distance >= bytes_left()) return end_;
+  // A line that begins exactly there has its break one byte before.
+  const char* from = next_ + distance - (distance > 0 ? 1 : 0);
+  const void* newline = std::memchr(from, '\n', static_cast<std::size_t>(end_ - from));
+  return newline == nullptr ? end_ : static_cast<const char*>(newline) + 1;
+}
+
+bool TextReader::ends_at(const char* end) const {
+  return next_ <= end && std::all_of(next_, end, is_space);
+}
+
 const char* TextReader::bytes(std::size_t size, std::string_view what) {
   word_ = next_;
   if (size > bytes_left()) {
@@ -194,6 +206,7 @@ std::size_t TextReader::count(std::string_view what, std::size_t bytes_each) {
 }
 
 void TextReader::fail_at(const char* where, std::string_view reason) const {
+  if (on_trial_) throw TrialFailed();
   if (by_byte_) file_.fail_at_byte(where, reason);
   file_.fail_at_line(where, reason);
 }

@@ -56,6 +56,21 @@ class TextReader {
   const char* bytes(std::size_t size, std::string_view what);
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - next_); }
 
+  /// Thrown instead of an Error by a reader on trial.
+  struct TrialFailed {};
+  /// Another reader of the same file, from `position` on. Where this one throws an Error, which
+  /// takes the time to find the line, that one throws TrialFailed.
+  TextReader trial(const char* position) const {
+    TextReader other = *this;
+    other.on_trial_ = true;
+    other.seek(position);
+    return other;
+  }
+  /// The first beginning of a line at least `distance` bytes from here, or the end of the file.
+  const char* line_after(std::size_t distance) const;
+  /// True if nothing but white space comes before `end`.
+  bool ends_at(const char* end) const;
+
   const char* position() const { return next_; }
   void seek(const char* position) { next_ = position; }
   /// Where the word read last begins.
@@ -83,6 +98,7 @@ class TextReader {
   const char* word_;
   char comment_;
   bool by_byte_ = false;
+  bool on_trial_ = false;
 };
 
 }  // namespace tetmend::formats

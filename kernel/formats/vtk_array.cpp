@@ -137,8 +137,12 @@ VtkIntegers::VtkIntegers(TextReader& text, bool binary, const VtkType& type, std
     return;
   }
   begin_ = text.position();
-  parsed_.resize(count);
-  for (std::int64_t& value : parsed_) value = text.integer(what, INT64_MIN, INT64_MAX);
+  parsed_.reserve(count);
+  while (parsed_.size() + parsed_wide_.size() < count) {
+    const std::int64_t value = text.integer(what, INT64_MIN, INT64_MAX);
+    const bool fits = parsed_wide_.empty() && value >= INT32_MIN && value <= INT32_MAX;
+    fits ? parsed_.push_back(static_cast<std::int32_t>(value)) : parsed_wide_.push_back(value);
+  }
 }
 
 std::int64_t VtkIntegers::load_other(const char* from) const {

@@ -44,7 +44,7 @@ class VtkIntegers {
 
   std::size_t size() const { return size_; }
   std::int64_t operator[](std::size_t i) const {
-    if (width_ == 0) return parsed_[i];
+    if (width_ == 0) return i < parsed_.size() ? parsed_[i] : parsed_wide_[i - parsed_.size()];
     const char* from = begin_ + i * width_;
     if (width_ == 4 && is_signed_) return load<std::int32_t>(from, kVtkSwaps);  // nearly all files
     return load_other(from);
@@ -59,7 +59,8 @@ class VtkIntegers {
   const char* begin_ = nullptr;
   std::size_t width_ = 0;  // bytes of a value; 0 for text
   bool is_signed_ = true;
-  std::vector<std::int64_t> parsed_;
+  std::vector<std::int32_t> parsed_;       // of text; most files need no more bits
+  std::vector<std::int64_t> parsed_wide_;  // from the first value on that does not fit
 };
 
 /// One real number of a binary array of any numeric type but bit.

@@ -6,6 +6,7 @@
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
+#include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
 
@@ -19,6 +20,6 @@ MeshData read_vtk_legacy(const std::filesystem::path& file, TetPlace* question =
 /// CellEntityIds, as Gmsh has it, and to the point array of that name. Required vertices have no
 /// place in the format. The format has no end mark: of a file cut exactly before its labels nothing
 /// tells that they are missing. @throws Error also for more than 2^31 - 1 vertices
-void write_vtk_legacy(const std::filesystem::path& file, const MeshData& mesh);
+void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh);
 
 }  // namespace tetmend::formats

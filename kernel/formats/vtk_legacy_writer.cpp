@@ -1,82 +1,94 @@
 // SPDX-License-Identifier: MIT
 // Writes legacy VTK files with an unstructured grid, in binary and in the layout of version 4.2.
 #include <bit>
-#include <vector>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/byte_reader.h"
-#include "kernel/formats/output_file.h"
+#include "kernel/formats/output_rows.h"
 #include "kernel/formats/vtk_legacy.h"
 
 namespace tetmend::formats {
 namespace {
 
 template <class T>
-void put_big_endian(OutputFile& out, T value) {
+void put_big_endian(OutputBuffer& out, T value) {
   out.put_bytes(std::endian::native == std::endian::little ? byte_swapped(value) : value);
 }
 
 template <class Element>
-void write_cells(OutputFile& out, const std::vector<Element>& elements) {
-  for (const Element& element : elements) {
-    put_big_endian(out, static_cast<std::int32_t>(element.vertices.size()));
-    for (const std::uint32_t vertex : element.vertices) {
-      put_big_endian(out, static_cast<std::int32_t>(vertex));
-    }
+void put_cell(OutputBuffer& out, const Element& element) {
+  put_big_endian(out, static_cast<std::int32_t>(element.vertices.size()));
+  for (const std::uint32_t vertex : element.vertices) {
+    put_big_endian(out, static_cast<std::int32_t>(vertex));
   }
 }
 
 template <class Element>
-void write_labels(OutputFile& out, const std::vector<Element>& elements) {
-  for (const Element& element : elements) put_big_endian(out, element.label);
+void write_cells(OutputFile& out, std::span<const Element> elements) {
+  put_rows(out, elements.size(),
+           [&](std::size_t i, OutputBuffer& buffer) { put_cell(buffer, elements[i]); });
+}
+
+template <class Element>
+void write_labels(OutputFile& out, std::span<const Element> elements) {
+  put_rows(out, elements.size(),
+           [&](std::size_t i, OutputBuffer& buffer) { put_big_endian(buffer, elements[i].label); });
 }
 
 void write_types(OutputFile& out, std::size_t count, std::int32_t type) {
-  for (std::size_t i = 0; i < count; ++i) put_big_endian(out, type);
+  put_rows(out, count, [&](std::size_t, OutputBuffer& buffer) { put_big_endian(buffer, type); });
 }
 
 constexpr std::string_view kLabelArray = "SCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n";
 
-void write_mesh_data(OutputFile& out, const MeshData& mesh) {
+void write_view(OutputFile& out, const MeshView& mesh) {
   out.put("# vtk DataFile Version 3.0\nwritten by tetmend\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
-  out.put(fmt::format("POINTS {} double\n", mesh.points.size()));
-  for (const Point& point : mesh.points) {
-    for (int axis = 0; axis < 3; ++axis) put_big_endian(out, point[axis]);
-  }
-  const std::size_t cells = mesh.tets.size() + mesh.triangles.size() + mesh.edges.size();
-  const std::size_t integers =
-      5 * mesh.tets.size() + 4 * mesh.triangles.size() + 3 * mesh.edges.size();
-  out.put(fmt::format("\nCELLS {} {}\n", cells, integers));
-  write_cells(out, mesh.tets);
-  write_cells(out, mesh.triangles);
-  write_cells(out, mesh.edges);
+  out.put(fmt::format("POINTS {} double\n", mesh.point_count()));
+  put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
+    for (int axis = 0; axis < 3; ++axis) put_big_endian(buffer, mesh.point(i)[axis]);
+  });
+  const std::size_t tets = mesh.tet_count();
+  const std::size_t triangles = mesh.triangles().size();
+  const std::size_t edges = mesh.edges().size();
+  const std::size_t cells = tets + triangles + edges;
+  out.put(fmt::format("\nCELLS {} {}\n", cells, 5 * tets + 4 * triangles + 3 * edges));
+  put_tets(out, mesh, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
+    put_cell(buffer, tet);
+  });
+  write_cells(out, mesh.triangles());
+  write_cells(out, mesh.edges());
   out.put(fmt::format("\nCELL_TYPES {}\n", cells));
-  write_types(out, mesh.tets.size(), 10);
-  write_types(out, mesh.triangles.size(), 5);
-  write_types(out, mesh.edges.size(), 3);
+  write_types(out, tets, 10);
+  write_types(out, triangles, 5);
+  write_types(out, edges, 3);
   out.put(fmt::format("\nCELL_DATA {}\n{}", cells, kLabelArray));
-  write_labels(out, mesh.tets);
-  write_labels(out, mesh.triangles);
-  write_labels(out, mesh.edges);
-  if (!mesh.point_labels.empty()) {
-    out.put(fmt::format("\nPOINT_DATA {}\n{}", mesh.points.size(), kLabelArray));
-    for (const Label label : mesh.point_labels) put_big_endian(out, label);
+  put_tets(out, mesh, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
+    put_big_endian(buffer, tet.label);
+  });
+  write_labels(out, mesh.triangles());
+  write_labels(out, mesh.edges());
+  if (mesh.has_point_labels()) {
+    out.put(fmt::format("\nPOINT_DATA {}\n{}", mesh.point_count(), kLabelArray));
+    put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
+      put_big_endian(buffer, mesh.point_label(i));
+    });
   }
   out.put("\n");
 }
 
 }  // namespace
 
-void write_vtk_legacy(const std::filesystem::path& file, const MeshData& mesh) {
-  if (mesh.points.size() > INT32_MAX) {
+void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh) {
+  if (mesh.point_count() > INT32_MAX) {
     throw Error(
         fmt::format("{}: cannot be written: the format holds at most {} vertices, the mesh has {}",
-                    file.string(), INT32_MAX, mesh.points.size()));
+                    file.string(), INT32_MAX, mesh.point_count()));
   }
   OutputFile out(file);
-  write_mesh_data(out, mesh);
+  write_view(out, mesh);
   out.commit();
 }
 

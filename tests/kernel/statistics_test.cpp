@@ -12,12 +12,17 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/chunks.h"
+#include "kernel/integrity.h"
 #include "kernel/quality.h"
+#include "kernel/surface.h"
 #include "kernel/tet_mesh.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
+#include "tests/support/threads.h"
 
 using namespace tetmend;
+using tetmend::test::on_threads;
 
 namespace {
 
@@ -404,4 +409,32 @@ TEST_CASE("any quality measure can be summarized over a mesh") {
   CHECK(summarize(mesh, find_quality_measure("min_sine")).worst == s.q_worst);
   CHECK(summarize(mesh, find_quality_measure("min_sine")).mean == doctest::Approx(s.q_mean));
   CHECK(summarize(mesh, find_quality_measure("min_angle")).worst == doctest::Approx(s.theta_min));
+}
+
+TEST_CASE("statistics are bit by bit the same for every number of threads") {
+  const TetMesh mesh(jittered(kuhn_cube(17), 0.03));  // 29478 tets: two chunks, the second not full
+  REQUIRE(mesh.tet_slots() > kChunkSize);
+  const auto all_of = [&](int threads) {
+    return on_threads(threads, [&] {
+      const MeshStatistics s = compute_statistics(mesh);
+      const QualityIndicators i = quality_indicators(mesh);
+      std::vector<double> values = {s.volume, s.theta_min, s.theta_max, s.lambda, s.q_worst,
+                                    s.q_mean, s.q_aver,    i.q_worst,   i.q_aver};
+      for (const std::size_t count :
+           {s.boundary_triangles, s.inverted, s.flat, s.n_bad, i.n_bad, count_not_positive(mesh)}) {
+        values.push_back(static_cast<double>(count));
+      }
+      values.insert(values.end(), s.lambda_bands.begin(), s.lambda_bands.end());
+      values.insert(values.end(), s.histogram.begin(), s.histogram.end());
+      for (const QualityMeasure& measure : quality_measures()) {
+        values.push_back(summarize(mesh, measure).mean);
+        values.push_back(summarize(mesh, measure).worst);
+      }
+      return std::pair(values, surface_fingerprint(mesh));
+    });
+  };
+  const auto expected = all_of(1);
+  CHECK(all_of(2) == expected);
+  CHECK(all_of(5) == expected);
+  check_equal(compute_statistics(mesh), direct_statistics(mesh));
 }

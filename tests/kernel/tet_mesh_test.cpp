@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 
@@ -14,6 +15,7 @@
 #include "kernel/surface.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
+#include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -360,5 +362,122 @@ TEST_CASE("garbage collection and sorting keep content, soundness and properties
     after.tets = before.tets;
     // Vertices of the file keep their order, whatever their slot.
     check_same(after, before);
+  }
+}
+
+namespace {
+
+/// Larger than some chunks, in no order, with all that a file can name.
+MeshData shuffled_cube() {
+  MeshData data = kuhn_cube(16, 0.2, 5);
+  std::mt19937 random(3);
+  const auto shuffle = [&](auto& values) {
+    for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random() % i]);
+  };
+  std::vector<std::uint32_t> number(data.points.size());
+  for (std::uint32_t i = 0; i < number.size(); ++i) number[i] = i;
+  shuffle(number);
+  std::vector<Point> points(number.size());
+  for (std::size_t i = 0; i < number.size(); ++i) points[number[i]] = data.points[i];
+  data.points = points;
+  for (MeshData::Tet& tet : data.tets) {
+    for (std::uint32_t& v : tet.vertices) v = number[v];
+    tet.label = data.points[tet.vertices[0]].x() < 0.4 ? 3 : 8;
+  }
+  shuffle(data.tets);
+  for (std::size_t i = 0; i < data.tets.size(); i += 50) {
+    const auto& t = data.tets[i].vertices;
+    data.triangles.push_back({{t[2], t[0], t[3]}, Label(i % 9)});
+    if (i % 100 == 0) data.edges.push_back({{t[2], t[1]}, Label(i % 5)});
+  }
+  data.triangles.push_back({{0, 1, 2}, 4});  // of no tet
+  data.required_vertices = {4, 40, 1000};
+  data.point_labels.resize(data.points.size());
+  for (std::size_t i = 0; i < data.points.size(); ++i) data.point_labels[i] = Label(i * i % 7);
+  return data;
+}
+
+bool same_surface(const TetMesh& a, const TetMesh& b) {
+  return std::equal(a.surface_triangles().begin(), a.surface_triangles().end(),
+                    b.surface_triangles().begin(), b.surface_triangles().end(),
+                    [](const SurfaceTriangle& s, const SurfaceTriangle& t) {
+                      return s.vertices == t.vertices && s.label == t.label && s.named == t.named &&
+                             s.interior == t.interior && s.loose == t.loose;
+                    });
+}
+
+bool same_report(const BuildReport& a, const BuildReport& b) {
+  return a.mirrored == b.mirrored && a.reordered_tets == b.reordered_tets &&
+         a.inverted_tets == b.inverted_tets && a.flat_tets == b.flat_tets &&
+         a.loose_triangles == b.loose_triangles && a.loose_edges == b.loose_edges &&
+         a.unused_points == b.unused_points && a.constrained_faces == b.constrained_faces;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh built in order is that built and then sorted, whatever its senses and threads") {
+  const MeshData plain = shuffled_cube();
+  MeshData mirrored = plain;
+  for (MeshData::Tet& tet : mirrored.tets) std::swap(tet.vertices[0], tet.vertices[1]);
+  MeshData mixed = plain;
+  for (std::size_t t = 0; t < mixed.tets.size(); t += 7) {
+    std::swap(mixed.tets[t].vertices[1], mixed.tets[t].vertices[2]);
+  }
+  for (const MeshData& data : {plain, mirrored, mixed}) {
+    BuildReport expected_report;
+    const TetMesh as_given = on_threads(1, [&] { return TetMesh(data, &expected_report); });
+    CHECK(expected_report.constrained_faces > 400);
+    CHECK(to_string(check_integrity(as_given)) == "");
+    TetMesh expected = as_given;
+    on_threads(1, [&] { expected.sort_spatially(); });
+    CHECK(to_string(check_integrity(expected)) == "");
+    CHECK_FALSE(expected == as_given);
+    for (const int threads : {1, 2, 5}) {
+      CAPTURE(threads);
+      BuildReport report;
+      CHECK(on_threads(threads, [&] { return TetMesh(data, &report); }) == as_given);
+      CHECK(same_report(report, expected_report));
+      BuildReport sorted_report;
+      const TetMesh sorted =
+          on_threads(threads, [&] { return TetMesh::sorted(data, &sorted_report); });
+      CHECK(sorted == expected);
+      CHECK(same_surface(sorted, expected));
+      CHECK(same_report(sorted_report, expected_report));
+      check_same(sorted.to_data(), expected.to_data());
+    }
+  }
+}
+
+TEST_CASE(
+    "of several broken faces the first tet of the file is named, in every order and by all "
+    "threads") {
+  const MeshData good = shuffled_cube();
+  MeshData folded = good;  // copies of tets far apart: two on one side, or three at a face
+  folded.tets.push_back(good.tets[20000]);
+  folded.tets.push_back(good.tets[100]);
+  MeshData missing = good;
+  missing.tets[20001].vertices[3] = 1u << 20;
+  missing.tets[16400].vertices[1] = missing.tets[16400].vertices[2];
+  const auto error_of = [](const auto& build) -> std::string {
+    try {
+      build();
+    } catch (const BuildError& error) {
+      return std::to_string(error.tet()) + ": " + error.what();
+    }
+    return "built";
+  };
+  const auto copy = std::to_string(good.tets.size());
+  struct Case {
+    const MeshData& data;
+    std::string place;
+  };
+  for (const Case& bad : {Case{folded, copy + ": tet "}, Case{missing, "16400: tet 16401 "}}) {
+    const MeshData& data = bad.data;
+    const std::string expected = error_of([&] { on_threads(1, [&] { TetMesh{data}; }); });
+    CHECK_MESSAGE(expected.starts_with(bad.place), expected);
+    for (const int threads : {1, 4}) {
+      CHECK(error_of([&] { on_threads(threads, [&] { TetMesh{data}; }); }) == expected);
+      CHECK(error_of([&] { on_threads(threads, [&] { TetMesh::sorted(data); }); }) == expected);
+    }
   }
 }

@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/threads.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -126,4 +127,44 @@ TEST_CASE("a mesh that does not fit on the disk is an error and keeps the older 
     CHECK(same_mesh(read_mesh(file), before));
     CHECK(folder.entries() == entries);
   }
+}
+
+TEST_CASE("blocks are written in their order, between what was put before and after") {
+  const TempFolder folder;
+  std::string expected = "first\n";
+  for (int i = 0; i < 1000; ++i)
+    expected.append(static_cast<std::size_t>(i) * 3, 'x') += std::to_string(i);
+  expected += "last\n";
+  for (const int threads : {1, 4}) {
+    OutputFile out(folder / "a");
+    out.put("first\n");
+    on_threads(threads, [&] {
+      out.put_blocks(1000, [](std::size_t block, OutputBuffer& buffer) {
+        for (std::size_t i = 0; i < block; ++i) buffer.put("xxx");
+        buffer.put_integer(static_cast<std::int64_t>(block));
+      });
+      out.put_blocks(0, [](std::size_t, OutputBuffer& buffer) { buffer.put("never"); });
+    });
+    out.put("last\n");
+    out.commit();
+    CHECK(read_text(folder / "a") == expected);
+  }
+}
+
+TEST_CASE("a disk that gets full while blocks are written is an error, and the older file stays") {
+  const TempFolder folder;
+  write_text(folder / "a", "old");
+  for (const int threads : {1, 4}) {
+    OutputFile out(folder / "a");
+    const FullDisk full(100000);
+    CHECK_THROWS_AS(on_threads(threads,
+                               [&] {
+                                 out.put_blocks(100, [](std::size_t, OutputBuffer& buffer) {
+                                   for (int i = 0; i < 5000; ++i) buffer.put('x');
+                                 });
+                               }),
+                    Error);
+  }
+  CHECK(read_text(folder / "a") == "old");
+  CHECK(folder.entries() == 1);
 }

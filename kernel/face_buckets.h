@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The faces of all tets, found by their smallest vertex: how neighbours are matched.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "kernel/grouping.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+/// Three of the four faces of a tet have its smallest vertex as their smallest, the fourth has its
+/// second smallest. So two lists of tets, by these two vertices, stand for all faces: 4 to 8 bytes
+/// a tet.
+class FaceBuckets {
+ public:
+  /// One side of a face in the bucket of its smallest vertex.
+  struct Entry {
+    std::uint32_t low;  ///< of the other two vertices
+    std::uint32_t high;
+    HalfFace face;
+    bool even;  ///< the tet lists (smallest, low, high) counterclockwise as seen from outside
+
+    bool same_face(const Entry& other) const { return low == other.low && high == other.high; }
+  };
+
+  /// @param by_smallest tets by their smallest vertex; an empty order stands for 0, 1, 2, ...
+  FaceBuckets(const TetMesh& mesh, Grouping by_smallest);
+
+  /// Calls visit(Entry) for each face of which v is the smallest vertex.
+  template <class Visit>
+  void visit(std::uint32_t v, const Visit& visit) const {
+    for (std::uint32_t i = by_smallest_.begin[v]; i < by_smallest_.begin[v + 1]; ++i) {
+      const TetHandle t = tet_at(i);
+      const unsigned at = mesh_.local_index(t, VertexHandle(v));
+      for (unsigned f = 0; f < 4; ++f) {
+        if (f != at) visit(entry(t, f, at));
+      }
+    }
+    for (const std::uint32_t i : by_second_.group(v)) {
+      const TetHandle t(i);
+      visit(entry(t, smallest_of(t), mesh_.local_index(t, VertexHandle(v))));
+    }
+  }
+  /// At least as many faces as visit() will show.
+  std::size_t bound(std::uint32_t v) const {
+    return 3 * std::size_t{by_smallest_.begin[v + 1] - by_smallest_.begin[v]} +
+           by_second_.group(v).size();
+  }
+  /// A side of the face of these vertices; invalid if no tet has it.
+  HalfFace find(std::array<std::uint32_t, 3> vertices) const;
+
+ private:
+  TetHandle tet_at(std::uint32_t i) const {
+    return TetHandle(by_smallest_.order.empty() ? i : by_smallest_.order[i]);
+  }
+  unsigned smallest_of(TetHandle t) const {
+    const TetVertices& v = mesh_.vertices(t);
+    const unsigned a = v[1] < v[0] ? 1 : 0;
+    const unsigned b = v[3] < v[2] ? 3 : 2;
+    return v[b] < v[a] ? b : a;
+  }
+  /// Face f, of which local vertex `at` is the smallest.
+  Entry entry(TetHandle t, unsigned f, unsigned at) const {
+    const auto& [second, third] = kOthers[f][at];
+    const TetVertices& v = mesh_.vertices(t);
+    const std::uint32_t a = v[second].index();
+    const std::uint32_t b = v[third].index();
+    return {std::min(a, b), std::max(a, b), HalfFace(t, f), a < b};
+  }
+
+  /// kOthers[f][i]: the vertices that follow vertex i around face f.
+  static constexpr auto kOthers = [] {
+    std::array<std::array<std::array<std::uint8_t, 2>, 4>, 4> others{};
+    for (unsigned f = 0; f < 4; ++f) {
+      for (unsigned i = 0; i < 3; ++i) {
+        others[f][kFaceVertices[f][i]] = {kFaceVertices[f][(i + 1) % 3],
+                                          kFaceVertices[f][(i + 2) % 3]};
+      }
+    }
+    return others;
+  }();
+
+  const TetMesh& mesh_;
+  Grouping by_smallest_;
+  Grouping by_second_;
+};
+
+/// Two sides that coincide, and where more or other than that was found.
+class FacePairs {
+ public:
+  /// Empties the table and makes room for `faces`.
+  void begin(std::size_t faces) {
+    std::size_t size = 64;
+    while (size < 2 * faces) size *= 2;
+    if (size > slots_.size()) {
+      slots_.assign(size, Slot());
+      stamp_ = 0;
+    }
+    mask_ = size - 1;
+    if (++stamp_ == 0) {
+      slots_.assign(slots_.size(), Slot());
+      stamp_ = 1;
+    }
+  }
+  enum class Found { first, second, third };
+  /// Adds a side; `other` becomes its counterpart if it is the second of its face.
+  Found add(const FaceBuckets::Entry& entry, FaceBuckets::Entry& other) {
+    const std::uint64_t mixed =
+        (std::uint64_t{entry.high} << 32 | entry.low) * 0x9E3779B97F4A7C15ull;
+    std::size_t i = (mixed >> 40) & mask_;
+    while (slots_[i].stamp == stamp_ && !slots_[i].entry.same_face(entry)) i = (i + 1) & mask_;
+    Slot& slot = slots_[i];
+    if (slot.stamp != stamp_) {
+      slot = {entry, stamp_, false};
+      return Found::first;
+    }
+    if (slot.paired) return Found::third;
+    slot.paired = true;
+    other = slot.entry;
+    return Found::second;
+  }
+
+ private:
+  struct Slot {
+    FaceBuckets::Entry entry{};
+    std::uint32_t stamp = 0;
+    bool paired = false;
+  };
+  std::vector<Slot> slots_;
+  std::size_t mask_ = 0;
+  std::uint32_t stamp_ = 0;
+};
+
+}  // namespace tetmend

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// A mesh as a file lists it, without a copy of it: what writers print.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend {
+
+class TetMesh;
+
+/// Looks at a MeshData, or at a TetMesh as to_data() would give it. Tets come in blocks, so that
+/// large meshes can be written piece by piece. The mesh must outlive the view and not change
+/// meanwhile. All member functions may be called from several threads.
+class MeshView {
+ public:
+  explicit MeshView(const MeshData& data);
+  /// Cost: linear in the number of vertices; takes 8 bytes a vertex, and copies of the named
+  /// triangles and edges.
+  explicit MeshView(const TetMesh& mesh);
+
+  std::size_t point_count() const { return point_count_; }
+  const Point& point(std::size_t i) const { return points_[order_.empty() ? i : order_[i]]; }
+  bool has_point_labels() const { return !point_labels_.empty(); }
+  Label point_label(std::size_t i) const { return has_point_labels() ? point_labels_[i] : 0; }
+
+  std::size_t tet_count() const { return first_tet_.back(); }
+  std::size_t tet_blocks() const { return first_tet_.size() - 1; }
+  /// Number of the first tet of a block.
+  std::size_t first_tet(std::size_t block) const { return first_tet_[block]; }
+  /// The tets of a block. `buffer` may be used to hold them.
+  std::span<const MeshData::Tet> tets(std::size_t block, std::vector<MeshData::Tet>& buffer) const;
+
+  std::span<const MeshData::Triangle> triangles() const { return triangles_; }
+  std::span<const MeshData::Edge> edges() const { return edges_; }
+  std::span<const std::uint32_t> required_vertices() const { return required_vertices_; }
+
+ private:
+  void order_vertices();
+  void number_tets();
+  void collect_named();
+
+  const MeshData* data_ = nullptr;  // one of the two
+  const TetMesh* mesh_ = nullptr;
+  std::size_t point_count_ = 0;
+  std::span<const Point> points_;
+  std::span<const Label> point_labels_;
+  std::span<const MeshData::Triangle> triangles_;
+  std::span<const MeshData::Edge> edges_;
+  std::span<const std::uint32_t> required_vertices_;
+  std::vector<std::size_t> first_tet_;  // of each block, then the number of tets
+
+  // Of a TetMesh only.
+  std::vector<std::uint32_t>
+      order_;  // slots of the vertices as they are listed; empty: 0, 1, 2, ...
+  std::vector<std::uint32_t> number_;  // by slot, the inverse
+  std::vector<Label> own_point_labels_;
+  std::vector<MeshData::Triangle> own_triangles_;
+  std::vector<MeshData::Edge> own_edges_;
+  std::vector<std::uint32_t> own_required_vertices_;
+};
+
+}  // namespace tetmend
