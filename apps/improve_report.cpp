@@ -106,6 +106,10 @@ nlohmann::json to_json(const PassRecord& pass) {
           {"attempts", pass.attempts()},
           {"accepted", pass.accepted()},
           {"verdicts", verdicts},
+          {"items", pass.items},
+          {"deferred", pass.deferred},
+          {"seconds_in_scans", pass.split.scans},
+          {"seconds_in_blocks", pass.split.blocks},
           {"q_worst", pass.after.q_worst},
           {"n_bad", pass.after.n_bad},
           {"q_aver", pass.after.q_aver}};

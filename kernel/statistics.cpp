@@ -316,10 +316,7 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
     for (std::size_t slot = begin; slot < end; ++slot) {
       const TetHandle t(static_cast<std::uint32_t>(slot));
       const Quality q = mesh.quality(t);
-      // Most tets are neither: of these the vertices, which tell the deleted ones, are not
-      // fetched.
       if (!(q < kBadThreshold) && !(q < part.worst)) continue;
-      if (mesh.is_deleted(t)) continue;
       part.worst = std::min(part.worst, q);
       if (q < kBadThreshold) {
         ++part.n_bad;

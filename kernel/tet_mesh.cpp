@@ -136,7 +136,7 @@ void grow(std::vector<T>& values, std::size_t count, const T& value) {
 
 void TetMesh::grow_tets(std::size_t count) {
   grow(cells_, count, {});
-  grow(quality_, count, Quality{0});
+  grow(quality_, count, kDeletedQuality);
   grow(label_, count, Label{0});
   grow(tet_flags_, count, TetFlags{0});
   tet_properties_.resize(cells_.size());

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -189,6 +190,8 @@ class TetMesh {
   };
   static_assert(sizeof(Cell) == 32);
 
+  // Scans for bad tets need not ask whether a slot is in use.
+  static constexpr Quality kDeletedQuality = std::numeric_limits<Quality>::infinity();
   using TetFlags = std::uint16_t;  // bits 0-3: face f is constrained; bits 4-9: edge e is
                                    // constrained; bit 10: touched
   static constexpr TetFlags kTetConstraints = 0x3FF;

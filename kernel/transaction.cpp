@@ -260,7 +260,7 @@ TetHandle Transaction::append_tet() {
 void Transaction::clear_slot(TetHandle t) {
   const std::uint32_t i = t.index();
   mesh_.cells_[i] = TetMesh::Cell();
-  mesh_.quality_[i] = 0;
+  mesh_.quality_[i] = TetMesh::kDeletedQuality;
   mesh_.label_[i] = 0;
   mesh_.tet_flags_[i] = 0;
   mesh_.tet_properties_.reset(t);

@@ -61,7 +61,7 @@ std::vector<BadTet> collect_bad_tets(PassScope& scope, const TetMesh& mesh, Qual
   auto tets =
       collect<BadTet>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadTet>& out) {
         const TetHandle t(i);
-        if (mesh.quality(t) >= threshold || mesh.is_deleted(t)) return;
+        if (mesh.quality(t) >= threshold) return;  // deleted ones as well
         if (changed_since(mesh, mesh.vertices(t), since)) {
           out.push_back({mesh.quality(t), t, mesh.vertices(t)});
         }
@@ -81,7 +81,7 @@ std::vector<BadPoint> collect_bad_points(PassScope& scope, const TetMesh& mesh, 
   auto points =
       collect<BadPoint>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadPoint>& out) {
         const TetHandle t(i);
-        if (mesh.quality(t) >= threshold || mesh.is_deleted(t)) return;
+        if (mesh.quality(t) >= threshold) return;  // deleted ones as well
         for (const VertexHandle v : mesh.vertices(t)) {
           if (!mesh.is_fixed(v) && mesh.changed(v) >= since) out.push_back({v});
         }
@@ -191,14 +191,14 @@ void local_reconnection(Run& run, const LocalReconnection& options) {
 void smooth(Run& run, const SmoothingPass& options) {
   PassScope scope(run, "smoothing");
   const auto smoothing = run.registry().make("smoothing", options.settings);
-  QualityIndicators before = scope.measure();
+  QualityIndicators before = scope.indicators();
   for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
     const Date since = run.begin_sweep(options.calendar);
     work_off(run, scope, collect_bad_points(scope, run.mesh(), options.threshold, since), 0,
              [&](Worker& worker, BadPoint point) {
                return worker.attempt(*smoothing, Target::of(point.vertex)) != Verdict::deferred;
              });
-    const QualityIndicators now = scope.measure();
+    const QualityIndicators now = scope.indicators();
     if (!is_progress(before, now)) return;
     before = now;
   }

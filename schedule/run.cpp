@@ -133,10 +133,14 @@ PassScope::PassScope(Run& run, std::string_view name)
     : run_(run), start_(std::chrono::steady_clock::now()) {
   record_.name = name;
   record_.round = run.round;
+  if (!run.records.empty()) {
+    record_.after = run.records.back().after;
+    measured_ = true;
+  }
 }
 
 PassScope::~PassScope() {
-  record_.after = measure();
+  indicators();
   record_.seconds = record_.split.total = seconds_since(start_);
   run_.report_done(record_);
   run_.records.push_back(std::move(record_));
@@ -146,13 +150,18 @@ PassScope::Scan::~Scan() {
   scope_.record_.split.scans += seconds_since(start_);
 }
 
-QualityIndicators PassScope::measure() {
-  const Scan timed(*this);
-  return quality_indicators(run_.mesh());
+const QualityIndicators& PassScope::indicators() {
+  if (!measured_) {
+    const Scan timed(*this);
+    record_.after = quality_indicators(run_.mesh());
+    measured_ = true;
+  }
+  return record_.after;
 }
 
 void PassScope::expect(std::size_t items) {
   record_.items += items;
+  measured_ = measured_ && items == 0;
   expected_ = items;
   ticks_ = 0;
 }

@@ -154,8 +154,9 @@ class PassScope {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   };
 
-  /// Indicators of the mesh, timed as a scan.
-  QualityIndicators measure();
+  /// Indicators of the mesh, which between passes must not be changed. Measured when something was
+  /// tried since the last time; timed as a scan.
+  const QualityIndicators& indicators();
   /// That many items will be tried.
   void expect(std::size_t items);
   /// Asked before the n-th item of some range, by any thread. Reports progress now and then. False
@@ -172,6 +173,7 @@ class PassScope {
   std::chrono::steady_clock::time_point start_;
   std::atomic<std::size_t> ticks_ = 0;
   std::size_t expected_ = 0;
+  bool measured_ = false;  // record_.after is right
 };
 
 }  // namespace tetmend
