@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "kernel/chunks.h"
 
 namespace tetmend {
@@ -15,18 +17,22 @@ namespace {
 /// A cube around the mesh, shifted by other fractions of its size in each direction, so that the
 /// faces between the cells of the curve, large and small, lie elsewhere.
 std::array<Point, 2> shifted_box(const TetMesh& mesh, unsigned shift) {
-  Point low = Point::Constant(std::numeric_limits<double>::infinity());
-  Point high = -low;
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    if (mesh.is_deleted(VertexHandle(i))) continue;
-    low = low.cwiseMin(mesh.point(VertexHandle(i)));
-    high = high.cwiseMax(mesh.point(VertexHandle(i)));
-  }
-  const double side = (high - low).maxCoeff();
+  const auto boxes =
+      map_chunks<Eigen::AlignedBox3d>(mesh.vertex_slots(), [&](std::size_t begin, std::size_t end) {
+        Eigen::AlignedBox3d box;
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertexHandle v(static_cast<std::uint32_t>(i));
+          if (!mesh.is_deleted(v)) box.extend(mesh.point(v));
+        }
+        return box;
+      });
+  Eigen::AlignedBox3d box;
+  for (const Eigen::AlignedBox3d& part : boxes) box.extend(part);
+  const double side = box.sizes().maxCoeff();
   // Multiples of irrational numbers never fall on the same fraction of a cell again.
   const auto fraction = [shift](double step) { return shift * step - std::floor(shift * step); };
   const Point offset(fraction(0.754877666), fraction(0.569840291), fraction(0.318309886));
-  const Point origin = low - side * offset;
+  const Point origin = box.min() - side * offset;
   return {origin, origin + Point::Constant(2 * side)};
 }
 

@@ -12,8 +12,10 @@ namespace tetmend {
 
 namespace {
 
-/// Small enough for many blocks, large enough that most operations stay inside one.
+// A block is large enough that most operations stay inside one. More blocks than that only help
+// machines that have hundreds of cores; larger blocks defer less.
 constexpr std::size_t kVerticesPerBlock = 6000;
+constexpr std::size_t kEnoughBlocks = 512;
 constexpr std::size_t kMostBlocks = 65535;
 constexpr std::size_t kTicksBetweenReports = 256;
 
@@ -51,7 +53,7 @@ std::size_t PassRecord::attempts() const {
 
 Run::Run(TetMesh& mesh, const Registry& registry)
     : mesh_(mesh), registry_(registry), worker_(mesh, Workspace(mesh)) {
-  set_block_count(mesh.vertex_count() / kVerticesPerBlock);
+  set_block_count(std::min(kEnoughBlocks, mesh.vertex_count() / kVerticesPerBlock));
 }
 
 void Run::set_trace(TraceSink* trace) {
@@ -75,7 +77,8 @@ Date Run::begin_sweep(std::string_view calendar) {
   return 0;
 }
 
-Partition& Run::partition(unsigned shift) {
+Partition& Run::partition(PassScope& scope, unsigned shift) {
+  const PassScope::Scan timed(scope);
   auto& [partition, added] = partitions_[shift];
   if (!partition) {
     partition = std::make_unique<Partition>(mesh_, block_count_, shift);

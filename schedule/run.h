@@ -102,7 +102,7 @@ class Run {
 
   /// How many partitions there are, with shifted blocks each; 0 for a mesh that is not divided.
   unsigned partition_count() const { return block_count_ > 1 ? kPartitions : 0; }
-  Partition& partition(unsigned shift);
+  Partition& partition(PassScope& scope, unsigned shift);
   /// Calls `work` on every thread of the arena, with a worker of its own.
   void on_all_threads(const std::function<void(Worker&)>& work);
   /// Takes over what workers did in their territories. Precondition: none is active.
@@ -114,7 +114,7 @@ class Run {
   void report_done(const PassRecord& record);
 
  private:
-  static constexpr unsigned kPartitions = 3;
+  static constexpr unsigned kPartitions = 4;
   struct ShiftedBlocks {
     std::unique_ptr<Partition> partition;  // made when first needed
     std::vector<VertexHandle> added;       // since it was last used

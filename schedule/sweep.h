@@ -98,7 +98,7 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
   std::vector<Item> rest;
   for (unsigned shift = 0; shift < run.partition_count(); ++shift) {
     if (items.size() < kFewItems || run.cancelled()) break;
-    Partition& partition = run.partition(shift);
+    Partition& partition = run.partition(scope, shift);
     const std::vector<BlockLoad> loads = detail::divide(partition, items, rest);
     std::vector<std::size_t> kept(partition.block_count(), 0);
     run_blocks(run, scope, partition, loads, new_vertices,
