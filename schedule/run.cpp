@@ -15,7 +15,7 @@ namespace {
 // A block is large enough that most operations stay inside one. More blocks than that only help
 // machines that have hundreds of cores; larger blocks defer less.
 constexpr std::size_t kVerticesPerBlock = 6000;
-constexpr std::size_t kEnoughBlocks = 512;
+constexpr std::size_t kEnoughBlocks = 256;
 constexpr std::size_t kMostBlocks = 65535;
 constexpr std::size_t kTicksBetweenReports = 256;
 

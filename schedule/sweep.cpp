@@ -5,35 +5,40 @@ namespace tetmend {
 
 namespace {
 
-/// The part of `slots` from `begin` on, `count` long.
+/// The part of `slots` from `begin` to `end`.
 template <class Handle>
 std::vector<Handle> deal(const std::vector<Handle>& slots, std::size_t begin, std::size_t end) {
   return {slots.begin() + static_cast<std::ptrdiff_t>(begin),
           slots.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-/// Free slots for each load, in proportion to its items. All of the mesh's are dealt out.
+/// Takes free slots from the mesh for each load, in proportion to its items.
 std::vector<Workspace::FreeSlots> deal_slots(Run& run, std::span<const BlockLoad> loads,
                                              double new_vertices) {
   // Most operations leave fewer tets than they find; what runs out of slots is deferred.
   constexpr std::size_t kLeast = 64;
-  std::size_t items = 0;
-  for (const BlockLoad& load : loads) items += kLeast + load.end - load.begin;
-  const auto vertices = static_cast<std::size_t>(new_vertices * static_cast<double>(items));
+  std::size_t tets = 0;
+  for (const BlockLoad& load : loads) tets += kLeast + load.end - load.begin;
+  const auto vertices_for = [&](std::size_t items) {
+    return static_cast<std::size_t>(new_vertices * static_cast<double>(items));
+  };
   Workspace& all = run.worker().workspace();
-  all.provide(run.mesh(), items, vertices);
-  Workspace::FreeSlots pool = std::exchange(all.free_slots(), {});
-  const std::size_t tets = pool.tets.size();
-  const std::size_t points = pool.vertices.size();
+  all.provide(run.mesh(), tets, vertices_for(tets));
+  Workspace::FreeSlots& pool = all.free_slots();
+  const std::size_t first_tet = pool.tets.size() - tets;
+  const std::size_t first_vertex = pool.vertices.size() - vertices_for(tets);
 
   std::vector<Workspace::FreeSlots> dealt(loads.size());
   std::size_t done = 0;
   for (std::size_t n = 0; n < loads.size(); ++n) {
     const std::size_t next = done + kLeast + loads[n].end - loads[n].begin;
-    dealt[n].tets = deal(pool.tets, tets * done / items, tets * next / items);
-    dealt[n].vertices = deal(pool.vertices, points * done / items, points * next / items);
+    dealt[n].tets = deal(pool.tets, first_tet + done, first_tet + next);
+    dealt[n].vertices =
+        deal(pool.vertices, first_vertex + vertices_for(done), first_vertex + vertices_for(next));
     done = next;
   }
+  pool.tets.resize(first_tet);
+  pool.vertices.resize(first_vertex);
   return dealt;
 }
 

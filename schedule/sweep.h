@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/chunks.h"
+#include "kernel/grouping.h"
 #include "schedule/run.h"
 
 namespace tetmend {
@@ -34,7 +35,7 @@ namespace detail {
 template <class Item>
 std::vector<BlockLoad> divide(const Partition& partition, std::vector<Item>& items,
                               std::vector<Item>& rest) {
-  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+  const auto blocks = static_cast<std::uint32_t>(partition.block_count());
   std::vector<std::uint32_t> home(items.size());
   for_chunks(items.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -42,30 +43,25 @@ std::vector<BlockLoad> divide(const Partition& partition, std::vector<Item>& ite
       const BlockId block = partition.block(vertices[0]);
       const bool whole = std::all_of(vertices.begin(), vertices.end(),
                                      [&](VertexHandle v) { return partition.block(v) == block; });
-      home[i] = whole ? block : kNone;
+      home[i] = whole ? block : blocks;
     }
   });
-  std::vector<std::size_t> start(partition.block_count() + 1, 0);
-  for (const std::uint32_t block : home) {
-    if (block != kNone) ++start[block + 1];
-  }
-  for (std::size_t b = 0; b + 1 < start.size(); ++b) start[b + 1] += start[b];
+  const Grouping groups = group_by_key(home, blocks + 1);
   std::vector<BlockLoad> loads;
-  for (std::size_t b = 0; b + 1 < start.size(); ++b) {
-    if (start[b] < start[b + 1]) {
-      loads.push_back({static_cast<BlockId>(b), start[b], start[b + 1]});
+  for (std::uint32_t b = 0; b < blocks; ++b) {
+    if (groups.begin[b] < groups.begin[b + 1]) {
+      loads.push_back({static_cast<BlockId>(b), groups.begin[b], groups.begin[b + 1]});
     }
   }
-  std::vector<Item> sorted(start.back());
-  rest.clear();
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (home[i] == kNone) {
-      rest.push_back(items[i]);
-    } else {
-      sorted[start[home[i]]++] = items[i];
+  const std::size_t divided = groups.begin[blocks];
+  std::vector<Item> sorted(divided);
+  rest.resize(items.size() - divided);
+  for_chunks(items.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      (i < divided ? sorted[i] : rest[i - divided]) = items[groups.order[i]];
     }
-  }
-  items = std::move(sorted);
+  });
+  items.swap(sorted);
   return loads;
 }
 
@@ -99,13 +95,20 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
   for (unsigned shift = 0; shift < run.partition_count(); ++shift) {
     if (items.size() < kFewItems || run.cancelled()) break;
     Partition& partition = run.partition(scope, shift);
-    const std::vector<BlockLoad> loads = detail::divide(partition, items, rest);
+    std::vector<BlockLoad> loads;
+    {
+      const PassScope::Scan timed(scope);
+      loads = detail::divide(partition, items, rest);
+    }
     std::vector<std::size_t> kept(partition.block_count(), 0);
     run_blocks(run, scope, partition, loads, new_vertices,
                [&](Worker& worker, const BlockLoad& load) {
                  kept[load.block] =
                      detail::work_off_range(scope, worker, items, load.begin, load.end, try_item);
                });
+    std::size_t deferred = rest.size();
+    for (const BlockLoad& load : loads) deferred += kept[load.block] - load.begin;
+    rest.reserve(deferred);
     for (const BlockLoad& load : loads) {
       rest.insert(rest.end(), items.begin() + static_cast<std::ptrdiff_t>(load.begin),
                   items.begin() + static_cast<std::ptrdiff_t>(kept[load.block]));
