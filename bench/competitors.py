@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: MIT
+"""The improvers that script/bench compares: how each is found, called and asked for its time.
+
+To add one, add a row to `competitors()`.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+RIVALS = Path(__file__).resolve().parent / "rivals"
+PYTHON = "/usr/bin/python3"  # the one that knows Debian's modules
+
+
+@dataclass(frozen=True)
+class Competitor:
+    name: str
+    short: str  # label in charts
+    found: str | None  # program or Python module to run, None: not on this machine
+    hint: str  # how to get it
+    command: tuple[str, ...]  # run in a folder that holds the input
+    output: str  # file that the command leaves in the folder
+    seconds: Callable[[Path], float | None]  # of improving alone, from the folder of the run
+    package: str | None = None  # Debian package, for its version
+    ours: bool = False
+
+
+def shown_command(competitor: Competitor) -> str:
+    """The command as a reader may type it: no folders of this machine."""
+    return " ".join(Path(word).name if word.startswith("/") else word for word in competitor.command)
+
+
+def version(competitor: Competitor) -> str:
+    if competitor.package is None or shutil.which("dpkg-query") is None:
+        return ""
+    query = ["dpkg-query", "-W", "-f=${Version}", competitor.package]
+    return subprocess.run(query, capture_output=True, text=True, check=False).stdout
+
+
+# --- how a rival is found
+
+
+def program(name: str) -> str | None:
+    return shutil.which(name)
+
+
+def module(name: str) -> str | None:
+    """Python with that module, or nothing."""
+    if not Path(PYTHON).exists():
+        return None
+    test = f"import importlib.util as u, sys; sys.exit(u.find_spec('{name}') is None)"
+    return PYTHON if subprocess.run([PYTHON, "-c", test], check=False).returncode == 0 else None
+
+
+def variable(name: str) -> str | None:
+    path = os.environ.get(name, "")
+    return shutil.which(path) if path else None
+
+
+# --- what a rival tells about its time
+
+
+def log_of(folder: Path) -> str:
+    return (folder / "log.txt").read_text(errors="replace")
+
+
+def untold(_: Path) -> float | None:
+    return None
+
+
+def tetmend_seconds(folder: Path) -> float | None:
+    return json.loads((folder / "report.json").read_text())["seconds"]["improving"]
+
+
+def line_seconds(folder: Path) -> float | None:
+    found = re.search(r"^improving seconds: *([\d.eE+-]+)", log_of(folder), re.MULTILINE)
+    return float(found[1]) if found else None
+
+
+def tetgen_seconds(folder: Path) -> float | None:
+    found = re.findall(r"^(?:Refinement|Optimization) seconds: *([\d.eE+-]+)", log_of(folder), re.M)
+    return sum(map(float, found)) if found else None
+
+
+def mmg_seconds(folder: Path) -> float | None:
+    """Sum of its phases, which lie between reading and writing: "0.123s" or "1m02s(62.345s)"."""
+    found = re.findall(r"PHASE \d COMPLETED\.\s+(?:\S*\()?([\d.]+)s", log_of(folder))
+    return sum(map(float, found)) if found else None
+
+
+# --- the table
+
+
+def tetmend_rows(tetmend: Path) -> list[Competitor]:
+    def row(threads: int) -> Competitor:
+        plural = "thread" if threads == 1 else "threads"
+        options = f"--quiet --report report.json --threads {threads}".split()
+        return Competitor(
+            name=f"tetmend, {threads} {plural}",
+            short=f"tetmend ({threads})",
+            found=str(tetmend),
+            hint="",
+            command=(str(tetmend), "improve", "input.mesh", "-o", "output.mesh", *options),
+            output="output.mesh",
+            seconds=tetmend_seconds,
+            ours=True,
+        )
+
+    return [row(1), row(2)]
+
+
+def gmsh_rows() -> list[Competitor]:
+    found = module("gmsh")
+
+    def row(name: str, short: str, mode: str) -> Competitor:
+        script = str(RIVALS / "gmsh_optimize.py")
+        return Competitor(
+            name=name,
+            short=short,
+            found=found,
+            hint="Get it: Debian package python3-gmsh",
+            command=(PYTHON, script, mode, "input.mesh", "output.vtk"),
+            output="output.vtk",
+            seconds=line_seconds,
+            package="python3-gmsh",
+        )
+
+    return [
+        row("Gmsh, own optimiser", "Gmsh", "default"),
+        row("Gmsh, threshold 0.6 three times, relocation", "Gmsh 0.6 x3", "thorough"),
+    ]
+
+
+def tetgen_rows() -> list[Competitor]:
+    def row(angle: int) -> Competitor:
+        # Without -q TetGen leaves its optimiser out.
+        return Competitor(
+            name=f"TetGen, goal {angle} degrees",
+            short=f"TetGen {angle}",
+            found=program("tetgen"),
+            hint="Get it: Debian package tetgen",
+            command=("tetgen", f"-rq100/0YO9/7o/{angle}", "input.node"),
+            output="input.1.node",
+            seconds=tetgen_seconds,
+            package="tetgen",
+        )
+
+    return [row(140), row(120)]
+
+
+def netgen_rows() -> list[Competitor]:
+    script = str(RIVALS / "netgen_optimize.py")
+    return [
+        Competitor(
+            name="Netgen",
+            short="Netgen",
+            found=module("netgen"),
+            hint="Get it: Debian package python3-netgen",
+            command=(PYTHON, script, "input.mesh", "output.mesh"),
+            output="output.mesh",
+            seconds=line_seconds,
+            package="python3-netgen",
+        )
+    ]
+
+
+def mmg_rows() -> list[Competitor]:
+    found = variable("TETMEND_BENCH_MMG3D")
+
+    def row(name: str, short: str, *options: str) -> Competitor:
+        files = ("-in", "input.mesh", "-out", "output.meshb")
+        return Competitor(
+            name=name,
+            short=short,
+            found=found,
+            hint="Get it: set TETMEND_BENCH_MMG3D to the program mmg3d (www.mmgtools.org)",
+            command=(found or "mmg3d", "-optim", "-nosurf", *options, *files),
+            output="output.meshb",
+            seconds=mmg_seconds,
+        )
+
+    return [
+        row("MMG, no insertion", "MMG -noinsert", "-noinsert"),
+        row("MMG", "MMG"),
+    ]
+
+
+def stellar_rows() -> list[Competitor]:
+    found = variable("TETMEND_BENCH_STELLAR")
+    return [
+        Competitor(
+            name="Stellar, surface fixed",
+            short="Stellar",
+            found=found,
+            hint="Get it: set TETMEND_BENCH_STELLAR to the program Stellar "
+            "(people.eecs.berkeley.edu/~jrs/stellar)",
+            command=(found or "Stellar", "-s", str(RIVALS / "stellar.config"), "input"),
+            output="output.node",
+            seconds=untold,
+        )
+    ]
+
+
+def other_rows() -> list[Competitor]:
+    """Programs that are called as PROGRAM INPUT.mesh OUTPUT.mesh; a script can bring any to that."""
+
+    def row(name: str, name_of_variable: str) -> Competitor:
+        found = variable(name_of_variable)
+        return Competitor(
+            name=name,
+            short=name,
+            found=found,
+            hint=f"Get it: set {name_of_variable} to a program that is called as PROGRAM IN.mesh OUT.mesh; "
+            'it may print "improving seconds: X"',
+            command=(found or name, "input.mesh", "output.mesh"),
+            output="output.mesh",
+            seconds=line_seconds,
+        )
+
+    return [row("HXT", "TETMEND_BENCH_HXT"), row("other", "TETMEND_BENCH_OTHER")]
+
+
+def competitors(tetmend: Path) -> list[Competitor]:
+    return [
+        *tetmend_rows(tetmend),
+        *gmsh_rows(),
+        *tetgen_rows(),
+        *netgen_rows(),
+        *mmg_rows(),
+        *stellar_rows(),
+        *other_rows(),
+    ]
