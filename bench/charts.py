@@ -212,7 +212,7 @@ def draw_label(mark: Mark, x: float, box: Box) -> str:
 
 
 def draw_panel(marks: list[Mark], across: Axis, up: Axis, title: str, source: float) -> list[str]:
-    label = f"input: {source:,.4g}"
+    label = f"input: {source:,.0f}" if up.logarithmic else f"input: {source:.2f}°"
     source_y = up.position(source)
     points = [(across.position(mark.time), up.position(mark.value)) for mark in marks]
     frame = Box(across.start + 2, up.end + 2, across.end - 2, up.start - 2)
@@ -236,8 +236,8 @@ def marks_of(mesh: dict, value: Callable[[dict], float]) -> list[Mark]:
     for row in mesh["rows"]:
         if "after" not in row:
             continue
-        times = row["improving_seconds"] or row["whole_seconds"]
-        whole = row["improving_seconds"] is None
+        whole = "improving" not in row["phases"]
+        times = row["whole_seconds"] if whole else row["phases"]["improving"]
         time = max(times["median"], 1e-4)
         marks.append(Mark(row["short"], time, value(row["after"]), row["ours"], whole))
     return marks

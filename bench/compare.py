@@ -7,6 +7,7 @@ Every improver runs on the same meshes, in turns, several times; bench/measure j
 import argparse
 import datetime
 import json
+import math
 import os
 import platform
 import signal
@@ -15,17 +16,19 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import charts
 import report
-from competitors import Competitor, competitors, shown_command, version
+from competitors import Competitor, Phases, competitors, shown_command, version
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "release"
 WORK = ROOT / "build" / "bench"
 SHARED = ROOT.parent / "shared" / "meshes"
+
+EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
 
 EPILOG = """\
 Results go to build/bench: results.json, results.md, and one chart for each mesh.
@@ -34,6 +37,7 @@ Rivals that Debian does not have are found through environment variables:
   TETMEND_BENCH_STELLAR  the program Stellar
   TETMEND_BENCH_HXT      HXT's optimiser, called as PROGRAM IN.mesh OUT.mesh
   TETMEND_BENCH_OTHER    any other program, called in the same way
+  TETMEND_BENCH_PYTHON   a Python with other versions of the modules gmsh and netgen than Debian's
 
 script/bench --micro [OPTION...] runs the micro-benchmarks instead; the options are those of
 Google Benchmark, such as --benchmark_filter=shell.
@@ -46,7 +50,7 @@ class Outcome:
 
     status: str  # "ok", "time limit", or what went wrong
     whole: float = 0.0  # seconds from start to exit
-    improving: float | None = None
+    phases: Phases = field(default_factory=dict)
     peak_bytes: int = 0
 
 
@@ -70,11 +74,14 @@ class Row:
             "command": shown_command(self.competitor),
             "version": version(self.competitor),
             "status": self.status(),
-            "runs": len(good),
+            "runs": [asdict(outcome) for outcome in self.outcomes],
         }
         if good and self.quality:
-            told = [outcome.improving for outcome in good if outcome.improving is not None]
-            result["improving_seconds"] = spread(told)
+            result["phases"] = {
+                phase: spread([outcome.phases[phase] for outcome in good])
+                for phase in good[0].phases
+                if all(phase in outcome.phases for outcome in good)
+            }
             result["whole_seconds"] = spread([outcome.whole for outcome in good])
             result["peak_bytes"] = max(outcome.peak_bytes for outcome in good)
             result["after"] = self.quality["after"]
@@ -82,9 +89,7 @@ class Row:
         return result
 
 
-def spread(values: list[float]) -> dict | None:
-    if not values:
-        return None
+def spread(values: list[float]) -> dict:
     return {"median": statistics.median(values), "min": min(values), "max": max(values)}
 
 
@@ -117,7 +122,7 @@ def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
     if code != 0:
         return Outcome(f"exit status {code}")
     kilobytes = int((folder / "memory.txt").read_text().split()[-1])
-    return Outcome("ok", whole, None, 1024 * kilobytes)
+    return Outcome("ok", whole, {}, 1024 * kilobytes)
 
 
 def fresh_folder(path: Path) -> Path:
@@ -140,9 +145,23 @@ def run_once(row: Row, inputs: Path, folder: Path, limit: float) -> None:
     if not result.exists():
         outcome.status = "no result"
         return
-    outcome.improving = competitor.seconds(folder)
+    outcome.phases = competitor.phases(folder)
     if row.quality is None:
-        row.quality = program_json("measure", str(inputs / "input.mesh"), str(result))
+        try:
+            row.quality = program_json("measure", str(inputs / "input.mesh"), str(result))
+        except subprocess.CalledProcessError:
+            outcome.status = "unreadable result"
+            return
+    if competitor.ours and not report_agrees(folder / "report.json", row.quality["after"]):
+        outcome.status = "its own report disagrees with bench/measure"
+
+
+def report_agrees(file: Path, measured: dict) -> bool:
+    """Whether the kernel's statistics are those of the independent routine. A tet at the threshold
+    may be bad for one only."""
+    own = json.loads(file.read_text())["after"]
+    close = [math.isclose(own[key], measured[key], rel_tol=1e-6) for key in EXACT_MEASURES]
+    return all(close) and math.isclose(own["n_bad"], measured["n_bad"], rel_tol=1e-3, abs_tol=1)
 
 
 def program_json(name: str, *arguments: str) -> dict:

@@ -14,7 +14,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 RIVALS = Path(__file__).resolve().parent / "rivals"
-PYTHON = "/usr/bin/python3"  # the one that knows Debian's modules
+# The default is the Python that knows Debian's modules.
+OWN_PYTHON = os.environ.get("TETMEND_BENCH_PYTHON")
+PYTHON = OWN_PYTHON or "/usr/bin/python3"
+
+Phases = dict[str, float]  # seconds; "improving" is the work without reading and writing
 
 
 @dataclass(frozen=True)
@@ -25,7 +29,7 @@ class Competitor:
     hint: str  # how to get it
     command: tuple[str, ...]  # run in a folder that holds the input
     output: str  # file that the command leaves in the folder
-    seconds: Callable[[Path], float | None]  # of improving alone, from the folder of the run
+    phases: Callable[[Path], Phases]  # what it tells about its time, from the folder of the run
     package: str | None = None  # Debian package, for its version
     ours: bool = False
 
@@ -69,28 +73,30 @@ def log_of(folder: Path) -> str:
     return (folder / "log.txt").read_text(errors="replace")
 
 
-def untold(_: Path) -> float | None:
-    return None
+def untold(_: Path) -> Phases:
+    return {}
 
 
-def tetmend_seconds(folder: Path) -> float | None:
-    return json.loads((folder / "report.json").read_text())["seconds"]["improving"]
+def improving(found: list[str]) -> Phases:
+    return {"improving": sum(map(float, found))} if found else {}
 
 
-def line_seconds(folder: Path) -> float | None:
-    found = re.search(r"^improving seconds: *([\d.eE+-]+)", log_of(folder), re.MULTILINE)
-    return float(found[1]) if found else None
+def tetmend_phases(folder: Path) -> Phases:
+    return json.loads((folder / "report.json").read_text())["seconds"]
 
 
-def tetgen_seconds(folder: Path) -> float | None:
-    found = re.findall(r"^(?:Refinement|Optimization) seconds: *([\d.eE+-]+)", log_of(folder), re.M)
-    return sum(map(float, found)) if found else None
+def line_phases(folder: Path) -> Phases:
+    return improving(re.findall(r"^improving seconds: *([\d.eE+-]+)", log_of(folder), re.M))
 
 
-def mmg_seconds(folder: Path) -> float | None:
+def tetgen_phases(folder: Path) -> Phases:
+    pattern = r"^(?:Refinement|Optimization) seconds: *([\d.eE+-]+)"
+    return improving(re.findall(pattern, log_of(folder), re.M))
+
+
+def mmg_phases(folder: Path) -> Phases:
     """Sum of its phases, which lie between reading and writing: "0.123s" or "1m02s(62.345s)"."""
-    found = re.findall(r"PHASE \d COMPLETED\.\s+(?:\S*\()?([\d.]+)s", log_of(folder))
-    return sum(map(float, found)) if found else None
+    return improving(re.findall(r"PHASE \d COMPLETED\.\s+(?:\S*\()?([\d.]+)s", log_of(folder)))
 
 
 # --- the table
@@ -107,7 +113,7 @@ def tetmend_rows(tetmend: Path) -> list[Competitor]:
             hint="",
             command=(str(tetmend), "improve", "input.mesh", "-o", "output.mesh", *options),
             output="output.mesh",
-            seconds=tetmend_seconds,
+            phases=tetmend_phases,
             ours=True,
         )
 
@@ -126,8 +132,8 @@ def gmsh_rows() -> list[Competitor]:
             hint="Get it: Debian package python3-gmsh",
             command=(PYTHON, script, mode, "input.mesh", "output.vtk"),
             output="output.vtk",
-            seconds=line_seconds,
-            package="python3-gmsh",
+            phases=line_phases,
+            package=None if OWN_PYTHON else "python3-gmsh",
         )
 
     return [
@@ -146,7 +152,7 @@ def tetgen_rows() -> list[Competitor]:
             hint="Get it: Debian package tetgen",
             command=("tetgen", f"-rq100/0YO9/7o/{angle}", "input.node"),
             output="input.1.node",
-            seconds=tetgen_seconds,
+            phases=tetgen_phases,
             package="tetgen",
         )
 
@@ -163,8 +169,8 @@ def netgen_rows() -> list[Competitor]:
             hint="Get it: Debian package python3-netgen",
             command=(PYTHON, script, "input.mesh", "output.mesh"),
             output="output.mesh",
-            seconds=line_seconds,
-            package="python3-netgen",
+            phases=line_phases,
+            package=None if OWN_PYTHON else "python3-netgen",
         )
     ]
 
@@ -181,7 +187,7 @@ def mmg_rows() -> list[Competitor]:
             hint="Get it: set TETMEND_BENCH_MMG3D to the program mmg3d (www.mmgtools.org)",
             command=(found or "mmg3d", "-optim", "-nosurf", *options, *files),
             output="output.meshb",
-            seconds=mmg_seconds,
+            phases=mmg_phases,
         )
 
     return [
@@ -201,7 +207,7 @@ def stellar_rows() -> list[Competitor]:
             "(people.eecs.berkeley.edu/~jrs/stellar)",
             command=(found or "Stellar", "-s", str(RIVALS / "stellar.config"), "input"),
             output="output.node",
-            seconds=untold,
+            phases=untold,
         )
     ]
 
@@ -219,7 +225,7 @@ def other_rows() -> list[Competitor]:
             'it may print "improving seconds: X"',
             command=(found or name, "input.mesh", "output.mesh"),
             output="output.mesh",
-            seconds=line_seconds,
+            phases=line_phases,
         )
 
     return [row("HXT", "TETMEND_BENCH_HXT"), row("other", "TETMEND_BENCH_OTHER")]

@@ -15,7 +15,6 @@
 #include <iostream>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -171,13 +170,12 @@ std::vector<std::uint32_t> surface_vertices(std::span<const Face> faces) {
   std::vector<std::uint32_t> vertices;
   for (const Face& face : faces) vertices.insert(vertices.end(), face.begin(), face.end());
   std::ranges::sort(vertices);
-  const auto rest = std::ranges::unique(vertices);
-  vertices.erase(rest.begin(), rest.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 
-/// Finds the nearest surface vertex of a mesh. The vertices are sorted along a direction in which
-/// no two of a plane or a lattice coincide, so a search looks at a handful.
+/// The surface vertices of a mesh by place. They are sorted along a direction in which few points
+/// of a plane or a lattice coincide, so a search looks at a handful.
 class SurfaceSearch {
  public:
   SurfaceSearch(const MeshData& mesh, std::span<const Face> faces, double tolerance)
@@ -190,6 +188,7 @@ class SurfaceSearch {
     double distance;
   };
 
+  /// The nearest vertex within the tolerance, of several in one place always the same.
   std::optional<Match> nearest(const Point& p) const {
     const auto height_of = [this](std::uint32_t v) { return height(mesh_.points[v]); };
     auto it = std::ranges::lower_bound(vertices_, height(p) - tolerance_, {}, height_of);
@@ -211,6 +210,32 @@ class SurfaceSearch {
   std::vector<std::uint32_t> vertices_;
 };
 
+struct MatchedFaces {
+  std::vector<Face> keys;  // ascending; only of faces with all corners on the surface searched
+  double distance = 0;     // largest of a corner from its match
+};
+
+MatchedFaces match_faces(const MeshData& mesh, std::span<const Face> faces,
+                         const SurfaceSearch& search) {
+  MatchedFaces matched;
+  for (const Face& face : faces) {
+    Face match{};
+    double distance = 0;
+    unsigned corners = 0;
+    for (; corners < 3; ++corners) {
+      const auto vertex = search.nearest(mesh.points[face[corners]]);
+      if (!vertex) break;
+      match[corners] = vertex->vertex;
+      distance = std::max(distance, vertex->distance);
+    }
+    if (corners < 3) continue;
+    matched.keys.push_back(bench::face_key(match));
+    matched.distance = std::max(matched.distance, distance);
+  }
+  std::ranges::sort(matched.keys);
+  return matched;
+}
+
 double diagonal(const MeshData& mesh) {
   Eigen::AlignedBox3d box;
   for (const Point& p : mesh.points) box.extend(p);
@@ -230,26 +255,16 @@ Json compare_surfaces(const MeshData& before, const MeshData& after) {
   }
 
   const SurfaceSearch search(before, old_faces, kSamePoint * diagonal(before));
-  std::vector<Face> found;
-  double largest = 0;
-  for (const Face& face : new_faces) {
-    Face match;
-    bool complete = true;
-    for (unsigned i = 0; i < 3 && complete; ++i) {
-      const auto vertex = search.nearest(after.points[face[i]]);
-      complete = vertex.has_value();
-      if (!complete) continue;
-      match[i] = vertex->vertex;
-      largest = std::max(largest, vertex->distance);
-    }
-    if (complete) found.push_back(bench::face_key(match));
-  }
-  std::ranges::sort(found);
-  const auto lost = std::ranges::count_if(old_faces, [&](const Face& face) {
-    return !std::ranges::binary_search(found, bench::face_key(face));
+  // The old faces too, for their vertices may lie in one place.
+  const MatchedFaces old_matched = match_faces(before, old_faces, search);
+  const MatchedFaces new_matched = match_faces(after, new_faces, search);
+  const auto lost = std::ranges::count_if(old_matched.keys, [&new_matched](const Face& key) {
+    return !std::ranges::binary_search(new_matched.keys, key);
   });
   const bool same = lost == 0 && new_faces.size() == old_faces.size();
-  result.update({{"surface", same ? "moved" : "changed"}, {"lost", lost}, {"distance", largest}});
+  result.update({{"surface", same ? "moved" : "changed"},
+                 {"lost", lost},
+                 {"distance", new_matched.distance}});
   return result;
 }
 

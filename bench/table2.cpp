@@ -38,14 +38,9 @@ std::array<Scheme, 4> schemes() {
 }
 
 Json row(const char* name, const MeshStatistics& s, double seconds) {
-  return {{"scheme", name},
-          {"tets", s.tets},
-          {"theta_min", s.theta_min},
-          {"theta_max", s.theta_max},
-          {"lambda", s.lambda},
-          {"lambda_bands", s.lambda_bands},
-          {"n_bad", s.n_bad},
-          {"seconds", seconds}};
+  return {{"scheme", name},           {"tets", s.tets},     {"theta_min", s.theta_min},
+          {"theta_max", s.theta_max}, {"lambda", s.lambda}, {"lambda_bands", s.lambda_bands},
+          {"n_bad", s.n_bad},         {"seconds", seconds}};
 }
 
 Json run(const std::filesystem::path& file, const Registry& registry) {
