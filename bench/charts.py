@@ -164,7 +164,8 @@ def leader(x: float, y: float, box: Box) -> str:
 def draw_mark(mark: Mark, x: float, y: float) -> str:
     colour = OURS if mark.ours else THEIRS
     fill = "white" if mark.whole else colour
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="{fill}" stroke="{colour}" stroke-width="1.6"/>'
+    style = f'fill="{fill}" stroke="{colour}" stroke-width="1.6"'
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" {style}/>'
 
 
 def draw_grid(across: Axis, up: Axis, title: str) -> list[str]:

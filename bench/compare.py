@@ -28,6 +28,7 @@ BUILD = ROOT / "build" / "release"
 WORK = ROOT / "build" / "bench"
 SHARED = ROOT.parent / "shared" / "meshes"
 
+GNU_TIME = "/usr/bin/time"
 EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
 
 EPILOG = """\
@@ -99,7 +100,7 @@ def spread(values: list[float]) -> dict:
 def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
     """Runs a command in a folder. GNU time takes the peak memory: what the kernel tells this
     process about its children would include the memory of the interpreter."""
-    timed = ["/usr/bin/time", "-q", "-f", "%M", "-o", "memory.txt", *command]
+    timed = [GNU_TIME, "-q", "-f", "%M", "-o", "memory.txt", *command]
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with open(folder / "log.txt", "wb") as log:
         start = time.perf_counter()
@@ -285,6 +286,8 @@ def profile(mesh: Path) -> None:
 
 def main() -> None:
     options = parse(sys.argv[1:])
+    if not Path(GNU_TIME).exists():
+        sys.exit("bench: please install the Debian package time")
     everyone = competitors(BUILD / "bin" / "tetmend")
     contenders = chosen(everyone, options.only)
     found = [row for row in contenders if row.found]
@@ -294,7 +297,9 @@ def main() -> None:
         "machine": machine(),
         "command": " ".join(["script/bench", *sys.argv[1:]]),
         "repetitions": options.repetitions,
-        "missing": [{"improver": row.name, "hint": row.hint} for row in contenders if not row.found],
+        "missing": [
+            {"improver": row.name, "hint": row.hint} for row in contenders if not row.found
+        ],
         "meshes": [],
         "table2": [],
     }

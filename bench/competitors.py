@@ -36,7 +36,8 @@ class Competitor:
 
 def shown_command(competitor: Competitor) -> str:
     """The command as a reader may type it: no folders of this machine."""
-    return " ".join(Path(word).name if word.startswith("/") else word for word in competitor.command)
+    words = competitor.command
+    return " ".join(Path(word).name if word.startswith("/") else word for word in words)
 
 
 def version(competitor: Competitor) -> str:
@@ -55,7 +56,7 @@ def program(name: str) -> str | None:
 
 def module(name: str) -> str | None:
     """Python with that module, or nothing."""
-    if not Path(PYTHON).exists():
+    if shutil.which(PYTHON) is None:
         return None
     test = f"import importlib.util as u, sys; sys.exit(u.find_spec('{name}') is None)"
     return PYTHON if subprocess.run([PYTHON, "-c", test], check=False).returncode == 0 else None
@@ -129,7 +130,7 @@ def gmsh_rows() -> list[Competitor]:
             name=name,
             short=short,
             found=found,
-            hint="Get it: Debian package python3-gmsh",
+            hint="Needs the Debian package python3-gmsh",
             command=(PYTHON, script, mode, "input.mesh", "output.vtk"),
             output="output.vtk",
             phases=line_phases,
@@ -149,7 +150,7 @@ def tetgen_rows() -> list[Competitor]:
             name=f"TetGen, goal {angle} degrees",
             short=f"TetGen {angle}",
             found=program("tetgen"),
-            hint="Get it: Debian package tetgen",
+            hint="Needs the Debian package tetgen",
             command=("tetgen", f"-rq100/0YO9/7o/{angle}", "input.node"),
             output="input.1.node",
             phases=tetgen_phases,
@@ -166,7 +167,7 @@ def netgen_rows() -> list[Competitor]:
             name="Netgen",
             short="Netgen",
             found=module("netgen"),
-            hint="Get it: Debian package python3-netgen",
+            hint="Needs the Debian package python3-netgen",
             command=(PYTHON, script, "input.mesh", "output.mesh"),
             output="output.mesh",
             phases=line_phases,
@@ -184,7 +185,7 @@ def mmg_rows() -> list[Competitor]:
             name=name,
             short=short,
             found=found,
-            hint="Get it: set TETMEND_BENCH_MMG3D to the program mmg3d (www.mmgtools.org)",
+            hint="Needs TETMEND_BENCH_MMG3D=PROGRAM: mmg3d (www.mmgtools.org)",
             command=(found or "mmg3d", "-optim", "-nosurf", *options, *files),
             output="output.meshb",
             phases=mmg_phases,
@@ -203,7 +204,7 @@ def stellar_rows() -> list[Competitor]:
             name="Stellar, surface fixed",
             short="Stellar",
             found=found,
-            hint="Get it: set TETMEND_BENCH_STELLAR to the program Stellar "
+            hint="Needs TETMEND_BENCH_STELLAR=PROGRAM: Stellar "
             "(people.eecs.berkeley.edu/~jrs/stellar)",
             command=(found or "Stellar", "-s", str(RIVALS / "stellar.config"), "input"),
             output="output.node",
@@ -213,7 +214,7 @@ def stellar_rows() -> list[Competitor]:
 
 
 def other_rows() -> list[Competitor]:
-    """Programs that are called as PROGRAM INPUT.mesh OUTPUT.mesh; a script can bring any to that."""
+    """Programs that are called as PROGRAM IN.mesh OUT.mesh; a script can bring any to that."""
 
     def row(name: str, name_of_variable: str) -> Competitor:
         found = variable(name_of_variable)
@@ -221,7 +222,7 @@ def other_rows() -> list[Competitor]:
             name=name,
             short=name,
             found=found,
-            hint=f"Get it: set {name_of_variable} to a program that is called as PROGRAM IN.mesh OUT.mesh; "
+            hint=f"Needs {name_of_variable}=PROGRAM, called as PROGRAM IN.mesh OUT.mesh; "
             'it may print "improving seconds: X"',
             command=(found or name, "input.mesh", "output.mesh"),
             output="output.mesh",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rows of Tables 2 and 3 of the paper: its own meshes, measured by its authors on their machine."""
+"""Rows of Tables 2 and 3 of the paper: its own meshes, measured by its authors."""
 
 from dataclasses import dataclass
 

@@ -160,7 +160,8 @@ def text_table(table: Table) -> str:
         ]
         return "  ".join(cells).rstrip()
 
-    return "\n".join([line(table[0]), "-" * (sum(widths) + 2 * len(widths) - 2), *map(line, table[1:])])
+    rule = "-" * (sum(widths) + 2 * len(widths) - 2)
+    return "\n".join([line(table[0]), rule, *map(line, table[1:])])
 
 
 def machine_line(results: dict) -> str:
@@ -210,8 +211,9 @@ def markdown(results: dict) -> str:
     parts = [f"`{results['command']}`: {machine_line(results)}"]
     parts += [
         "*improving s* is what the program itself says about its work without reading and writing; "
-        "*whole run s* and *peak MB* are those of the process, with Python for Gmsh and Netgen. Angles in degrees, lambda in percent "
-        "of the dihedral angles outside 30 to 150 degrees, a bad tet has a minimum sine below 0.5. "
+        "*whole run s* and *peak MB* are those of the process, with Python for Gmsh and Netgen. "
+        "Angles in degrees; lambda in percent of the dihedral angles outside 30 to 150 degrees; a "
+        "bad tet has a minimum sine below 0.5. "
         "*surface*: kept means the same triangles bit for bit; rounded means the same triangles "
         "with coordinates changed by at most the number given."
     ]
