@@ -165,12 +165,12 @@ def text_table(table: Table) -> str:
 
 
 def machine_line(results: dict) -> str:
-    machine = results["machine"]
+    machine, count = results["machine"], results["repetitions"]
     memory = machine["memory_bytes"] / 1e9
+    runs = f"Median of {count} runs in turns, with half their range in percent."
     return (
         f"{results['date']}, {machine['processor']}, {machine['cores']} cores, {memory:.0f} GB, "
-        f"load {machine['load_before']:.1f} at the start. Median of {results['repetitions']} runs "
-        "in turns, with half their range in percent."
+        f"load {machine['load_before']:.1f} at the start. " + (runs if count > 1 else "One run.")
     )
 
 
