@@ -190,15 +190,30 @@ def draw_grid(across: Axis, up: Axis, title: str) -> list[str]:
     return parts
 
 
-def draw_input(across: Axis, y: float, label: str) -> list[str]:
+def place_input_label(
+    across: Axis, y: float, label: str, points: list[tuple[float, float]], frame: Box
+) -> Box:
+    """At an end of the line of the input, over or under it, where no mark is."""
+    width = CHARACTER * len(label)
+    boxes = [
+        Box(left, top, left + width, top + 1.2 * FONT)
+        for left in (across.end - 5 - width, across.start + 5, (across.start + across.end) / 2)
+        for top in (y - 4 - 1.2 * FONT, y + 4)
+    ]
+    marks = [Box(px - 6, py - 6, px + 6, py + 6) for px, py in points]
+    free = [
+        box
+        for box in boxes
+        if box.inside(frame) and not any(box.overlaps(mark) for mark in marks)
+    ]
+    return free[0] if free else boxes[0]
+
+
+def draw_input(across: Axis, y: float, label: str, box: Box) -> list[str]:
     dashed = f'stroke="{INK}" stroke-dasharray="5 4" stroke-width="1"'
-    text = text_at(across.end - 5, y - 5, label, "end", 'font-style="italic"')
+    middle = (box.left + box.right) / 2
+    text = text_at(middle, box.bottom - 3, label, "middle", 'font-style="italic"')
     return [line(across.start, y, across.end, y, dashed), text]
-
-
-def input_obstacles(across: Axis, y: float, label: str) -> list[Box]:
-    left = across.end - 10 - CHARACTER * len(label)
-    return [Box(across.start, y - 2, across.end, y + 2), Box(left, y - 18, across.end, y)]
 
 
 def draw_label(mark: Mark, x: float, box: Box) -> str:
@@ -217,10 +232,11 @@ def draw_panel(marks: list[Mark], across: Axis, up: Axis, title: str, source: fl
     source_y = up.position(source)
     points = [(across.position(mark.time), up.position(mark.value)) for mark in marks]
     frame = Box(across.start + 2, up.end + 2, across.end - 2, up.start - 2)
-    labels = [mark.label for mark in marks]
-    boxes = place_labels(points, labels, frame, input_obstacles(across, source_y, label))
+    source_box = place_input_label(across, source_y, label, points, frame)
+    obstacles = [Box(across.start, source_y - 2, across.end, source_y + 2), source_box]
+    boxes = place_labels(points, [mark.label for mark in marks], frame, obstacles)
 
-    parts = draw_grid(across, up, title) + draw_input(across, source_y, label)
+    parts = draw_grid(across, up, title) + draw_input(across, source_y, label, source_box)
     for (x, y), box in zip(points, boxes, strict=True):
         parts.append(leader(x, y, box))
     for mark, (x, y), box in zip(marks, points, boxes, strict=True):

@@ -17,7 +17,7 @@ WORDS = ["improver", "one pass of", "default schedule of", "surface", "measured"
 
 
 def angle(degrees: float) -> str:
-    return f"{degrees:.2f}" if degrees >= 0.01 else f"{degrees:.1e}"
+    return f"{degrees:.2f}" if degrees >= 0.01 else f"{degrees:.2g}"
 
 
 def percent(value: float) -> str:
