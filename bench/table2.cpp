@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// One local-reconnection pass over the bad tets with each scheme, as in [chen, Table 2].
+// One local-reconnection pass over the bad tets with each scheme, as in [chen, Table 2]. Prints
+// JSON: one row for each scheme, in order.
 //
-//   table2 MESH...
+//   table2 MESH
 #include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "kernel/formats/mesh_io.h"
 #include "schedule/passes.h"
@@ -15,6 +18,7 @@
 namespace {
 
 using namespace tetmend;
+using Json = nlohmann::ordered_json;
 
 struct Scheme {
   const char* name;
@@ -33,37 +37,37 @@ std::array<Scheme, 4> schemes() {
            {"shell transformation, l_max 5", recursive}}};
 }
 
-void print_row(const char* name, const MeshStatistics& s, double seconds) {
-  fmt::print("{:30} {:>9} {:>8.4f} {:>8.3f} {:>8.4f}", name, s.tets, s.theta_min, s.theta_max,
-             s.lambda);
-  for (const double band : s.lambda_bands) fmt::print(" {:>7.4f}", band);
-  fmt::print(" {:>7} {:>7.3f}\n", s.n_bad, seconds);
+Json row(const char* name, const MeshStatistics& s, double seconds) {
+  return {{"scheme", name},           {"tets", s.tets},     {"theta_min", s.theta_min},
+          {"theta_max", s.theta_max}, {"lambda", s.lambda}, {"lambda_bands", s.lambda_bands},
+          {"n_bad", s.n_bad},         {"seconds", seconds}};
 }
 
-void run(const std::filesystem::path& file, const Registry& registry) {
+Json run(const std::filesystem::path& file, const Registry& registry) {
   const MeshData data = read_mesh(file);
-  fmt::print("{}\n{:30} {:>9} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
-             file.filename().string(), "one pass", "tets", "th_min", "th_max", "lambda%", "l1%",
-             "l2%", "l3%", "l4%", "l5%", "bad", "seconds");
-  print_row("input", compute_statistics(TetMesh(data)), 0);
+  Json rows = {row("input", compute_statistics(TetMesh(data)), 0)};
   for (const Scheme& scheme : schemes()) {
     TetMesh mesh(data);
     mesh.sort_spatially();
     Run run(mesh, registry);
     local_reconnection(run, scheme.pass);
-    print_row(scheme.name, compute_statistics(mesh), run.records.back().seconds);
+    rows.push_back(row(scheme.name, compute_statistics(mesh), run.records.back().seconds));
   }
-  fmt::print("\n");
+  return rows;
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
+  if (count != 2) {
+    fmt::print(stderr, "usage: table2 MESH\n");
+    return 2;
+  }
   try {
     Registry registry;
     register_builtin_operators(registry);
-    for (int i = 1; i < count; ++i) run(arguments[i], registry);
-    return count > 1 ? 0 : 2;
+    std::cout << run(arguments[1], registry).dump(2) << '\n';
+    return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "table2: {}\n", error.what());
     return 1;

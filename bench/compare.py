@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: MIT
+"""Compares tetmend with the other improvers of this machine: time, memory and final quality.
+
+Every improver runs on the same meshes, in turns, several times; bench/measure judges all results.
+"""
+
+import argparse
+import datetime
+import json
+import math
+import os
+import platform
+import signal
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import charts
+import report
+from competitors import Competitor, Phases, competitors, shown_command, version
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "release"
+WORK = ROOT / "build" / "bench"
+SHARED = ROOT.parent / "shared" / "meshes"
+
+GNU_TIME = "/usr/bin/time"
+EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
+
+EPILOG = """\
+Results go to build/bench: results.json, results.md, and one chart for each mesh.
+Rivals that Debian does not have are found through environment variables:
+  TETMEND_BENCH_MMG3D    the program mmg3d
+  TETMEND_BENCH_STELLAR  the program Stellar
+  TETMEND_BENCH_HXT      HXT's optimiser, called as PROGRAM IN.mesh OUT.mesh
+  TETMEND_BENCH_OTHER    any other program, called in the same way
+  TETMEND_BENCH_PYTHON   a Python with other versions of the modules gmsh and netgen than Debian's
+
+script/bench --micro [OPTION...] runs the micro-benchmarks instead; the options are those of
+Google Benchmark, such as --benchmark_filter=shell.
+"""
+
+
+@dataclass
+class Outcome:
+    """One run of one improver."""
+
+    status: str  # "ok", "time limit", or what went wrong
+    whole: float = 0.0  # seconds from start to exit
+    phases: Phases = field(default_factory=dict)
+    peak_bytes: int = 0
+
+
+@dataclass
+class Row:
+    """All runs of one improver on one mesh."""
+
+    competitor: Competitor
+    outcomes: list[Outcome] = field(default_factory=list)
+    quality: dict | None = None
+
+    def status(self) -> str:
+        return self.outcomes[-1].status if self.outcomes else "not run"
+
+    def to_json(self) -> dict:
+        good = [outcome for outcome in self.outcomes if outcome.status == "ok"]
+        result = {
+            "improver": self.competitor.name,
+            "short": self.competitor.short,
+            "ours": self.competitor.ours,
+            "command": shown_command(self.competitor),
+            "version": version(self.competitor),
+            "status": self.status(),
+            "runs": [asdict(outcome) for outcome in self.outcomes],
+        }
+        if good and self.quality:
+            result["phases"] = {
+                phase: spread([outcome.phases[phase] for outcome in good])
+                for phase in good[0].phases
+                if all(phase in outcome.phases for outcome in good)
+            }
+            result["whole_seconds"] = spread([outcome.whole for outcome in good])
+            result["peak_bytes"] = max(outcome.peak_bytes for outcome in good)
+            result["after"] = self.quality["after"]
+            result["surface"] = self.quality["surface"]
+        return result
+
+
+def spread(values: list[float]) -> dict:
+    return {"median": statistics.median(values), "min": min(values), "max": max(values)}
+
+
+# --- running
+
+
+def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
+    """Runs a command in a folder. GNU time takes the peak memory: what the kernel tells this
+    process about its children would include the memory of the interpreter."""
+    timed = [GNU_TIME, "-q", "-f", "%M", "-o", "memory.txt", *command]
+    environment = dict(os.environ, OMP_NUM_THREADS="1")
+    with open(folder / "log.txt", "wb") as log:
+        start = time.perf_counter()
+        process = subprocess.Popen(
+            timed,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            env=environment,
+            start_new_session=True,
+        )
+        try:
+            code = process.wait(timeout=limit)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            return Outcome(f"over {limit:.0f} s")
+        whole = time.perf_counter() - start
+    if code != 0:
+        return Outcome(f"exit status {code}")
+    kilobytes = int((folder / "memory.txt").read_text().split()[-1])
+    return Outcome("ok", whole, {}, 1024 * kilobytes)
+
+
+def fresh_folder(path: Path) -> Path:
+    path.mkdir(parents=True, exist_ok=True)
+    for entry in path.iterdir():
+        entry.unlink()
+    return path
+
+
+def run_once(row: Row, inputs: Path, folder: Path, limit: float) -> None:
+    competitor = row.competitor
+    fresh_folder(folder)
+    for file in inputs.glob("input.*"):
+        (folder / file.name).symlink_to(file)
+    outcome = run(competitor.command, folder, limit)
+    row.outcomes.append(outcome)
+    if outcome.status != "ok":
+        return
+    result = folder / competitor.output
+    if not result.exists():
+        outcome.status = "no result"
+        return
+    outcome.phases = competitor.phases(folder)
+    if row.quality is None:
+        try:
+            row.quality = program_json("measure", str(inputs / "input.mesh"), str(result))
+        except subprocess.CalledProcessError:
+            outcome.status = "unreadable result"
+            return
+    if competitor.ours and not report_agrees(folder / "report.json", row.quality["after"]):
+        outcome.status = "its own report disagrees with bench/measure"
+
+
+def report_agrees(file: Path, measured: dict) -> bool:
+    """Whether the kernel's statistics are those of the independent routine. A tet at the threshold
+    may be bad for one only."""
+    own = json.loads(file.read_text())["after"]
+    close = [math.isclose(own[key], measured[key], rel_tol=1e-6) for key in EXACT_MEASURES]
+    return all(close) and math.isclose(own["n_bad"], measured["n_bad"], rel_tol=1e-3, abs_tol=1)
+
+
+def program_json(name: str, *arguments: str) -> dict:
+    command = [str(BUILD / "bench" / name), *arguments]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def prepare(mesh: Path, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    program = str(BUILD / "bench" / "prepare")
+    subprocess.run([program, str(mesh), str(folder / "input.mesh")], check=True)
+    subprocess.run([program, str(mesh), str(folder / "input.node"), "--unique"], check=True)
+
+
+def compare(mesh: Path, found: list[Competitor], repetitions: int, limit: float) -> dict:
+    name = mesh.stem
+    inputs = WORK / "inputs" / name
+    prepare(mesh, inputs)
+    rows = [Row(competitor) for competitor in found]
+    for repetition in range(repetitions):
+        for row in rows:
+            if repetition > 0 and row.status() != "ok":
+                continue  # it would fail again, at the cost of another time limit
+            folder = WORK / "runs" / name / row.competitor.short.replace(" ", "_")
+            run_once(row, inputs, folder, limit)
+            progress(f"{name}: {row.competitor.name}: {row.status()}")
+    before = program_json("measure", str(inputs / "input.mesh"))["before"]
+    return {"mesh": name, "before": before, "rows": [row.to_json() for row in rows]}
+
+
+def progress(text: str) -> None:
+    print(f"  {text}", file=sys.stderr, flush=True)
+
+
+# --- what is compared
+
+
+def own_mesh() -> Path:
+    return ROOT / "assets" / "meshes" / "bracket.meshb"
+
+
+def unpacked(packed: Path) -> Path:
+    plain = WORK / packed.stem
+    if not plain.exists():
+        plain.parent.mkdir(parents=True, exist_ok=True)
+        partial = plain.with_suffix(".partial")
+        with open(partial, "wb") as stream:
+            subprocess.run(["xz", "-dkc", str(packed)], stdout=stream, check=True)
+        partial.rename(plain)
+    return plain
+
+
+def default_meshes(quick: bool) -> list[Path]:
+    meshes = [own_mesh(), *SHARED.glob("tire.mesh")]
+    if not quick:
+        meshes += [unpacked(packed) for packed in sorted(SHARED.glob("*.mesh.xz"))]
+    return meshes
+
+
+def named_mesh(name: str) -> Path:
+    """A file, or one of the default meshes by its name."""
+    if Path(name).exists():
+        return Path(name).resolve()
+    candidates = [own_mesh(), *SHARED.glob(f"{name}.mesh"), *SHARED.glob(f"{name}.mesh.xz")]
+    for mesh in candidates:
+        if name in (mesh.name, mesh.name.split(".")[0]):
+            return unpacked(mesh) if mesh.suffix == ".xz" else mesh
+    sys.exit(f"bench: no mesh {name}")
+
+
+def chosen(rows: list[Competitor], only: list[str]) -> list[Competitor]:
+    if not only:
+        return rows
+    wanted = [name.lower() for name in only]
+    return [row for row in rows if any(name in row.name.lower() for name in wanted)]
+
+
+def machine() -> dict:
+    info = Path("/proc/cpuinfo").read_text() if Path("/proc/cpuinfo").exists() else ""
+    models = [line.split(":")[1].strip() for line in info.splitlines() if "model name" in line]
+    return {
+        "processor": models[0] if models else platform.processor(),
+        "cores": os.cpu_count(),
+        "memory_bytes": os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"),
+        "system": platform.system(),
+        "load_before": os.getloadavg()[0],
+    }
+
+
+# --- the command line
+
+
+def parse(arguments: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="script/bench",
+        description=__doc__ + "Then Tables 2 and 3 of the paper, with its own rows beside ours.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("meshes", nargs="*", metavar="MESH", help="file, or name of a default mesh (default: all)")
+    add("--quick", action="store_true", help="the two smallest default meshes only")
+    add("--only", action="append", default=[], metavar="NAME", help="improvers with NAME in theirs")
+    add("--repetitions", type=int, default=3, metavar="N", help="runs of each (default: 3)")
+    add("--time-limit", type=float, default=1800, metavar="S", help="seconds a run (default: 1800)")
+    add("--no-tables", action="store_true", help="leave out the tables of the paper")
+    add("--figures", action="store_true", help="put the charts into docs/figures too")
+    add("--profile", action="store_true", help="and the functions that take the most time (perf)")
+    return parser.parse_args(arguments)
+
+
+def profile(mesh: Path) -> None:
+    data = str(WORK / "perf.data")
+    improve = [str(BUILD / "bin" / "tetmend"), "improve", str(mesh), "--quiet"]
+    output = ["-o", str(WORK / "profiled.meshb")]
+    subprocess.run(["perf", "record", "-q", "-o", data, *improve, *output], check=True)
+    listing = ["perf", "report", "-i", data, "--stdio", "--percent-limit", "1"]
+    text = subprocess.run(listing, check=True, capture_output=True, text=True).stdout
+    print("\n".join(line for line in text.splitlines() if line and not line.startswith("#")))
+
+
+def main() -> None:
+    options = parse(sys.argv[1:])
+    if not Path(GNU_TIME).exists():
+        sys.exit("bench: please install the Debian package time")
+    everyone = competitors(BUILD / "bin" / "tetmend")
+    contenders = chosen(everyone, options.only)
+    found = [row for row in contenders if row.found]
+    meshes = [named_mesh(name) for name in options.meshes] or default_meshes(options.quick)
+    results = {
+        "date": datetime.date.today().isoformat(),
+        "machine": machine(),
+        "command": " ".join(["script/bench", *sys.argv[1:]]),
+        "repetitions": options.repetitions,
+        "missing": [
+            {"improver": row.name, "hint": row.hint} for row in contenders if not row.found
+        ],
+        "meshes": [],
+        "table2": [],
+    }
+    WORK.mkdir(parents=True, exist_ok=True)
+    for mesh in meshes:
+        results["meshes"].append(compare(mesh, found, options.repetitions, options.time_limit))
+        if not options.no_tables:
+            rows = program_json("table2", str(mesh))
+            results["table2"].append({"mesh": mesh.stem, "rows": rows})
+            progress(f"{mesh.stem}: one reconnection pass of each scheme")
+    print(report.text(results))
+    (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
+    (WORK / "results.md").write_text(report.markdown(results))
+    folders = [WORK, ROOT / "docs" / "figures"] if options.figures else [WORK]
+    charts.write_all(results, folders)
+    print(f"\nSaved in {WORK.relative_to(ROOT)}: results.json, results.md and the charts.")
+    if options.profile:
+        profile(meshes[-1])
+
+
+if __name__ == "__main__":
+    main()
