@@ -15,7 +15,8 @@ class Smoothing final : public Operator {
       : Operator(smoothing_info()),
         laplacian_(values.flag("laplacian")),
         optimise_(values.flag("optimise")),
-        desperate_(values.real("desperate")) {
+        desperate_(values.real("desperate")),
+        least_gain_(values.real("least_gain")) {
     limits_.steps = values.integer("steps");
   }
 
@@ -47,7 +48,7 @@ class Smoothing final : public Operator {
     }
     if (optimise_ && reached < kBadThreshold)
       reached = scratch.ball.optimise(scratch.point, limits_);
-    if (!(reached > start + kQualityTolerance)) return Verdict::no_improvement;
+    if (!(reached > start + least_gain_)) return Verdict::no_improvement;
     // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others.
     if (start >= desperate_) {
       scratch.ball.worst(scratch.point);
@@ -76,15 +77,18 @@ class Smoothing final : public Operator {
   bool laplacian_;
   bool optimise_;
   double desperate_;
+  double least_gain_;
   BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 4> kParameters = {{
+constexpr std::array<ParameterSpec, 5> kParameters = {{
     {"laplacian", ParameterSpec::Kind::flag, 0, 1, 1, "try the mean of the neighbours first"},
     {"optimise", ParameterSpec::Kind::flag, 0, 1, 1,
      "then climb to the best place if bad tets remain"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
+    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 1e-3,
+     "least gain of the worst quality of the ball"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 6,
      "most directions that the optimisation follows"},
 }};
