@@ -15,7 +15,7 @@ namespace tetmend {
 
 namespace {
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Several tets at once on processors that can; the same operations in the same order everywhere.
 #define TETMEND_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
