@@ -17,19 +17,15 @@ struct ShellSchedule {
   SuppressionPass suppression;
   InsertionPass insertion;
   // Of the thorough rounds: dear forms for the worst tets.
-  LocalReconnection unfiltered_reconnection = {.calendar = "unfiltered reconnection",
-                                               .edge_settings = {{"reflex_only", 0}},
-                                               .worst = {.below = 0.25f, .at_least = 100}};
-  InsertionPass relaxed_insertion = {.calendar = "relaxed insertion",
-                                     .settings = {{"relax", 1}},
-                                     .worst = {.below = 0.25f, .at_least = 100}};
+  LocalReconnection unfiltered_reconnection = {.on = {.below = 0.25f, .at_least = 100},
+                                               .edge_settings = {{"reflex_only", 0}}};
+  InsertionPass relaxed_insertion = {.on = {.below = 0.25f, .at_least = 100},
+                                     .settings = {{"relax", 1}}};
   // Of the last rounds: for few tets, a new mild bad tet is no reason to refuse.
-  LocalReconnection last_reconnection = {.calendar = "last reconnection",
-                                         .edge_settings = {{"reflex_only", 0}},
-                                         .worst = {.below = 0, .at_least = 32}};
-  InsertionPass last_insertion = {.calendar = "last insertion",
-                                  .settings = {{"relax", 1}, {"desperate", 0.35}},
-                                  .worst = {.below = 0, .at_least = 32}};
+  LocalReconnection last_reconnection = {.on = {.below = 0, .at_least = 32},
+                                         .edge_settings = {{"reflex_only", 0}}};
+  InsertionPass last_insertion = {.on = {.below = 0, .at_least = 32},
+                                  .settings = {{"relax", 1}, {"desperate", 0.35}}};
 };
 
 /// Repeats reconnection, suppression and insertion, each followed by smoothing, until rounds bring
