@@ -12,6 +12,7 @@
 
 #include "kernel/statistics.h"
 #include "schedule/run.h"
+#include "schedule/schedule_parameter.h"
 
 namespace tetmend::apps {
 
@@ -38,8 +39,11 @@ struct ImproveReport {
   std::filesystem::path input;
   std::filesystem::path output;
   std::string schedule;
+  ScheduleSettings settings;
   int threads = 1;
   bool interrupted = false;
+  bool out_of_time = false;
+  std::vector<std::string> notes;  ///< of the schedule
   BuildReport build;
   MeshCheck before;
   MeshCheck after;

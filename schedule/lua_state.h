@@ -26,9 +26,10 @@ namespace tetmend {
 class LuaState {
  public:
   struct Limits {
-    std::size_t memory = std::size_t{64} << 20;  ///< bytes
+    std::size_t memory = std::size_t{128} << 20;  ///< bytes
   };
-  /// Asked every thousand instructions. Throws to stop the script; the exception comes out of run().
+  /// Asked every thousand instructions. Throws to stop the script; the exception comes out of
+  /// run().
   using Watch = std::function<void()>;
   using Function = std::function<int(lua_State*)>;
 
@@ -40,7 +41,10 @@ class LuaState {
 
   /// Makes a function available by name. It may throw tetmend::Error, which becomes an error of the
   /// line that called it, and ScriptStop, which comes out of run() unchanged.
-  void add_word(std::string_view name, Function function);
+  void add_word(const std::string& name, Function function);
+
+  /// Pushes such a function on the stack. It lives as long as this state.
+  void push_function(Function function);
 
   /// Runs the text of a script. `name` is what errors call it.
   /// @throws Error "NAME:LINE: reason" for a mistake in the script or its run; whatever the watch

@@ -73,6 +73,11 @@ void Run::check_time() {
   if (std::chrono::steady_clock::now() >= deadline_) out_of_time_ = true;
 }
 
+void Run::note(const std::string& text) {
+  notes.push_back(text);
+  if (listener_ != nullptr) listener_->noted(text);
+}
+
 double Run::seconds() const {
   return seconds_since(start_);
 }

@@ -31,6 +31,8 @@ class ProgressListener {
   virtual void progress(std::string_view phase, unsigned round, double share) = 0;
   /// After each pass.
   virtual void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) = 0;
+  /// What the schedule has to say.
+  virtual void noted(std::string_view) {}
 };
 
 /// How the time of passes splits up: what more threads would make of it. Measured on one thread.
@@ -102,6 +104,9 @@ class Run {
 
   unsigned round = 0;  ///< of the schedule; 0 before the main loop
   std::vector<PassRecord> records;
+  std::vector<std::string> notes;  ///< of the schedule
+  /// Adds to the notes and tells the listener.
+  void note(const std::string& text);
 
   /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was
   /// none. Later commits carry the new date.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole schedule: better meshes, the same every time, with an end.
-#include "schedule/shell_schedule.h"
+#include "schedule/schedule.h"
 
 #include <algorithm>
 #include <atomic>
@@ -169,7 +169,7 @@ TEST_CASE("every mesh of the zoo comes to an end, sound and no worse, with the s
     const std::size_t not_positive = count_not_positive(mesh);
     Run run(mesh, kRegistry);
     improve(run);
-    CHECK(run.round < ShellSchedule().max_rounds);
+    CHECK(run.round < 30);
     CHECK(to_string(check_integrity(mesh)) == "");
     CHECK(surface(mesh) == surface_before);
     CHECK(quality_indicators(mesh).q_worst >= before.q_worst);
@@ -205,8 +205,6 @@ TEST_CASE("a mesh whose tets are all bad and all on the boundary comes to an end
 TEST_CASE("no more rounds are done than allowed") {
   TetMesh mesh(asset("two_materials.mesh"));
   Run run(mesh, kRegistry);
-  ShellSchedule schedule;
-  schedule.max_rounds = 1;
-  improve(run, schedule);
+  improve(run, Schedule::builtin("shell"), {{"max_rounds", "1"}});
   CHECK(run.round == 1);
 }
