@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "schedule/reference.h"
 
+#include <cctype>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -61,8 +62,14 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
+std::string sentence(std::string_view text) {
+  std::string result = fmt::format("{}.", text);
+  result[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(result[0])));
+  return result;
+}
+
 std::string word_in_markdown(const WordInfo& word) {
-  std::string text = fmt::format("### `{}`\n\n{}.\n", word.usage, word.help);
+  std::string text = fmt::format("### `{}`\n\n{}\n", word.usage, sentence(word.help));
   if (!word.fields.empty() || !word.numbers.empty()) {
     text += "\n| argument | takes | default | |\n|---|---|---|---|\n";
     for (const WordField& field : word.fields) {
@@ -82,7 +89,7 @@ std::string word_in_markdown(const WordInfo& word) {
 }
 
 std::string schedule_in_markdown(const ScheduleInfo& info) {
-  std::string text = fmt::format("### {}\n\n{}.\n", info.name, info.description);
+  std::string text = fmt::format("### {}\n\n{}\n", info.name, sentence(info.description));
   if (info.parameters.empty()) return text;
   text += "\n| parameter | takes | default | |\n|---|---|---|---|\n";
   for (const ScheduleParameter& parameter : info.parameters) {

@@ -202,6 +202,44 @@ TEST_CASE("a mesh whose tets are all bad and all on the boundary comes to an end
   CHECK(run.round <= 5);
 }
 
+TEST_CASE("every schedule that comes along improves a mesh, keeps its surface and ends") {
+  for (const std::string_view name : builtin_schedule_names()) {
+    CAPTURE(name);
+    const Schedule schedule = Schedule::builtin(name);
+    CHECK(schedule.describe().description.size() > 20);
+    for (const ScheduleParameter& parameter : schedule.describe().parameters) {
+      CHECK(parameter.help.size() > 5);
+    }
+    TetMesh mesh(asset("two_materials.mesh"));
+    const auto surface_before = surface(mesh);
+    const MeshStatistics before = compute_statistics(mesh);
+    Run run(mesh, kRegistry);
+    improve(run, schedule);
+    const MeshStatistics now = compute_statistics(mesh);
+    CHECK(to_string(check_integrity(mesh)) == "");
+    CHECK(surface(mesh) == surface_before);
+    CHECK(now.q_worst >= before.q_worst);
+    CHECK(2 * now.n_bad < before.n_bad);
+    if (name == "conservative") CHECK(now.vertices == before.vertices);
+  }
+}
+
+TEST_CASE("schedules are found by name and by file, and what is missing is named") {
+  CHECK(Schedule::find("shell").name() == "shell");
+  CHECK(Schedule::find((kSource / "assets/schedules/shell.lua").string()).text() ==
+        Schedule::builtin("shell").text());
+  const auto error_of = [](const std::string& name) {
+    try {
+      Schedule::find(name);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(error_of("polish").starts_with("there is no schedule 'polish': expected shell, "));
+  CHECK(error_of("/nowhere/x.lua") == "/nowhere/x.lua: cannot read it");
+}
+
 TEST_CASE("no more rounds are done than allowed") {
   TetMesh mesh(asset("two_materials.mesh"));
   Run run(mesh, kRegistry);
