@@ -61,7 +61,7 @@ std::vector<BadTet> collect_bad_tets(PassScope& scope, const TetMesh& mesh, Qual
   auto tets =
       collect<BadTet>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadTet>& out) {
         const TetHandle t(i);
-        if (mesh.quality(t) >= threshold) return;  // deleted ones as well
+        if (mesh.quality(t) >= threshold || mesh.is_frozen(t)) return;  // deleted ones as well
         if (changed_since(mesh, mesh.vertices(t), since)) {
           out.push_back({mesh.quality(t), t, mesh.vertices(t)});
         }
