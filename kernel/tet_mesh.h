@@ -38,7 +38,17 @@ struct BuildReport {
       0;  ///< named edges that are no edge of any tet: kept for output; its vertices are fixed
   std::size_t unused_points = 0;      ///< points of no tet: kept
   std::size_t constrained_faces = 0;  ///< interior faces that must survive
+  // By InteriorConstraints::dropped.
+  std::size_t dropped_triangles = 0;
+  std::size_t dropped_edges = 0;
+  std::size_t dropped_vertices = 0;  ///< no longer required
 };
+
+/// What becomes of the triangles, edges and required vertices that the file names inside a region.
+/// Dropped ones are no constraint and are not written back. What lies on the boundary or on a face
+/// between two labels is always kept. A triangle or edge of no tet counts as inside when one of its
+/// vertices lies there.
+enum class InteriorConstraints : std::uint8_t { kept, dropped };
 
 /// A face that every operation keeps: a triangle of the boundary, a triangle named by the file, or
 /// a face between two labels.
@@ -63,10 +73,12 @@ class TetMesh {
   /// face, or when an index is out of range;
   ///   BuildError names the tet.
   /// Cost: linear. `data` is taken apart on the way: move it in where it is not needed any more.
-  explicit TetMesh(MeshData data, BuildReport* report = nullptr);
+  explicit TetMesh(MeshData data, BuildReport* report = nullptr,
+                   InteriorConstraints interior = InteriorConstraints::kept);
   /// The same mesh as by the constructor and sort_spatially(), in less time and memory: at its peak
   /// about 70 bytes a tet, `data` and the mesh included.
-  static TetMesh sorted(MeshData data, BuildReport* report = nullptr);
+  static TetMesh sorted(MeshData data, BuildReport* report = nullptr,
+                        InteriorConstraints interior = InteriorConstraints::kept);
 
   /// The live part as plain arrays: vertices that came from the file first, in their order, then
   /// the others.
