@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "apps/regions.h"
 #include "kernel/statistics.h"
 #include "schedule/run.h"
 
@@ -41,6 +42,7 @@ struct ImproveReport {
   int threads = 1;
   bool interrupted = false;
   BuildReport build;
+  ProtectedPart protected_part;
   MeshCheck before;
   MeshCheck after;
   std::vector<PassRecord> passes;
