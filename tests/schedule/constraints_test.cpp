@@ -14,6 +14,7 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
+#include "kernel/statistics.h"
 #include "schedule/shell_schedule.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
@@ -114,6 +115,7 @@ MeshData strewn_ball() {
 
 std::vector<NamedMesh> meshes() {
   return {{"sheet.mesh", asset("sheet.mesh")},
+          {"folded_sheet.mesh", asset("folded_sheet.mesh")},
           {"two_materials.mesh", asset("two_materials.mesh")},
           {"cube_with_sheet", cube_with_sheet()},
           {"two_regions_with_sheet", two_regions_with_sheet()},
@@ -277,6 +279,7 @@ TEST_CASE("the meshes of these tests have what they are meant to test") {
     if (named.name != "strewn_ball") CHECK(loose(named.data) == 0);
   }
   CHECK(free_standing(asset("sheet.mesh"))[0] == 94);
+  CHECK(free_standing(asset("folded_sheet.mesh"))[0] == 252);
   CHECK(free_standing(asset("two_materials.mesh"))[0] == 0);
   CHECK(free_standing(cube_with_sheet())[0] > 40);
   CHECK(free_standing(two_regions_with_sheet())[0] > 40);
@@ -296,6 +299,19 @@ TEST_CASE("without interior constraints regions and surface are kept all the sam
     improve_in_blocks(mesh, 2);
     check_kept(portrait(mesh.to_data()), before);
   }
+}
+
+TEST_CASE("a sharply folded sheet is kept at a price that a run without it does not pay") {
+  const MeshData data = asset("folded_sheet.mesh");
+  TetMesh respected = TetMesh::sorted(data);
+  TetMesh ignored = TetMesh::sorted(data, nullptr, InteriorConstraints::dropped);
+  improve_in_blocks(respected, 1);
+  improve_in_blocks(ignored, 1);
+  // The halves meet at 18 degrees, and triangulation makes that hardly more.
+  CHECK(compute_statistics(respected).theta_min < 18.5);
+  CHECK(compute_statistics(respected).n_bad > 20);
+  CHECK(compute_statistics(ignored).theta_min > 28);
+  CHECK(compute_statistics(ignored).n_bad < 5);
 }
 
 TEST_CASE("frozen tets go through the schedule untouched, and the others get better") {
