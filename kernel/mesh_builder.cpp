@@ -556,19 +556,19 @@ void MeshBuilder::mark_edges() {
   for (const MeshData::Edge& named : data_.edges) edges.push_back(ends_of(named));
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const std::vector<TetAtEdge> tets = find_tets_at(mesh_, edges);
   std::vector<char> found(edges.size(), 0);
   std::vector<char> on_face(edges.size(), 0);
-  const auto note = [](char& flag) { std::atomic_ref(flag).store(1, std::memory_order_relaxed); };
-  visit_tets_at(mesh_, edges, [&](std::size_t n, TetEdge e) {
-    note(found[n]);
-    if (lies_on_face(e)) note(on_face[n]);
-  });
+  for (const TetAtEdge& at : tets) {
+    found[at.number] = 1;
+    if (drops_interior_ && lies_on_face(at.edge)) on_face[at.number] = 1;
+  }
   for (const MeshData::Edge& named : data_.edges) {
-    const auto [a, b] = ends_of(named);
-    const auto n = static_cast<std::size_t>(
-        std::lower_bound(edges.begin(), edges.end(), edge_ends(a, b)) - edges.begin());
+    const EdgeEnds ends = ends_of(named);
+    const auto n = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), ends) -
+                                            edges.begin());
     if (drops_interior_ &&
-        !(found[n] ? on_face[n] : on_border_[a.index()] && on_border_[b.index()])) {
+        !(found[n] ? on_face[n] : on_border_[ends[0].index()] && on_border_[ends[1].index()])) {
       ++report_.dropped_edges;
       continue;
     }
@@ -576,13 +576,13 @@ void MeshBuilder::mark_edges() {
     mesh_.named_edges_.push_back(
         {{vertex(named.vertices[0]), vertex(named.vertices[1])}, named.label});
     // Of a loose edge as well: a deleted vertex could not be written.
-    for (const VertexHandle v : {a, b})
-      mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
+    for (const VertexHandle v : ends) mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
   }
-  visit_tets_at(mesh_, edges, [&](std::size_t n, TetEdge e) {
-    if (drops_interior_ && !on_face[n]) return;
-    mesh_.tet_flags_[e.tet().index()] |= static_cast<TetMesh::TetFlags>(16u << e.edge());
-  });
+  for (const TetAtEdge& at : tets) {
+    if (drops_interior_ && !on_face[at.number]) continue;
+    mesh_.tet_flags_[at.edge.tet().index()] |=
+        static_cast<TetMesh::TetFlags>(16u << at.edge.edge());
+  }
 }
 
 void MeshBuilder::mark_vertices() {
