@@ -16,6 +16,7 @@
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
 #include "apps/progress_line.h"
+#include "apps/regions.h"
 #include "apps/schedule_options.h"
 #include "apps/threads.h"
 #include "kernel/chunks.h"
@@ -34,6 +35,7 @@ struct Options {
   std::filesystem::path report;  ///< empty: none
   ScheduleOptions schedule;
   int threads = 1;
+  RegionOptions regions;
   bool quiet = false;
 };
 
@@ -54,6 +56,7 @@ class Stopwatch {
 
 /// What would stop the run at its end is better found at its beginning.
 void check(const Options& options) {
+  check_regions(options.regions);
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   if (!options.report.empty()) {
@@ -79,7 +82,10 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
   }
   const Stopwatch watch(report.seconds.building);
   progress.show("building the mesh");
-  return build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build);
+  TetMesh mesh = build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build,
+                            options.regions.interior());
+  report.protected_part = protect_regions(mesh, options.regions);
+  return mesh;
 }
 
 void run_schedule(const ChosenSchedule& chosen, double time_limit, TetMesh& mesh,
@@ -196,6 +202,7 @@ void add_improve(CLI::App& app, Invocation& invocation) {
       ->type_name("OUT");
   add_schedule_options(*command, options->schedule);
   add_threads_option(*command, options->threads);
+  add_region_options(*command, options->regions);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
@@ -211,15 +218,18 @@ it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
 then. The same input gives the same output, byte for byte.
 
+{}
+
 Formats, by extension:
 {}
 Examples:
   tetmend improve part.mesh -o better.mesh
   tetmend improve part.ele -o better.vtk --report better.json --quiet
   tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
+  tetmend improve part.mesh -o better.mesh --protect label:3
 
 Exit status: 0 success, 1 the work failed or was interrupted, 2 wrong usage)",
-      mesh_format_list()));
+      region_help(), mesh_format_list()));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return run_improve(*options, invocation); };
   });

@@ -83,6 +83,10 @@ std::string format_checks(const ImproveReport& report) {
   line("inverted, flat tets", format_orientation(report));
   line("volume", fmt::format("{:.10g}, relative change {:.2g}", report.after.statistics.volume,
                              report.volume_change()));
+  if (report.protected_part.asked_for) {
+    line("tets protected", fmt::format("{}, {} of them bad", grouped(report.protected_part.tets),
+                                       grouped(report.protected_part.bad_tets)));
+  }
   line("tets touched", fmt::format("{:.1f} %", 100 * report.touched_share));
   line("time", fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",
                            s.total(), s.reading, s.building, s.measuring));
@@ -167,6 +171,7 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"out_of_time", report.out_of_time},
           {"notes", report.notes},
           {"build", to_json(report.build)},
+          {"protected", to_json(report.protected_part)},
           {"before", tetmend::to_json(report.before.statistics)},
           {"after", tetmend::to_json(report.after.statistics)},
           {"surface",

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "apps/regions.h"
 #include "kernel/statistics.h"
 #include "schedule/run.h"
 #include "schedule/schedule_parameter.h"
@@ -45,6 +46,7 @@ struct ImproveReport {
   bool out_of_time = false;
   std::vector<std::string> notes;  ///< of the schedule
   BuildReport build;
+  ProtectedPart protected_part;
   MeshCheck before;
   MeshCheck after;
   std::vector<PassRecord> passes;

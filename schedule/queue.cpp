@@ -41,7 +41,7 @@ std::vector<QueuedTet> queue_tets(PassScope& scope, const TetMesh& mesh, const S
   auto tets = collect<QueuedTet>(
       scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<QueuedTet>& out) {
         const TetHandle t(i);
-        if (mesh.quality(t) >= limit) return;  // deleted ones as well
+        if (mesh.quality(t) >= limit || mesh.is_frozen(t)) return;  // deleted ones as well
         if (changed_since(mesh, mesh.vertices(t), since) && test.admits(t)) {
           out.push_back({mesh.quality(t), t, mesh.vertices(t)});
         }
