@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The operators of tetmend itself, one line each.
+#include "ops/centroid_insertion.h"
+#include "ops/circumcentre_insertion.h"
 #include "ops/edge_contraction.h"
 #include "ops/edge_removal.h"
 #include "ops/edge_split.h"
@@ -25,6 +27,8 @@ void register_builtin_operators(Registry& registry) {
   registry.add(smoothing_info());
   registry.add(edge_split_info());
   registry.add(edge_contraction_info());
+  registry.add(centroid_insertion_info());
+  registry.add(circumcentre_insertion_info());
 }
 
 }  // namespace tetmend

@@ -5,23 +5,12 @@
 #include <doctest/doctest.h>
 
 #include "tests/support/lone_worker.h"
+#include "tests/support/octahedron.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-//            1               An octahedron with the edge 0-1 inside; its ring is 2 3 4 5. The other
-//         / /  \ \           two diagonals are 2-4 and 3-5: lengths 2 h, 2 x and 2 y. `lift` moves
-//       2--3----4            the ring up along the edge.
-//        \  \ 5/
-//           0
-MeshData octahedron(double h, double x, double y, double lift = 0) {
-  MeshData data;
-  data.points = {{0, 0, -h}, {0, 0, h}, {x, 0, lift}, {0, y, lift}, {-x, 0, lift}, {0, -y, lift}};
-  data.tets = {{{0, 1, 2, 3}, 7}, {{0, 1, 3, 4}, 7}, {{0, 1, 4, 5}, 7}, {{0, 1, 5, 2}, 7}};
-  return data;
-}
 
 const std::set<Corners> kAround24 = {{0, 2, 3, 4}, {1, 2, 3, 4}, {0, 2, 4, 5}, {1, 2, 4, 5}};
 const std::set<Corners> kAround35 = {{0, 2, 3, 5}, {1, 2, 3, 5}, {0, 3, 4, 5}, {1, 3, 4, 5}};
