@@ -103,7 +103,7 @@ TEST_CASE("a flat or inverted tet has no circumcentre to go to") {
 }
 
 TEST_CASE("a circumcentre is not looked for in what belongs to others") {
-  LoneWorker worker(kCentreOpposite);
+  LoneWorker worker(kCentreOutside);  // which the walk would find out on the far side
   worker.give_away({4, 5});
   CHECK(insert(worker, kTarget) == Verdict::deferred);
 }
