@@ -126,6 +126,7 @@ TEST_CASE("a flat or inverted tet has no inside to insert a vertex into") {
 
 TEST_CASE("an insertion is deferred when the cavity may reach what belongs to others") {
   LoneWorker worker(octahedron(3, 1, 1));
+  worker.workspace.provide(worker.mesh, 8, 1);
   worker.give_away({4});
   CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::deferred);
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -60,10 +61,11 @@ class LoneWorker {
     return least;
   }
 
-  /// The vertices listed belong to others from now on; no slot is free.
+  /// The vertices listed belong to others from now on. Free slots are those provided before.
   void give_away(const std::vector<std::uint32_t>& vertices) {
     blocks_.assign(mesh.vertex_slots(), 0);
     for (const std::uint32_t v : vertices) blocks_[v] = 1;
+    slots_ = std::exchange(workspace.free_slots(), {});
     workspace.enter(Territory(blocks_, 0), slots_);
   }
 
