@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The operators of tetmend itself, one line each.
+#include "ops/centroid_insertion.h"
+#include "ops/circumcentre_insertion.h"
 #include "ops/edge_contraction.h"
 #include "ops/edge_removal.h"
 #include "ops/edge_split.h"
 #include "ops/flip_2_3.h"
+#include "ops/flip_3_2.h"
+#include "ops/flip_4_4.h"
 #include "ops/multi_face_removal.h"
 #include "ops/recursive_shell_transformation.h"
 #include "ops/registry.h"
@@ -18,9 +22,13 @@ void register_builtin_operators(Registry& registry) {
   registry.add(multi_face_removal_info());
   registry.add(edge_removal_info());
   registry.add(flip_2_3_info());
+  registry.add(flip_3_2_info());
+  registry.add(flip_4_4_info());
   registry.add(smoothing_info());
   registry.add(edge_split_info());
   registry.add(edge_contraction_info());
+  registry.add(centroid_insertion_info());
+  registry.add(circumcentre_insertion_info());
 }
 
 }  // namespace tetmend

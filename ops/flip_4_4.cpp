@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "ops/flip_4_4.h"
+
+#include <algorithm>
+#include <array>
+
+#include "ops/shell_search.h"
+
+namespace tetmend {
+
+namespace {
+
+using FourTets = std::array<TetVertices, 4>;
+using FourQualities = std::array<Quality, 4>;
+
+/// The shell around the diagonal from ring[i] to ring[i + 2].
+FourTets tets_around_diagonal(const Shell& shell, unsigned i) {
+  const VertexHandle p = shell.ring[i];
+  const VertexHandle q = shell.ring[i + 1];
+  const VertexHandle r = shell.ring[i + 2];
+  const VertexHandle s = shell.ring[(i + 3) % 4];
+  return {{{shell.a, p, q, r}, {p, q, r, shell.b}, {shell.a, p, r, s}, {p, r, s, shell.b}}};
+}
+
+FourQualities quality_vector(const TetMesh& mesh, const FourTets& tets) {
+  FourQualities qualities{};
+  for (unsigned i = 0; i < 4; ++i) qualities[i] = mesh.evaluate(tets[i]);
+  std::sort(qualities.begin(), qualities.end());
+  return qualities;
+}
+
+class Flip44 final : public Operator {
+ public:
+  explicit Flip44(const ParameterValues&) : Operator(flip_4_4_info()) {}
+
+ protected:
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    const Verdict verdict = find_searchable_shell(context, target.edge(), context.scratch.shell);
+    if (verdict != Verdict::accepted) return verdict;
+    return context.scratch.shell.degree == 4 ? Verdict::accepted : Verdict::not_applicable;
+  }
+  Verdict evaluate(OperatorContext& context, Target) const override {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const Shell& shell = scratch.shell;
+    FourTets best = tets_around_diagonal(shell, 0);
+    FourQualities reached = quality_vector(mesh, best);
+    const FourTets other = tets_around_diagonal(shell, 1);
+    if (const FourQualities qualities = quality_vector(mesh, other); reached < qualities) {
+      best = other;
+      reached = qualities;
+    }
+    if (reached[0] <= 0) return Verdict::inverted;
+    Quality floor = mesh.quality(shell.tets[0]);
+    for (unsigned i = 1; i < 4; ++i) floor = std::min(floor, mesh.quality(shell.tets[i]));
+    if (reached[0] <= floor) return Verdict::no_improvement;
+    scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + 4);
+    scratch.new_tets.assign(best.begin(), best.end());
+    return Verdict::accepted;
+  }
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+    return to_verdict(
+        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  }
+};
+
+}  // namespace
+
+const OperatorInfo& flip_4_4_info() {
+  static const OperatorInfo kInfo = {
+      "flip_4_4",
+      TargetKind::edge,
+      "replace the four tets of an edge by four at another diagonal",
+      {},
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<Flip44>(values);
+      }};
+  return kInfo;
+}
+
+}  // namespace tetmend

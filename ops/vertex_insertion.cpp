@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "ops/vertex_insertion.h"
+
+#include <algorithm>
+
+#include "ops/smoothing.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Positive if the point lies on the inner side of the face.
+double height_over(const TetMesh& mesh, HalfFace f, const Point& point) {
+  const auto [a, b, c] = mesh.vertices(f);
+  return volume6(point, mesh.point(a), mesh.point(b), mesh.point(c));
+}
+
+bool sees(const TetMesh& mesh, HalfFace f, const Point& point) {
+  const auto [a, b, c] = mesh.vertices(f);
+  return certified_positive(point, mesh.point(a), mesh.point(b), mesh.point(c));
+}
+
+/// The lifted determinant: positive if the point lies inside the circumsphere of a positive tet.
+/// Rounding may answer wrongly near the sphere, see trim_cavity().
+bool is_in_circumsphere(const TetMesh& mesh, TetHandle t, const Point& point) {
+  const TetVertices& v = mesh.vertices(t);
+  const Point a = mesh.point(v[0]) - point;
+  const Point b = mesh.point(v[1]) - point;
+  const Point c = mesh.point(v[2]) - point;
+  const Point d = mesh.point(v[3]) - point;
+  const Point cd = c.cross(d);
+  const Point ab = a.cross(b);
+  return a.squaredNorm() * b.dot(cd) - b.squaredNorm() * a.dot(cd) + c.squaredNorm() * d.dot(ab) -
+             d.squaredNorm() * c.dot(ab) >
+         0;
+}
+
+bool is_wall(const TetMesh& mesh, HalfFace f) {
+  return mesh.is_boundary(f) || mesh.is_constrained(f);
+}
+
+/// The vertex behind a face that is no wall.
+VertexHandle apex_behind(const TetMesh& mesh, HalfFace f) {
+  const HalfFace twin = mesh.twin(f);
+  return mesh.vertices(twin.tet())[twin.face()];
+}
+
+/// Walks from `start` through the faces that part it from the point of the scratch, to the tet that
+/// holds it. Leaves that as the only tet of the cavity.
+Verdict locate_point(OperatorContext& context, TetHandle start) {
+  constexpr unsigned kMaxSteps = 64;
+  const TetMesh& mesh = context.mesh;
+  const Point& point = context.scratch.point;
+  TetHandle t = start;
+  for (unsigned step = 0; step < kMaxSteps; ++step) {
+    HalfFace way_out;
+    double lowest = 0;
+    for (unsigned f = 0; f < 4; ++f) {
+      const double height = height_over(mesh, HalfFace(t, f), point);
+      if (height >= lowest) continue;
+      lowest = height;
+      way_out = HalfFace(t, f);
+    }
+    if (lowest == 0) {
+      context.scratch.old_tets.assign(1, t);
+      return Verdict::accepted;
+    }
+    if (is_wall(mesh, way_out)) return Verdict::constrained;
+    if (!context.workspace.holds(apex_behind(mesh, way_out))) return Verdict::deferred;
+    t = mesh.twin(way_out).tet();
+  }
+  return Verdict::not_applicable;
+}
+
+/// Adds the tets whose circumspheres hold the point, neighbour by neighbour.
+Verdict grow_cavity(OperatorContext& context, std::size_t max_tets) {
+  const TetMesh& mesh = context.mesh;
+  Scratch& scratch = context.scratch;
+  scratch.set.clear();
+  for (const TetHandle t : scratch.old_tets) scratch.set.insert(t.index());
+  for (std::size_t i = 0; i < scratch.old_tets.size(); ++i) {
+    for (unsigned f = 0; f < 4; ++f) {
+      if (scratch.old_tets.size() >= max_tets) return Verdict::accepted;
+      const HalfFace face(scratch.old_tets[i], f);
+      if (is_wall(mesh, face)) continue;
+      const TetHandle next = mesh.twin(face).tet();
+      if (scratch.set.contains(next.index())) continue;
+      if (!context.workspace.holds(apex_behind(mesh, face))) return Verdict::deferred;
+      if (!is_in_circumsphere(mesh, next, scratch.point)) continue;
+      scratch.set.insert(next.index());
+      scratch.old_tets.push_back(next);
+    }
+  }
+  return Verdict::accepted;
+}
+
+/// Removes tets from the cavity until the point sees all outer faces, and lists these. Rounding in
+/// the steps before can cost quality, but never validity: here the sight is certified.
+Verdict trim_cavity(OperatorContext& context) {
+  const TetMesh& mesh = context.mesh;
+  Scratch& scratch = context.scratch;
+  const TetHandle holder = scratch.old_tets[0];
+  const auto is_outer = [&](HalfFace f) {
+    return mesh.is_boundary(f) || !scratch.set.contains(mesh.twin(f).tet().index());
+  };
+  const auto must_go = [&](TetHandle t) {
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace face(t, f);
+      if (is_outer(face) && !sees(mesh, face, scratch.point)) return true;
+    }
+    return false;
+  };
+  do {
+    scratch.set.clear();
+    for (const TetHandle t : scratch.old_tets) scratch.set.insert(t.index());
+  } while (std::erase_if(scratch.old_tets, must_go) > 0);
+  if (scratch.old_tets.empty() || scratch.old_tets[0] != holder) return Verdict::inverted;
+
+  scratch.link.clear();
+  for (const TetHandle t : scratch.old_tets) {
+    for (unsigned f = 0; f < 4; ++f) {
+      if (is_outer(HalfFace(t, f))) scratch.link.push_back(HalfFace(t, f));
+    }
+  }
+  return Verdict::accepted;
+}
+
+}  // namespace
+
+VertexInsertion::VertexInsertion(const OperatorInfo& info, const ParameterValues& values)
+    : Operator(info),
+      max_tets_(static_cast<std::size_t>(values.integer("max_tets"))),
+      smooth_(values.flag("smooth")) {}
+
+std::span<const ParameterSpec> VertexInsertion::parameters() {
+  static constexpr std::array<ParameterSpec, 2> kParameters = {{
+      {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64,
+       "most tets that give way; 1: only the one that holds the vertex"},
+      {"smooth", ParameterSpec::Kind::flag, 0, 1, 1, "move the vertex before judging"},
+  }};
+  return kParameters;
+}
+
+Verdict VertexInsertion::precondition(const OperatorContext& context, Target target) const {
+  const TetMesh& mesh = context.mesh;
+  return mesh.is_certified_positive(mesh.vertices(target.tet())) ? Verdict::accepted
+                                                                 : Verdict::not_applicable;
+}
+
+Verdict VertexInsertion::evaluate(OperatorContext& context, Target target) const {
+  const TetMesh& mesh = context.mesh;
+  Scratch& scratch = context.scratch;
+  const auto& cavity = scratch.old_tets;
+  scratch.point = place(mesh, target.tet());
+  Verdict verdict = locate_point(context, target.tet());
+  if (verdict == Verdict::accepted) verdict = grow_cavity(context, max_tets_);
+  if (verdict == Verdict::accepted) verdict = trim_cavity(context);
+  if (verdict != Verdict::accepted) return verdict;
+  if (std::find(cavity.begin(), cavity.end(), target.tet()) == cavity.end()) {
+    return Verdict::no_improvement;
+  }
+  Quality floor = mesh.quality(cavity[0]);
+  for (const TetHandle t : cavity) floor = std::min(floor, mesh.quality(t));
+  load_ball(mesh, scratch.link, scratch.ball);
+  const double reached =
+      smooth_ ? scratch.ball.optimise(scratch.point, limits_) : scratch.ball.worst(scratch.point);
+  return reached > floor ? Verdict::accepted : Verdict::no_improvement;
+}
+
+Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction) const {
+  Scratch& scratch = context.scratch;
+  const VertexHandle v = transaction.add_vertex(scratch.point);
+  if (!v.is_valid()) return Verdict::deferred;
+  scratch.new_tets.clear();
+  for (const HalfFace f : scratch.link) {
+    const auto [a, b, c] = context.mesh.vertices(f);
+    scratch.new_tets.push_back({v, a, b, c});
+  }
+  return to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+}
+
+}  // namespace tetmend

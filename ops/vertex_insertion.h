@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What all operators that insert a vertex into a tet share: the cavity of the new vertex, that is
+// the tets that give way to those between the vertex and the outer faces of the cavity.
+#pragma once
+
+#include "ops/operator.h"
+
+namespace tetmend {
+
+/// Target: a tet. Inserts a vertex at a place that the derived class names, as in Delaunay
+/// refinement ([chen, 2.3]): the tets around whose circumspheres hold the vertex give way, except
+/// where the vertex would not see the faces behind them; the cavity crosses no constrained face and
+/// holds `max_tets` at most. With `smooth`, the vertex then moves to where the worst new tet is
+/// best.
+///
+/// Refuses as `not_applicable` a target that is not certified positive, or whose vertex lies more
+/// than 64 tets away; as `constrained` when boundary or a constrained face parts the target from
+/// the vertex, or when the cavity would swallow a fixed vertex; as `no_improvement` when the target
+/// would stay, or the worst tet would be no better. Cost: the way to the vertex, the square of the
+/// size of the cavity at worst, and the smoothing of one vertex.
+class VertexInsertion : public Operator {
+ public:
+  VertexInsertion(const OperatorInfo& info, const ParameterValues& values);
+  static std::span<const ParameterSpec> parameters();
+
+ protected:
+  /// Where the vertex goes. The tet is certified positive.
+  virtual Point place(const TetMesh& mesh, TetHandle t) const = 0;
+
+  Verdict precondition(const OperatorContext& context, Target target) const final;
+  Verdict evaluate(OperatorContext& context, Target target) const final;
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const final;
+
+ private:
+  std::size_t max_tets_;
+  bool smooth_;
+  BallOptimiser::Limits limits_;
+};
+
+}  // namespace tetmend

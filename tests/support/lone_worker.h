@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// A mesh with one worker, for tests that make single attempts and look at the tets afterwards.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "kernel/integrity.h"
+#include "ops/registry.h"
+#include "tests/support/zoo.h"
+
+namespace tetmend::test {
+
+/// The vertex numbers of a tet, ascending.
+using Corners = std::array<std::uint32_t, 4>;
+
+class LoneWorker {
+ public:
+  explicit LoneWorker(const MeshData& data) : mesh(data), workspace(mesh) {}
+
+  /// Checks that the mesh is sound afterwards and, after a refusal, what it was before.
+  Verdict attempt(std::string_view name, Target target, const ParameterSettings& settings = {}) {
+    Registry registry;
+    register_builtin_operators(registry);
+    const TetMesh before = mesh;
+    OperatorContext context{mesh, workspace, *scratch};
+    const Verdict verdict = registry.make(name, settings)->attempt(context, target);
+    CHECK(check_integrity(mesh).empty());
+    CHECK(count_not_positive(mesh) <= count_not_positive(before));
+    if (verdict != Verdict::accepted) CHECK(mesh == before);
+    return verdict;
+  }
+
+  Target edge(std::uint32_t a, std::uint32_t b) {
+    const auto found = find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
+    REQUIRE(found.has_value());
+    return Target::of(*found);
+  }
+  Target tet(const Corners& corners) const {
+    for (const TetHandle t : live_tets(mesh)) {
+      if (corners_of(t) == corners) return Target::of(t);
+    }
+    FAIL("no such tet");
+    return {};
+  }
+  std::set<Corners> tets() const {
+    std::set<Corners> all;
+    for (const TetHandle t : live_tets(mesh)) all.insert(corners_of(t));
+    return all;
+  }
+  Quality worst() const {
+    Quality least = 1;
+    for (const TetHandle t : live_tets(mesh)) least = std::min(least, mesh.quality(t));
+    return least;
+  }
+
+  /// The vertices listed belong to others from now on. Free slots are those provided before.
+  void give_away(const std::vector<std::uint32_t>& vertices) {
+    blocks_.assign(mesh.vertex_slots(), 0);
+    for (const std::uint32_t v : vertices) blocks_[v] = 1;
+    slots_ = std::exchange(workspace.free_slots(), {});
+    workspace.enter(Territory(blocks_, 0), slots_);
+  }
+
+  TetMesh mesh;
+  Workspace workspace;
+  std::unique_ptr<Scratch> scratch = std::make_unique<Scratch>();
+
+ private:
+  Corners corners_of(TetHandle t) const {
+    Corners corners{};
+    for (unsigned i = 0; i < 4; ++i) corners[i] = mesh.vertices(t)[i].index();
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+
+  std::vector<BlockId> blocks_;
+  Workspace::FreeSlots slots_;
+};
+
+}  // namespace tetmend::test
