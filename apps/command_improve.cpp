@@ -15,6 +15,7 @@
 #include "apps/files.h"
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
+#include "apps/plugins.h"
 #include "apps/progress_line.h"
 #include "apps/threads.h"
 #include "kernel/chunks.h"
@@ -35,6 +36,7 @@ struct Options {
   std::filesystem::path output;
   std::filesystem::path report;  ///< empty: none
   std::string schedule{kShell};
+  std::vector<std::filesystem::path> plugins;
   int threads = 1;
   bool quiet = false;
 };
@@ -88,9 +90,8 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
   return build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build);
 }
 
-void run_schedule(TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
-  Registry registry;
-  register_builtin_operators(registry);
+void run_schedule(TetMesh& mesh, const Registry& registry, ProgressLine& progress,
+                  ImproveReport& report) {
   const Interruption interruption;
   Run run(mesh, registry);
   run.set_listener(&progress);
@@ -147,6 +148,7 @@ std::size_t peak_memory() {
 
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
+  const Registry registry = load_operators(options.plugins);
   const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
@@ -161,7 +163,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
     progress.show("measuring");
     report.before = measure(mesh);
   }
-  run_schedule(mesh, progress, report);
+  run_schedule(mesh, registry, progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");
@@ -199,6 +201,7 @@ void add_improve(CLI::App& app, Invocation& invocation) {
                    "What is tried in which order; see\n"
                    "'tetmend schedules' (default: shell)")
       ->type_name("NAME");
+  add_plugin_option(*command, options->plugins);
   add_threads_option(*command, options->threads);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");

@@ -35,7 +35,7 @@ std::size_t share(std::size_t count, const TetMesh& mesh) {
 struct Cast {
   Candidate normal;
   std::vector<Candidate> extreme;
-  std::vector<Candidate> ensemble;  // all operators of the registry
+  std::vector<Candidate> ensemble;  // the operator and those of tetmend itself
 };
 
 Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
@@ -86,7 +86,9 @@ Outcome check_contract(const Registry& registry, std::string_view name,
                        const std::vector<Ground>& meshes, const Listener& listener) {
   Cast cast{with_defaults(registry, name), at_its_limits(registry, name), {}};
   for (const OperatorInfo* info : registry.operators()) {
-    cast.ensemble.push_back(with_defaults(registry, info->name));
+    if (info->name == name || registry.origin(info->name).empty()) {
+      cast.ensemble.push_back(with_defaults(registry, info->name));
+    }
   }
   Outcome total;
   for (const Ground& ground : meshes) {

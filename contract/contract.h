@@ -30,10 +30,11 @@ std::vector<Candidate> at_its_limits(const Registry& registry, std::string_view 
 using Listener = std::function<void(std::string_view mesh, const Outcome&)>;
 
 /// Tries an operator, with its defaults and at the ends of its parameters, alone and in turns with
-/// all others of the registry, on all meshes and in a territory. Stops at a mesh with the first
+/// those of tetmend itself, on all meshes and in a territory. Stops at a mesh with the first
 /// breach, and goes on with the next. An operator that was never accepted breaks the contract as
 /// well, for then nothing was shown: the total says so.
-/// Cost: some seconds for the grounds(); on a large mesh fewer targets are tried.
+/// @throws Error if the operator cannot be made. Cost: some seconds for the grounds(); on a large
+/// mesh fewer targets are tried.
 Outcome check_contract(const Registry& registry, std::string_view name,
                        const std::vector<Ground>& meshes, const Listener& listener);
 

@@ -114,7 +114,7 @@ TEST_CASE("help and version go to stdout with status 0") {
   CHECK(help.status == 0);
   CHECK(help.err.empty());
   for (const std::string name :
-       {"improve", "quality", "convert", "surface", "operators", "schedules"}) {
+       {"improve", "quality", "convert", "surface", "operators", "schedules", "check-plugin"}) {
     CHECK(contains(help.out, "\n  " + name + " "));
     const Outcome outcome = run_program({name, "--help"});
     CHECK(outcome.status == 0);
