@@ -36,8 +36,10 @@ std::string_view kind_name(ParameterSpec::Kind kind) {
   return {};
 }
 
-std::string capitalised(std::string_view text) {
-  std::string result(text);
+/// As a sentence in a table: first letter large, no bar that would end the cell.
+std::string as_sentence(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
   if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') {
     result[0] = static_cast<char>(result[0] - 'a' + 'A');
   }
@@ -60,7 +62,7 @@ std::string markdown_table(const Registry& registry) {
   std::string text;
   for (const OperatorInfo* info : registry.operators()) {
     text += fmt::format("### {}\n\nTarget: {}. {}.\n\n", info->name, to_string(info->target),
-                        capitalised(info->help));
+                        as_sentence(info->help));
     if (info->parameters.empty()) {
       text += "No parameters.\n\n";
       continue;
@@ -68,7 +70,7 @@ std::string markdown_table(const Registry& registry) {
     text += "| Parameter | Range | Default | Meaning |\n|---|---|---|---|\n";
     for (const ParameterSpec& spec : info->parameters) {
       text += fmt::format("| `{}` | {}, {} | {:g} | {} |\n", spec.name, kind_name(spec.kind),
-                          format_range(spec), spec.initial, spec.help);
+                          format_range(spec), spec.initial, as_sentence(spec.help));
     }
     text += '\n';
   }
