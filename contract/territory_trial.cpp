@@ -12,6 +12,7 @@
 #include "contract/zoo.h"
 #include "kernel/error.h"
 #include "kernel/integrity.h"
+#include "kernel/star.h"
 
 namespace tetmend::contract {
 
@@ -94,6 +95,43 @@ bool is_outside_untouched(const Side& side, const TetMesh& before) {
   return true;
 }
 
+/// The mesh with other points where x is above `bound` and no tet reaches back below it: what
+/// another thread may be changing, and nobody here may look at.
+TetMesh with_other_points_beyond(const TetMesh& start, double bound) {
+  TetMesh mesh = start;
+  Workspace workspace(mesh);
+  for (const VertexHandle v : live_vertices(mesh)) {
+    if (mesh.is_fixed(v) || !mesh.tet_of(v).is_valid()) continue;
+    const auto ring = one_ring(mesh, v, workspace);
+    const auto is_beyond = [&](VertexHandle w) { return !(mesh.point(w).x() < bound); };
+    if (!is_beyond(v) || !std::all_of(ring.begin(), ring.end(), is_beyond)) continue;
+    const Point moved = mesh.point(v) + 0.1 * (mesh.point(ring[0]) - mesh.point(v));
+    if (moved.x() < bound) continue;
+    Transaction transaction(mesh, workspace);
+    if (transaction.move_vertex(v, moved, link(mesh, v, workspace)) == EditResult::made) {
+      transaction.keep();
+    }
+  }
+  return mesh;
+}
+
+/// The territories of both hold the same.
+bool is_same_inside(const Side& a, const Side& b) {
+  if (a.mesh.tet_slots() != b.mesh.tet_slots()) return false;
+  for (std::uint32_t i = 0; i < a.mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (a.mesh.is_deleted(t) != b.mesh.is_deleted(t)) return false;
+    if (a.mesh.is_deleted(t)) continue;
+    const TetVertices& tet = a.mesh.vertices(t);
+    if (!a.holds_all(tet)) continue;
+    if (tet != b.mesh.vertices(t)) return false;
+    for (const VertexHandle v : tet) {
+      if (a.mesh.point(v) != b.mesh.point(v)) return false;
+    }
+  }
+  return true;
+}
+
 /// One attempt; what was wrong with it.
 std::string attempt_and_judge(Side& side, const Operator& op, Target target, Outcome& outcome) {
   const TetMesh before = side.mesh;
@@ -116,6 +154,8 @@ std::string attempt_and_judge(Side& side, const Operator& op, Target target, Out
 Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound) {
   Outcome outcome;
   Side side(start, bound);
+  Side elsewhere(with_other_points_beyond(start, bound), bound);
+  Outcome unseen;
   for (const TetHandle t : live_tets(side.mesh)) {
     const TetVertices at_first = side.mesh.vertices(t);
     const auto is_there = [&] {
@@ -123,7 +163,12 @@ Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound)
     };
     if (!is_there() || !side.holds_all(at_first)) continue;
     for (const Target target : targets_at(side.mesh, t, op.info().target)) {
-      const std::string about = attempt_and_judge(side, op, target, outcome);
+      std::string about = attempt_and_judge(side, op, target, outcome);
+      attempt_and_judge(elsewhere, op, target, unseen);
+      if (about.empty() &&
+          (outcome.accepted != unseen.accepted || outcome.deferred != unseen.deferred)) {
+        about = "the answer depends on what lies outside the territory";
+      }
       if (!about.empty()) {
         outcome.complaint =
             fmt::format("in a territory, {} {}, attempt {}: {}", to_string(target.kind),
@@ -132,6 +177,10 @@ Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound)
       }
       if (!is_there()) break;
     }
+  }
+  if (!is_same_inside(side, elsewhere)) {
+    outcome.complaint = "in a territory: edits depend on what lies outside";
+    return outcome;
   }
   side.leave();
   if (const auto findings = check_integrity(side.mesh); !findings.empty()) {

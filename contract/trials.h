@@ -50,7 +50,7 @@ Outcome try_in_turns(std::span<const Candidate> candidates, const TetMesh& start
                      std::size_t count);
 
 /// Every target in a territory, the part of the mesh where x is below `bound`: nothing outside may
-/// change.
+/// change, and other points outside, further than tets of the territory can tell, may not show.
 Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound);
 
 }  // namespace tetmend::contract

@@ -64,7 +64,7 @@ TEST_CASE("operators of plugins are listed with their file, as often as --plugin
   CHECK(one.out.starts_with("sound\n"));
 }
 
-TEST_CASE("TETMEND_PLUGIN_PATH names files and folders; each plugin is loaded once") {
+TEST_CASE("TETMEND_PLUGIN_PATH names files and folders, and each plugin is loaded once") {
   const TempFolder folder;
   std::filesystem::copy_file(plugin_file("odt_smoothing"), folder / "b.so");
   std::filesystem::copy_file(plugin_file("sound"), folder / "a.so");
@@ -128,7 +128,7 @@ TEST_CASE("check-plugin says what is wrong with each operator and ends with stat
   const Outcome outcome = run_program({"check-plugin", plugin_file("lying")});
   CAPTURE(outcome.out);
   check_complaint(outcome, 1);
-  CHECK(contains(outcome.err, "6 of 7 operators break the contract"));
+  CHECK(contains(outcome.err, "7 of 8 operators break the contract"));
   CHECK(contains(outcome.out, "edits_in_evaluate BREAKS its contract"));
   CHECK(contains(outcome.out, "makes_it_worse keeps its contract"));  // attempt() sees to that
   CHECK(contains(outcome.out, "changes_its_mind BREAKS its contract"));

@@ -167,7 +167,8 @@ TEST_CASE("a plugin with a name that is taken adds nothing at all") {
   CHECK(registry.operators().size() == 1);
 }
 
-TEST_CASE("an operator that throws leaves the mesh as it was; the error names it and its plugin") {
+TEST_CASE(
+    "an operator that throws leaves the mesh as it was, and the error names it and its plugin") {
   Registry registry;
   const std::string file = plugin_file("throwing");
   load_plugin(file, registry);
@@ -255,5 +256,6 @@ TEST_CASE("the contract tells what is wrong with each operator, and finds nothin
   CHECK(contains(verdict("edits_in_evaluate"), "edits the mesh before apply()"));
   CHECK(contains(verdict("changes_its_mind"), "the second attempt answers differently"));
   CHECK(contains(verdict("does_nothing"), "attempts was accepted"));
+  CHECK(contains(verdict("looks_around"), "depend on what lies outside"));
   CHECK(contains(verdict("trespasses"), "something outside the territory changed"));
 }

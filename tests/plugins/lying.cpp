@@ -65,6 +65,22 @@ struct Trespasses final : VertexMover {
       "trespasses", TargetKind::vertex, "help", {}, make<Trespasses>};
 };
 
+/// Looks at all points of the mesh, which other threads may be changing.
+struct LooksAround final : VertexMover {
+  LooksAround() : VertexMover(kInfo) {}
+  Verdict evaluate(OperatorContext& context, Target target) const override {
+    const Verdict verdict = VertexMover::evaluate(context, target);
+    Point sum = Point::Zero();
+    for (std::uint32_t i = 0; i < context.mesh.vertex_slots(); ++i) {
+      sum += context.mesh.point(VertexHandle(i));
+    }
+    context.scratch.point += 1e-6 * sum;
+    return verdict;
+  }
+  inline static const OperatorInfo kInfo = {
+      "looks_around", TargetKind::vertex, "help", {}, make<LooksAround>};
+};
+
 struct MakesNothing final : VertexMover {
   inline static const OperatorInfo kInfo = {
       "makes_nothing",
@@ -89,6 +105,7 @@ TETMEND_PLUGIN(registry) {
   registry.add(MakesItWorse::kInfo);
   registry.add(ChangesItsMind::kInfo);
   registry.add(Trespasses::kInfo);
+  registry.add(LooksAround::kInfo);
   registry.add(MakesNothing::kInfo);
   registry.add(MakesAnother::kInfo);
 }
