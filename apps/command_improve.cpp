@@ -15,6 +15,7 @@
 #include "apps/files.h"
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
+#include "apps/plugins.h"
 #include "apps/progress_line.h"
 #include "apps/regions.h"
 #include "apps/schedule_options.h"
@@ -34,6 +35,7 @@ struct Options {
   std::filesystem::path output;
   std::filesystem::path report;  ///< empty: none
   ScheduleOptions schedule;
+  std::vector<std::filesystem::path> plugins;
   int threads = 1;
   RegionOptions regions;
   bool quiet = false;
@@ -89,9 +91,7 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
 }
 
 void run_schedule(const ChosenSchedule& chosen, double time_limit, TetMesh& mesh,
-                  ProgressLine& progress, ImproveReport& report) {
-  Registry registry;
-  register_builtin_operators(registry);
+                  const Registry& registry, ProgressLine& progress, ImproveReport& report) {
   const Interruption interruption;
   Run run(mesh, registry);
   run.set_listener(&progress);
@@ -152,6 +152,7 @@ std::size_t peak_memory() {
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
   const ChosenSchedule chosen = choose_schedule(options.schedule);
+  const Registry registry = load_operators(options.plugins);
   const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
@@ -167,7 +168,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
     progress.show("measuring");
     report.before = measure(mesh);
   }
-  run_schedule(chosen, options.schedule.time_limit, mesh, progress, report);
+  run_schedule(chosen, options.schedule.time_limit, mesh, registry, progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");
@@ -201,6 +202,7 @@ void add_improve(CLI::App& app, Invocation& invocation) {
       ->required()
       ->type_name("OUT");
   add_schedule_options(*command, options->schedule);
+  add_plugin_option(*command, options->plugins);
   add_threads_option(*command, options->threads);
   add_region_options(*command, options->regions);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")

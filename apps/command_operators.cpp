@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/plugins.h"
 #include "ops/registry.h"
 
 namespace tetmend::apps {
@@ -35,20 +36,63 @@ std::string_view kind_name(ParameterSpec::Kind kind) {
   return {};
 }
 
-void print_operator(const OperatorInfo& info) {
+/// As a sentence in a table: first letter large, no bar that would end the cell.
+std::string as_sentence(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') {
+    result[0] = static_cast<char>(result[0] - 'a' + 'A');
+  }
+  return result;
+}
+
+void print_operator(const Registry& registry, const OperatorInfo& info) {
   fmt::print("{}\n  target: {}\n  {}\n", info.name, to_string(info.target), info.help);
+  if (const std::string& file = registry.origin(info.name); !file.empty()) {
+    fmt::print("  plugin: {}\n", file);
+  }
   for (const ParameterSpec& spec : info.parameters) {
     fmt::print("    {:<20} {}, {}, default {:g}\n      {}\n", spec.name, kind_name(spec.kind),
                format_range(spec), spec.initial, spec.help);
   }
 }
 
-int run_operators(const std::string& name) {
-  Registry registry;
-  register_builtin_operators(registry);
-  if (!name.empty()) {
+/// One section for each operator, with a table of its parameters.
+std::string markdown_table(const Registry& registry) {
+  std::string text;
+  for (const OperatorInfo* info : registry.operators()) {
+    text += fmt::format("### {}\n\nTarget: {}. {}.\n\n", info->name, to_string(info->target),
+                        as_sentence(info->help));
+    if (info->parameters.empty()) {
+      text += "No parameters.\n\n";
+      continue;
+    }
+    text += "| Parameter | Range | Default | Meaning |\n|---|---|---|---|\n";
+    for (const ParameterSpec& spec : info->parameters) {
+      text += fmt::format("| `{}` | {}, {} | {:g} | {} |\n", spec.name, kind_name(spec.kind),
+                          format_range(spec), spec.initial, as_sentence(spec.help));
+    }
+    text += '\n';
+  }
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+struct Options {
+  std::string name;  // empty: all
+  std::vector<std::filesystem::path> plugins;
+  bool markdown = false;
+};
+
+int run_operators(const Options& options) {
+  const Registry registry = load_operators(options.plugins);
+  if (options.markdown) {
+    fmt::print("{}", markdown_table(registry));
+    return 0;
+  }
+  if (!options.name.empty()) {
     try {
-      print_operator(registry.find(name));
+      print_operator(registry, registry.find(options.name));
     } catch (const Error& error) {
       throw UsageError(error.what());
     }
@@ -58,7 +102,7 @@ int run_operators(const std::string& name) {
   for (const OperatorInfo* info : registry.operators()) {
     if (!first) fmt::print("\n");
     first = false;
-    print_operator(*info);
+    print_operator(registry, *info);
   }
   return 0;
 }
@@ -66,9 +110,11 @@ int run_operators(const std::string& name) {
 }  // namespace
 
 void add_operators(CLI::App& app, Invocation& invocation) {
-  const auto name = std::make_shared<std::string>();
+  const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("operators", "List the operators and their parameters");
-  command->add_option("NAME", *name, "Only this operator")->type_name("");
+  command->add_option("NAME", options->name, "Only this operator")->type_name("");
+  add_plugin_option(*command, options->plugins);
+  command->add_flag("--markdown", options->markdown, "As the tables of docs/operators.md");
   command->footer(
       R"(An operator tries to improve the mesh at one place: a tet, an edge, a face or a
 vertex.
@@ -76,10 +122,12 @@ vertex.
 Examples:
   tetmend operators
   tetmend operators smoothing
+  tetmend operators --plugin ./my_operator.so
 
-Exit status: 0 success, 2 wrong usage)");
-  command->callback(
-      [name, &invocation] { invocation.action = [name] { return run_operators(*name); }; });
+Exit status: 0 success, 1 a plugin cannot be loaded, 2 wrong usage)");
+  command->callback([options, &invocation] {
+    invocation.action = [options] { return run_operators(*options); };
+  });
 }
 
 }  // namespace tetmend::apps

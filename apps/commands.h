@@ -32,6 +32,7 @@ void add_quality(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
 void add_operators(CLI::App& app, Invocation& invocation);
 void add_schedules(CLI::App& app, Invocation& invocation);
+void add_check_plugin(CLI::App& app, Invocation& invocation);
 void add_surface(CLI::App& app, Invocation& invocation);
 
 }  // namespace tetmend::apps

@@ -8,13 +8,14 @@ if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(layers kernel trace ops schedule viewer apps)
+set(layers kernel trace ops contract schedule viewer apps)
 set(below_kernel "")
 set(below_trace kernel)
 set(below_ops kernel trace)
+set(below_contract kernel trace ops)
 set(below_schedule kernel trace ops)
 set(below_viewer kernel trace schedule)
-set(below_apps kernel trace ops schedule viewer)
+set(below_apps kernel trace ops contract schedule viewer)
 
 set(violations "")
 

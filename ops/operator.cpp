@@ -3,6 +3,9 @@
 #include "ops/operator.h"
 
 #include <algorithm>
+#include <new>
+
+#include <fmt/format.h>
 
 namespace tetmend {
 
@@ -21,19 +24,35 @@ bool is_better(const Transaction& transaction, Scratch& scratch) {
   return improves(scratch.now, scratch.before);
 }
 
+Error Operator::failure(Target target, std::string_view reason) const {
+  return Error(fmt::format("operator '{}'{}{} failed at {} {}: {}", info_.name,
+                           origin_.empty() ? "" : " of ", origin_, to_string(target.kind),
+                           target.code, reason));
+}
+
 Verdict Operator::try_target(OperatorContext& context, Target target) const {
   context.workspace.forget_border();
-  const Verdict verdict = run_stages(context, target);
+  Verdict verdict{};
+  try {
+    verdict = run_stages(context, target);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw failure(target, error.what());
+  } catch (...) {
+    throw failure(target, "an exception of an unknown type");
+  }
   const bool crosses = verdict != Verdict::accepted && context.workspace.met_border();
   return crosses ? Verdict::deferred : verdict;
 }
 
 Verdict Operator::run_stages(OperatorContext& context, Target target) const {
+  // Open from the start: edits of the first two stages, which must make none, are undone as well.
+  Transaction transaction(context.mesh, context.workspace);
   Verdict verdict = precondition(context, target);
   if (verdict == Verdict::accepted) verdict = evaluate(context, target);
-  if (verdict != Verdict::accepted) return verdict;
-  Transaction transaction(context.mesh, context.workspace);
-  verdict = apply(context, target, transaction);
+  if (!transaction.empty()) throw Error("it edits the mesh before apply()");
+  if (verdict == Verdict::accepted) verdict = apply(context, target, transaction);
   if (verdict != Verdict::accepted) return verdict;
   if (!is_better(transaction, context.scratch)) return Verdict::no_improvement;
   transaction.keep();

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "kernel/error.h"
 #include "kernel/transaction.h"
 #include "ops/parameters.h"
 #include "ops/scratch.h"
@@ -46,6 +48,7 @@ struct OperatorContext {
 };
 
 class Operator;
+class Registry;
 
 /// How the registry knows an operator.
 struct OperatorInfo {
@@ -66,12 +69,16 @@ class Operator {
   Operator& operator=(const Operator&) = delete;
 
   const OperatorInfo& info() const { return info_; }
+  /// File of the plugin that it comes from; empty for an operator of tetmend itself.
+  const std::string& origin() const { return origin_; }
 
   /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
   /// result only if the quality vector of all that changed improves (see improves()). After a
   /// refusal the mesh is what it was, bit by bit. Anything but `accepted` is `deferred` if the
   /// territory of the workspace was in the way. Precondition: the target is of the operator's
   /// kind, names a live entity and lies in that territory.
+  /// @throws Error, with the mesh as it was, if a stage throws or edits what it must not: names the
+  /// operator, its origin and the target.
   Verdict attempt(OperatorContext& context, Target target) const;
 
  protected:
@@ -84,10 +91,14 @@ class Operator {
                         Transaction& transaction) const = 0;
 
  private:
+  friend class Registry;  // sets the origin
+
   Verdict run_stages(OperatorContext& context, Target target) const;
   Verdict try_target(OperatorContext& context, Target target) const;
+  Error failure(Target target, std::string_view reason) const;
 
   const OperatorInfo& info_;
+  std::string origin_;
 };
 
 constexpr std::string_view to_string(TargetKind kind) {

@@ -1,34 +1,122 @@
 // SPDX-License-Identifier: MIT
 #include "ops/registry.h"
 
-#include <string>
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 
 namespace tetmend {
 
-void Registry::add(const OperatorInfo& info) {
-  for (const OperatorInfo* other : infos_) {
-    if (other->name == info.name)
-      throw Error("operator '" + std::string(info.name) + "' is registered twice");
+namespace {
+
+/// Lower case letters, digits and underscores, first a letter: what fits any script and shell.
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !text.empty() && text[0] >= 'a' && std::all_of(text.begin(), text.end(), fits);
+}
+
+/// Why a parameter makes no sense; empty if it does.
+std::string_view complaint_about(const ParameterSpec& spec) {
+  using Kind = ParameterSpec::Kind;
+  if (!is_name(spec.name)) return "the name is not made of a-z, 0-9 and _";
+  if (spec.help.empty()) return "there is no help";
+  if (!std::isfinite(spec.low) || !std::isfinite(spec.high) || !(spec.low < spec.high)) {
+    return "the range is empty or not finite";
+  }
+  if (!(spec.initial >= spec.low && spec.initial <= spec.high)) {
+    return "the default lies outside the range";
+  }
+  if (spec.kind != Kind::real && spec.initial != std::floor(spec.initial)) {
+    return "the default is not a whole number";
+  }
+  if (spec.kind == Kind::flag && (spec.low != 0 || spec.high != 1)) {
+    return "the range of a flag is 0 to 1";
+  }
+  return {};
+}
+
+/// @throws Error for what no operator can be made of.
+void check(const OperatorInfo& info) {
+  const auto complain = [&](std::string_view about) {
+    throw Error(fmt::format("operator '{}': {}", info.name, about));
+  };
+  if (!is_name(info.name)) complain("the name is not made of a-z, 0-9 and _");
+  if (info.target > TargetKind::vertex) complain("there is no such kind of target");
+  if (info.help.empty()) complain("there is no help");
+  if (info.make == nullptr) complain("there is no function that makes it");
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+    const ParameterSpec& spec = info.parameters[i];
+    if (const auto about = complaint_about(spec); !about.empty()) {
+      complain(fmt::format("parameter '{}': {}", spec.name, about));
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (info.parameters[k].name == spec.name) {
+        complain(fmt::format("there are two parameters '{}'", spec.name));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void Registry::add(const OperatorInfo& info, std::string_view origin) {
+  check(info);
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    if (infos_[i]->name != info.name) continue;
+    const auto who = [](std::string_view file) { return file.empty() ? "tetmend itself" : file; };
+    throw Error(origin.empty() && origins_[i].empty()
+                    ? fmt::format("operator '{}' is registered twice", info.name)
+                    : fmt::format("operator '{}' is registered twice: by {} and by {}", info.name,
+                                  who(origins_[i]), who(origin)));
   }
   infos_.push_back(&info);
+  origins_.emplace_back(origin);
+}
+
+std::size_t Registry::index_of(std::string_view name) const {
+  std::string valid;
+  for (std::size_t i = 0; i < infos_.size(); ++i) {
+    if (infos_[i]->name == name) return i;
+    valid += valid.empty() ? "" : ", ";
+    valid += infos_[i]->name;
+  }
+  throw Error(fmt::format("unknown operator '{}'; valid: {}", name, valid));
 }
 
 const OperatorInfo& Registry::find(std::string_view name) const {
-  std::string valid;
-  for (const OperatorInfo* info : infos_) {
-    if (info->name == name) return *info;
-    valid += valid.empty() ? "" : ", ";
-    valid += info->name;
-  }
-  throw Error("unknown operator '" + std::string(name) + "'; valid: " + valid);
+  return *infos_[index_of(name)];
+}
+
+const std::string& Registry::origin(std::string_view name) const {
+  return origins_[index_of(name)];
 }
 
 std::unique_ptr<Operator> Registry::make(std::string_view name,
                                          const ParameterSettings& settings) const {
-  const OperatorInfo& info = find(name);
-  return info.make(ParameterValues(info.name, info.parameters, settings));
+  const std::size_t i = index_of(name);
+  const OperatorInfo& info = *infos_[i];
+  const ParameterValues values(info.name, info.parameters, settings);
+  if (origins_[i].empty()) return info.make(values);
+  const auto complain = [&](std::string_view about) -> Error {
+    return Error(fmt::format("operator '{}' of {} cannot be made: {}", name, origins_[i], about));
+  };
+  std::unique_ptr<Operator> made;
+  try {
+    made = info.make(values);
+  } catch (const std::exception& error) {
+    throw complain(error.what());
+  } catch (...) {
+    throw complain("an exception of an unknown type");
+  }
+  if (!made) throw complain("its function made nothing");
+  if (&made->info() != &info) throw complain("its function made another operator");
+  made->origin_ = origins_[i];
+  return made;
 }
 
 }  // namespace tetmend

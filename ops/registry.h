@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,21 +14,29 @@ namespace tetmend {
 
 class Registry {
  public:
-  /// @throws Error if an operator of that name is there. `info` must outlive the registry.
-  void add(const OperatorInfo& info);
+  /// @param origin file of the plugin that the operator comes from; empty for tetmend itself
+  /// @throws Error if an operator of that name is there, or if name, help, parameters or `make` do
+  /// not make sense. `info` must outlive the registry.
+  void add(const OperatorInfo& info, std::string_view origin = {});
 
   /// In the order of registration.
   std::span<const OperatorInfo* const> operators() const { return infos_; }
 
   /// @throws Error for an unknown name, with the valid ones.
   const OperatorInfo& find(std::string_view name) const;
+  /// Where the operator comes from, see add(). @throws Error for an unknown name.
+  const std::string& origin(std::string_view name) const;
 
-  /// @throws Error for an unknown operator or parameter, or a value out of range.
+  /// @throws Error for an unknown operator or parameter, a value out of range, or an operator of a
+  /// plugin that cannot be made.
   std::unique_ptr<Operator> make(std::string_view name,
                                  const ParameterSettings& settings = {}) const;
 
  private:
+  std::size_t index_of(std::string_view name) const;
+
   std::vector<const OperatorInfo*> infos_;
+  std::vector<std::string> origins_;
 };
 
 /// Adds the operators of tetmend itself.

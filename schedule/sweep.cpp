@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "schedule/sweep.h"
 
+#include <exception>
+
 namespace tetmend {
 
 namespace {
@@ -42,6 +44,22 @@ std::vector<Workspace::FreeSlots> deal_slots(Run& run, std::span<const BlockLoad
   return dealt;
 }
 
+/// A worker in the territory of a block while this lives, also when an operator throws.
+class Stay {
+ public:
+  Stay(Worker& worker, const Territory& territory, Workspace::FreeSlots& slots)
+      : workspace_(worker.workspace()), slots_(slots) {
+    workspace_.enter(territory, slots_);
+  }
+  ~Stay() { workspace_.leave(slots_); }
+  Stay(const Stay&) = delete;
+  Stay& operator=(const Stay&) = delete;
+
+ private:
+  Workspace& workspace_;
+  Workspace::FreeSlots& slots_;
+};
+
 }  // namespace
 
 void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<const BlockLoad> loads,
@@ -56,16 +74,23 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
     return loads[x].end - loads[x].begin > loads[y].end - loads[y].begin;
   });
   std::atomic<std::size_t> next = 0;
-  run.on_all_threads([&](Worker& worker) {
+  const auto work_here = [&](Worker& worker) {
     for (std::size_t k = next++; k < loads.size(); k = next++) {
       const std::size_t n = largest_first[k];
       const auto start = std::chrono::steady_clock::now();
-      worker.workspace().enter(Territory(partition.blocks(), loads[n].block), slots[n]);
-      work(worker, loads[n]);
-      worker.workspace().leave(slots[n]);
+      {
+        const Stay stay(worker, Territory(partition.blocks(), loads[n].block), slots[n]);
+        work(worker, loads[n]);
+      }
       seconds[n] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
-  });
+  };
+  std::exception_ptr failure;  // the mesh is put in order before it goes on
+  try {
+    run.on_all_threads(work_here);
+  } catch (...) {
+    failure = std::current_exception();
+  }
   Workspace::FreeSlots& all = run.worker().workspace().free_slots();
   for (const Workspace::FreeSlots& part : slots) {
     all.tets.insert(all.tets.end(), part.tets.begin(), part.tets.end());
@@ -73,6 +98,7 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
   }
   run.collect_from_workers(scope);
   scope.note_blocks(seconds);
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace tetmend

@@ -114,7 +114,7 @@ TEST_CASE("help and version go to stdout with status 0") {
   CHECK(help.status == 0);
   CHECK(help.err.empty());
   for (const std::string name :
-       {"improve", "quality", "convert", "surface", "operators", "schedules"}) {
+       {"improve", "quality", "convert", "surface", "operators", "schedules", "check-plugin"}) {
     CHECK(contains(help.out, "\n  " + name + " "));
     const Outcome outcome = run_program({name, "--help"});
     CHECK(outcome.status == 0);
@@ -427,6 +427,19 @@ TEST_CASE("operators are listed with their parameters, schedules with a line") {
     }
   }
   CHECK(contains(run_program({"schedules"}).out, "shell (default)"));
+}
+
+TEST_CASE("the tables of docs/operators.md are those that the program prints") {
+  const std::string page = read_text(std::string(TETMEND_SOURCE_DIR) + "/docs/operators.md");
+  const std::string begin = "<!-- tables -->\n";
+  const std::size_t first = page.find(begin);
+  const std::size_t last = page.find("<!-- /tables -->");
+  REQUIRE(first < last);
+  REQUIRE(last < page.size());
+  const std::string tables = page.substr(first + begin.size(), last - first - begin.size());
+  const Outcome outcome = run_program({"operators", "--markdown"});
+  CHECK(outcome.status == 0);
+  CHECK_MESSAGE(tables == outcome.out, "script/operator-tables writes them anew");
 }
 
 TEST_CASE("a full disk behind standard output is an error") {

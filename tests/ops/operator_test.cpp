@@ -9,12 +9,14 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "kernel/integrity.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 
@@ -140,6 +142,26 @@ Verdict remove_edge_of_three(OperatorContext& context, Transaction& transaction)
   return to_verdict(transaction.replace_cavity(old, created));
 }
 
+/// Keeps a transaction of its own in evaluate().
+class Hasty final : public Operator {
+ public:
+  explicit Hasty(Verdict verdict) : Operator(kInfo), verdict_(verdict) {}
+
+ protected:
+  Verdict precondition(const OperatorContext&, Target) const override { return Verdict::accepted; }
+  Verdict evaluate(OperatorContext& context, Target) const override {
+    Transaction own(context.mesh, context.workspace);
+    CHECK(remove_edge_of_three(context, own) == Verdict::accepted);
+    own.keep();
+    return verdict_;
+  }
+  Verdict apply(OperatorContext&, Target, Transaction&) const override { return Verdict::accepted; }
+
+ private:
+  inline static const OperatorInfo kInfo = {"hasty", TargetKind::tet, "", {}, nullptr};
+  Verdict verdict_;
+};
+
 struct Recorder final : TraceSink {
   std::vector<std::string> events;
   void attempt_begins(const AttemptEvent& event) override {
@@ -202,6 +224,56 @@ TEST_CASE("an attempt that edits nothing is no improvement") {
                     [](OperatorContext&, Transaction&) { return Verdict::accepted; });
   CHECK(worker.attempt(op, kFirstTet) == Verdict::no_improvement);
   CHECK(worker.mesh == start);
+}
+
+TEST_CASE(
+    "an exception out of apply undoes its edits and becomes an error that names the operator") {
+  Worker worker(shell_of_three(1.4));
+  const TetMesh start = worker.mesh;
+  const auto check = [&](const Scripted& op, const std::string& message) {
+    CHECK_THROWS_WITH_AS(worker.attempt(op, kFirstTet), message.c_str(), Error);
+    CHECK(worker.mesh == start);
+  };
+  check(Scripted(Verdict::accepted, Verdict::accepted,
+                 [](OperatorContext& context, Transaction& transaction) -> Verdict {
+                   remove_edge_of_three(context, transaction);
+                   throw std::out_of_range("no such ring");
+                 }),
+        "operator 'scripted' failed at tet 0: no such ring");
+  check(Scripted(Verdict::accepted, Verdict::accepted,
+                 [](OperatorContext& context, Transaction& transaction) -> Verdict {
+                   remove_edge_of_three(context, transaction);
+                   throw 7;
+                 }),
+        "operator 'scripted' failed at tet 0: an exception of an unknown type");
+  // The worker is as good as new.
+  const Scripted op(Verdict::accepted, Verdict::accepted, remove_edge_of_three);
+  CHECK(worker.attempt(op, kFirstTet) == Verdict::accepted);
+  CHECK(to_string(check_integrity(worker.mesh)) == "");
+}
+
+TEST_CASE("a lack of memory stays what it is, and the edits are undone") {
+  Worker worker(shell_of_three(1.4));
+  const TetMesh start = worker.mesh;
+  const Scripted op(Verdict::accepted, Verdict::accepted,
+                    [](OperatorContext& context, Transaction& transaction) -> Verdict {
+                      remove_edge_of_three(context, transaction);
+                      throw std::bad_alloc();
+                    });
+  CHECK_THROWS_AS(worker.attempt(op, kFirstTet), std::bad_alloc);
+  CHECK(worker.mesh == start);
+}
+
+TEST_CASE("edits before apply are undone and are an error, kept or not, accepted or not") {
+  Worker worker(shell_of_three(1.4));
+  const TetMesh start = worker.mesh;
+  for (const Verdict verdict : {Verdict::accepted, Verdict::no_improvement}) {
+    const Hasty op(verdict);
+    CHECK_THROWS_WITH_AS(worker.attempt(op, kFirstTet),
+                         "operator 'hasty' failed at tet 0: it edits the mesh before apply()",
+                         Error);
+    CHECK(worker.mesh == start);
+  }
 }
 
 TEST_CASE("the trace hears operator, target, level, verdict and the quality vectors") {

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -77,6 +79,70 @@ TEST_CASE("registering a name twice is an error that gives the name") {
   CHECK_THROWS_WITH_AS(registry.add(smoothing_info()), "operator 'smoothing' is registered twice",
                        Error);
   CHECK(registry.operators().size() == builtin_operators().operators().size());
+}
+
+TEST_CASE("an operator knows the plugin that it comes from, and a clash names both sides") {
+  static const OperatorInfo kInfo = {
+      "polish", TargetKind::vertex, "help", {}, smoothing_info().make};
+  static const OperatorInfo kSame = kInfo;
+  Registry registry = builtin_operators();
+  registry.add(kInfo, "a.so");
+  CHECK(registry.origin("polish") == "a.so");
+  CHECK(registry.origin("smoothing").empty());
+  CHECK(registry.make("smoothing")->origin().empty());
+  CHECK_THROWS_WITH_AS(registry.add(kSame, "b.so"),
+                       "operator 'polish' is registered twice: by a.so and by b.so", Error);
+  CHECK_THROWS_WITH_AS(registry.add(smoothing_info(), "a.so"),
+                       "operator 'smoothing' is registered twice: by tetmend itself and by a.so",
+                       Error);
+  CHECK(registry.operators().size() == 9);
+  // A plugin's function that makes something else than it said.
+  CHECK(contains(error_of(registry, "polish"), "'polish' of a.so cannot be made: "));
+}
+
+TEST_CASE("an operator that cannot be used is not registered, and the error says why") {
+  using Kind = ParameterSpec::Kind;
+  const OperatorInfo good = {"good", TargetKind::tet, "help", {}, smoothing_info().make};
+  const auto complaint = [](const OperatorInfo& info) -> std::string {
+    Registry registry;
+    try {
+      registry.add(info);
+    } catch (const Error& error) {
+      CHECK(registry.operators().empty());
+      return error.what();
+    }
+    return "";
+  };
+  const auto with = [&](std::span<const ParameterSpec> parameters) {
+    OperatorInfo info = good;
+    info.parameters = parameters;
+    return complaint(info);
+  };
+  CHECK(complaint(good) == "");
+  OperatorInfo bad = good;
+  bad.name = "Not A Name";
+  CHECK(contains(complaint(bad), "'Not A Name': the name"));
+  bad = good;
+  bad.make = nullptr;
+  CHECK(contains(complaint(bad), "no function that makes it"));
+  bad = good;
+  bad.help = "";
+  CHECK(contains(complaint(bad), "no help"));
+  bad = good;
+  bad.target = static_cast<TargetKind>(4);
+  CHECK(contains(complaint(bad), "kind of target"));
+  using Specs = std::vector<ParameterSpec>;
+  const double nan = std::nan("");
+  CHECK(with(Specs{{"a", Kind::real, 0, 1, 0.5, "help"}}) == "");
+  CHECK(contains(with(Specs{{"a b", Kind::real, 0, 1, 0.5, "help"}}), "'a b': the name"));
+  CHECK(contains(with(Specs{{"a", Kind::real, 0, 1, 0.5, ""}}), "no help"));
+  CHECK(contains(with(Specs{{"a", Kind::real, 1, 0, 0.5, "help"}}), "the range is empty"));
+  CHECK(contains(with(Specs{{"a", Kind::real, 0, nan, 0.5, "help"}}), "the range is empty"));
+  CHECK(contains(with(Specs{{"a", Kind::real, 0, 1, 2, "help"}}), "outside the range"));
+  CHECK(contains(with(Specs{{"a", Kind::integer, 0, 1, 0.5, "help"}}), "not a whole number"));
+  CHECK(contains(with(Specs{{"a", Kind::flag, 0, 2, 1, "help"}}), "range of a flag"));
+  CHECK(contains(with(Specs{{"a", Kind::real, 0, 1, 0, "help"}, {"a", Kind::real, 0, 1, 0, "h"}}),
+                 "two parameters 'a'"));
 }
 
 TEST_CASE("an unknown parameter is an error that lists the valid ones") {

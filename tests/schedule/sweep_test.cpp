@@ -131,6 +131,40 @@ TEST_CASE("a cancelled sweep tries nothing more") {
   CHECK(tries == 0);
 }
 
+TEST_CASE("when work on a block throws, the mesh is in order and the run can go on") {
+  for (const int threads : {1, 3}) {
+    CAPTURE(threads);
+    TetMesh mesh = bad_cube();
+    on_threads(threads, [&] {
+      Run run(mesh, kRegistry);
+      run.set_block_count(8);
+      const auto contraction = kRegistry.make("edge_contraction");
+      std::atomic<int> accepted = 0;
+      {
+        PassScope scope(run, "test");
+        CHECK_THROWS_AS(work_off(run, scope, all_vertices(mesh), 0,
+                                 [&](Worker& worker, Item& item) {
+                                   const Verdict verdict =
+                                       worker.attempt(*contraction, Target::of(item.vertex));
+                                   if (verdict == Verdict::accepted && ++accepted == 10) {
+                                     throw Error("enough");
+                                   }
+                                   return true;
+                                 }),
+                        Error);
+      }
+      CHECK(accepted >= 10);
+      CHECK(mesh.vertex_count() == live_vertices(mesh).size());
+      CHECK(mesh.tet_count() == live_tets(mesh).size());
+      CHECK(to_string(check_integrity(mesh)) == "");
+      const QualityIndicators before = quality_indicators(mesh);
+      improve(run);
+      CHECK(quality_indicators(mesh).n_bad < before.n_bad);
+      CHECK(to_string(check_integrity(mesh)) == "");
+    });
+  }
+}
+
 TEST_CASE("what is collected comes in the order of the slots") {
   TetMesh mesh = bad_cube();
   Run run(mesh, kRegistry);

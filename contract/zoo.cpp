@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Builders of the test zoo.
-#include "tests/support/zoo.h"
+// Builders of the zoo.
+#include "contract/zoo.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "tests/support/delaunay.h"
+#include "contract/delaunay.h"
 
-namespace tetmend::test {
+namespace tetmend::contract {
 
 namespace {
 
@@ -258,6 +258,20 @@ MeshData kuhn_cube(unsigned cells, double jitter, std::uint64_t seed) {
   return data;
 }
 
+MeshData constrained_ball(std::uint64_t seed) {
+  MeshData data = delaunay_ball(70, seed);
+  for (std::size_t i = 0; i < data.tets.size(); ++i) {
+    double x = 0;
+    for (const std::uint32_t v : data.tets[i].vertices) x += data.points[v].x();
+    data.tets[i].label = x < 0 ? 1 : 2;
+    const auto& v = data.tets[i].vertices;
+    if (i % 29 == 3) data.triangles.push_back({{v[0], v[1], v[2]}, 5});
+    if (i % 17 == 5) data.edges.push_back({{v[1], v[3]}, 6});
+    if (i % 41 == 7) data.required_vertices.push_back(v[2]);
+  }
+  return data;
+}
+
 std::vector<NamedMesh> zoo() {
   std::vector<NamedMesh> all;
   const auto add = [&](std::string name, MeshData data) {
@@ -304,15 +318,6 @@ MeshData zoo_data(const std::string& name) {
   throw Error("the zoo has no mesh '" + name + "'");
 }
 
-double total_volume(const TetMesh& mesh) {
-  double sum = 0;
-  for (const TetHandle t : live_tets(mesh)) {
-    const TetVertices& v = mesh.vertices(t);
-    sum += volume6(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])) / 6;
-  }
-  return sum;
-}
-
 std::vector<TetHandle> live_tets(const TetMesh& mesh) {
   std::vector<TetHandle> live;
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
@@ -329,4 +334,4 @@ std::vector<VertexHandle> live_vertices(const TetMesh& mesh) {
   return live;
 }
 
-}  // namespace tetmend::test
+}  // namespace tetmend::contract

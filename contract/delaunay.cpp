@@ -3,7 +3,7 @@
 //
 //   for each point: cavity = tets whose circumsphere holds it; replace them by tets from the point
 //   to each face of the cavity; at the end drop the tets at the corners of the huge tet
-#include "tests/support/delaunay.h"
+#include "contract/delaunay.h"
 
 #include <algorithm>
 #include <map>
@@ -12,7 +12,7 @@
 
 #include "kernel/handles.h"
 
-namespace tetmend::test {
+namespace tetmend::contract {
 
 std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -60,4 +60,4 @@ std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points
   return tets;
 }
 
-}  // namespace tetmend::test
+}  // namespace tetmend::contract

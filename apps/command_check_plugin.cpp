@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// tetmend check-plugin: holds the operators of a plugin to the contract of all operators.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "contract/contract.h"
+#include "kernel/formats/mesh_io.h"
+#include "ops/plugin.h"
+
+namespace tetmend::apps {
+namespace {
+
+struct Options {
+  std::filesystem::path plugin;
+  std::vector<std::filesystem::path> meshes;
+};
+
+std::vector<contract::Ground> load_grounds(const Options& options) {
+  std::vector<contract::Ground> grounds = contract::grounds();
+  for (const std::filesystem::path& file : options.meshes) {
+    BuildReport report;
+    grounds.push_back(
+        {file.string(), build_mesh(file, read_mesh(file), MeshOrder::of_file, report)});
+  }
+  return grounds;
+}
+
+/// True if the operator keeps its contract.
+bool check_operator(const Registry& registry, std::string_view name,
+                    const std::vector<contract::Ground>& grounds) {
+  fmt::print("{}\n", name);
+  const auto print_line = [](std::string_view mesh, const contract::Outcome& outcome) {
+    fmt::print("  {:<28} {:>8} attempts {:>7} accepted{}{}\n", mesh, grouped(outcome.attempts),
+               grouped(outcome.accepted),
+               outcome.complaint.empty() ? "" : "   BROKEN: ", outcome.complaint);
+    std::fflush(stdout);
+  };
+  contract::Outcome total;
+  try {
+    total = contract::check_contract(registry, name, grounds, print_line);
+  } catch (const Error& error) {
+    total.complaint = error.what();
+  }
+  const bool kept = total.complaint.empty();
+  fmt::print("{} {} its contract: {} attempts, {} accepted{}{}\n\n", name,
+             kept ? "keeps" : "BREAKS", grouped(total.attempts), grouped(total.accepted),
+             kept ? "" : "; ", total.complaint);
+  return kept;
+}
+
+int run_check_plugin(const Options& options) {
+  for (const std::filesystem::path& file : options.meshes) check_mesh_extension(file);
+  Registry registry;
+  register_builtin_operators(registry);
+  const Plugin plugin = load_plugin(options.plugin, registry);
+  const std::vector<contract::Ground> grounds = load_grounds(options);
+  std::size_t broken = 0;
+  for (const OperatorInfo* info : plugin.operators) {
+    if (!check_operator(registry, info->name, grounds)) ++broken;
+  }
+  if (broken == 0) return 0;
+  throw Error(fmt::format("{}: {} of {} operators break{} the contract", options.plugin.string(),
+                          broken, plugin.operators.size(), broken == 1 ? "s" : ""));
+}
+
+}  // namespace
+
+void add_check_plugin(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("check-plugin", "Try the operators of a plugin on many meshes");
+  command->add_option("FILE", options->plugin, "Shared library of the plugin")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("--mesh", options->meshes,
+                   "Also try them on this mesh; may be repeated.\n"
+                   "A large mesh is tried at fewer places")
+      ->type_name("MESH")
+      ->allow_extra_args(false);
+  command->footer(
+      R"(Holds every operator of the plugin to what the operators of tetmend keep, on
+small meshes of all kinds that the program makes itself, with the parameters at
+their defaults and at the ends of their ranges:
+
+  a refusal leaves the mesh as it was, bit by bit
+  an accepted attempt leaves a sound mesh with the same surface, volume, labels
+  and constraints, and better qualities
+  the same attempt always ends the same way, and can be undone
+  nothing outside the part of the mesh given to a thread changes
+  no exceptions
+  some attempts are accepted
+
+One line for each mesh: attempts, accepted, the first breach.
+
+Example:
+  tetmend check-plugin ./my_operator.so --mesh part.mesh
+
+Exit status: 0 all contracts kept, 1 one is broken or the plugin cannot be
+loaded, 2 wrong usage)");
+  command->callback([options, &invocation] {
+    invocation.action = [options] { return run_check_plugin(*options); };
+  });
+}
+
+}  // namespace tetmend::apps

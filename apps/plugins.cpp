@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Which plugins a command works with.
+#include "apps/plugins.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "ops/plugin.h"
+
+namespace tetmend::apps {
+namespace {
+
+using std::filesystem::path;
+
+constexpr const char* kVariable = "TETMEND_PLUGIN_PATH";
+
+/// The file itself, or the *.so of a folder by name.
+std::vector<path> list_plugins(const path& place) {
+  std::error_code error;
+  const auto status = std::filesystem::status(place, error);
+  if (!std::filesystem::exists(status)) {
+    throw Error(fmt::format("{}: {}: there is no such file or folder", kVariable, place.string()));
+  }
+  if (!std::filesystem::is_directory(status)) return {place};
+  std::vector<path> files;
+  try {
+    for (const auto& entry : std::filesystem::directory_iterator(place)) {
+      if (entry.path().extension() == ".so") files.push_back(entry.path());
+    }
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw Error(fmt::format("{}: {}: {}", kVariable, place.string(), failure.code().message()));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<path> plugins_of_environment() {
+  std::vector<path> files;
+  const char* variable = std::getenv(kVariable);
+  std::string_view rest = variable == nullptr ? "" : variable;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) {
+      const std::vector<path> more = list_plugins(rest.substr(0, end));
+      files.insert(files.end(), more.begin(), more.end());
+    }
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return files;
+}
+
+}  // namespace
+
+void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& plugins) {
+  command
+      .add_option("--plugin", plugins,
+                  "Load the operators of this shared library;\n"
+                  "may be repeated. TETMEND_PLUGIN_PATH names\n"
+                  "more: files, and folders for all *.so in them")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+}
+
+Registry load_operators(const std::vector<std::filesystem::path>& plugins) {
+  std::vector<path> files = plugins_of_environment();
+  files.insert(files.end(), plugins.begin(), plugins.end());
+  Registry registry;
+  register_builtin_operators(registry);
+  std::vector<path> known;
+  for (const path& file : files) {
+    const path real = std::filesystem::weakly_canonical(file);
+    if (std::find(known.begin(), known.end(), real) != known.end()) continue;
+    known.push_back(real);
+    load_plugin(file, registry);
+  }
+  return registry;
+}
+
+}  // namespace tetmend::apps

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "contract/contract.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "contract/zoo.h"
+#include "ops/edge_contraction.h"
+
+namespace tetmend::contract {
+
+namespace {
+
+/// The mesh after point suppression: with free slots of tets and vertices between the live ones.
+TetMesh with_free_slots(const MeshData& data) {
+  TetMesh mesh(data);
+  const ParameterValues defaults("", edge_contraction_info().parameters, {});
+  const auto contraction = edge_contraction_info().make(defaults);
+  Workspace workspace(mesh);
+  const auto scratch = std::make_unique<Scratch>();
+  OperatorContext context{mesh, workspace, *scratch};
+  for (const VertexHandle v : live_vertices(mesh)) contraction->attempt(context, Target::of(v));
+  return mesh;
+}
+
+/// The mesh with the tets of its lower half frozen.
+TetMesh half_frozen(const MeshData& data) {
+  TetMesh mesh(data);
+  mesh.freeze([&](TetHandle t) {
+    double z = 0;
+    for (const VertexHandle v : mesh.vertices(t)) z += mesh.point(v).z();
+    return z < 0;
+  });
+  return mesh;
+}
+
+/// Fewer targets on a large mesh, where each accepted attempt costs a look at all of it.
+std::size_t share(std::size_t count, const TetMesh& mesh) {
+  constexpr std::size_t kAffordable = 1'000'000;
+  constexpr std::size_t kFewest = 20;
+  const std::size_t most = kAffordable / std::max<std::size_t>(mesh.tet_count(), 1);
+  return std::clamp(count, std::min(count, kFewest), std::max(most, kFewest));
+}
+
+struct Cast {
+  Candidate normal;
+  std::vector<Candidate> extreme;
+  std::vector<Candidate> ensemble;  // the operator and those of tetmend itself
+};
+
+Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
+  Outcome all = try_in_sweeps(*cast.normal.op, mesh, 3, share(1500, mesh));
+  if (all.complaint.empty()) all += try_on_fresh_copies(*cast.normal.op, mesh, share(200, mesh));
+  for (const Candidate& candidate : cast.extreme) {
+    if (!all.complaint.empty()) return all;
+    Outcome outcome = try_in_sweeps(*candidate.op, mesh, 1, share(120, mesh));
+    if (!outcome.complaint.empty())
+      outcome.complaint = fmt::format("{}, {}", candidate.name, outcome.complaint);
+    all += outcome;
+  }
+  if (all.complaint.empty()) {
+    // The others are tried as well, but do not count.
+    const Outcome outcome = try_in_turns(cast.ensemble, mesh, 2, share(60, mesh));
+    all.complaint = outcome.complaint;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Ground> grounds() {
+  std::vector<Ground> all;
+  for (const NamedMesh& named : zoo()) all.push_back({named.name, TetMesh(named.data)});
+  all.push_back({"constrained_ball", TetMesh(constrained_ball(11))});
+  all.push_back({"half_frozen_ball", half_frozen(delaunay_ball(150, 13))});
+  all.push_back({"ball_with_free_slots", with_free_slots(delaunay_ball(100, 12))});
+  return all;
+}
+
+Candidate with_defaults(const Registry& registry, std::string_view name) {
+  return {std::string(name), registry.make(name)};
+}
+
+std::vector<Candidate> at_its_limits(const Registry& registry, std::string_view name) {
+  std::vector<Candidate> all;
+  for (const ParameterSpec& spec : registry.find(name).parameters) {
+    for (const double value : {spec.low, spec.high}) {
+      if (value == spec.initial) continue;
+      all.push_back({fmt::format("{} with {} = {:g}", name, spec.name, value),
+                     registry.make(name, {{std::string(spec.name), value}})});
+    }
+  }
+  return all;
+}
+
+Outcome check_contract(const Registry& registry, std::string_view name,
+                       const std::vector<Ground>& meshes, const Listener& listener) {
+  Cast cast{with_defaults(registry, name), at_its_limits(registry, name), {}};
+  for (const OperatorInfo* info : registry.operators()) {
+    if (info->name == name || registry.origin(info->name).empty()) {
+      cast.ensemble.push_back(with_defaults(registry, info->name));
+    }
+  }
+  Outcome total;
+  for (const Ground& ground : meshes) {
+    const Outcome outcome = try_everything(cast, ground.mesh);
+    listener(ground.name, outcome);
+    total += outcome;
+  }
+  Outcome inside;
+  for (const std::uint64_t seed : {1, 2}) {
+    inside += try_in_territory(*cast.normal.op, TetMesh(kuhn_cube(5, 0.38, seed)), 0.55);
+  }
+  listener("territory", inside);
+  total += inside;
+  if (total.complaint.empty() && total.accepted == 0) {
+    total.complaint = fmt::format("none of {} attempts was accepted", total.attempts);
+  }
+  return total;
+}
+
+}  // namespace tetmend::contract

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The contract of operators as a whole: all trials of an operator of a registry on many meshes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contract/trials.h"
+#include "ops/registry.h"
+
+namespace tetmend::contract {
+
+/// A mesh to try operators on. Names are unique and contain no spaces, unless they are files.
+struct Ground {
+  std::string name;
+  TetMesh mesh;
+};
+
+/// The zoo, a mesh with constraints of all kinds, and one with free slots between the live ones.
+std::vector<Ground> grounds();
+
+/// With the default parameters.
+Candidate with_defaults(const Registry& registry, std::string_view name);
+/// One for each end of the range of each parameter, where that is not the default.
+std::vector<Candidate> at_its_limits(const Registry& registry, std::string_view name);
+
+/// Told what came of each mesh, and whether all went well there. "territory" is a mesh of its own.
+using Listener = std::function<void(std::string_view mesh, const Outcome&)>;
+
+/// Tries an operator, with its defaults and at the ends of its parameters, alone and in turns with
+/// those of tetmend itself, on all meshes and in a territory. Stops at a mesh with the first
+/// breach, and goes on with the next. An operator that was never accepted breaks the contract as
+/// well, for then nothing was shown: the total says so.
+/// @throws Error if the operator cannot be made. Cost: some seconds for the grounds(); on a large
+/// mesh fewer targets are tried.
+Outcome check_contract(const Registry& registry, std::string_view name,
+                       const std::vector<Ground>& meshes, const Listener& listener);
+
+}  // namespace tetmend::contract

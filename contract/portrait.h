@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What an accepted attempt must keep of a mesh, and what it must make better.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::contract {
+
+/// All that an operator must keep, and what it must improve. Computed from points and connectivity;
+/// no cached value enters.
+struct Portrait {
+  using Face = std::array<VertexHandle, 3>;  // from its smallest vertex on, the sense kept
+
+  std::vector<std::tuple<Face, std::uint32_t, Label>> boundary;  // surface triangle, region
+  std::vector<std::tuple<Face, Label>> constrained_faces;        // from each side
+  std::set<std::array<VertexHandle, 2>> constrained_edges;
+  std::vector<std::tuple<VertexHandle, double, double, double>> fixed;
+  std::vector<std::pair<TetHandle, TetVertices>> frozen;
+  std::map<Label, long double> volumes;
+  long double absolute_volume = 0;
+  std::vector<Quality> qualities;  // ascending
+  std::set<TetVertices> doubtful;  // tets not certified positive, vertices sorted
+  std::size_t not_positive = 0;    // in exact arithmetic
+};
+
+/// Cost: n log n in the number of tets, with exact arithmetic where it is needed.
+Portrait portrait(const TetMesh& mesh);
+
+/// What is wrong with the mesh after an accepted attempt, given its portrait before; empty when all
+/// is well. Also rebuilds the mesh from plain arrays. Cost: as of a portrait.
+std::string complaint_about(const Portrait& before, const TetMesh& mesh);
+
+}  // namespace tetmend::contract

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// An operator in a territory: what it changes lies inside, what it refuses or leaves for later
+// leaves no trace. Without that, threads would write over each other's work.
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "contract/trials.h"
+#include "contract/zoo.h"
+#include "kernel/error.h"
+#include "kernel/integrity.h"
+#include "kernel/star.h"
+
+namespace tetmend::contract {
+
+namespace {
+
+/// A worker in the part of a mesh where x is below a bound.
+class Side {
+ public:
+  Side(const TetMesh& start, double bound) : mesh(start), workspace_(mesh) {
+    workspace_.provide(mesh, 400, 40);
+    blocks_.assign(mesh.vertex_slots(), 1);
+    for (const VertexHandle v : live_vertices(mesh)) {
+      if (mesh.point(v).x() < bound) blocks_[v.index()] = 0;
+    }
+    slots_ = std::exchange(workspace_.free_slots(), {});
+    workspace_.enter(Territory(blocks_, 0), slots_);
+  }
+
+  bool holds(VertexHandle v) const { return blocks_[v.index()] == 0; }
+  template <class Vertices>
+  bool holds_all(const Vertices& vertices) const {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [this](VertexHandle v) { return holds(v); });
+  }
+  Verdict attempt(const Operator& op, Target target) { return op.attempt(context_, target); }
+  void leave() {
+    workspace_.leave(slots_);
+    workspace_.settle(mesh);
+  }
+
+  TetMesh mesh;
+
+ private:
+  Workspace workspace_;
+  Workspace::FreeSlots slots_;
+  std::vector<BlockId> blocks_;
+  std::unique_ptr<Scratch> scratch_ = std::make_unique<Scratch>();
+  OperatorContext context_{mesh, workspace_, *scratch_};
+};
+
+std::vector<Target> targets_at(const TetMesh& mesh, TetHandle t, TargetKind kind) {
+  std::vector<Target> targets;
+  if (kind == TargetKind::tet) targets.push_back(Target::of(t));
+  for (unsigned e = 0; e < 6 && kind == TargetKind::edge; ++e) {
+    targets.push_back(Target::of(TetEdge(t, e)));
+  }
+  for (unsigned f = 0; f < 4 && kind == TargetKind::face; ++f) {
+    targets.push_back(Target::of(HalfFace(t, f)));
+  }
+  for (unsigned i = 0; i < 4 && kind == TargetKind::vertex; ++i) {
+    targets.push_back(Target::of(mesh.vertices(t)[i]));
+  }
+  return targets;
+}
+
+/// Nothing outside differs, but for what lies across a face of the territory.
+bool is_outside_untouched(const Side& side, const TetMesh& before) {
+  for (std::uint32_t i = 0; i < before.vertex_slots(); ++i) {
+    const VertexHandle v(i);
+    if (side.holds(v)) continue;
+    if (before.is_deleted(v) != side.mesh.is_deleted(v)) return false;
+    if (!before.is_deleted(v) && before.point(v) != side.mesh.point(v)) return false;
+  }
+  for (std::uint32_t i = 0; i < before.tet_slots(); ++i) {
+    const TetHandle t(i);
+    const bool was = !before.is_deleted(t);
+    if (!was || side.holds_all(before.vertices(t))) {
+      if (!side.mesh.is_deleted(t) && !side.holds_all(side.mesh.vertices(t))) return false;
+      continue;
+    }
+    if (before.vertices(t) != side.mesh.vertices(t)) return false;
+    if (before.quality(t) != side.mesh.quality(t)) return false;
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace face(t, f);
+      if (before.twin(face) != side.mesh.twin(face) && !side.holds_all(before.vertices(face))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// The mesh with other points where x is above `bound` and no tet reaches back below it: what
+/// another thread may be changing, and nobody here may look at.
+TetMesh with_other_points_beyond(const TetMesh& start, double bound) {
+  TetMesh mesh = start;
+  Workspace workspace(mesh);
+  for (const VertexHandle v : live_vertices(mesh)) {
+    if (mesh.is_fixed(v) || !mesh.tet_of(v).is_valid()) continue;
+    const auto ring = one_ring(mesh, v, workspace);
+    const auto is_beyond = [&](VertexHandle w) { return !(mesh.point(w).x() < bound); };
+    if (!is_beyond(v) || !std::all_of(ring.begin(), ring.end(), is_beyond)) continue;
+    const Point moved = mesh.point(v) + 0.1 * (mesh.point(ring[0]) - mesh.point(v));
+    if (moved.x() < bound) continue;
+    Transaction transaction(mesh, workspace);
+    if (transaction.move_vertex(v, moved, link(mesh, v, workspace)) == EditResult::made) {
+      transaction.keep();
+    }
+  }
+  return mesh;
+}
+
+/// The territories of both hold the same.
+bool is_same_inside(const Side& a, const Side& b) {
+  if (a.mesh.tet_slots() != b.mesh.tet_slots()) return false;
+  for (std::uint32_t i = 0; i < a.mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (a.mesh.is_deleted(t) != b.mesh.is_deleted(t)) return false;
+    if (a.mesh.is_deleted(t)) continue;
+    const TetVertices& tet = a.mesh.vertices(t);
+    if (!a.holds_all(tet)) continue;
+    if (tet != b.mesh.vertices(t)) return false;
+    for (const VertexHandle v : tet) {
+      if (a.mesh.point(v) != b.mesh.point(v)) return false;
+    }
+  }
+  return true;
+}
+
+/// One attempt; what was wrong with it.
+std::string attempt_and_judge(Side& side, const Operator& op, Target target, Outcome& outcome) {
+  const TetMesh before = side.mesh;
+  ++outcome.attempts;
+  try {
+    const Verdict verdict = side.attempt(op, target);
+    if (verdict == Verdict::accepted) {
+      ++outcome.accepted;
+      return is_outside_untouched(side, before) ? "" : "something outside the territory changed";
+    }
+    if (verdict == Verdict::deferred) ++outcome.deferred;
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return side.mesh == before ? "" : "the refusal left a trace";
+}
+
+}  // namespace
+
+Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound) {
+  Outcome outcome;
+  Side side(start, bound);
+  Side elsewhere(with_other_points_beyond(start, bound), bound);
+  Outcome unseen;
+  for (const TetHandle t : live_tets(side.mesh)) {
+    const TetVertices at_first = side.mesh.vertices(t);
+    const auto is_there = [&] {
+      return !side.mesh.is_deleted(t) && side.mesh.vertices(t) == at_first;
+    };
+    if (!is_there() || !side.holds_all(at_first)) continue;
+    for (const Target target : targets_at(side.mesh, t, op.info().target)) {
+      std::string about = attempt_and_judge(side, op, target, outcome);
+      attempt_and_judge(elsewhere, op, target, unseen);
+      if (about.empty() &&
+          (outcome.accepted != unseen.accepted || outcome.deferred != unseen.deferred)) {
+        about = "the answer depends on what lies outside the territory";
+      }
+      if (!about.empty()) {
+        outcome.complaint =
+            fmt::format("in a territory, {} {}, attempt {}: {}", to_string(target.kind),
+                        target.code, outcome.attempts, about);
+        return outcome;
+      }
+      if (!is_there()) break;
+    }
+  }
+  if (!is_same_inside(side, elsewhere)) {
+    outcome.complaint = "in a territory: edits depend on what lies outside";
+    return outcome;
+  }
+  side.leave();
+  if (const auto findings = check_integrity(side.mesh); !findings.empty()) {
+    outcome.complaint = "after work in a territory: " + to_string(findings);
+  } else if (side.mesh.tet_count() != live_tets(side.mesh).size() ||
+             side.mesh.vertex_count() != live_vertices(side.mesh).size()) {
+    outcome.complaint = "after work in a territory: the counts of the mesh are wrong";
+  }
+  return outcome;
+}
+
+}  // namespace tetmend::contract

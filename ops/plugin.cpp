@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//   open -> compare the ABI -> make it stay -> let it register into a registry of its own -> add
+//   that to the host's
+#include "ops/plugin.h"
+
+#include <memory>
+#include <new>
+#include <string>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+
+namespace tetmend {
+
+namespace {
+
+struct Closer {
+  void operator()(void* library) const { ::dlclose(library); }
+};
+using Library = std::unique_ptr<void, Closer>;
+
+/// What the dynamic linker has to say, without the name of the file in front.
+std::string linker_message(const std::string& file) {
+  const char* text = ::dlerror();
+  std::string message = text == nullptr ? "unknown reason" : text;
+  if (message.starts_with(file + ": ")) message.erase(0, file.size() + 2);
+  return message;
+}
+
+void* find(const Library& library, const std::string& file, const char* symbol) {
+  void* found = ::dlsym(library.get(), symbol);
+  if (found == nullptr) {
+    throw Error(
+        fmt::format("{}: not a plugin of tetmend: it has no symbol {} (see "
+                    "TETMEND_PLUGIN in ops/plugin.h)",
+                    file, symbol));
+  }
+  return found;
+}
+
+void check_abi(const Library& library, const std::string& file) {
+  const auto& abi = *static_cast<const PluginAbi*>(find(library, file, "tetmend_plugin_abi"));
+  if (abi == kPluginAbi) return;
+  throw Error(
+      fmt::format("{}: built for plugin ABI {}, layout {:08x}; this is ABI {}, layout "
+                  "{:08x}: build the plugin with the headers of this tetmend",
+                  file, abi.version, abi.layout, kPluginAbi.version, kPluginAbi.layout));
+}
+
+/// Opens the library with everything bound, so that nothing is found missing later.
+Library open(const std::string& file) {
+  Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (library) return library;
+  const std::string reason = linker_message(file);
+  // If it was built for another version, that is the reason why it needs what is not here.
+  if (const Library unbound{::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL)}) {
+    check_abi(unbound, file);
+  }
+  throw Error(fmt::format("{}: cannot be loaded as a plugin: {}", file, reason));
+}
+
+}  // namespace
+
+Plugin load_plugin(const std::filesystem::path& path, Registry& registry) {
+  // Absolute, for a bare name would be searched for in the folders of the system.
+  const std::string file = std::filesystem::absolute(path).string();
+  const Library library = open(file);
+  check_abi(library, file);
+  const auto enter =
+      reinterpret_cast<void (*)(Registry&)>(find(library, file, "tetmend_plugin_register"));
+  const Library pinned(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE));
+
+  try {
+    Registry own;
+    enter(own);
+    Plugin plugin{path, {own.operators().begin(), own.operators().end()}};
+    if (plugin.operators.empty()) throw Error("it registers no operator");
+    Registry extended = registry;
+    for (const OperatorInfo* info : plugin.operators) extended.add(*info, path.string());
+    registry = std::move(extended);
+    return plugin;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{}: {}", file, error.what()));
+  } catch (...) {
+    throw Error(fmt::format("{}: registering failed by an exception of an unknown type", file));
+  }
+}
+
+}  // namespace tetmend

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// An example of a plugin: moves a vertex towards where the ball would be an optimal Delaunay
+// triangulation (ODT), the volume-weighted mean of the circumcentres around it
+// ([alliez_variational]).
+//
+// Where `smoothing` asks for the best worst tet, ODT asks for a good shape of the whole ball. The
+// guard of every operator holds all the same: a move is made only if the worst tet gains.
+#include <algorithm>
+#include <array>
+#include <memory>
+
+// All that a plugin needs to register operators; includes ops/operator.h.
+#include "ops/plugin.h"
+// What this operator walks on: the link of a vertex.
+#include "kernel/star.h"
+
+namespace {
+
+using namespace tetmend;
+
+// Forward: the class and its description refer to each other.
+const OperatorInfo& odt_smoothing_info();
+
+class OdtSmoothing final : public Operator {
+ public:
+  // An instance is shared by all threads: it holds parameters, nothing that an attempt changes.
+  explicit OdtSmoothing(const ParameterValues& values)
+      : Operator(odt_smoothing_info()),
+        halvings_(values.integer("halvings")),
+        least_gain_(values.real("least_gain")) {}
+
+ protected:
+  // Stage 1, cheap: is there anything to do here at all? Fixed vertices are the boundary and the
+  // constraints; the kernel would refuse to move them, but asking first is quicker.
+  Verdict precondition(const OperatorContext& context, Target target) const override {
+    const VertexHandle v = target.vertex();
+    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid()) {
+      return Verdict::not_applicable;
+    }
+    return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
+  }
+
+  // Stage 2: decide, without touching the mesh. The proposal goes to the scratch, which belongs to
+  // the thread.
+  Verdict evaluate(OperatorContext& context, Target target) const override {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const Point start = mesh.point(target.vertex());
+    // The walk stops at the border of the part of the mesh that this thread may touch. Then another
+    // thread's work would be in the way: try again later.
+    if (!collect_link(mesh, target.vertex(), context.workspace, scratch.link)) {
+      return Verdict::deferred;
+    }
+    const double worst = worst_quality(mesh, scratch.link, start);
+    const Point way = way_to_optimum(mesh, scratch.link, start);
+    double share = 1;
+    for (int i = 0; i <= halvings_; ++i, share /= 2) {
+      scratch.point = start + share * way;
+      if (worst_quality(mesh, scratch.link, scratch.point) > worst + least_gain_) {
+        return Verdict::accepted;
+      }
+    }
+    return Verdict::no_improvement;
+  }
+
+  // Stage 3: edit, through the transaction only. It checks that no tet turns over; attempt(), which
+  // calls the stages, checks that the mesh got better, and undoes everything if it did not.
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
+    return to_verdict(
+        transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
+  }
+
+ private:
+  /// Smallest minimum sine of the ball, its vertex at p. A half-face lists its vertices
+  /// counterclockwise as seen from outside, so (p, a, b, c) is positive for a p inside.
+  static double worst_quality(const TetMesh& mesh, std::span<const HalfFace> link, const Point& p) {
+    double worst = 1;
+    for (const HalfFace f : link) {
+      const auto corners = mesh.vertices(f);
+      worst = std::min(worst, minimum_sine(p, mesh.point(corners[0]), mesh.point(corners[1]),
+                                           mesh.point(corners[2])));
+    }
+    return worst;
+  }
+
+  /// From p to the mean of the circumcentres, weighted by volume. The circumcentre of a tet lies at
+  /// p + (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (12 V); times V, nothing is divided by the
+  /// volume of a single tet, which may be flat.
+  static Point way_to_optimum(const TetMesh& mesh, std::span<const HalfFace> link, const Point& p) {
+    Point sum = Point::Zero();
+    double volume = 0;
+    for (const HalfFace f : link) {
+      const auto corners = mesh.vertices(f);
+      const Point u = mesh.point(corners[0]) - p;
+      const Point v = mesh.point(corners[1]) - p;
+      const Point w = mesh.point(corners[2]) - p;
+      sum += u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) +
+             w.squaredNorm() * u.cross(v);
+      volume += u.dot(v.cross(w)) / 6;
+    }
+    return volume > 0 ? Point(sum / (12 * volume)) : Point(Point::Zero());
+  }
+
+  int halvings_;
+  double least_gain_;
+};
+
+// name, kind, low, high, default, help. Checked before the operator is made, and tried at both ends
+// of its range by `tetmend check-plugin`.
+constexpr std::array<ParameterSpec, 2> kParameters = {{
+    {"halvings", ParameterSpec::Kind::integer, 0, 20, 3,
+     "how often the way is halved if going all of it does not help"},
+    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 1e-3,
+     "least gain of the worst quality of the ball"},
+}};
+
+const OperatorInfo& odt_smoothing_info() {
+  static const OperatorInfo kInfo = {
+      "odt_smoothing", TargetKind::vertex,
+      "move a vertex towards the volume-weighted mean of the circumcentres around it", kParameters,
+      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
+        return std::make_unique<OdtSmoothing>(values);
+      }};
+  return kInfo;
+}
+
+}  // namespace
+
+TETMEND_PLUGIN(registry) {
+  registry.add(odt_smoothing_info());
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Plugins as a user of the command line has them.
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/apps/program.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+constexpr const char* kVariable = "TETMEND_PLUGIN_PATH";
+
+/// An environment variable of the program while this lives.
+class Setting {
+ public:
+  explicit Setting(const std::string& value) { ::setenv(kVariable, value.c_str(), 1); }
+  ~Setting() { ::unsetenv(kVariable); }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+};
+
+std::string plugin_file(const std::string& name) {
+  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
+}
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// How often `part` is in the text.
+std::size_t count(const std::string& text, std::string_view part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// One line on stderr, from tetmend.
+void check_complaint(const Outcome& outcome, int status) {
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == status);
+  CHECK(outcome.err.starts_with("tetmend: "));
+  CHECK(count(outcome.err, "\n") == 1);
+}
+
+}  // namespace
+
+TEST_CASE("operators of plugins are listed with their file, as often as --plugin is given") {
+  const Outcome outcome = run_program(
+      {"operators", "--plugin", plugin_file("sound"), "--plugin", plugin_file("odt_smoothing")});
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "sound\n  target: vertex"));
+  CHECK(contains(outcome.out, "  plugin: " + plugin_file("sound")));
+  CHECK(contains(outcome.out, "odt_smoothing\n"));
+  CHECK(contains(outcome.out, "halvings"));
+  CHECK(count(outcome.out, "  plugin: ") == 2);
+  const Outcome one = run_program({"operators", "--plugin", plugin_file("sound"), "sound"});
+  CHECK(one.status == 0);
+  CHECK(one.out.starts_with("sound\n"));
+}
+
+TEST_CASE("TETMEND_PLUGIN_PATH names files and folders, and each plugin is loaded once") {
+  const TempFolder folder;
+  std::filesystem::copy_file(plugin_file("odt_smoothing"), folder / "b.so");
+  std::filesystem::copy_file(plugin_file("sound"), folder / "a.so");
+  write_text(folder / "readme.txt", "no plugin");
+  {
+    const Setting setting((folder / "").string() + "::" + (folder / "a.so").string());
+    const Outcome outcome = run_program({"operators", "--plugin", (folder / "b.so").string()});
+    CHECK(outcome.err.empty());
+    CHECK(outcome.status == 0);
+    CHECK(count(outcome.out, "  plugin: ") == 2);
+    CHECK(outcome.out.find("sound\n") < outcome.out.find("odt_smoothing\n"));
+  }
+  const Setting setting((folder / "nowhere").string());
+  const Outcome outcome = run_program({"operators"});
+  check_complaint(outcome, 1);
+  CHECK(contains(outcome.err, "TETMEND_PLUGIN_PATH"));
+  CHECK(contains(outcome.err, (folder / "nowhere").string()));
+}
+
+TEST_CASE("a plugin that cannot be loaded stops each command before it works") {
+  const TempFolder folder;
+  const std::string broken = plugin_file("other_version");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"operators", "--plugin", broken},
+        {"schedules", "--plugin", broken},
+        {"improve", "missing.mesh", "-o", (folder / "out.mesh").string(), "--plugin", broken},
+        {"check-plugin", broken}}) {
+    const Outcome outcome = run_program(arguments);
+    check_complaint(outcome, 1);
+    CHECK(contains(outcome.err, "plugin ABI"));
+    CHECK(outcome.out.empty());
+  }
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("a mesh is improved with a plugin loaded") {
+  const TempFolder folder;
+  const std::string mesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
+  const Outcome outcome = run_program({"improve", "--plugin", plugin_file("sound"), mesh, "-o",
+                                       (folder / "out.mesh").string(), "--quiet"});
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("check-plugin has a line for each mesh, also the user's, and status 0 for a sound one") {
+  const std::string mesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/two_materials.mesh";
+  const Outcome outcome = run_program({"check-plugin", plugin_file("sound"), "--mesh", mesh});
+  CAPTURE(outcome.out);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  for (const std::string name : {"one_tet", "ball_200", "constrained_ball", "territory"}) {
+    CHECK(contains(outcome.out, "\n  " + name + " "));
+  }
+  CHECK(contains(outcome.out, "\n  " + mesh + " "));
+  CHECK(contains(outcome.out, "sound keeps its contract: "));
+  CHECK(!contains(outcome.out, "BROKEN"));
+}
+
+TEST_CASE("check-plugin says what is wrong with each operator and ends with status 1") {
+  const Outcome outcome = run_program({"check-plugin", plugin_file("lying")});
+  CAPTURE(outcome.out);
+  check_complaint(outcome, 1);
+  CHECK(contains(outcome.err, "7 of 8 operators break the contract"));
+  CHECK(contains(outcome.out, "edits_in_evaluate BREAKS its contract"));
+  CHECK(contains(outcome.out, "makes_it_worse keeps its contract"));  // attempt() sees to that
+  CHECK(contains(outcome.out, "changes_its_mind BREAKS its contract"));
+  CHECK(contains(outcome.out, "cannot be made: its function made nothing"));
+}
+
+TEST_CASE("wrong usage of check-plugin is status 2") {
+  check_complaint(run_program({"check-plugin"}), 2);
+  check_complaint(run_program({"check-plugin", plugin_file("sound"), "--mesh", "part.stl"}), 2);
+  check_complaint(run_program({"check-plugin", plugin_file("sound"), "more"}), 2);
+}

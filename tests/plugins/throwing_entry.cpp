@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Throws when it is to register its operators.
+#include <stdexcept>
+
+#include "ops/plugin.h"
+
+TETMEND_PLUGIN(registry) {
+  static_cast<void>(registry);
+  throw std::runtime_error("no licence found");
+}
