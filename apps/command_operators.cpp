@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tetmend operators, tetmend schedules: what there is to work with.
+// tetmend operators: what there is to work with.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -63,14 +63,6 @@ int run_operators(const std::string& name) {
   return 0;
 }
 
-int run_schedules() {
-  fmt::print(R"(shell (default)
-  Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of
-  points, each followed by smoothing, until rounds bring no more progress
-)");
-  return 0;
-}
-
 }  // namespace
 
 void add_operators(CLI::App& app, Invocation& invocation) {
@@ -88,14 +80,6 @@ Examples:
 Exit status: 0 success, 2 wrong usage)");
   command->callback(
       [name, &invocation] { invocation.action = [name] { return run_operators(*name); }; });
-}
-
-void add_schedules(CLI::App& app, Invocation& invocation) {
-  CLI::App* command =
-      app.add_subcommand("schedules", "List the schedules that 'improve --schedule' knows");
-  command->footer(
-      "A schedule says which operators are tried where, in which order, and until\nwhen.");
-  command->callback([&invocation] { invocation.action = run_schedules; });
 }
 
 }  // namespace tetmend::apps

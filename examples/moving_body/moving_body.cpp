@@ -30,7 +30,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/geometry.h"
 #include "kernel/statistics.h"
-#include "schedule/shell_schedule.h"
+#include "schedule/passes.h"
 
 using tetmend::MeshData;
 using tetmend::Point;
@@ -189,19 +189,19 @@ bool has_turned_tets(const MeshData& mesh) {
 /// change lies around them. New vertices are for tets that a round has not cured, so that the mesh
 /// does not grow at every step. Returns how many tets are new or have moved.
 std::size_t improve(MeshData& data, const tetmend::Registry& registry) {
-  constexpr tetmend::Quality kThreshold = 0.35f;  // sine of an angle
+  const tetmend::Selection needy = {.below = 0.35f};  // sine of an angle
   constexpr int kRounds = 3;
   tetmend::TetMesh mesh(std::move(data));
   tetmend::Run run(mesh, registry);
-  const auto is_good = [&] { return tetmend::quality_indicators(mesh).q_worst >= kThreshold; };
+  const auto is_good = [&] { return tetmend::quality_indicators(mesh).q_worst >= needy.below; };
   for (int round = 0; round < kRounds && !is_good(); ++round) {
-    tetmend::local_reconnection(run, {.threshold = kThreshold});
-    tetmend::smooth(run, {.threshold = kThreshold});
-    tetmend::suppress_points(run, {.threshold = kThreshold});
+    tetmend::local_reconnection(run, {.on = needy});
+    tetmend::smooth(run, {.on = needy});
+    tetmend::suppress_points(run, {.on = needy});
     if (round > 0) {
-      tetmend::insert_points(run, {.settings = {{"relax", 1}}, .threshold = kThreshold});
+      tetmend::insert_points(run, {.on = needy, .settings = {{"relax", 1}}});
     }
-    tetmend::smooth(run, {.threshold = kThreshold});
+    tetmend::smooth(run, {.on = needy});
   }
   std::size_t touched = 0;
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {

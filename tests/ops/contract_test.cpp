@@ -57,10 +57,22 @@ TetMesh with_free_slots(const MeshData& data) {
   return mesh;
 }
 
+/// The mesh with the tets of its lower half frozen.
+TetMesh half_frozen(const MeshData& data) {
+  TetMesh mesh(data);
+  mesh.freeze([&](TetHandle t) {
+    double z = 0;
+    for (const VertexHandle v : mesh.vertices(t)) z += mesh.point(v).z();
+    return z < 0;
+  });
+  return mesh;
+}
+
 std::vector<std::pair<std::string, TetMesh>> meshes() {
   std::vector<std::pair<std::string, TetMesh>> all;
   for (const NamedMesh& named : zoo()) all.emplace_back(named.name, TetMesh(named.data));
   all.emplace_back("constrained_ball", TetMesh(constrained_ball(11)));
+  all.emplace_back("half_frozen_ball", half_frozen(delaunay_ball(150, 13)));
   all.emplace_back("ball_with_free_slots", with_free_slots(delaunay_ball(100, 12)));
   return all;
 }
@@ -146,6 +158,7 @@ struct Portrait {
   std::vector<std::tuple<Face, Label>> constrained_faces;        // from each side
   std::set<Edge> constrained_edges;
   std::vector<std::tuple<VertexHandle, double, double, double>> fixed;
+  std::vector<std::pair<TetHandle, TetVertices>> frozen;
   std::map<Label, long double> volumes;
   long double absolute_volume = 0;
   std::vector<Quality> qualities;  // ascending
@@ -193,6 +206,7 @@ Portrait portrait(const TetMesh& mesh) {
       std::sort(edge.begin(), edge.end());
       p.constrained_edges.insert(edge);
     }
+    if (mesh.is_frozen(t)) p.frozen.emplace_back(t, v);
     const bool certain = mesh.is_certified_positive(v);
     std::sort(v.begin(), v.end());
     if (!certain) p.doubtful.insert(v);
@@ -226,6 +240,7 @@ std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
   if (now.constrained_faces != before.constrained_faces) return "constrained faces changed";
   if (now.constrained_edges != before.constrained_edges) return "constrained edges changed";
   if (now.fixed != before.fixed) return "a fixed vertex moved or vanished";
+  if (now.frozen != before.frozen) return "a frozen tet changed";
   if (now.volumes.size() != before.volumes.size()) return "a region vanished";
   for (const auto& [label, volume] : before.volumes) {
     const auto found = now.volumes.find(label);
