@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The example of the moving body, from outside: the mesh survives, the body arrives, and without
-// improvement neither tets nor patience would.
+// The example of the moving body, from outside: the mesh survives, the body arrives, and tets turn
+// over where nothing is repaired.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
