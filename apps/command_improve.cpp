@@ -17,6 +17,8 @@
 #include "apps/interruption.h"
 #include "apps/plugins.h"
 #include "apps/progress_line.h"
+#include "apps/regions.h"
+#include "apps/schedule_options.h"
 #include "apps/threads.h"
 #include "kernel/chunks.h"
 #include "kernel/formats/mesh_io.h"
@@ -24,20 +26,18 @@
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
 #include "kernel/surface.h"
-#include "schedule/shell_schedule.h"
 
 namespace tetmend::apps {
 namespace {
-
-constexpr std::string_view kShell = "shell";
 
 struct Options {
   std::filesystem::path input;
   std::filesystem::path output;
   std::filesystem::path report;  ///< empty: none
-  std::string schedule{kShell};
+  ScheduleOptions schedule;
   std::vector<std::filesystem::path> plugins;
   int threads = 1;
+  RegionOptions regions;
   bool quiet = false;
 };
 
@@ -58,10 +58,7 @@ class Stopwatch {
 
 /// What would stop the run at its end is better found at its beginning.
 void check(const Options& options) {
-  if (options.schedule != kShell) {
-    throw UsageError(fmt::format("--schedule: there is no schedule '{}': expected {}",
-                                 options.schedule, kShell));
-  }
+  check_regions(options.regions);
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   if (!options.report.empty()) {
@@ -87,11 +84,14 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
   }
   const Stopwatch watch(report.seconds.building);
   progress.show("building the mesh");
-  return build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build);
+  TetMesh mesh = build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build,
+                            options.regions.interior());
+  report.protected_part = protect_regions(mesh, options.regions);
+  return mesh;
 }
 
-void run_schedule(TetMesh& mesh, const Registry& registry, ProgressLine& progress,
-                  ImproveReport& report) {
+void run_schedule(const ChosenSchedule& chosen, double time_limit, const Registry& registry,
+                  TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
   const Interruption interruption;
   Run run(mesh, registry);
   run.set_listener(&progress);
@@ -99,10 +99,13 @@ void run_schedule(TetMesh& mesh, const Registry& registry, ProgressLine& progres
   progress.set_indicators(quality_indicators(mesh));
   {
     const Stopwatch watch(report.seconds.improving);
-    improve(run);
+    if (time_limit > 0) run.set_time_limit(time_limit);
+    improve(run, chosen.schedule, chosen.settings);
   }
-  report.interrupted = run.cancelled();
+  report.out_of_time = run.out_of_time();
+  report.interrupted = run.cancelled() && !run.out_of_time();
   report.passes = std::move(run.records);
+  report.notes = std::move(run.notes);
 }
 
 double touched_share(const TetMesh& mesh) {
@@ -149,13 +152,15 @@ std::size_t peak_memory() {
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
   const Registry registry = load_operators(options.plugins);
+  const ChosenSchedule chosen = choose_schedule(options.schedule);
   const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
   report.arguments = invocation.arguments;
   report.input = options.input;
   report.output = options.output;
-  report.schedule = options.schedule;
+  report.schedule = options.schedule.schedule;
+  report.settings = chosen.settings;
   report.threads = options.threads;
   TetMesh mesh = load(options, progress, report);
   {
@@ -163,7 +168,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
     progress.show("measuring");
     report.before = measure(mesh);
   }
-  run_schedule(mesh, registry, progress, report);
+  run_schedule(chosen, options.schedule.time_limit, registry, mesh, progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");
@@ -196,13 +201,10 @@ void add_improve(CLI::App& app, Invocation& invocation) {
   command->add_option("-o,--output", options->output, "File for the improved mesh; may be IN")
       ->required()
       ->type_name("OUT");
-  command
-      ->add_option("--schedule", options->schedule,
-                   "What is tried in which order; see\n"
-                   "'tetmend schedules' (default: shell)")
-      ->type_name("NAME");
+  add_schedule_options(*command, options->schedule);
   add_plugin_option(*command, options->plugins);
   add_threads_option(*command, options->threads);
+  add_region_options(*command, options->regions);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
@@ -212,18 +214,24 @@ before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
 
 Ctrl-C stops the work: OUT is still written, with the mesh as improved so far,
-and the exit status is 1. Ctrl-C again ends the program at once.
+and the exit status is 1. Ctrl-C again ends the program at once. A time limit
+stops the work in the same way, with exit status 0. A mistake in a script ends
+it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
 then. The same input gives the same output, byte for byte.
+
+{}
 
 Formats, by extension:
 {}
 Examples:
   tetmend improve part.mesh -o better.mesh
   tetmend improve part.ele -o better.vtk --report better.json --quiet
+  tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
+  tetmend improve part.mesh -o better.mesh --protect label:3
 
 Exit status: 0 success, 1 the work failed or was interrupted, 2 wrong usage)",
-      mesh_format_list()));
+      region_help(), mesh_format_list()));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return run_improve(*options, invocation); };
   });

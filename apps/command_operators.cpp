@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tetmend operators, tetmend schedules: what there is to work with.
+// tetmend operators: what there is to work with.
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -107,14 +107,6 @@ int run_operators(const Options& options) {
   return 0;
 }
 
-int run_schedules() {
-  fmt::print(R"(shell (default)
-  Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of
-  points, each followed by smoothing, until rounds bring no more progress
-)");
-  return 0;
-}
-
 }  // namespace
 
 void add_operators(CLI::App& app, Invocation& invocation) {
@@ -135,21 +127,6 @@ Examples:
 Exit status: 0 success, 1 a plugin cannot be loaded, 2 wrong usage)");
   command->callback([options, &invocation] {
     invocation.action = [options] { return run_operators(*options); };
-  });
-}
-
-void add_schedules(CLI::App& app, Invocation& invocation) {
-  CLI::App* command =
-      app.add_subcommand("schedules", "List the schedules that 'improve --schedule' knows");
-  command->footer(
-      "A schedule says which operators are tried where, in which order, and until\nwhen.");
-  const auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
-  add_plugin_option(*command, *plugins);
-  command->callback([plugins, &invocation] {
-    invocation.action = [plugins] {
-      load_operators(*plugins);  // what a schedule may name
-      return run_schedules();
-    };
   });
 }
 

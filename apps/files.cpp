@@ -51,10 +51,10 @@ std::string mesh_format_list() {
 }
 
 TetMesh build_mesh(const std::filesystem::path& file, MeshData data, MeshOrder order,
-                   BuildReport& report) {
+                   BuildReport& report, InteriorConstraints interior) {
   try {
-    return order == MeshOrder::spatial ? TetMesh::sorted(std::move(data), &report)
-                                       : TetMesh(std::move(data), &report);
+    return order == MeshOrder::spatial ? TetMesh::sorted(std::move(data), &report, interior)
+                                       : TetMesh(std::move(data), &report, interior);
   } catch (const BuildError& error) {
     throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
   } catch (const Error& error) {
@@ -82,6 +82,9 @@ std::string format_build(const BuildReport& report) {
   note(report.inverted_tets, "tet", "tets", "of negative volume kept");
   note(report.flat_tets, "tet", "tets", "of zero volume (or too close to tell) kept");
   note(report.constrained_faces, "face", "faces", "inside the volume constrained");
+  note(report.dropped_triangles, "triangle", "triangles", "inside a region dropped");
+  note(report.dropped_edges, "edge", "edges", "inside a region dropped");
+  note(report.dropped_vertices, "vertex", "vertices", "inside a region no longer required");
   note(report.loose_triangles, "triangle", "triangles", "that no tet has as a face: kept as is");
   note(report.loose_edges, "edge", "edges", "that no tet has: kept as is");
   note(report.unused_points, "point", "points", "that no tet uses: kept as is");
@@ -96,7 +99,10 @@ nlohmann::json to_json(const BuildReport& report) {
           {"loose_triangles", report.loose_triangles},
           {"loose_edges", report.loose_edges},
           {"unused_points", report.unused_points},
-          {"constrained_faces", report.constrained_faces}};
+          {"constrained_faces", report.constrained_faces},
+          {"dropped_triangles", report.dropped_triangles},
+          {"dropped_edges", report.dropped_edges},
+          {"dropped_vertices", report.dropped_vertices}};
 }
 
 }  // namespace tetmend::apps

@@ -29,7 +29,7 @@ enum class MeshOrder { of_file, spatial };
 /// Builds the mesh from what was read of `file`.
 /// @throws Error with the line or byte of the tet when the topology is broken.
 TetMesh build_mesh(const std::filesystem::path& file, MeshData data, MeshOrder order,
-                   BuildReport& report);
+                   BuildReport& report, InteriorConstraints interior = InteriorConstraints::kept);
 
 /// What a user should know about the input, one line each; empty for a mesh without peculiarities.
 std::string format_build(const BuildReport& report);

@@ -83,10 +83,15 @@ std::string format_checks(const ImproveReport& report) {
   line("inverted, flat tets", format_orientation(report));
   line("volume", fmt::format("{:.10g}, relative change {:.2g}", report.after.statistics.volume,
                              report.volume_change()));
+  if (report.protected_part.asked_for) {
+    line("tets protected", fmt::format("{}, {} of them bad", grouped(report.protected_part.tets),
+                                       grouped(report.protected_part.bad_tets)));
+  }
   line("tets touched", fmt::format("{:.1f} %", 100 * report.touched_share));
   line("time", fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",
                            s.total(), s.reading, s.building, s.measuring));
   line("", fmt::format("improving {:.2f}, writing {:.2f}", s.improving, s.writing));
+  if (report.out_of_time) line("", "stopped by the time limit");
   line("speed", fmt::format("{} tets a second of improving",
                             grouped(static_cast<std::size_t>(report.tets_per_second()))));
   line("peak memory", fmt::format("{:.0f} MB", static_cast<double>(report.peak_memory) / 1e6));
@@ -142,6 +147,8 @@ std::string format_report(const ImproveReport& report) {
   if (!text.empty()) text += '\n';
   text += format_comparison(report.before.statistics, report.after.statistics) + '\n';
   text += format_histogram(report.before.statistics, &report.after.statistics) + '\n';
+  for (const std::string& note : report.notes) text += note + '\n';
+  if (!report.notes.empty()) text += '\n';
   const std::string passes = format_passes(report);
   if (!passes.empty()) text += passes + '\n';
   return text + format_checks(report);
@@ -151,14 +158,20 @@ nlohmann::json to_json(const ImproveReport& report) {
   const auto hex = [](std::uint64_t value) { return fmt::format("{:016x}", value); };
   nlohmann::json passes = nlohmann::json::array();
   for (const PassRecord& pass : report.passes) passes.push_back(to_json(pass));
+  nlohmann::json settings = nlohmann::json::object();
+  for (const auto& [name, value] : report.settings) settings[name] = value;
   return {{"tetmend", TETMEND_VERSION},
           {"arguments", report.arguments},
           {"input", report.input.string()},
           {"output", report.output.string()},
           {"schedule", report.schedule},
+          {"settings", settings},
           {"threads", report.threads},
           {"interrupted", report.interrupted},
+          {"out_of_time", report.out_of_time},
+          {"notes", report.notes},
           {"build", to_json(report.build)},
+          {"protected", to_json(report.protected_part)},
           {"before", tetmend::to_json(report.before.statistics)},
           {"after", tetmend::to_json(report.after.statistics)},
           {"surface",

@@ -10,8 +10,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "apps/regions.h"
 #include "kernel/statistics.h"
 #include "schedule/run.h"
+#include "schedule/schedule_parameter.h"
 
 namespace tetmend::apps {
 
@@ -38,9 +40,13 @@ struct ImproveReport {
   std::filesystem::path input;
   std::filesystem::path output;
   std::string schedule;
+  ScheduleSettings settings;
   int threads = 1;
   bool interrupted = false;
+  bool out_of_time = false;
+  std::vector<std::string> notes;  ///< of the schedule
   BuildReport build;
+  ProtectedPart protected_part;
   MeshCheck before;
   MeshCheck after;
   std::vector<PassRecord> passes;

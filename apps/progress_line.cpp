@@ -43,6 +43,13 @@ void ProgressLine::pass_done(std::string_view, unsigned, const QualityIndicators
   now_ = now;
 }
 
+/// The report repeats the notes; a line of its own lets them be seen on the way.
+void ProgressLine::noted(std::string_view text) {
+  if (!active_) return;
+  clear();
+  fmt::print(stderr, "{}\n", text);
+}
+
 void ProgressLine::clear() {
   if (drawn_width_ == 0) return;
   draw("");

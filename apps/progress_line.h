@@ -29,6 +29,7 @@ class ProgressLine : public ProgressListener {
 
   void progress(std::string_view phase, unsigned round, double share) override;
   void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) override;
+  void noted(std::string_view text) override;
 
  private:
   using Clock = std::chrono::steady_clock;

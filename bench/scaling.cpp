@@ -15,7 +15,7 @@
 #include <tbb/global_control.h>
 
 #include "kernel/formats/mesh_io.h"
-#include "schedule/shell_schedule.h"
+#include "schedule/schedule.h"
 
 namespace tetmend {
 namespace {

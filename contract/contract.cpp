@@ -24,6 +24,17 @@ TetMesh with_free_slots(const MeshData& data) {
   return mesh;
 }
 
+/// The mesh with the tets of its lower half frozen.
+TetMesh half_frozen(const MeshData& data) {
+  TetMesh mesh(data);
+  mesh.freeze([&](TetHandle t) {
+    double z = 0;
+    for (const VertexHandle v : mesh.vertices(t)) z += mesh.point(v).z();
+    return z < 0;
+  });
+  return mesh;
+}
+
 /// Fewer targets on a large mesh, where each accepted attempt costs a look at all of it.
 std::size_t share(std::size_t count, const TetMesh& mesh) {
   constexpr std::size_t kAffordable = 1'000'000;
@@ -62,6 +73,7 @@ std::vector<Ground> grounds() {
   std::vector<Ground> all;
   for (const NamedMesh& named : zoo()) all.push_back({named.name, TetMesh(named.data)});
   all.push_back({"constrained_ball", TetMesh(constrained_ball(11))});
+  all.push_back({"half_frozen_ball", half_frozen(delaunay_ball(150, 13))});
   all.push_back({"ball_with_free_slots", with_free_slots(delaunay_ball(100, 12))});
   return all;
 }

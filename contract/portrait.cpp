@@ -65,6 +65,7 @@ Portrait portrait(const TetMesh& mesh) {
       std::sort(edge.begin(), edge.end());
       p.constrained_edges.insert(edge);
     }
+    if (mesh.is_frozen(t)) p.frozen.emplace_back(t, v);
     const bool certain = mesh.is_certified_positive(v);
     std::sort(v.begin(), v.end());
     if (!certain) p.doubtful.insert(v);
@@ -89,6 +90,7 @@ std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
   if (now.constrained_faces != before.constrained_faces) return "constrained faces changed";
   if (now.constrained_edges != before.constrained_edges) return "constrained edges changed";
   if (now.fixed != before.fixed) return "a fixed vertex moved or vanished";
+  if (now.frozen != before.frozen) return "a frozen tet changed";
   if (now.volumes.size() != before.volumes.size()) return "a region vanished";
   for (const auto& [label, volume] : before.volumes) {
     const auto found = now.volumes.find(label);

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "kernel/tet_mesh.h"
@@ -23,6 +24,7 @@ struct Portrait {
   std::vector<std::tuple<Face, Label>> constrained_faces;        // from each side
   std::set<std::array<VertexHandle, 2>> constrained_edges;
   std::vector<std::tuple<VertexHandle, double, double, double>> fixed;
+  std::vector<std::pair<TetHandle, TetVertices>> frozen;
   std::map<Label, long double> volumes;
   long double absolute_volume = 0;
   std::vector<Quality> qualities;  // ascending

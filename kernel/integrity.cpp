@@ -284,7 +284,11 @@ void Checker::check_vertex_flags() {
       if (!triangle.interior && !triangle.loose) boundary[v.index()] = 1;
     }
   }
+  std::vector<char> frozen(mesh_.vertex_slots(), 0);
   for_each_sound_tet([&](TetHandle t) {
+    if (mesh_.is_frozen(t)) {
+      for (const VertexHandle v : mesh_.vertices(t)) frozen[v.index()] = 1;
+    }
     for (unsigned e = 0; e < 6 && mesh_.has_constraints(t); ++e) {
       if (!mesh_.is_constrained(TetEdge(t, e))) continue;
       for (const VertexHandle v : mesh_.vertices(TetEdge(t, e))) fixed[v.index()] = 1;
@@ -299,6 +303,11 @@ void Checker::check_vertex_flags() {
     }
     if (fixed[i] && !mesh_.is_fixed(v)) {
       report(Finding::Kind::constraint, {}, v, "on a constraint, but free to move");
+    }
+    if (mesh_.is_frozen(v) != (frozen[i] != 0)) {
+      report(Finding::Kind::constraint, {}, v, "{}",
+             frozen[i] ? "of a frozen tet, but not marked so"
+                       : "marked as frozen, but of no such tet");
     }
   }
 }

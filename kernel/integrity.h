@@ -21,7 +21,7 @@ struct Finding {
     boundary,     ///< outside faces, surface triangles and boundary flags
     label,        ///< different labels across a face that is not constrained
     quality,      ///< cached quality and points
-    constraint,   ///< constraint bits and fixed flags
+    constraint,   ///< constraint bits, fixed and frozen flags
     count         ///< numbers of live tets and vertices
   };
 

@@ -9,7 +9,7 @@
 //   vertices of single tets that are not positive, if their neighbours ask for it, and match again
 //   surface: named triangles in file order, then boundary faces and label interfaces that no
 //   triangle names
-//   constraints: face bits, edge bits, fixed vertices
+//   constraints: face bits, edge bits, fixed vertices; without those inside regions, if so asked
 #include <algorithm>
 #include <atomic>
 #include <numeric>
@@ -19,12 +19,11 @@
 #include <fmt/format.h>
 
 #include "kernel/chunks.h"
+#include "kernel/edge_tets.h"
 #include "kernel/face_buckets.h"
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
-#include "kernel/shell.h"
 #include "kernel/tet_mesh.h"
-#include "kernel/workspace.h"
 
 namespace tetmend {
 
@@ -48,8 +47,11 @@ void release(std::vector<T>& values) {
 
 class MeshBuilder {
  public:
-  MeshBuilder(MeshData&& data, TetMesh& mesh, BuildReport& report)
-      : data_(std::move(data)), mesh_(mesh), report_(report) {}
+  MeshBuilder(MeshData&& data, TetMesh& mesh, BuildReport& report, InteriorConstraints interior)
+      : data_(std::move(data)),
+        mesh_(mesh),
+        report_(report),
+        drops_interior_(interior == InteriorConstraints::dropped) {}
 
   void build(bool sorted) {
     check_indices();
@@ -57,6 +59,7 @@ class MeshBuilder {
     const FaceBuckets buckets(mesh_, place_tets(sorted));
     orient();
     match_faces(buckets);
+    if (drops_interior_) find_border();
     build_surface(buckets);
     link_vertices();
     mark_edges();
@@ -82,10 +85,13 @@ class MeshBuilder {
   void reorder_tets();
   void check_buckets(const FaceBuckets& buckets, const std::vector<std::uint32_t>& vertices,
                      bool senses) const;
+  void find_border();
+  bool is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const;
   void build_surface(const FaceBuckets& buckets);
   void add_surface_face(HalfFace f, SurfaceTriangle triangle);
   std::vector<HalfFace> unnamed_faces() const;
   void link_vertices();
+  bool lies_on_face(TetEdge e) const;
   void mark_edges();
   void mark_vertices();
 
@@ -117,6 +123,9 @@ class MeshBuilder {
   MeshData data_;
   TetMesh& mesh_;
   BuildReport& report_;
+  const bool drops_interior_;
+  std::vector<char> on_border_;          // by vertex slot, see find_border(); empty unless interior
+                                         // constraints are dropped
   std::vector<std::uint32_t> slot_of_;   // by the file's vertex number; empty: the same
   std::vector<std::uint32_t> file_tet_;  // by slot; empty: the same
   std::vector<char> swapped_;            // single tets that were put right; empty: none
@@ -391,6 +400,34 @@ void MeshBuilder::reorder_tets() {
   }
 }
 
+/// Finds the vertices that do not lie inside a region: of the boundary, of a face between two
+/// labels, or of no tet.
+void MeshBuilder::find_border() {
+  on_border_.assign(mesh_.points_.size(), 1);
+  for (const TetMesh::Cell& cell : mesh_.cells_) {
+    for (const VertexHandle v : cell.vertices) on_border_[v.index()] = 0;
+  }
+  for (std::uint32_t t = 0; t < mesh_.cells_.size(); ++t) {
+    for (unsigned i = 0; i < 4; ++i) {
+      const HalfFace f(TetHandle(t), i);
+      const HalfFace twin = mesh_.twin(f);
+      if (!twin.is_outside() && mesh_.label(twin.tet()) == mesh_.label(f.tet())) continue;
+      for (const VertexHandle v : mesh_.vertices(f)) on_border_[v.index()] = 1;
+    }
+  }
+}
+
+/// Of a named triangle. `f` is its face, if it is one.
+bool MeshBuilder::is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const {
+  if (!drops_interior_) return false;
+  if (f == HalfFace()) {
+    return std::any_of(vertices.begin(), vertices.end(),
+                       [&](VertexHandle v) { return on_border_[v.index()] == 0; });
+  }
+  const HalfFace twin = mesh_.twin(f);
+  return !twin.is_outside() && mesh_.label(f.tet()) == mesh_.label(twin.tet());
+}
+
 /// Registers a triangle as a face of the mesh: boundary number or constraint bits.
 void MeshBuilder::add_surface_face(HalfFace f, SurfaceTriangle triangle) {
   const auto number = static_cast<std::uint32_t>(mesh_.surface_.size());
@@ -422,6 +459,10 @@ void MeshBuilder::build_surface(const FaceBuckets& buckets) {
     SurfaceTriangle triangle{
         {vertex(v[0]), vertex(v[1]), vertex(v[2])}, data_.triangles[i].label, true, false, false};
     const HalfFace f = faces[i];
+    if (is_dropped(f, triangle.vertices)) {
+      ++report_.dropped_triangles;
+      continue;
+    }
     const bool repeated =
         f != HalfFace() &&
         (mesh_.is_constrained(f) || (mesh_.twin(f).is_outside() && mesh_.twin(f) != HalfFace()));
@@ -496,23 +537,51 @@ void MeshBuilder::link_vertices() {
   for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
 }
 
+/// A face of the tet at the edge lies on the boundary or is constrained.
+bool MeshBuilder::lies_on_face(TetEdge e) const {
+  for (unsigned i = 0; i < 4; ++i) {
+    const HalfFace f(e.tet(), i);
+    const bool at_edge = kEdgeVertices[e.edge()][0] != i && kEdgeVertices[e.edge()][1] != i;
+    if (at_edge && (mesh_.is_boundary(f) || mesh_.is_constrained(f))) return true;
+  }
+  return false;
+}
+
 void MeshBuilder::mark_edges() {
-  Workspace workspace(mesh_);
+  if (data_.edges.empty()) return;
+  const auto ends_of = [&](const MeshData::Edge& named) {
+    return edge_ends(vertex(named.vertices[0]), vertex(named.vertices[1]));
+  };
+  std::vector<EdgeEnds> edges;
+  for (const MeshData::Edge& named : data_.edges) edges.push_back(ends_of(named));
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const std::vector<TetAtEdge> tets = find_tets_at(mesh_, edges);
+  std::vector<char> found(edges.size(), 0);
+  std::vector<char> on_face(edges.size(), 0);
+  for (const TetAtEdge& at : tets) {
+    found[at.number] = 1;
+    if (drops_interior_ && lies_on_face(at.edge)) on_face[at.number] = 1;
+  }
   for (const MeshData::Edge& named : data_.edges) {
-    const VertexHandle a = vertex(named.vertices[0]);
-    const VertexHandle b = vertex(named.vertices[1]);
-    mesh_.named_edges_.push_back({{a, b}, named.label});
-    // Of a loose edge as well: a deleted vertex could not be written.
-    for (const VertexHandle v : {a, b})
-      mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
-    const std::optional<TetEdge> edge = find_edge(mesh_, a, b, workspace);
-    if (!edge) {
-      ++report_.loose_edges;
+    const EdgeEnds ends = ends_of(named);
+    const auto n = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), ends) -
+                                            edges.begin());
+    if (drops_interior_ &&
+        !(found[n] ? on_face[n] : on_border_[ends[0].index()] && on_border_[ends[1].index()])) {
+      ++report_.dropped_edges;
       continue;
     }
-    for (const TetEdge e : shell(mesh_, *edge)) {
-      mesh_.tet_flags_[e.tet().index()] |= static_cast<TetMesh::TetFlags>(16u << e.edge());
-    }
+    report_.loose_edges += found[n] ? 0 : 1;
+    mesh_.named_edges_.push_back(
+        {{vertex(named.vertices[0]), vertex(named.vertices[1])}, named.label});
+    // Of a loose edge as well: a deleted vertex could not be written.
+    for (const VertexHandle v : ends) mesh_.vertex_flags_[v.index()] |= TetMesh::kVertexConstrained;
+  }
+  for (const TetAtEdge& at : tets) {
+    if (drops_interior_ && !on_face[at.number]) continue;
+    mesh_.tet_flags_[at.edge.tet().index()] |=
+        static_cast<TetMesh::TetFlags>(16u << at.edge.edge());
   }
 }
 
@@ -523,20 +592,24 @@ void MeshBuilder::mark_vertices() {
     for (const VertexHandle v : triangle.vertices) mesh_.vertex_flags_[v.index()] |= flag;
   }
   for (const std::uint32_t number : data_.required_vertices) {
+    if (drops_interior_ && !on_border_[vertex(number).index()]) {
+      ++report_.dropped_vertices;
+      continue;
+    }
     mesh_.vertex_flags_[vertex(number).index()] |=
         TetMesh::kVertexConstrained | TetMesh::kVertexRequired;
   }
 }
 
-TetMesh::TetMesh(MeshData data, BuildReport* report) {
+TetMesh::TetMesh(MeshData data, BuildReport* report, InteriorConstraints interior) {
   BuildReport own;
-  MeshBuilder(std::move(data), *this, report ? *report : own).build(false);
+  MeshBuilder(std::move(data), *this, report ? *report : own, interior).build(false);
 }
 
-TetMesh TetMesh::sorted(MeshData data, BuildReport* report) {
+TetMesh TetMesh::sorted(MeshData data, BuildReport* report, InteriorConstraints interior) {
   BuildReport own;
   TetMesh mesh;
-  MeshBuilder(std::move(data), mesh, report ? *report : own).build(true);
+  MeshBuilder(std::move(data), mesh, report ? *report : own, interior).build(true);
   return mesh;
 }
 

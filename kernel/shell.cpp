@@ -35,7 +35,9 @@ ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell, const Terr
     const HalfFace face(t, leave);
     const HalfFace twin = mesh.twin(face);
     if (twin.is_outside()) return ShellKind::boundary;
-    if (mesh.has_constraints(t) && mesh.is_constrained(face)) return ShellKind::constrained;
+    if (mesh.has_constraints(t) && (mesh.is_constrained(face) || mesh.is_frozen(t))) {
+      return ShellKind::constrained;
+    }
     t = twin.tet();
     entered = ahead;
     ahead = mesh.vertices(t)[twin.face()];

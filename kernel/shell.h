@@ -27,9 +27,9 @@ class Workspace;
 inline constexpr unsigned kMaxDegree = 32;
 
 enum class ShellKind : std::uint8_t {
-  closed,       ///< the tets go all the way round and no face between them is constrained
+  closed,       ///< the tets go all the way round, and neither they nor their faces are constrained
   boundary,     ///< the edge lies on the boundary
-  constrained,  ///< the edge is constrained or lies on a constrained face
+  constrained,  ///< the edge is constrained, or lies on a constrained face or in a frozen tet
   too_large,    ///< degree above kMaxDegree
   border        ///< leaves the territory
 };

@@ -316,7 +316,7 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
     for (std::size_t slot = begin; slot < end; ++slot) {
       const TetHandle t(static_cast<std::uint32_t>(slot));
       const Quality q = mesh.quality(t);
-      if (!(q < kBadThreshold) && !(q < part.worst)) continue;
+      if ((!(q < kBadThreshold) && !(q < part.worst)) || mesh.is_frozen(t)) continue;
       part.worst = std::min(part.worst, q);
       if (q < kBadThreshold) {
         ++part.n_bad;
@@ -332,7 +332,7 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
     sum.bad.add(part.bad);
     result.n_bad += part.n_bad;
   }
-  if (mesh.tet_count() > 0) result.q_worst = static_cast<double>(sum.worst);
+  if (std::isfinite(sum.worst)) result.q_worst = static_cast<double>(sum.worst);
   result.q_aver = share(sum.bad.value(), result.n_bad);
   return result;
 }

@@ -44,7 +44,7 @@ inline constexpr double kAngleTolerance = 1e-9;
 MeshStatistics compute_statistics(const TetMesh& mesh);
 
 /// The three indicators by which the schedule gauges progress ([chen, 6.2]), from the cached
-/// qualities.
+/// qualities of the tets that are not frozen: the others tell nothing about what is left to do.
 struct QualityIndicators {
   double q_worst = 0;
   std::size_t n_bad = 0;

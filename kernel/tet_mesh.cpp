@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole-mesh operations of TetMesh: output, garbage collection, spatial order.
+// Whole-mesh operations of TetMesh: output, frozen tets, garbage collection, spatial order.
 #include "kernel/tet_mesh.h"
 
 #include <algorithm>
@@ -34,6 +34,20 @@ MeshData TetMesh::to_data() const {
   data.edges.assign(view.edges().begin(), view.edges().end());
   data.required_vertices.assign(view.required_vertices().begin(), view.required_vertices().end());
   return data;
+}
+
+std::size_t TetMesh::freeze(const std::function<bool(TetHandle)>& is_frozen) {
+  for (VertexFlags& flags : vertex_flags_) flags &= static_cast<VertexFlags>(~kVertexFrozen);
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < cells_.size(); ++i) {
+    tet_flags_[i] &= static_cast<TetFlags>(~kTetFrozen);
+    const TetHandle t(i);
+    if (is_deleted(t) || !is_frozen(t)) continue;
+    tet_flags_[i] |= kTetFrozen;
+    for (const VertexHandle v : cells_[i].vertices) vertex_flags_[v.index()] |= kVertexFrozen;
+    ++count;
+  }
+  return count;
 }
 
 void TetMesh::collect_garbage() {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -37,7 +38,17 @@ struct BuildReport {
       0;  ///< named edges that are no edge of any tet: kept for output; its vertices are fixed
   std::size_t unused_points = 0;      ///< points of no tet: kept
   std::size_t constrained_faces = 0;  ///< interior faces that must survive
+  // By InteriorConstraints::dropped.
+  std::size_t dropped_triangles = 0;
+  std::size_t dropped_edges = 0;
+  std::size_t dropped_vertices = 0;  ///< no longer required
 };
+
+/// What becomes of the triangles, edges and required vertices that the file names inside a region.
+/// Dropped ones are no constraint and are not written back. What lies on the boundary or on a face
+/// between two labels is always kept. A triangle or edge of no tet counts as inside when one of its
+/// vertices lies there.
+enum class InteriorConstraints : std::uint8_t { kept, dropped };
 
 /// A face that every operation keeps: a triangle of the boundary, a triangle named by the file, or
 /// a face between two labels.
@@ -62,10 +73,12 @@ class TetMesh {
   /// face, or when an index is out of range;
   ///   BuildError names the tet.
   /// Cost: linear. `data` is taken apart on the way: move it in where it is not needed any more.
-  explicit TetMesh(MeshData data, BuildReport* report = nullptr);
+  explicit TetMesh(MeshData data, BuildReport* report = nullptr,
+                   InteriorConstraints interior = InteriorConstraints::kept);
   /// The same mesh as by the constructor and sort_spatially(), in less time and memory: at its peak
   /// about 70 bytes a tet, `data` and the mesh included.
-  static TetMesh sorted(MeshData data, BuildReport* report = nullptr);
+  static TetMesh sorted(MeshData data, BuildReport* report = nullptr,
+                        InteriorConstraints interior = InteriorConstraints::kept);
 
   /// The live part as plain arrays: vertices that came from the file first, in their order, then
   /// the others.
@@ -101,6 +114,13 @@ class TetMesh {
   }
   bool is_boundary(HalfFace f) const { return twin(f).is_outside(); }
   bool is_constrained(HalfFace f) const { return (tet_flags_[f.tet().index()] >> f.face()) & 1u; }
+  /// No constraint speaks against removing the face: it lies inside, is not constrained, and
+  /// neither of its tets is frozen.
+  bool is_free(HalfFace f) const {
+    const HalfFace other = twin(f);
+    return !other.is_outside() && !is_constrained(f) && !is_frozen(f.tet()) &&
+           !is_frozen(other.tet());
+  }
   /// A constraint of the edge itself. An edge of a constrained or boundary face is not marked here:
   /// its shell shows it.
   bool is_constrained(TetEdge e) const {
@@ -108,6 +128,9 @@ class TetMesh {
   }
   /// Created, or one of its vertices moved, since the mesh was built.
   bool is_touched(TetHandle t) const { return (tet_flags_[t.index()] & kTetTouched) != 0; }
+  /// Must stay as it is, and its vertices where they are: see freeze().
+  bool is_frozen(TetHandle t) const { return (tet_flags_[t.index()] & kTetFrozen) != 0; }
+  /// A face or edge of the tet is constrained, or the tet is frozen.
   bool has_constraints(TetHandle t) const { return (tet_flags_[t.index()] & kTetConstraints) != 0; }
   /// Vertices of a face, counterclockwise as seen from outside the tet.
   std::array<VertexHandle, 3> vertices(HalfFace f) const {
@@ -136,9 +159,11 @@ class TetMesh {
   bool is_boundary(VertexHandle v) const {
     return (vertex_flags_[v.index()] & kVertexBoundary) != 0;
   }
-  /// On a boundary or constrained face or edge, or required by the file: must neither move nor
-  /// vanish.
+  /// On a boundary or constrained face or edge, of a frozen tet, or required by the file: must
+  /// neither move nor vanish.
   bool is_fixed(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFixed) != 0; }
+  /// A vertex of a frozen tet.
+  bool is_frozen(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFrozen) != 0; }
   /// Latest date at which a tet of v's star was replaced or a vertex of its link moved.
   Date changed(VertexHandle v) const { return vertex_date_[v.index()]; }
   /// Date at which v itself moved last.
@@ -155,6 +180,10 @@ class TetMesh {
   PropertyTable<VertexHandle>& vertex_properties() { return vertex_properties_; }
   const PropertyTable<VertexHandle>& vertex_properties() const { return vertex_properties_; }
 
+  /// Freezes the live tets for which `is_frozen` is true, and thaws all others. No transaction
+  /// removes a frozen tet or moves one of its vertices. Files do not hold it. Gives their number.
+  /// Precondition: no transaction is open. Cost: linear.
+  std::size_t freeze(const std::function<bool(TetHandle)>& is_frozen);
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
   /// before become invalid.
   void collect_garbage();
@@ -193,15 +222,17 @@ class TetMesh {
   // Scans for bad tets need not ask whether a slot is in use.
   static constexpr Quality kDeletedQuality = std::numeric_limits<Quality>::infinity();
   using TetFlags = std::uint16_t;  // bits 0-3: face f is constrained; bits 4-9: edge e is
-                                   // constrained; bit 10: touched
-  static constexpr TetFlags kTetConstraints = 0x3FF;
+                                   // constrained; bit 10: touched; bit 11: frozen
   static constexpr TetFlags kTetTouched = 0x400;
+  static constexpr TetFlags kTetFrozen = 0x800;
+  static constexpr TetFlags kTetConstraints = 0x3FF | kTetFrozen;
   using VertexFlags = std::uint8_t;
   static constexpr VertexFlags kVertexBoundary = 1;
   static constexpr VertexFlags kVertexConstrained = 2;
-  static constexpr VertexFlags kVertexFixed = kVertexBoundary | kVertexConstrained;
   static constexpr VertexFlags kVertexDeleted = 4;
   static constexpr VertexFlags kVertexRequired = 8;  // named by the file: written back
+  static constexpr VertexFlags kVertexFrozen = 16;
+  static constexpr VertexFlags kVertexFixed = kVertexBoundary | kVertexConstrained | kVertexFrozen;
   static constexpr std::uint32_t kNotFromFile = 0xFFFFFFFFu;
 
   /// Adds deleted slots.

@@ -55,8 +55,8 @@ std::span<const TetHandle> Transaction::created() const {
 // --- replace_cavity
 // ------------------------------------------------------------------------------------------------------------------
 
-/// Fills cavity_set_ and constrained_edges_; refuses a cavity with a constrained face or a label
-/// border inside.
+/// Fills cavity_set_ and constrained_edges_; refuses a cavity with a frozen tet, or with a
+/// constrained face or a label border inside.
 EditResult Transaction::check_old(std::span<const TetHandle> old) {
   workspace_.cavity_set_.clear();
   workspace_.constrained_edges_.clear();
@@ -64,6 +64,7 @@ EditResult Transaction::check_old(std::span<const TetHandle> old) {
   for (const TetHandle t : old) {
     if (mesh_.label(t) != mesh_.label(old[0])) return EditResult::constrained;
     if (!mesh_.has_constraints(t)) continue;
+    if (mesh_.is_frozen(t)) return EditResult::constrained;
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace twin = mesh_.neighbours(t)[f];
       if (mesh_.is_constrained(HalfFace(t, f)) &&

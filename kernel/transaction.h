@@ -16,7 +16,8 @@ enum class EditResult : std::uint8_t {
   made,
   inverted,  ///< a new tet is not certified positive or, in a folded mesh, has a face that exists
              ///< elsewhere already; or a move would turn a positive tet over
-  constrained,  ///< a constrained face, edge or vertex, or a border between labels would vanish
+  constrained,  ///< a constrained face, edge or vertex, a frozen tet, or a border between labels
+                ///< would vanish, or a fixed vertex would move
   no_room,      ///< no free slot left in the territory of the workspace
   not_closed    ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };

@@ -13,9 +13,7 @@ class Flip23 final : public Operator {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
-    const HalfFace f = target.face();
-    const bool free = !context.mesh.is_boundary(f) && !context.mesh.is_constrained(f);
-    return free ? Verdict::accepted : Verdict::constrained;
+    return context.mesh.is_free(target.face()) ? Verdict::accepted : Verdict::constrained;
   }
   Verdict evaluate(OperatorContext& context, Target target) const override {
     const TetMesh& mesh = context.mesh;

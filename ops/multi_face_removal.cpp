@@ -47,8 +47,8 @@ TetHandle beyond(const OperatorContext& context, TetHandle t, VertexHandle apex,
   unsigned f = 0;
   while (tv[f] == apex || tv[f] == p || tv[f] == q) ++f;
   const HalfFace face(t, f);
+  if (!mesh.is_free(face)) return {};
   const HalfFace twin = mesh.twin(face);
-  if (twin.is_outside() || mesh.is_constrained(face)) return {};
   if (!context.workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return {};
   return twin.tet();
 }
@@ -69,9 +69,7 @@ class MultiFaceRemoval final : public Operator {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
-    const HalfFace f = target.face();
-    const bool free = !context.mesh.is_boundary(f) && !context.mesh.is_constrained(f);
-    return free ? Verdict::accepted : Verdict::constrained;
+    return context.mesh.is_free(target.face()) ? Verdict::accepted : Verdict::constrained;
   }
 
   Verdict evaluate(OperatorContext& context, Target target) const override {

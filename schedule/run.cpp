@@ -61,6 +61,27 @@ void Run::set_trace(TraceSink* trace) {
   worker_.context().trace = trace;
 }
 
+void Run::set_time_limit(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kForever = 1e9;
+  deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                 std::chrono::duration<double>(std::min(seconds, kForever)));
+  check_time();
+}
+
+void Run::check_time() {
+  if (std::chrono::steady_clock::now() >= deadline_) out_of_time_ = true;
+}
+
+void Run::note(const std::string& text) {
+  notes.push_back(text);
+  if (listener_ != nullptr) listener_->noted(text);
+}
+
+double Run::seconds() const {
+  return seconds_since(start_);
+}
+
 void Run::set_block_count(std::size_t blocks) {
   block_count_ = std::clamp<std::size_t>(blocks, 1, kMostBlocks);
   partitions_ = {};
@@ -171,6 +192,7 @@ void PassScope::expect(std::size_t items) {
 
 bool PassScope::proceed(std::size_t n) {
   if (n % kTicksBetweenReports == 0) {
+    run_.check_time();
     const std::size_t done = ticks_.fetch_add(kTicksBetweenReports);
     run_.report_progress(record_.name, std::min(1.0, static_cast<double>(done) /
                                                          static_cast<double>(expected_ + 1)));

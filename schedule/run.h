@@ -31,6 +31,8 @@ class ProgressListener {
   virtual void progress(std::string_view phase, unsigned round, double share) = 0;
   /// After each pass.
   virtual void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) = 0;
+  /// What the schedule has to say.
+  virtual void noted(std::string_view) {}
 };
 
 /// How the time of passes splits up: what more threads would make of it. Measured on one thread.
@@ -85,7 +87,16 @@ class Run {
   void set_listener(ProgressListener* listener) { listener_ = listener; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
-  bool cancelled() const { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
+  /// The run stops at the next consistent state that many seconds from now.
+  void set_time_limit(double seconds);
+  /// True once the run is to stop, for either reason.
+  bool cancelled() const { return flag_is_set() || out_of_time(); }
+  /// True once the time limit was met, as far as anyone has looked at the clock.
+  bool out_of_time() const { return out_of_time_.load(std::memory_order_relaxed); }
+  /// Looks at the clock.
+  void check_time();
+  /// Since the run was made.
+  double seconds() const;
   /// All attempts are told to the sink, by one thread. Null: no trace.
   void set_trace(TraceSink* trace);
   /// For experiments: another number of blocks than the size of the mesh asks for. 1: no division.
@@ -93,6 +104,9 @@ class Run {
 
   unsigned round = 0;  ///< of the schedule; 0 before the main loop
   std::vector<PassRecord> records;
+  std::vector<std::string> notes;  ///< of the schedule
+  /// Adds to the notes and tells the listener.
+  void note(const std::string& text);
 
   /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was
   /// none. Later commits carry the new date.
@@ -128,7 +142,14 @@ class Run {
   std::array<ShiftedBlocks, kPartitions> partitions_;
   ProgressListener* listener_ = nullptr;
   std::mutex listener_busy_;
+  bool flag_is_set() const {
+    return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed);
+  }
+
   const std::atomic<bool>* cancel_ = nullptr;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
+  std::atomic<bool> out_of_time_ = false;
   TraceSink* trace_ = nullptr;
   std::vector<std::pair<std::string, Date>> last_sweep_;
 };
@@ -157,6 +178,8 @@ class PassScope {
   /// Indicators of the mesh, which between passes must not be changed. Measured when something was
   /// tried since the last time; timed as a scan.
   const QualityIndicators& indicators();
+  /// Attempts so far that were accepted.
+  std::size_t accepted() const { return record_.accepted(); }
   /// That many items will be tried.
   void expect(std::size_t items);
   /// Asked before the n-th item of some range, by any thread. Reports progress now and then. False

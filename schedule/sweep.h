@@ -70,8 +70,7 @@ std::vector<BlockLoad> divide(const Partition& partition, std::vector<Item>& ite
 template <class Item, class TryItem>
 std::size_t work_off_range(PassScope& scope, Worker& worker, std::vector<Item>& items,
                            std::size_t begin, std::size_t end, const TryItem& try_item) {
-  worker.tried_edges.clear();
-  worker.tried_faces.clear();
+  worker.forget_tried();
   std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin),
             items.begin() + static_cast<std::ptrdiff_t>(end));
   std::size_t kept = begin;

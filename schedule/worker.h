@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "kernel/index_set.h"
 #include "ops/operator.h"
@@ -31,9 +32,16 @@ class Worker {
   }
 
   std::array<std::size_t, kVerdictCount> verdicts{};  ///< by Verdict, since last taken
-  // What was tried already and needs no second attempt; emptied for each block.
-  PairSet tried_edges;  ///< by their ends
-  PairSet tried_faces;  ///< by the two vertices opposite
+  /// What was tried already and needs no second attempt, for each operator of a pass: edges by
+  /// their ends, faces by the two vertices opposite. Emptied for each block.
+  std::vector<PairSet> tried;
+
+  void provide_memory(std::size_t operators) {
+    if (tried.size() < operators) tried.resize(operators);
+  }
+  void forget_tried() {
+    for (PairSet& set : tried) set.clear();
+  }
 
  private:
   Workspace workspace_;

@@ -99,6 +99,26 @@ def sheet():
     return [(block, 1)], numbered([tag for tag in tags(2) if tag != bent]) + [(bent, 10)]
 
 
+def folded_sheet():
+    """A block with a sheet folded sharply, free-standing: tets in the fold cannot be good. Labels 10, 11: its halves."""
+    block = occ.addBox(0, 0, 0, 15, 12, 10)
+    half_angle = math.radians(9)
+    halves = []
+    fold = [occ.addPoint(3, y, 5) for y in (3, 9)]
+    crease = occ.addLine(*fold)
+    for side in (-1, 1):
+        x, z = 3 + 9 * math.cos(half_angle), 5 + side * 9 * math.sin(half_angle)
+        ends = [occ.addPoint(x, y, z) for y in (3, 9)]
+        rim = [occ.addLine(fold[1], ends[1]), occ.addLine(ends[1], ends[0]), occ.addLine(ends[0], fold[0])]
+        halves.append(occ.addPlaneSurface([occ.addCurveLoop([crease] + rim)]))
+    occ.synchronize()
+
+    gmsh.model.mesh.embed(2, halves, 3, block)
+    size_everywhere(1.1)
+    outside = [tag for tag in tags(2) if tag not in halves]
+    return [(block, 1)], numbered(outside) + [(tag, label) for label, tag in enumerate(halves, start=10)]
+
+
 # ---- Help for building ----------------------------------------------------------------------------------------------
 
 def tags(dim):
@@ -309,7 +329,8 @@ def main():
     os.makedirs(sys.argv[1], exist_ok=True)
     for name, shape, write in (("bracket.meshb", bracket, write_binary),
                                ("two_materials.mesh", two_materials, write_ascii),
-                               ("sheet.mesh", sheet, write_ascii)):
+                               ("sheet.mesh", sheet, write_ascii),
+                               ("folded_sheet.mesh", folded_sheet, write_ascii)):
         mesh = make(shape)
         check(*mesh)
         write(os.path.join(sys.argv[1], name), *mesh)

@@ -25,6 +25,7 @@ struct TetMeshTestAccess {
   static constexpr auto kBoundary = TetMesh::kVertexBoundary;
   static constexpr auto kConstrained = TetMesh::kVertexConstrained;
   static constexpr auto kDeleted = TetMesh::kVertexDeleted;
+  static constexpr auto kFrozen = TetMesh::kVertexFrozen;
 };
 
 }  // namespace tetmend
@@ -253,6 +254,28 @@ TEST_CASE("wrong constraint bits are found") {
     TetMesh mesh = make_mesh(data);
     CHECK(check_integrity(mesh).empty());
     Access::flags(mesh, v) = 0;
+    CHECK(finds_only(mesh, Kind::constraint));
+  }
+}
+
+TEST_CASE("wrong marks of frozen tets and their vertices are found") {
+  TetMesh mesh = make_mesh(zoo_data("ball_60"));
+  mesh.freeze([](TetHandle t) { return t.index() % 20 == 0; });
+  REQUIRE(to_string(check_integrity(mesh)) == "");
+  const auto set = [&](VertexHandle v, bool frozen) {
+    auto& flags = Access::flags(mesh, v);
+    flags = static_cast<std::uint8_t>(frozen ? flags | Access::kFrozen : flags & ~Access::kFrozen);
+  };
+  SUBCASE("a vertex of a frozen tet that is free") {
+    set(mesh.vertices(TetHandle(20))[1], false);
+    CHECK(finds_only(mesh, Kind::constraint));
+  }
+  SUBCASE("a vertex of no frozen tet that is marked") {
+    const auto vertices = live_vertices(mesh);
+    const auto free = std::find_if(vertices.begin(), vertices.end(),
+                                   [&](VertexHandle v) { return !mesh.is_frozen(v); });
+    REQUIRE(free != vertices.end());
+    set(*free, true);
     CHECK(finds_only(mesh, Kind::constraint));
   }
 }

@@ -396,6 +396,23 @@ TEST_CASE("quality indicators from the cache agree with the statistics") {
   CHECK(good.q_worst == doctest::Approx(std::numbers::sqrt2 / 2));
 }
 
+TEST_CASE("quality indicators leave frozen tets out, the statistics do not") {
+  TetMesh mesh(jittered(kuhn_cube(6), 0.05));
+  const MeshStatistics s = compute_statistics(mesh);
+  const auto worst = [&](TetHandle t) { return mesh.quality(t) < s.q_worst + 0.1; };
+  const std::size_t frozen = mesh.freeze(worst);
+  REQUIRE(frozen > 0);
+  REQUIRE(frozen < s.n_bad);
+  const QualityIndicators indicators = quality_indicators(mesh);
+  CHECK(indicators.n_bad == s.n_bad - frozen);
+  CHECK(indicators.q_worst >= s.q_worst + 0.1);
+  CHECK(indicators.q_aver > s.q_aver);
+  check_equal(compute_statistics(mesh), s);
+  mesh.freeze([](TetHandle) { return true; });
+  CHECK(quality_indicators(mesh).n_bad == 0);
+  CHECK(quality_indicators(mesh).q_worst == 0);
+}
+
 TEST_CASE("any quality measure can be summarized over a mesh") {
   const TetMesh mesh(jittered(kuhn_cube(4), 0.02));
   for (const QualityMeasure& measure : quality_measures()) {

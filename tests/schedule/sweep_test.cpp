@@ -9,7 +9,7 @@
 
 #include "kernel/integrity.h"
 #include "kernel/surface.h"
-#include "schedule/shell_schedule.h"
+#include "schedule/schedule.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 #include "trace/text_trace.h"

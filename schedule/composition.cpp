@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/composition.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+
+namespace tetmend {
+
+namespace {
+
+/// A tet around all of the vertices changed at `since` or later: what changed has them all as
+/// vertices, or one of them moved.
+template <std::size_t N>
+bool changed_around(const TetMesh& mesh, const std::array<VertexHandle, N>& vertices, Date since) {
+  bool all = true;
+  for (const VertexHandle v : vertices) {
+    if (mesh.moved(v) >= since) return true;
+    all = all && mesh.changed(v) >= since;
+  }
+  return all;
+}
+
+/// The edges of a tet by rank, lowest first; equal ranks in edge order.
+template <class Rank>
+std::array<unsigned, 6> sorted_edges(Rank&& rank) {
+  std::array<double, 6> ranks{};
+  for (unsigned e = 0; e < 6; ++e) ranks[e] = rank(e);
+  std::array<unsigned, 6> edges = {0, 1, 2, 3, 4, 5};
+  std::sort(edges.begin(), edges.end(), [&](unsigned x, unsigned y) {
+    return ranks[x] != ranks[y] ? ranks[x] < ranks[y] : x < y;
+  });
+  return edges;
+}
+
+/// Sine of the dihedral angle at each edge, up to a common factor, squared.
+std::array<unsigned, 6> edges_by_sine(const TetMesh& mesh, const TetVertices& tv) {
+  std::array<double, 4> normal2{};
+  for (unsigned f = 0; f < 4; ++f) {
+    const auto& local = kFaceVertices[f];
+    const Point& p = mesh.point(tv[local[0]]);
+    normal2[f] = (mesh.point(tv[local[1]]) - p).cross(mesh.point(tv[local[2]]) - p).squaredNorm();
+  }
+  return sorted_edges([&](unsigned e) {
+    const auto& [i, j] = kEdgeVertices[e];
+    return (mesh.point(tv[i]) - mesh.point(tv[j])).squaredNorm() * normal2[i] * normal2[j];
+  });
+}
+
+std::array<unsigned, 6> edges_by_length(const TetMesh& mesh, const TetVertices& tv, double sign) {
+  return sorted_edges([&](unsigned e) {
+    const auto& [i, j] = kEdgeVertices[e];
+    return sign * (mesh.point(tv[i]) - mesh.point(tv[j])).squaredNorm();
+  });
+}
+
+std::array<unsigned, 6> edges_in_order(const TetMesh& mesh, const TetVertices& tv,
+                                       EdgeOrder order) {
+  switch (order) {
+    case EdgeOrder::longest:
+      return edges_by_length(mesh, tv, -1);
+    case EdgeOrder::shortest:
+      return edges_by_length(mesh, tv, 1);
+    case EdgeOrder::sine:
+      break;
+  }
+  return edges_by_sine(mesh, tv);
+}
+
+/// How many attempts an operator can make at a tet.
+constexpr unsigned targets_of_a_tet(TargetKind kind) {
+  return kind == TargetKind::edge ? 6 : kind == TargetKind::tet ? 1 : 4;
+}
+
+constexpr unsigned kMostAttempts = 64;
+
+}  // namespace
+
+std::string Composition::name() const {
+  if (kind == Kind::one) return operator_name;
+  std::string text = kind == Kind::first_of ? "first_of(" : "all_of(";
+  for (const Composition& part : parts) {
+    text += (&part == parts.data() ? "" : ", ") + part.name();
+  }
+  return text + ")";
+}
+
+std::string Composition::describe() const {
+  if (kind != Kind::one) {
+    std::string text = kind == Kind::first_of ? "first_of(" : "all_of(";
+    for (const Composition& part : parts) text += part.describe() + "; ";
+    return text + ")";
+  }
+  ParameterSettings sorted = settings;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::string text = fmt::format("{} order {}", operator_name, static_cast<int>(order));
+  for (const auto& [parameter, value] : sorted) text += fmt::format(" {} = {}", parameter, value);
+  return text;
+}
+
+/// Of one tet.
+struct TetAttempts::Progress {
+  Worker& worker;
+  QueuedTet& entry;
+  Date since;
+  std::uint64_t deferred = 0;
+  bool gone = false;
+  bool accepted = false;  // since the innermost first_of began
+  bool until_accepted = false;
+
+  bool done() const { return gone || (until_accepted && accepted); }
+};
+
+TetAttempts::TetAttempts(const Registry& registry, const Composition& composition)
+    : root_(build(registry, composition)) {
+  if (bits_ > kMostAttempts) {
+    throw Error(fmt::format("{} makes {} attempts at a tet; at most {} are possible",
+                            composition.name(), bits_, kMostAttempts));
+  }
+}
+
+TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition& composition) {
+  Node node{composition.kind, {nullptr, composition.order, leaves_, bits_}, {}};
+  if (composition.kind == Composition::Kind::one) {
+    node.leaf.op = registry.make(composition.operator_name, composition.settings);
+    ++leaves_;
+    bits_ += targets_of_a_tet(node.leaf.op->info().target);
+    return node;
+  }
+  for (const Composition& part : composition.parts) node.parts.push_back(build(registry, part));
+  return node;
+}
+
+bool TetAttempts::work_off(Worker& worker, QueuedTet& entry, Date since) const {
+  worker.provide_memory(leaves_);
+  Progress progress{worker, entry, since};
+  run(root_, progress);
+  if (progress.done()) return true;
+  entry.todo = progress.deferred;
+  return progress.deferred == 0;
+}
+
+void TetAttempts::run(const Node& node, Progress& progress) const {
+  if (node.kind == Composition::Kind::one) return run_leaf(node.leaf, progress);
+  const bool outer_accepted = std::exchange(progress.accepted, false);
+  const bool outer_until =
+      std::exchange(progress.until_accepted, node.kind == Composition::Kind::first_of);
+  for (const Node& part : node.parts) {
+    if (progress.done()) break;
+    run(part, progress);
+  }
+  progress.until_accepted = outer_until;
+  progress.accepted = progress.accepted || outer_accepted;
+}
+
+void TetAttempts::run_leaf(const Leaf& leaf, Progress& progress) const {
+  const TetMesh& mesh = progress.worker.mesh();
+  const TetHandle tet = progress.entry.tet;
+  const TetVertices corners = progress.entry.vertices;
+  switch (leaf.op->info().target) {
+    case TargetKind::tet:
+      try_once(leaf, progress, Target::of(tet), 0, {});
+      return;
+    case TargetKind::edge:
+      for (const unsigned e : edges_in_order(mesh, corners, leaf.order)) {
+        const TetEdge edge(tet, e);
+        const auto ends = mesh.vertices(edge);
+        if (!changed_around(mesh, ends, progress.since)) continue;
+        if (!try_once(leaf, progress, Target::of(edge), e, ends)) return;
+      }
+      return;
+    case TargetKind::face:
+      for (unsigned f = 0; f < 4; ++f) {
+        const HalfFace face(tet, f);
+        if (mesh.is_boundary(face) || !changed_around(mesh, mesh.vertices(face), progress.since))
+          continue;
+        const HalfFace twin = mesh.twin(face);
+        // All faces between two vertices are tried together.
+        const VertexHandle opposite = mesh.vertices(twin.tet())[twin.face()];
+        if (!try_once(leaf, progress, Target::of(face), f, {corners[f], opposite})) return;
+      }
+      return;
+    case TargetKind::vertex:
+      for (unsigned i = 0; i < 4; ++i) {
+        const VertexHandle v = corners[i];
+        if (mesh.is_fixed(v) || mesh.changed(v) < progress.since) continue;
+        if (!try_once(leaf, progress, Target::of(v), i, {v, v})) return;
+      }
+      return;
+  }
+}
+
+/// False when nothing more is to be tried.
+bool TetAttempts::try_once(const Leaf& leaf, Progress& progress, Target target, unsigned bit,
+                           std::array<VertexHandle, 2> key) const {
+  const std::uint64_t mark = std::uint64_t{1} << (leaf.first_bit + bit);
+  if ((progress.entry.todo & mark) == 0) return true;
+  PairSet& tried = progress.worker.tried[leaf.number];
+  const bool remembers = target.kind != TargetKind::tet;  // each tet is queued once
+  if (remembers && tried.contains(key[0].index(), key[1].index())) return true;
+  const Verdict verdict = progress.worker.attempt(*leaf.op, target);
+  progress.accepted = progress.accepted || verdict == Verdict::accepted;
+  progress.gone = !progress.entry.is_there(progress.worker.mesh());
+  if (progress.done()) return false;
+  if (verdict == Verdict::deferred) progress.deferred |= mark;
+  if (remembers && verdict != Verdict::accepted) tried.insert(key[0].index(), key[1].index());
+  return true;
+}
+
+}  // namespace tetmend

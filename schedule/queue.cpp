@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/queue.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_sort.h>
+
+#include "schedule/sweep.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Something near the tet changed at `since` or later.
+bool changed_since(const TetMesh& mesh, const TetVertices& vertices, Date since) {
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](VertexHandle v) { return mesh.changed(v) >= since; });
+}
+
+/// Drops all but the worst tets that the selection takes.
+void keep_worst(const SelectionTest& test, Quality below, std::vector<QueuedTet>& tets) {
+  const auto lower = static_cast<std::size_t>(std::count_if(
+      tets.begin(), tets.end(), [&](const QueuedTet& tet) { return tet.quality < below; }));
+  const std::size_t count = test.take(tets.size(), lower);
+  if (count == tets.size()) return;
+  std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(count), tets.end());
+  tets.resize(count);
+}
+
+bool takes_all(const Selection& selection) {
+  const Selection all;
+  return selection.at_least == 0 && selection.worst == all.worst && selection.share >= 1;
+}
+
+}  // namespace
+
+std::vector<QueuedTet> queue_tets(PassScope& scope, const TetMesh& mesh, const Selection& selection,
+                                  Date since) {
+  const SelectionTest test(mesh, selection);
+  const Quality limit = test.limit();
+  auto tets = collect<QueuedTet>(
+      scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<QueuedTet>& out) {
+        const TetHandle t(i);
+        if (mesh.quality(t) >= limit || mesh.is_frozen(t)) return;  // deleted ones as well
+        if (changed_since(mesh, mesh.vertices(t), since) && test.admits(t)) {
+          out.push_back({mesh.quality(t), t, mesh.vertices(t)});
+        }
+      });
+  if (!takes_all(selection)) keep_worst(test, selection.below, tets);
+  return tets;
+}
+
+std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
+                                         const Selection& selection, Date since) {
+  const auto take = [&](const TetVertices& vertices, std::vector<QueuedVertex>& out) {
+    for (const VertexHandle v : vertices) {
+      if (!mesh.is_fixed(v) && mesh.changed(v) >= since) out.push_back({v});
+    }
+  };
+  std::vector<QueuedVertex> all;
+  if (takes_all(selection)) {
+    const SelectionTest test(mesh, selection);
+    all = collect<QueuedVertex>(scope, mesh.tet_slots(),
+                                [&](std::uint32_t i, std::vector<QueuedVertex>& out) {
+                                  const TetHandle t(i);
+                                  if (mesh.quality(t) >= selection.below) return;  // deleted ones
+                                  if (test.admits(t)) take(mesh.vertices(t), out);
+                                });
+  } else {
+    for (const QueuedTet& tet : queue_tets(scope, mesh, selection, 0)) take(tet.vertices, all);
+  }
+  const PassScope::Scan timed(scope);
+  tbb::parallel_sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace tetmend

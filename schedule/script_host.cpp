@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/script_host.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "kernel/error.h"
+#include "kernel/statistics.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Whoever only declares is done long before: about a second.
+constexpr std::size_t kMostWatchesToDescribe = 50000;
+
+constexpr const char* kQualityTable = "tetmend quality";
+
+ScriptValue read_table(lua_State* lua, int index, const WordInfo& word) {
+  ScriptValue value = read_value(lua, index);
+  if (value.kind == ScriptValue::Kind::nothing) value.kind = ScriptValue::Kind::table;
+  if (value.kind != ScriptValue::Kind::table) {
+    throw Error(fmt::format("{} takes named arguments in braces, not {}: {}", word.name,
+                            value.quoted(), word.usage));
+  }
+  return value;
+}
+
+/// "name" or {"name", ...} or false.
+std::string read_operator_name(const Registry& registry, const Subject& subject,
+                               const ScriptValue& value, Composition& composition) {
+  if (value.kind == ScriptValue::Kind::flag && value.number == 0) return {};
+  composition = read_composition(registry, subject, value);
+  if (composition.kind != Composition::Kind::one) {
+    throw Error(fmt::format("{} must be one operator or false", subject.text));
+  }
+  return composition.operator_name;
+}
+
+QualityIndicators read_indicators(const Subject& subject, const ScriptValue& value) {
+  const auto number = [&](std::string_view name) {
+    const ScriptValue* field = value.field(name);
+    if (field == nullptr) {
+      throw Error(
+          fmt::format("{} needs what quality() returns: there is no {}", subject.text, name));
+    }
+    return read_number(subject.of(name), *field);
+  };
+  return {number("q_worst"), static_cast<std::size_t>(std::max(0.0, number("n_bad"))),
+          number("q_aver")};
+}
+
+}  // namespace
+
+ScriptHost::ScriptHost(Run* run, const ScheduleSettings& settings)
+    : run_(run), settings_(settings), lua_({}, [this] { watch(); }) {
+  add_words();
+}
+
+void ScriptHost::execute(const Schedule& schedule) {
+  info_.name = schedule.name();
+  try {
+    lua_.run(schedule.text(), schedule.name());
+    if (run_ != nullptr && !working_) check_settings(info_, settings_);
+  } catch (const ScriptStop&) {
+  }
+}
+
+void ScriptHost::watch() {
+  if (run_ == nullptr) {
+    if (++watches_ > kMostWatchesToDescribe) throw ScriptStop();
+    return;
+  }
+  run_->check_time();
+  if (run_->cancelled()) throw ScriptStop();
+}
+
+void ScriptHost::begin_work() {
+  if (run_ == nullptr) throw ScriptStop();
+  if (!working_) check_settings(info_, settings_);
+  working_ = true;
+  watch();
+}
+
+void ScriptHost::add_words() {
+  const auto add = [&](const char* name, auto member) {
+    lua_.add_word(name, [this, member](lua_State* lua) { return (this->*member)(lua); });
+  };
+  add("description", &ScriptHost::describe);
+  add("parameter", &ScriptHost::declare);
+  add("begin_round", &ScriptHost::begin_round);
+  add("local_reconnection", &ScriptHost::reconnect);
+  add("smooth", &ScriptHost::smooth);
+  add("suppress_points", &ScriptHost::suppress);
+  add("insert_points", &ScriptHost::insert);
+  add("apply", &ScriptHost::apply);
+  for (const char* how : {"first_of", "all_of"}) {
+    lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
+  }
+  add("quality", &ScriptHost::quality);
+  add("is_progress", &ScriptHost::is_progress);
+  add("operators", &ScriptHost::operators);
+  add("log", &ScriptHost::log);
+  add("print", &ScriptHost::log);
+
+  luaL_newmetatable(lua_.get(), kQualityTable);
+  lua_.push_function([this](lua_State* lua) { return measure(lua); });
+  lua_setfield(lua_.get(), -2, "__index");
+  lua_pop(lua_.get(), 1);
+}
+
+// ---- Declarations -------------------------------------------------------------------------------
+
+int ScriptHost::describe(lua_State* lua) {
+  info_.description = read_text({"description"}, read_value(lua, 1));
+  return 0;
+}
+
+int ScriptHost::declare(lua_State* lua) {
+  if (working_) throw Error("parameter: to be declared before the first pass");
+  const ScriptValue value = read_table(lua, 1, find_word("parameter"));
+  const ScheduleParameter& parameter =
+      info_.parameters.emplace_back(read_parameter(value, info_.parameters));
+  const auto [number, text] = chosen_value(parameter, settings_);
+  switch (parameter.kind) {
+    case ScheduleParameter::Kind::integer:
+      lua_pushinteger(lua, static_cast<lua_Integer>(number));
+      break;
+    case ScheduleParameter::Kind::real:
+      lua_pushnumber(lua, number);
+      break;
+    case ScheduleParameter::Kind::flag:
+      lua_pushboolean(lua, number != 0);
+      break;
+    case ScheduleParameter::Kind::choice:
+      lua_pushstring(lua, text.c_str());
+      break;
+  }
+  return 1;
+}
+
+// ---- Passes -------------------------------------------------------------------------------------
+
+int ScriptHost::begin_round(lua_State* lua) {
+  begin_work();
+  lua_pushinteger(lua, ++run_->round);
+  return 1;
+}
+
+ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const ScriptValue& value,
+                                                 const std::vector<std::string>& operators) const {
+  Arguments arguments;
+  arguments.of_operators.resize(operators.size());
+  if (!value.list.empty()) {
+    throw Error(fmt::format("{} takes named arguments only: {}", word.name, word.usage));
+  }
+  for (const auto& [name, argument] : value.fields) {
+    const Subject subject = Subject{std::string(word.name)}.of(name);
+    if (name == "on") {
+      arguments.on = read_selection(subject, argument);
+      continue;
+    }
+    const bool is_field = std::any_of(word.fields.begin(), word.fields.end(),
+                                      [&](const WordField& field) { return field.name == name; });
+    if (is_field) continue;  // read by the word itself
+    bool known = read_setting(subject, word.numbers, name, argument, arguments.numbers);
+    for (std::size_t i = 0; i < operators.size() && !known; ++i) {
+      if (operators[i].empty()) continue;
+      known = read_setting(subject, run_->registry().find(operators[i]).parameters, name, argument,
+                           arguments.of_operators[i]);
+    }
+    if (known) continue;
+    std::vector<std::string_view> valid;
+    for (const WordField& field : word.fields) valid.push_back(field.name);
+    for (const ParameterSpec& spec : word.numbers) valid.push_back(spec.name);
+    for (const std::string& op : operators) {
+      if (op.empty()) continue;
+      for (const ParameterSpec& spec : run_->registry().find(op).parameters) {
+        valid.push_back(spec.name);
+      }
+    }
+    throw Error(fmt::format("{} has no parameter '{}'; valid: {}", word.name, name,
+                            fmt::join(valid, ", ")));
+  }
+  return arguments;
+}
+
+template <class Pass>
+int ScriptHost::make_pass(lua_State* lua, const Pass& pass) {
+  pass();
+  const PassRecord& record = run_->records.back();
+  lua_pushinteger(lua, static_cast<lua_Integer>(record.accepted()));
+  lua_pushinteger(lua, static_cast<lua_Integer>(record.attempts()));
+  return 2;
+}
+
+int ScriptHost::reconnect(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("local_reconnection");
+  const ScriptValue value = read_table(lua, 1, word);
+  LocalReconnection options;
+  Composition edges;
+  Composition faces;
+  if (const ScriptValue* field = value.field("edges")) {
+    options.edge_operator =
+        read_operator_name(run_->registry(), {"local_reconnection: edges"}, *field, edges);
+  }
+  if (const ScriptValue* field = value.field("faces")) {
+    options.face_operator =
+        read_operator_name(run_->registry(), {"local_reconnection: faces"}, *field, faces);
+  }
+  Arguments arguments = read_arguments(word, value, {options.edge_operator, options.face_operator});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  options.on = std::move(arguments.on);
+  options.edge_settings = std::move(edges.settings);
+  options.face_settings = std::move(faces.settings);
+  for (auto& setting : arguments.of_operators[0]) options.edge_settings.push_back(setting);
+  for (auto& setting : arguments.of_operators[1]) options.face_settings.push_back(setting);
+  options.sweeps = static_cast<unsigned>(numbers.integer("sweeps"));
+  return make_pass(lua, [&] { local_reconnection(*run_, options); });
+}
+
+int ScriptHost::smooth(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("smooth");
+  Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"smoothing"});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  SmoothingPass options;
+  options.on = std::move(arguments.on);
+  options.settings = std::move(arguments.of_operators[0]);
+  options.cycles = static_cast<unsigned>(numbers.integer("cycles"));
+  return make_pass(lua, [&] { tetmend::smooth(*run_, options); });
+}
+
+int ScriptHost::suppress(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("suppress_points");
+  Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"edge_contraction"});
+  return make_pass(lua, [&] {
+    suppress_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
+  });
+}
+
+int ScriptHost::insert(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("insert_points");
+  Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"edge_split"});
+  return make_pass(lua, [&] {
+    insert_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
+  });
+}
+
+int ScriptHost::apply(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("apply");
+  ApplyPass options;
+  options.what = read_composition(run_->registry(), {"apply"}, read_value(lua, 1));
+  Arguments arguments = read_arguments(word, read_table(lua, 2, word), {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  options.on = std::move(arguments.on);
+  options.sweeps = static_cast<unsigned>(numbers.integer("sweeps"));
+  options.again = numbers.flag("again");
+  return make_pass(lua, [&] { tetmend::apply(*run_, options); });
+}
+
+int ScriptHost::compose(lua_State* lua, const char* how) {
+  luaL_checktype(lua, 1, LUA_TTABLE);
+  lua_newtable(lua);
+  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, 1));
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(lua, 1, i);
+    lua_rawseti(lua, -2, i);
+  }
+  lua_pushstring(lua, how);
+  lua_setfield(lua, -2, "how");
+  return 1;
+}
+
+// ---- Questions ----------------------------------------------------------------------------------
+
+int ScriptHost::quality(lua_State* lua) {
+  begin_work();
+  const QualityIndicators now =
+      run_->records.empty() ? quality_indicators(run_->mesh()) : run_->records.back().after;
+  lua_newtable(lua);
+  const auto number = [&](const char* name, double value) {
+    lua_pushnumber(lua, value);
+    lua_setfield(lua, -2, name);
+  };
+  const auto count = [&](const char* name, std::size_t value) {
+    lua_pushinteger(lua, static_cast<lua_Integer>(value));
+    lua_setfield(lua, -2, name);
+  };
+  number("q_worst", now.q_worst);
+  count("n_bad", now.n_bad);
+  number("q_aver", now.q_aver);
+  count("tets", run_->mesh().tet_count());
+  count("vertices", run_->mesh().vertex_count());
+  number("seconds", run_->seconds());
+  count("passes", run_->records.size());
+  luaL_setmetatable(lua, kQualityTable);
+  return 1;
+}
+
+/// A field of a quality table that is not there yet.
+int ScriptHost::measure(lua_State* lua) {
+  const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "?";
+  const std::string_view wanted = name;
+  if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda") {
+    throw Error(
+        fmt::format("quality() has no '{}'; valid: lambda, n_bad, passes, q_aver, q_worst, "
+                    "seconds, tets, theta_max, theta_min, vertices",
+                    wanted));
+  }
+  lua_getfield(lua, 1, "passes");
+  if (lua_tointeger(lua, -1) != static_cast<lua_Integer>(run_->records.size())) {
+    throw Error(
+        fmt::format("quality(): {} was not read before the next pass, and cannot be "
+                    "measured any more",
+                    wanted));
+  }
+  const MeshStatistics statistics = compute_statistics(run_->mesh());
+  const auto keep = [&](const char* field, double value) {
+    lua_pushnumber(lua, value);
+    lua_setfield(lua, 1, field);
+  };
+  keep("theta_min", statistics.theta_min);
+  keep("theta_max", statistics.theta_max);
+  keep("lambda", statistics.lambda);
+  lua_getfield(lua, 1, name);
+  return 1;
+}
+
+int ScriptHost::is_progress(lua_State* lua) {
+  const auto before = read_indicators({"is_progress: before"}, read_value(lua, 1));
+  const auto now = read_indicators({"is_progress: now"}, read_value(lua, 2));
+  lua_pushboolean(lua, tetmend::is_progress(before, now));
+  return 1;
+}
+
+int ScriptHost::operators(lua_State* lua) {
+  begin_work();
+  lua_newtable(lua);
+  lua_Integer i = 0;
+  for (const OperatorInfo* info : run_->registry().operators()) {
+    lua_pushlstring(lua, info->name.data(), info->name.size());
+    lua_rawseti(lua, -2, ++i);
+  }
+  return 1;
+}
+
+int ScriptHost::log(lua_State* lua) {
+  begin_work();
+  std::string text;
+  const int count = lua_gettop(lua);
+  for (int i = 1; i <= count; ++i) {
+    if (i > 1) text += ' ';
+    const int type = lua_type(lua, i);
+    if (type == LUA_TTABLE || type == LUA_TFUNCTION) {
+      text += lua_typename(lua, type);
+    } else {
+      text += luaL_tolstring(lua, i, nullptr);
+      lua_pop(lua, 1);
+    }
+  }
+  run_->note(text);
+  return 0;
+}
+
+}  // namespace tetmend

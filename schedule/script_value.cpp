@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/script_value.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "kernel/error.h"
+
+namespace tetmend {
+
+namespace {
+
+using Kind = ScriptValue::Kind;
+
+constexpr int kDeepest = 16;
+
+ScriptValue read_nested(lua_State* lua, int index, int depth);
+
+ScriptValue read_table(lua_State* lua, int index, int depth) {
+  if (depth > kDeepest) throw Error("tables are nested too deep");
+  luaL_checkstack(lua, 4, "tables are nested too deep");
+  ScriptValue value;
+  value.kind = Kind::table;
+  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, index));
+  for (lua_Integer i = 1; i <= length; ++i) {
+    lua_rawgeti(lua, index, i);
+    value.list.push_back(read_nested(lua, lua_gettop(lua), depth + 1));
+    lua_pop(lua, 1);
+  }
+  lua_pushnil(lua);
+  while (lua_next(lua, index) != 0) {
+    if (lua_type(lua, -2) == LUA_TSTRING) {
+      value.fields.emplace_back(lua_tostring(lua, -2),
+                                read_nested(lua, lua_gettop(lua), depth + 1));
+    } else if (!lua_isinteger(lua, -2) || lua_tointeger(lua, -2) < 1 ||
+               lua_tointeger(lua, -2) > length) {
+      throw Error("a table has keys that are neither names nor 1, 2, ... n");
+    }
+    lua_pop(lua, 1);
+  }
+  std::sort(value.fields.begin(), value.fields.end(),
+            [](const auto& x, const auto& y) { return x.first < y.first; });
+  return value;
+}
+
+ScriptValue read_nested(lua_State* lua, int index, int depth) {
+  ScriptValue value;
+  switch (lua_type(lua, index)) {
+    case LUA_TNIL:
+    case LUA_TNONE:
+      return value;
+    case LUA_TBOOLEAN:
+      value.kind = Kind::flag;
+      value.number = lua_toboolean(lua, index);
+      return value;
+    case LUA_TNUMBER:
+      value.kind = Kind::number;
+      value.number = lua_tonumber(lua, index);
+      value.is_integer = lua_isinteger(lua, index) != 0;
+      return value;
+    case LUA_TSTRING:
+      value.kind = Kind::text;
+      value.text = lua_tostring(lua, index);
+      return value;
+    case LUA_TTABLE:
+      return read_table(lua, index, depth);
+    default:
+      throw Error(fmt::format("a {} is of no use here", luaL_typename(lua, index)));
+  }
+}
+
+[[noreturn]] void refuse(const Subject& subject, std::string_view wanted,
+                         const ScriptValue& value) {
+  throw Error(fmt::format("{} must be {}, is {}", subject.text, wanted, value.quoted()));
+}
+
+[[noreturn]] void refuse_name(const Subject& subject, std::string_view what,
+                              const std::string& name, std::span<const std::string_view> valid) {
+  throw Error(fmt::format("{} has no {} '{}'; valid: {}", subject.text, what, name,
+                          fmt::join(valid, ", ")));
+}
+
+double read_in_range(const Subject& subject, const ScriptValue& value, double low, double high) {
+  const double number = read_number(subject, value);
+  if (!(number >= low && number <= high)) {
+    throw Error(fmt::format("{} = {} is outside {} to {}", subject.text, number, low, high));
+  }
+  return number;
+}
+
+std::size_t read_count(const Subject& subject, const ScriptValue& value) {
+  constexpr double kMost = 1e12;
+  const double number = read_in_range(subject, value, 0, kMost);
+  if (number != std::floor(number)) {
+    throw Error(fmt::format("{} = {} is not a whole number", subject.text, number));
+  }
+  return static_cast<std::size_t>(number);
+}
+
+Label read_label(const Subject& subject, const ScriptValue& value) {
+  const double number = read_in_range(subject, value, std::numeric_limits<Label>::min(),
+                                      std::numeric_limits<Label>::max());
+  if (number != std::floor(number)) {
+    throw Error(fmt::format("{} = {} is not a whole number", subject.text, number));
+  }
+  return static_cast<Label>(number);
+}
+
+std::vector<Label> read_labels(const Subject& subject, const ScriptValue& value) {
+  if (value.kind == Kind::number) return {read_label(subject, value)};
+  if (value.kind != Kind::table || value.list.empty() || !value.fields.empty()) {
+    refuse(subject, "a number or a list of numbers", value);
+  }
+  std::vector<Label> labels;
+  for (const ScriptValue& label : value.list) labels.push_back(read_label(subject, label));
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+Eigen::AlignedBox3d read_box(const Subject& subject, const ScriptValue& value) {
+  if (value.kind != Kind::table || value.list.size() != 6 || !value.fields.empty()) {
+    refuse(subject, "{x_low, y_low, z_low, x_high, y_high, z_high}", value);
+  }
+  std::array<double, 6> bounds{};
+  for (unsigned i = 0; i < 6; ++i) bounds[i] = read_number(subject, value.list[i]);
+  const Point low(bounds[0], bounds[1], bounds[2]);
+  const Point high(bounds[3], bounds[4], bounds[5]);
+  if (!(low.array() <= high.array()).all()) {
+    throw Error(fmt::format("{}: the lower corner is not below the upper one", subject.text));
+  }
+  return {low, high};
+}
+
+ValueRange read_range(const Subject& subject, const ScriptValue& value) {
+  static constexpr std::array<std::string_view, 2> kFields = {"low", "high"};
+  ValueRange range;
+  if (value.kind != Kind::table || value.list.size() != 1) {
+    refuse(subject, "{name, low = number, high = number}", value);
+  }
+  range.name = read_text(subject, value.list[0]);
+  for (const auto& [name, bound] : value.fields) {
+    if (name == "low") {
+      range.low = read_number(subject.of(name), bound);
+    } else if (name == "high") {
+      range.high = read_number(subject.of(name), bound);
+    } else {
+      refuse_name(subject, "field", name, kFields);
+    }
+  }
+  return range;
+}
+
+Composition read_parts(const Registry& registry, const Subject& subject, const ScriptValue& value,
+                       Composition::Kind kind) {
+  Composition composition;
+  composition.kind = kind;
+  for (const ScriptValue& part : value.list) {
+    composition.parts.push_back(read_composition(registry, subject, part));
+  }
+  if (composition.parts.empty()) throw Error(fmt::format("{}: nothing to try", subject.text));
+  return composition;
+}
+
+EdgeOrder read_order(const Subject& subject, const ScriptValue& value) {
+  static constexpr std::array<std::string_view, 3> kOrders = {"sine", "longest", "shortest"};
+  const std::string& name = read_text(subject, value);
+  if (name == "sine") return EdgeOrder::sine;
+  if (name == "longest") return EdgeOrder::longest;
+  if (name == "shortest") return EdgeOrder::shortest;
+  refuse_name(subject, "value", name, kOrders);
+}
+
+}  // namespace
+
+const ScriptValue* ScriptValue::field(std::string_view name) const {
+  for (const auto& [key, value] : fields) {
+    if (key == name) return &value;
+  }
+  return nullptr;
+}
+
+std::string ScriptValue::quoted() const {
+  switch (kind) {
+    case Kind::nothing:
+      return "nothing";
+    case Kind::flag:
+      return number != 0 ? "true" : "false";
+    case Kind::number:
+      return fmt::format("{}", number);
+    case Kind::text:
+      return "'" + text + "'";
+    case Kind::table:
+      return "a table";
+  }
+  return "";
+}
+
+ScriptValue read_value(lua_State* lua, int index) {
+  return read_nested(lua, lua_absindex(lua, index), 0);
+}
+
+double read_number(const Subject& subject, const ScriptValue& value) {
+  if (value.kind != Kind::number || !std::isfinite(value.number)) {
+    refuse(subject, "a number", value);
+  }
+  return value.number;
+}
+
+const std::string& read_text(const Subject& subject, const ScriptValue& value) {
+  if (value.kind != Kind::text) refuse(subject, "a text", value);
+  return value.text;
+}
+
+Selection read_selection(const Subject& subject, const ScriptValue& value) {
+  static constexpr std::array<std::string_view, 7> kFields = {"at_least", "below", "box",  "label",
+                                                              "property", "share", "worst"};
+  Selection selection;
+  if (value.kind == Kind::text && value.text == "bad") return selection;
+  if (value.kind == Kind::text && value.text == "all") {
+    selection.below = Selection::kAll;
+    return selection;
+  }
+  if (value.kind != Kind::table || !value.list.empty()) {
+    refuse(subject, "'bad', 'all' or a table of conditions", value);
+  }
+  for (const auto& [name, condition] : value.fields) {
+    const Subject field = subject.of(name);
+    if (name == "below") {
+      selection.below = static_cast<Quality>(read_in_range(field, condition, -1, 1));
+    } else if (name == "at_least") {
+      selection.at_least = read_count(field, condition);
+    } else if (name == "worst") {
+      selection.worst = read_count(field, condition);
+    } else if (name == "share") {
+      selection.share = read_in_range(field, condition, 0, 1);
+    } else if (name == "label") {
+      selection.labels = read_labels(field, condition);
+    } else if (name == "box") {
+      selection.box = read_box(field, condition);
+    } else if (name == "property") {
+      selection.value = read_range(field, condition);
+    } else {
+      refuse_name(subject, "condition", name, kFields);
+    }
+  }
+  return selection;
+}
+
+Composition read_composition(const Registry& registry, const Subject& subject,
+                             const ScriptValue& value) {
+  Composition composition;
+  if (value.kind == Kind::text) {
+    composition.operator_name = registry.find(value.text).name;
+    return composition;
+  }
+  if (value.kind != Kind::table) {
+    refuse(subject, "an operator, first_of{...} or all_of{...}", value);
+  }
+  if (const ScriptValue* how = value.field("how")) {
+    const std::string& kind = read_text(subject, *how);
+    if (kind == "first_of") {
+      return read_parts(registry, subject, value, Composition::Kind::first_of);
+    }
+    if (kind == "all_of") return read_parts(registry, subject, value, Composition::Kind::all_of);
+  }
+  if (value.list.size() != 1) {
+    throw Error(fmt::format("{}: an operator with settings is {{name, parameter = value, ...}}",
+                            subject.text));
+  }
+  const OperatorInfo& info = registry.find(read_text(subject, value.list[0]));
+  composition.operator_name = info.name;
+  for (const auto& [name, setting] : value.fields) {
+    const Subject field = {std::string(info.name) + ": " + name};
+    if (name == "order") {
+      composition.order = read_order(field, setting);
+    } else if (!read_setting(field, info.parameters, name, setting, composition.settings)) {
+      std::vector<std::string_view> valid = {"order"};
+      for (const ParameterSpec& spec : info.parameters) valid.push_back(spec.name);
+      refuse_name({std::string(info.name)}, "parameter", name, valid);
+    }
+  }
+  return composition;
+}
+
+bool read_setting(const Subject& subject, std::span<const ParameterSpec> specs,
+                  const std::string& name, const ScriptValue& value, ParameterSettings& settings) {
+  const auto spec = std::find_if(specs.begin(), specs.end(),
+                                 [&](const ParameterSpec& s) { return s.name == name; });
+  if (spec == specs.end()) return false;
+  const bool is_flag = spec->kind == ParameterSpec::Kind::flag;
+  if (is_flag && value.kind != Kind::flag) refuse(subject, "true or false", value);
+  if (!is_flag) read_number(subject, value);
+  settings.emplace_back(name, value.number);
+  return true;
+}
+
+}  // namespace tetmend

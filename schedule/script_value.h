@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// What a script hands to a word, as plain data; and how selections, operators and settings are read
+// from it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lua.hpp>
+
+#include "schedule/composition.h"
+#include "schedule/selection.h"
+
+namespace tetmend {
+
+/// A value without functions in it.
+struct ScriptValue {
+  enum class Kind { nothing, flag, number, text, table };
+  Kind kind = Kind::nothing;
+  double number = 0;        ///< of a flag: 0 or 1
+  bool is_integer = false;  ///< a number that the script wrote without fraction
+  std::string text;
+  std::vector<ScriptValue> list;                            ///< of a table: 1, 2, ... n
+  std::vector<std::pair<std::string, ScriptValue>> fields;  ///< of a table: by name, in their order
+
+  /// Null when there is none.
+  const ScriptValue* field(std::string_view name) const;
+  /// As an error message quotes it: 3, true, "bad", a table.
+  std::string quoted() const;
+};
+
+/// @throws Error for functions, for keys that are neither names nor 1 to n, and for tables too
+/// deep.
+ScriptValue read_value(lua_State* lua, int index);
+
+/// How messages name what is being read: "smooth: cycles".
+struct Subject {
+  std::string text;
+  Subject of(std::string_view part) const { return {text + ": " + std::string(part)}; }
+};
+
+// Each throws an Error that names the subject, the offending word, and the valid ones.
+
+double read_number(const Subject& subject, const ScriptValue& value);
+const std::string& read_text(const Subject& subject, const ScriptValue& value);
+/// "bad", "all", or a table of conditions.
+Selection read_selection(const Subject& subject, const ScriptValue& value);
+/// The name of an operator, {name, parameter = value, ...}, first_of{...} or all_of{...}.
+Composition read_composition(const Registry& registry, const Subject& subject,
+                             const ScriptValue& value);
+/// Adds a setting of one of the parameters. False if there is no such parameter.
+bool read_setting(const Subject& subject, std::span<const ParameterSpec> specs,
+                  const std::string& name, const ScriptValue& value, ParameterSettings& settings);
+
+}  // namespace tetmend

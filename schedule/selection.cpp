@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tetmend {
+
+std::string Selection::describe() const {
+  std::string text = fmt::format("below {}", below);
+  if (at_least > 0) text += fmt::format(" at_least {}", at_least);
+  if (worst != std::numeric_limits<std::size_t>::max()) text += fmt::format(" worst {}", worst);
+  if (share < 1) text += fmt::format(" share {}", share);
+  if (!labels.empty()) text += fmt::format(" labels {}", fmt::join(labels, ","));
+  if (box) {
+    const Point& low = box->min();
+    const Point& high = box->max();
+    text += fmt::format(" box {},{},{},{},{},{}", low.x(), low.y(), low.z(), high.x(), high.y(),
+                        high.z());
+  }
+  if (value) text += fmt::format(" {} {} to {}", value->name, value->low, value->high);
+  return text;
+}
+
+SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection)
+    : mesh_(mesh),
+      selection_(selection),
+      plain_(selection.labels.empty() && !selection.box && !selection.value) {
+  if (!selection.value) return;
+  const std::string& name = selection.value->name;
+  real_ = mesh.tet_properties().find<double>(name);
+  if (!real_.is_valid()) whole_ = mesh.tet_properties().find<int>(name);
+  if (!real_.is_valid() && !whole_.is_valid()) measure_ = &find_quality_measure(name);
+}
+
+Quality SelectionTest::limit() const {
+  return selection_.at_least > 0 ? std::max(selection_.below, kBadThreshold) : selection_.below;
+}
+
+bool SelectionTest::admits(TetHandle t) const {
+  if (plain_) return true;
+  if (!selection_.labels.empty() && std::find(selection_.labels.begin(), selection_.labels.end(),
+                                              mesh_.label(t)) == selection_.labels.end())
+    return false;
+  if (selection_.box) {
+    for (const VertexHandle v : mesh_.vertices(t)) {
+      if (!selection_.box->contains(mesh_.point(v))) return false;
+    }
+  }
+  if (!selection_.value) return true;
+  const double value = value_of(t);
+  return value >= selection_.value->low && value <= selection_.value->high;
+}
+
+std::size_t SelectionTest::take(std::size_t candidates, std::size_t below) const {
+  const double share =
+      std::ceil(std::clamp(selection_.share, 0.0, 1.0) * static_cast<double>(mesh_.tet_count()));
+  const std::size_t most = std::min(selection_.worst, static_cast<std::size_t>(share));
+  return std::min({std::max(below, selection_.at_least), most, candidates});
+}
+
+double SelectionTest::value_of(TetHandle t) const {
+  if (real_.is_valid()) return mesh_.tet_properties().at(real_, t);
+  if (whole_.is_valid()) return mesh_.tet_properties().at(whole_, t);
+  const TetVertices& v = mesh_.vertices(t);
+  return measure_->evaluate(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
+                            mesh_.point(v[3]));
+}
+
+}  // namespace tetmend

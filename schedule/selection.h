@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Which tets a pass works on.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+/// Tets of a value from low to high. The value is the tet property (double or int) of that name, or
+/// the quality measure of that name.
+struct ValueRange {
+  std::string name;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+};
+
+/// Conditions that all hold together; by default the bad tets. It says at which tets operators are
+/// tried, not where the mesh may change: an operator replaces tets around the selected one.
+struct Selection {
+  static constexpr Quality kAll = std::numeric_limits<Quality>::infinity();
+
+  Quality below = kBadThreshold;  ///< tets of lower quality; kAll: every tet
+  std::size_t at_least = 0;       ///< if fewer are below, the worst bad ones fill up to so many
+  /// Of these, at most so many, the worst.
+  std::size_t worst = std::numeric_limits<std::size_t>::max();
+  double share = 1;                ///< and at most this share of the tets of the mesh, the worst
+  std::vector<Label> labels = {};  ///< of the region; empty: any
+  std::optional<Eigen::AlignedBox3d> box = {};  ///< with all vertices in it or on its border
+  std::optional<ValueRange> value = {};
+
+  /// Equal for selections that mean the same.
+  std::string describe() const;
+};
+
+/// A selection bound to a mesh, which must outlive it as must the selection.
+class SelectionTest {
+ public:
+  /// @throws Error when neither property nor measure has the name, with the valid ones.
+  SelectionTest(const TetMesh& mesh, const Selection& selection);
+
+  /// Tets of this quality or higher are out of the question.
+  Quality limit() const;
+  /// Conditions other than quality and number. Precondition: t is live.
+  bool admits(TetHandle t) const;
+  /// How many tets are taken of `candidates` that all are under the limit, when `below` of them are
+  /// of lower quality than Selection::below.
+  std::size_t take(std::size_t candidates, std::size_t below) const;
+
+ private:
+  double value_of(TetHandle t) const;
+
+  const TetMesh& mesh_;
+  const Selection& selection_;
+  bool plain_;
+  PropertyHandle<TetHandle, double> real_;
+  PropertyHandle<TetHandle, int> whole_;
+  const QualityMeasure* measure_ = nullptr;
+};
+
+}  // namespace tetmend

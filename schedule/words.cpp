@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/words.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace tetmend {
+
+namespace {
+
+constexpr WordField kOn = {"on", "selection", "'bad'", "the tets to work on"};
+
+constexpr std::array<WordField, 1> kOnlyOn = {kOn};
+constexpr std::array<WordField, 3> kReconnectionFields = {{
+    kOn,
+    {"edges", "operator or false", "'recursive_shell_transformation'",
+     "what is tried on the edges of a tet, those at the smallest sine first"},
+    {"faces", "operator or false", "'multi_face_removal'", "what is tried then on its faces"},
+}};
+constexpr std::array<ParameterSpec, 1> kReconnectionNumbers = {{
+    {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 2,
+     "new bad tets are tried in the next sweep"},
+}};
+constexpr std::array<ParameterSpec, 1> kSmoothNumbers = {{
+    {"cycles", ParameterSpec::Kind::integer, 1, 1000, 4,
+     "at most; ends earlier when a cycle brings no progress"},
+}};
+constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
+    {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 1,
+     "at most; ends earlier when nothing is accepted"},
+    {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
+}};
+
+constexpr std::array<WordInfo, 15> kWords = {{
+    {"description", "description \"text\"", "says what the schedule does, in one line"},
+    {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
+     "declares a parameter and returns its value, the default or what --set says; `default` is a "
+     "whole number, a fraction, true or false; or `choices = {\"a\", \"b\"}` instead, the first is "
+     "the default. Before the first pass"},
+    {"begin_round", "begin_round()",
+     "begins the next round and returns its number; for the report"},
+    {"local_reconnection", "local_reconnection{...}",
+     "Algorithm 5: removes selected tets, the worst first, by operators on their edges and faces",
+     kReconnectionFields, kReconnectionNumbers,
+     "recursive_shell_transformation multi_face_removal"},
+    {"smooth", "smooth{...}", "smooths the movable vertices of selected tets, cycle by cycle",
+     kOnlyOn, kSmoothNumbers, "smoothing"},
+    {"suppress_points",
+     "suppress_points{...}",
+     "tries to remove each movable vertex of a selected tet",
+     kOnlyOn,
+     {},
+     "edge_contraction"},
+    {"insert_points",
+     "insert_points{...}",
+     "tries to split the edges of selected tets, the worst tets and longest edges first",
+     kOnlyOn,
+     {},
+     "edge_split"},
+    {"apply", "apply(what, {...})",
+     "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
+     "value, order = \"sine\", \"longest\" or \"shortest\"}, first_of{...} or all_of{...}. An "
+     "operator on edges, faces or vertices is tried on those of the tet",
+     kOnlyOn, kApplyNumbers},
+    {"first_of", "first_of{what, what, ...}",
+     "for apply: tries the parts on one tet in turn until an attempt is accepted"},
+    {"all_of", "all_of{what, what, ...}",
+     "for apply: tries the parts on one tet in turn until the tet is gone"},
+    {"quality", "quality()",
+     "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
+     "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
+     "are read, which must be before the next pass"},
+    {"is_progress", "is_progress(before, now)",
+     "true if the quality `now` is noticeably better: the worst by 0.005, the number of bad tets "
+     "by "
+     "5 %, or their mean by 0.005 with no more of them"},
+    {"operators", "operators()", "the names of all operators, those of plugins as well"},
+    {"log", "log(...)", "notes values in the report and shows them"},
+    {"print", "print(...)", "the same as log"},
+}};
+
+}  // namespace
+
+std::span<const WordInfo> schedule_words() {
+  return kWords;
+}
+
+const WordInfo& find_word(std::string_view name) {
+  const auto word = std::find_if(kWords.begin(), kWords.end(),
+                                 [&](const WordInfo& info) { return info.name == name; });
+  assert(word != kWords.end());
+  return *word;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Schedules from the command line: scripts of users with and without mistakes.
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "schedule/schedule.h"
+#include "tests/apps/program.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::string kSheet = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// One line on stderr, as every error has it.
+bool is_complaint(const Outcome& outcome) {
+  return outcome.err.starts_with("tetmend: ") && outcome.err.back() == '\n' &&
+         outcome.err.find('\n') == outcome.err.size() - 1;
+}
+
+struct Bench {
+  TempFolder folder;
+  std::string script = (folder / "my.lua").string();
+  std::string out = (folder / "out.mesh").string();
+
+  Outcome improve(const std::string& text, std::vector<std::string> more = {}) {
+    write_text(script, text);
+    std::vector<std::string> arguments = {"improve", kSheet, "-o", out, "--schedule", script};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("scripts with mistakes end with status 1, name line and word, and touch no file") {
+  const std::vector<std::pair<std::string, std::string>> scripts = {
+      {"-- a comment\nsmoth{}", "my.lua:2: unknown name 'smoth'; valid: "},
+      {"smooth{", "my.lua:1: "},
+      {"smooth{} smooth{stpes = 3}", "my.lua:1: smooth has no parameter 'stpes'; valid: on, "},
+      {"smooth{cycles = 'many'}", "my.lua:1: smooth: cycles must be a number, is 'many'"},
+      {"local function f() return 1 + f() end\nf()", "my.lua:1: stack overflow"},
+      {"local t = {} while true do t[#t + 1] = {} end", "my.lua:1: the script holds more than"},
+      {"local s = 'x' while true do s = s .. s end", "the script needs more than 128 MB"},
+      {"io.open('/etc/passwd')", "my.lua:1: unknown name 'io'"},
+      {"os.execute('true')", "my.lua:1: unknown name 'os'"},
+      {"require 'os'", "my.lua:1: unknown name 'require'"},
+      {"\x1bLua", "attempt to load a binary chunk"},
+  };
+  Bench bench;
+  const std::string input = read_text(kSheet);
+  write_text(bench.out, "earlier output\n");
+  for (const auto& [script, message] : scripts) {
+    CAPTURE(script);
+    const Outcome outcome = bench.improve(script);
+    CHECK(outcome.status == 1);
+    CHECK(is_complaint(outcome));
+    CHECK_MESSAGE(contains(outcome.err, message), outcome.err);
+    CHECK(read_text(bench.out) == "earlier output\n");
+    CHECK(bench.folder.entries() == 2);
+  }
+  CHECK(read_text(kSheet) == input);
+}
+
+TEST_CASE("wrong settings and limits are wrong usage, before any work") {
+  Bench bench;
+  const std::string script = "local n = parameter{'n', default = 3, low = 1, high = 9} smooth{}";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--set", "m=1"}, "has no parameter 'm'; valid: n"},
+      {{"--set", "n=10"}, "n = 10 is outside 1 to 9"},
+      {{"--set", "n=many"}, "n must be a number from 1 to 9, is 'many'"},
+      {{"--set", "n"}, "'n' is not of the form NAME=VALUE"},
+      {{"--set", "=1"}, "'=1' is not of the form NAME=VALUE"},
+      {{"--time-limit", "0"}, "--time-limit"},
+      {{"--time-limit", "soon"}, "--time-limit"},
+  };
+  for (const auto& [options, message] : wrong) {
+    const Outcome outcome = bench.improve(script, options);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(is_complaint(outcome));
+    CHECK(contains(outcome.err, message));
+  }
+  CHECK(bench.folder.entries() == 1);
+  const Outcome missing =
+      run_program({"improve", kSheet, "-o", bench.out, "--schedule", "/nowhere/my.lua"});
+  CHECK(missing.status == 1);
+  CHECK(contains(missing.err, "/nowhere/my.lua: cannot read it"));
+}
+
+TEST_CASE("a script runs with its settings, and report and notes tell it") {
+  Bench bench;
+  const std::string report = (bench.folder / "r.json").string();
+  const Outcome outcome = bench.improve(
+      "local n = parameter{'n', default = 1, low = 1, high = 9}\n"
+      "for i = 1, n do begin_round() smooth{} end log('rounds', n)",
+      {"--set", "n=3", "--report", report});
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "rounds 3"));
+  const auto json = nlohmann::json::parse(read_text(report));
+  CHECK(json["schedule"] == bench.script);
+  CHECK(json["settings"]["n"] == "3");
+  CHECK(json["notes"][0] == "rounds 3");
+  CHECK(json["passes"].size() == 3);
+  CHECK(json["passes"][2]["round"] == 3);
+  CHECK(json["out_of_time"] == false);
+}
+
+TEST_CASE("a time limit ends an endless script with status 0 and a written mesh") {
+  Bench bench;
+  const std::string report = (bench.folder / "r.json").string();
+  const Outcome outcome =
+      bench.improve("smooth{} while true do end", {"--time-limit", "0.2", "--report", report});
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "stopped by the time limit"));
+  CHECK(nlohmann::json::parse(read_text(report))["out_of_time"] == true);
+  CHECK(run_program({"quality", bench.out}).status == 0);
+}
+
+TEST_CASE("Ctrl-C ends an endless script with status 1 and a written mesh") {
+  Bench bench;
+  write_text(bench.script, "log 'looping' while true do end");
+  Terminal user;
+  const Program program({"improve", kSheet, "-o", bench.out, "--schedule", bench.script},
+                        bench.folder / "stdout", user.slave());
+  user.wait_for("looping");
+  program.send(SIGINT);
+  CHECK(program.wait() == 1);
+  CHECK(run_program({"quality", bench.out}).status == 0);
+}
+
+TEST_CASE("the default schedule is shell.lua, by name and by file") {
+  Bench bench;
+  const auto result = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"improve", kSheet, "-o", bench.out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    CHECK(run_program(arguments).status == 0);
+    return read_text(bench.out);
+  };
+  const std::string by_default = result({});
+  CHECK(by_default == result({"--schedule", "shell"}));
+  const std::string source = std::string(TETMEND_SOURCE_DIR) + "/assets/schedules/shell.lua";
+  CHECK(by_default == result({"--schedule", source}));
+  CHECK(run_program({"schedules", "shell", "--source"}).out == read_text(source));
+}
+
+TEST_CASE("schedules are listed with description and parameters") {
+  const Outcome all = run_program({"schedules"});
+  CHECK(all.status == 0);
+  CHECK(contains(all.out, "shell (default)"));
+  for (const std::string_view name : builtin_schedule_names()) {
+    CHECK(contains(all.out, std::string(name)));
+    const Outcome one = run_program({"schedules", std::string(name)});
+    CHECK(one.status == 0);
+    for (const ScheduleParameter& parameter : Schedule::builtin(name).describe().parameters) {
+      CHECK(contains(one.out, parameter.name));
+    }
+  }
+  CHECK(contains(run_program({"schedules", "--words"}).out, "local_reconnection{...}"));
+}
+
+TEST_CASE("docs/schedules.md is what the program says") {
+  const std::string page = read_text(std::string(TETMEND_SOURCE_DIR) + "/docs/schedules.md");
+  const std::string begin = "<!-- generated: tetmend schedules --markdown -->\n";
+  const std::string end = "<!-- end of the generated part -->\n";
+  REQUIRE(contains(page, begin));
+  REQUIRE(contains(page, end));
+  const std::size_t first = page.find(begin) + begin.size();
+  // To put it right: replace what stands between the marks by the output of the command.
+  CHECK(page.substr(first, page.find(end) - first) == run_program({"schedules", "--markdown"}).out);
+}
+
+TEST_CASE("the example of docs/schedules.md runs") {
+  const std::string page = read_text(std::string(TETMEND_SOURCE_DIR) + "/docs/schedules.md");
+  const std::size_t first = page.find("```lua\n") + 7;
+  Bench bench;
+  const Outcome outcome = bench.improve(page.substr(first, page.find("```", first) - first));
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "bad tets, smallest angle"));
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// What is tried at one tet, in which order, and until when.
+#include "schedule/composition.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "schedule/passes.h"
+#include "tests/support/zoo.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+Registry builtin_operators() {
+  Registry registry;
+  register_builtin_operators(registry);
+  return registry;
+}
+const Registry kRegistry = builtin_operators();
+
+Composition op(const std::string& name, ParameterSettings settings = {}) {
+  return {.operator_name = name, .settings = std::move(settings)};
+}
+Composition first_of(std::vector<Composition> parts) {
+  return {.kind = Composition::Kind::first_of, .parts = std::move(parts)};
+}
+Composition all_of(std::vector<Composition> parts) {
+  return {.kind = Composition::Kind::all_of, .parts = std::move(parts)};
+}
+
+/// Names and verdicts of all attempts.
+struct Attempts final : TraceSink {
+  void attempt_begins(const AttemptEvent& event) override {
+    if (event.level == 0) names.emplace_back(event.operator_name);
+    targets.emplace_back(event.target.begin(), event.target.end());
+  }
+  void attempt_ends(std::string_view verdict, std::span<const Quality>,
+                    std::span<const Quality>) override {
+    verdicts.emplace_back(verdict);
+  }
+  std::vector<std::string> names;
+  std::vector<std::vector<VertexHandle>> targets;
+  std::vector<std::string> verdicts;
+};
+
+/// Works off the worst tet inside a ball.
+Attempts attempts_at_worst(TetMesh& mesh, const Composition& what) {
+  Attempts attempts;
+  Run run(mesh, kRegistry);
+  run.set_trace(&attempts);
+  const Eigen::AlignedBox3d inside(Point(-0.7, -0.7, -0.7), Point(0.7, 0.7, 0.7));
+  apply(run, {.what = what, .on = {.worst = 1, .box = inside}});
+  return attempts;
+}
+
+}  // namespace
+
+TEST_CASE("names and descriptions tell compositions apart") {
+  CHECK(op("edge_removal").name() == "edge_removal");
+  CHECK(first_of({op("edge_removal"), all_of({op("flip_2_3"), op("smoothing")})}).name() ==
+        "first_of(edge_removal, all_of(flip_2_3, smoothing))");
+  CHECK(first_of({op("flip_2_3")}).describe() != all_of({op("flip_2_3")}).describe());
+  CHECK(op("smoothing", {{"steps", 3}}).describe() != op("smoothing").describe());
+  CHECK(op("smoothing", {{"steps", 3}, {"laplacian", 0}}).describe() ==
+        op("smoothing", {{"laplacian", 0}, {"steps", 3}}).describe());
+}
+
+TEST_CASE("parts are tried in turn on all edges, faces and vertices of the tet") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  const Attempts attempts = attempts_at_worst(mesh, all_of({op("flip_2_3"), op("edge_removal")}));
+  // Nothing of a first part comes after the second has begun.
+  const auto& names = attempts.names;
+  const auto second = std::find(names.begin(), names.end(), "edge_removal");
+  CHECK(std::find(second, names.end(), "flip_2_3") == names.end());
+  CHECK(std::count(names.begin(), names.end(), "flip_2_3") <= 4);
+  CHECK(std::count(names.begin(), names.end(), "edge_removal") <= 6);
+}
+
+TEST_CASE("first_of ends with the first accepted attempt, all_of when the tet is gone") {
+  // A part that keeps the tet: smoothing.
+  TetMesh one(delaunay_ball(200, 4));
+  TetMesh two = one;
+  const Composition smoothing_twice_first =
+      first_of({op("smoothing"), op("smoothing", {{"laplacian", 0}})});
+  const Composition smoothing_twice_all =
+      all_of({op("smoothing"), op("smoothing", {{"laplacian", 0}})});
+  const Attempts first = attempts_at_worst(one, smoothing_twice_first);
+  const Attempts all = attempts_at_worst(two, smoothing_twice_all);
+  REQUIRE(std::count(all.verdicts.begin(), all.verdicts.end(), "accepted") > 0);
+  CHECK(std::count(first.verdicts.begin(), first.verdicts.end(), "accepted") == 1);
+  CHECK(first.verdicts.back() == "accepted");
+  CHECK(all.names.size() > first.names.size());
+}
+
+TEST_CASE("edges are tried by length when that is asked for") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  Composition split = op("edge_split", {{"least_gain", 1}});  // never accepted
+  for (const bool longest : {true, false}) {
+    split.order = longest ? EdgeOrder::longest : EdgeOrder::shortest;
+    TetMesh copy = mesh;
+    const Attempts attempts = attempts_at_worst(copy, split);
+    std::vector<double> lengths;
+    for (const auto& ends : attempts.targets) {
+      lengths.push_back((mesh.point(ends[0]) - mesh.point(ends[1])).norm());
+    }
+    REQUIRE(lengths.size() >= 3);
+    CHECK(longest == std::is_sorted(lengths.rbegin(), lengths.rend()));
+    CHECK(longest != std::is_sorted(lengths.begin(), lengths.end()));
+  }
+}
+
+TEST_CASE("unknown operators and compositions of too many attempts are errors") {
+  CHECK_THROWS_AS(TetAttempts(kRegistry, op("edge_magic")), Error);
+  CHECK_THROWS_AS(TetAttempts(kRegistry, op("smoothing", {{"magic", 1}})), Error);
+  CHECK_THROWS_AS(TetAttempts(kRegistry, all_of({op("smoothing"), op("edge_magic")})), Error);
+  const std::vector<Composition> ten(10, op("edge_removal"));
+  CHECK_NOTHROW(TetAttempts(kRegistry, all_of(ten)));
+  const std::vector<Composition> eleven(11, op("edge_removal"));
+  CHECK_THROWS_AS(TetAttempts(kRegistry, all_of(eleven)), Error);
+}
+
+TEST_CASE("applying reconnection by hand gives the mesh of local reconnection") {
+  TetMesh by_pass(delaunay_ball(200, 4));
+  TetMesh by_hand = by_pass;
+  Run one(by_pass, kRegistry);
+  local_reconnection(one, {.sweeps = 1});
+  Run two(by_hand, kRegistry);
+  apply(two, {.what = all_of({op("recursive_shell_transformation"), op("multi_face_removal")})});
+  CHECK(one.records[0].accepted() > 0);
+  CHECK(one.records[0].verdicts == two.records[0].verdicts);
+  CHECK(by_pass.to_data().tets == by_hand.to_data().tets);
+}
+
+TEST_CASE("a pass made again does nothing unless it is told to try all anew") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  Run run(mesh, kRegistry);
+  ApplyPass pass{.what = op("edge_removal"), .on = {.below = Selection::kAll}, .sweeps = 100};
+  apply(run, pass);
+  const std::size_t attempts = run.records.back().attempts();
+  REQUIRE(attempts > 10);
+  apply(run, pass);
+  CHECK(run.records.back().attempts() == 0);
+  pass.again = true;
+  apply(run, pass);
+  CHECK(run.records.back().attempts() > 10);
+  CHECK(run.records.back().accepted() == 0);
+}

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// The language of schedules: what words do, what they refuse, and that the reference is true.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "kernel/integrity.h"
+#include "schedule/reference.h"
+#include "schedule/schedule.h"
+#include "schedule/words.h"
+#include "tests/support/zoo.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+Registry builtin_operators() {
+  Registry registry;
+  register_builtin_operators(registry);
+  return registry;
+}
+const Registry kRegistry = builtin_operators();
+
+struct Outcome {
+  TetMesh mesh;
+  std::vector<PassRecord> records;
+  std::vector<std::string> notes;
+  std::string error;
+  unsigned round = 0;
+};
+
+Outcome run(const std::string& script, const ScheduleSettings& settings = {}) {
+  Outcome outcome{TetMesh(delaunay_ball(150, 7)), {}, {}, {}, 0};
+  Run run(outcome.mesh, kRegistry);
+  try {
+    improve(run, Schedule("test.lua", script), settings);
+  } catch (const Error& error) {
+    outcome.error = error.what();
+  }
+  outcome.records = run.records;
+  outcome.notes = run.notes;
+  outcome.round = run.round;
+  return outcome;
+}
+
+std::string note(const std::string& expression) {
+  const Outcome outcome = run("log(" + expression + ")");
+  return outcome.notes.empty() ? outcome.error : outcome.notes.front();
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::vector<std::string> pass_names(const Outcome& outcome) {
+  std::vector<std::string> names;
+  for (const PassRecord& pass : outcome.records) names.push_back(pass.name);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a script makes its passes in order and the mesh gets better") {
+  const Outcome outcome =
+      run("begin_round() local_reconnection{} smooth{} suppress_points{} insert_points{}\n"
+          "apply('flip_2_3', {on = 'all'})");
+  CHECK(outcome.error == "");
+  CHECK(pass_names(outcome) == std::vector<std::string>{"local_reconnection", "smoothing",
+                                                        "point_suppression", "point_insertion",
+                                                        "flip_2_3"});
+  CHECK(outcome.round == 1);
+  CHECK(outcome.records.front().accepted() > 0);
+  CHECK(check_integrity(outcome.mesh).empty());
+}
+
+TEST_CASE("words do what the passes in C++ do") {
+  const auto same = [](const std::string& script, auto&& pass) {
+    TetMesh mesh(delaunay_ball(150, 7));
+    Run by_hand(mesh, kRegistry);
+    pass(by_hand);
+    const Outcome outcome = run(script);
+    CAPTURE(script);
+    CHECK(outcome.error == "");
+    CHECK(outcome.mesh == mesh);
+    REQUIRE(outcome.records.size() == 1);
+    CHECK(outcome.records[0].verdicts == by_hand.records[0].verdicts);
+  };
+  same("local_reconnection{}", [](Run& r) { local_reconnection(r); });
+  same("local_reconnection{max_level = 0, sweeps = 1, faces = false}", [](Run& r) {
+    local_reconnection(r, {.edge_settings = {{"max_level", 0}}, .face_operator = "", .sweeps = 1});
+  });
+  same("local_reconnection{edges = {'edge_removal'}, faces = 'flip_2_3'}", [](Run& r) {
+    local_reconnection(r, {.edge_operator = "edge_removal", .face_operator = "flip_2_3"});
+  });
+  same("smooth{cycles = 1, laplacian = false, on = {below = 0.3}}", [](Run& r) {
+    smooth(r, {.on = {.below = 0.3f}, .settings = {{"laplacian", 0}}, .cycles = 1});
+  });
+  same("suppress_points{on = {worst = 20}}",
+       [](Run& r) { suppress_points(r, {.on = {.worst = 20}}); });
+  same("insert_points{relax = true, on = {below = 0.25, at_least = 10}}", [](Run& r) {
+    insert_points(r, {.on = {.below = 0.25f, .at_least = 10}, .settings = {{"relax", 1}}});
+  });
+  same("apply(first_of{{'edge_split', order = 'longest', steps = 3}, 'smoothing'}, {on = 'all'})",
+       [](Run& r) {
+         Composition split{.operator_name = "edge_split",
+                           .settings = {{"steps", 3}},
+                           .order = EdgeOrder::longest};
+         Composition both{.kind = Composition::Kind::first_of,
+                          .parts = {split, Composition{.operator_name = "smoothing"}}};
+         apply(r, {.what = both, .on = {.below = Selection::kAll}});
+       });
+}
+
+TEST_CASE("a pass tells how many attempts it accepted and made") {
+  const Outcome outcome = run("log(smooth{cycles = 1})");
+  REQUIRE(outcome.notes.size() == 1);
+  CHECK(outcome.notes[0] == std::to_string(outcome.records[0].accepted()) + " " +
+                                std::to_string(outcome.records[0].attempts()));
+}
+
+TEST_CASE("quality tells the figures of the mesh, the dear ones until the next pass") {
+  const MeshStatistics truth = compute_statistics(TetMesh(delaunay_ball(150, 7)));
+  CHECK(note("quality().n_bad") == std::to_string(truth.n_bad));
+  CHECK(note("quality().tets") == std::to_string(truth.tets));
+  CHECK(note("quality().passes") == "0");
+  CHECK(note("quality().q_worst == quality().q_worst") == "true");
+  CHECK(std::stod(note("quality().theta_min")) == doctest::Approx(truth.theta_min));
+  CHECK(std::stod(note("quality().theta_max")) == doctest::Approx(truth.theta_max));
+  CHECK(std::stod(note("quality().lambda")) == doctest::Approx(truth.lambda));
+  CHECK(run("local q = quality() local theta = q.theta_min smooth{} log(q.theta_min == theta)")
+            .notes.front() == "true");
+  CHECK(contains(run("local q = quality() smooth{}\nlog(q.lambda)").error,
+                 "test.lua:2: quality(): lambda was not read before the next pass"));
+  CHECK(contains(run("log(quality().n_bat)").error, "quality() has no 'n_bat'; valid: lambda, "));
+  const Outcome later = run("smooth{} log(quality().n_bad)");
+  CHECK(later.notes.front() == std::to_string(quality_indicators(later.mesh).n_bad));
+}
+
+TEST_CASE(
+    "an argument that is misspelt, of the wrong type or out of range is named with its line") {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"smooth{stpes = 4}", "smooth has no parameter 'stpes'; valid: on, cycles, laplacian"},
+      {"smooth{steps = 'four'}", "smooth: steps must be a number, is 'four'"},
+      {"smooth{laplacian = 1}", "smooth: laplacian must be true or false, is 1"},
+      {"smooth{cycles = 0}", "smooth: cycles = 0 is outside 1 to 1000"},
+      {"smooth{cycles = 1.5}", "smooth: cycles = 1.5 is not a whole number"},
+      {"smooth{steps = 0}", "smoothing: steps = 0 is outside 1 to 1000"},
+      {"smooth{4}", "smooth takes named arguments only: smooth{...}"},
+      {"smooth(4)", "smooth takes named arguments in braces, not 4"},
+      {"smooth{on = 'good'}", "smooth: on must be 'bad', 'all' or a table of conditions"},
+      {"smooth{on = {bellow = 1}}", "smooth: on has no condition 'bellow'; valid: at_least, below"},
+      {"smooth{on = {below = 2}}", "smooth: on: below = 2 is outside -1 to 1"},
+      {"smooth{on = {worst = -1}}", "smooth: on: worst = -1 is outside 0 to"},
+      {"smooth{on = {label = 1.5}}", "smooth: on: label = 1.5 is not a whole number"},
+      {"smooth{on = {label = 'a'}}", "smooth: on: label must be a number or a list of numbers"},
+      {"smooth{on = {box = {0, 0, 0}}}", "smooth: on: box must be {x_low, y_low, z_low, x_high"},
+      {"smooth{on = {box = {1, 0, 0, 0, 1, 1}}}", "the lower corner is not below the upper one"},
+      {"smooth{on = {property = 'heat'}}", "smooth: on: property must be {name, low = number"},
+      {"smooth{on = {property = {'heat'}}}", "'heat'"},
+      {"smooth{on = {property = {'min_sine', lo = 1}}}", "has no field 'lo'; valid: low, high"},
+      {"local_reconnection{edges = 'magic'}", "unknown operator 'magic'; valid: shell_transform"},
+      {"local_reconnection{edges = first_of{'edge_removal'}}", "must be one operator or false"},
+      {"local_reconnection{edges = 'edge_removal', max_level = 3}",
+       "local_reconnection has no parameter 'max_level'; valid: on, edges, faces, sweeps"},
+      {"apply('magic')", "unknown operator 'magic'"},
+      {"apply(3)", "apply must be an operator, first_of{...} or all_of{...}, is 3"},
+      {"apply({'edge_split', relaxed = true})",
+       "edge_split has no parameter 'relaxed'; valid: order, least_gain"},
+      {"apply({'edge_split', order = 'best'})",
+       "edge_split: order has no value 'best'; valid: sine, longest, shortest"},
+      {"apply(first_of{})", "apply: nothing to try"},
+      {"apply('smoothing', {sweep = 3})", "apply has no parameter 'sweep'; valid: on, sweeps"},
+      {"apply(function() end)", "a function is of no use here"},
+      {"is_progress(quality(), 3)", "is_progress: now needs what quality() returns"},
+      {"smooth{} parameter{'late', default = 1}", "parameter: to be declared before the first"},
+      {"parameter{'x', default = 1, hihg = 3}", "parameter x has no field 'hihg'; valid: choices"},
+      {"parameter{'x'}", "parameter x needs either a default or choices"},
+      {"parameter{'x', default = 9, high = 3}", "parameter x: the default 9 is outside"},
+      {"parameter{'a b', default = 1}", "'a b' is no name"},
+      {"parameter{'x', default = 1} parameter{'x', default = 2}", "'x' exists already"},
+      {"smoth{}", "unknown name 'smoth'; valid: all_of, apply"},
+      {"io.open('/etc/passwd')", "unknown name 'io'"},
+  };
+  for (const auto& [script, message] : cases) {
+    CAPTURE(script);
+    std::string second_line = "\n";
+    second_line += script;
+    const Outcome outcome = run(second_line);
+    CHECK(outcome.error.starts_with("test.lua:2: "));
+    CHECK_MESSAGE(contains(outcome.error, message), outcome.error);
+  }
+}
+
+TEST_CASE("an error on the way leaves a sound mesh") {
+  const Outcome outcome = run("local_reconnection{} smoth{}");
+  CHECK(contains(outcome.error, "smoth"));
+  CHECK(outcome.records.size() == 1);
+  CHECK(check_integrity(outcome.mesh).empty());
+}
+
+TEST_CASE("parameters have defaults, and settings of the right type and range replace them") {
+  const std::string script =
+      "local n = parameter{'n', default = 3, low = 1, high = 9}\n"
+      "local x = parameter{'x', default = 0.5, low = 0, high = 1}\n"
+      "local on = parameter{'on', default = true}\n"
+      "local how = parameter{'how', choices = {'slow', 'fast'}}\n"
+      "log(n, x, on, how)";
+  CHECK(run(script).notes.front() == "3 0.5 true slow");
+  CHECK(run(script, {{"n", "7"}, {"x", "1e-1"}, {"on", "false"}, {"how", "fast"}}).notes.front() ==
+        "7 0.1 false fast");
+  CHECK(run(script, {{"n", "7"}, {"n", "8"}}).notes.front() == "8 0.5 true slow");
+  CHECK(contains(run(script, {{"m", "7"}}).error, "has no parameter 'm'; valid: n, x, on, how"));
+  CHECK(contains(run(script, {{"n", "10"}}).error, "n = 10 is outside 1 to 9"));
+  CHECK(contains(run(script, {{"n", "2.5"}}).error, "n = 2.5 is not a whole number"));
+  CHECK(contains(run(script, {{"n", "two"}}).error, "n must be a number from 1 to 9, is 'two'"));
+  CHECK(contains(run(script, {{"on", "1"}}).error, "on = 1: valid: true or false"));
+  CHECK(contains(run(script, {{"how", "soon"}}).error, "how = soon: valid: slow, fast"));
+  CHECK(contains(run("local x = 1", {{"m", "7"}}).error, "has no parameter 'm'; valid: none"));
+}
+
+TEST_CASE("a schedule describes itself without a mesh, up to its first pass") {
+  const Schedule schedule(
+      "test.lua",
+      "description 'does little'\n"
+      "local n = parameter{'n', default = 3, low = 1, high = 9, help = 'count'}\n"
+      "smooth{cycles = n}\n"
+      "parameter{'late', default = 1}");
+  const ScheduleInfo info = schedule.describe();
+  CHECK(info.description == "does little");
+  REQUIRE(info.parameters.size() == 1);
+  CHECK(info.parameters[0].name == "n");
+  CHECK(info.parameters[0].range() == "1 to 9");
+  CHECK(info.parameters[0].initial_text() == "3");
+  CHECK(info.parameters[0].help == "count");
+  CHECK_THROWS_AS(Schedule("test.lua", "descripton 'x'").describe(), Error);
+  CHECK_NOTHROW(Schedule("test.lua", "while true do end").describe());
+}
+
+TEST_CASE("a run stops at its flag and at its time limit, also in an empty loop") {
+  for (const char* script : {"while true do end", "while true do smooth{} end",
+                             "while true do apply('smoothing', {on = 'all', again = true}) end"}) {
+    CAPTURE(script);
+    TetMesh mesh(delaunay_ball(150, 7));
+    Run limited(mesh, kRegistry);
+    limited.set_time_limit(0.05);
+    CHECK_NOTHROW(improve(limited, Schedule("test.lua", script)));
+    CHECK(limited.out_of_time());
+    CHECK(limited.cancelled());
+    CHECK(check_integrity(mesh).empty());
+    Run stopped(mesh, kRegistry);
+    const std::atomic<bool> stop = true;
+    stopped.set_cancel_flag(&stop);
+    CHECK_NOTHROW(improve(stopped, Schedule("test.lua", script)));
+    CHECK_FALSE(stopped.out_of_time());
+    CHECK(stopped.records.empty());
+  }
+}
+
+TEST_CASE("a time limit stops a pass in its middle, and the mesh is sound and no worse") {
+  TetMesh mesh(delaunay_ball(4000, 8));
+  const double q_worst = quality_indicators(mesh).q_worst;
+  Run run(mesh, kRegistry);
+  run.set_time_limit(0.01);
+  improve(run, Schedule("test.lua", "for i = 1, 100 do local_reconnection{} smooth{} end"));
+  CHECK(run.out_of_time());
+  CHECK(run.records.size() < 100);
+  CHECK(check_integrity(mesh).empty());
+  CHECK(quality_indicators(mesh).q_worst >= q_worst);
+}
+
+TEST_CASE("scripts see the operators that are registered") {
+  CHECK(note("#operators()") == std::to_string(kRegistry.operators().size()));
+  CHECK(note("operators()[1]") == std::string(kRegistry.operators()[0]->name));
+}
+
+TEST_CASE("every word of the reference exists and takes every argument that it names") {
+  std::set<std::string> names;
+  for (const WordInfo& word : schedule_words()) {
+    CAPTURE(word.name);
+    names.insert(std::string(word.name));
+    CHECK(contains(run("nonsense()").error, std::string(word.name)));
+    const bool is_pass = !word.fields.empty();
+    if (!is_pass) continue;
+    const std::string call =
+        std::string(word.name) + (word.name == "apply" ? "('smoothing', {" : "({");
+    for (const WordField& field : word.fields) {
+      CHECK(run(call + std::string(field.name) + " = " + std::string(field.initial) + "})").error ==
+            "");
+    }
+    for (const ParameterSpec& spec : word.numbers) {
+      const bool flag = spec.kind == ParameterSpec::Kind::flag;
+      const std::string value = flag ? "true" : std::to_string(static_cast<int>(spec.initial));
+      CHECK(run(call + std::string(spec.name) + " = " + value + "})").error == "");
+    }
+  }
+  // Nothing is missing in it.
+  const std::string error = run("nonsense()").error;
+  const std::set<std::string> library = {"assert",   "error",    "ipairs", "math",
+                                         "pairs",    "select",   "string", "table",
+                                         "tonumber", "tostring", "type"};
+  std::string list = error.substr(error.find("valid: ") + 7) + ", ";
+  for (std::size_t end = 0; (end = list.find(", ")) != std::string::npos; list.erase(0, end + 2)) {
+    const std::string name = list.substr(0, end);
+    CHECK_MESSAGE((names.contains(name) || library.contains(name)), name);
+  }
+}
+
+TEST_CASE("a word takes the parameters of its operators and no others") {
+  for (const WordInfo& word : schedule_words()) {
+    if (word.operators.empty()) continue;
+    CAPTURE(word.name);
+    std::string operators = std::string(word.operators) + " ";
+    for (std::size_t end = 0; (end = operators.find(' ')) != std::string::npos;
+         operators.erase(0, end + 1)) {
+      for (const ParameterSpec& spec : kRegistry.find(operators.substr(0, end)).parameters) {
+        const bool flag = spec.kind == ParameterSpec::Kind::flag;
+        const std::string value = flag ? "false" : std::to_string(spec.initial);
+        const std::string script = std::string(word.name) + "{" + std::string(spec.name) + " = " +
+                                   (spec.kind == ParameterSpec::Kind::integer
+                                        ? std::to_string(static_cast<int>(spec.initial))
+                                        : value) +
+                                   "}";
+        CAPTURE(script);
+        CHECK(run(script).error == "");
+      }
+    }
+  }
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Selections: each condition by itself and together, compared with a plain loop over the tets.
+#include "schedule/selection.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "schedule/queue.h"
+#include "tests/support/zoo.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// A ball of two regions: labels 1 and 2 left and right.
+TetMesh ball() {
+  MeshData data = delaunay_ball(300, 5);
+  for (MeshData::Tet& tet : data.tets) {
+    double x = 0;
+    for (const std::uint32_t v : tet.vertices) x += data.points[v].x();
+    tet.label = x < 0 ? 1 : 2;
+  }
+  return TetMesh(data);
+}
+
+std::set<TetHandle> selected(TetMesh& mesh, const Selection& selection) {
+  Registry registry;
+  Run run(mesh, registry);
+  PassScope scope(run, "test");
+  std::set<TetHandle> tets;
+  for (const QueuedTet& tet : queue_tets(scope, mesh, selection, 0)) tets.insert(tet.tet);
+  return tets;
+}
+
+std::set<TetHandle> where(const TetMesh& mesh, const std::function<bool(TetHandle)>& condition) {
+  std::set<TetHandle> tets;
+  for (const TetHandle t : live_tets(mesh)) {
+    if (condition(t)) tets.insert(t);
+  }
+  return tets;
+}
+
+/// The worst of some tets.
+std::set<TetHandle> worst(const TetMesh& mesh, std::set<TetHandle> tets, std::size_t count) {
+  std::vector<TetHandle> sorted(tets.begin(), tets.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](TetHandle x, TetHandle y) { return mesh.quality(x) < mesh.quality(y); });
+  sorted.resize(std::min(count, sorted.size()));
+  return {sorted.begin(), sorted.end()};
+}
+
+}  // namespace
+
+TEST_CASE("by default the bad tets are selected, and all on demand") {
+  TetMesh mesh = ball();
+  const auto bad = where(mesh, [&](TetHandle t) { return mesh.quality(t) < kBadThreshold; });
+  REQUIRE(bad.size() > 50);
+  REQUIRE(bad.size() < mesh.tet_count());
+  CHECK(selected(mesh, {}) == bad);
+  CHECK(selected(mesh, {.below = Selection::kAll}).size() == mesh.tet_count());
+  CHECK(selected(mesh, {.below = 0.2f}) ==
+        where(mesh, [&](TetHandle t) { return mesh.quality(t) < 0.2f; }));
+}
+
+TEST_CASE("the number is limited from above by count and share, from below among the bad tets") {
+  TetMesh mesh = ball();
+  const auto bad = where(mesh, [&](TetHandle t) { return mesh.quality(t) < kBadThreshold; });
+  const auto all = where(mesh, [](TetHandle) { return true; });
+  CHECK(selected(mesh, {.worst = 17}) == worst(mesh, bad, 17));
+  CHECK(selected(mesh, {.worst = 100000}) == bad);
+  CHECK(selected(mesh, {.below = Selection::kAll, .share = 0.1}).size() ==
+        (mesh.tet_count() + 9) / 10);
+  CHECK(selected(mesh, {.below = -1, .at_least = 20}) == worst(mesh, bad, 20));
+  CHECK(selected(mesh, {.below = -1, .at_least = 100000}) == bad);
+  const auto dire = where(mesh, [&](TetHandle t) { return mesh.quality(t) < 0.3f; });
+  REQUIRE(dire.size() > 20);
+  CHECK(selected(mesh, {.below = 0.3f, .at_least = 20}) == dire);
+}
+
+TEST_CASE("tets are selected by the label of their region") {
+  TetMesh mesh = ball();
+  const auto left = where(mesh, [&](TetHandle t) { return mesh.label(t) == 1; });
+  REQUIRE(left.size() > 100);
+  CHECK(selected(mesh, {.below = Selection::kAll, .labels = {1}}) == left);
+  CHECK(selected(mesh, {.below = Selection::kAll, .labels = {1, 2}}).size() == mesh.tet_count());
+  CHECK(selected(mesh, {.below = Selection::kAll, .labels = {7}}).empty());
+}
+
+TEST_CASE("tets with all vertices in a box are selected") {
+  TetMesh mesh = ball();
+  const Eigen::AlignedBox3d box(Point(0, -1, -1), Point(1, 1, 1));
+  const auto inside = where(mesh, [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    return std::all_of(v.begin(), v.end(), [&](VertexHandle w) { return mesh.point(w).x() >= 0; });
+  });
+  REQUIRE(inside.size() > 50);
+  CHECK(selected(mesh, {.below = Selection::kAll, .box = box}) == inside);
+}
+
+TEST_CASE("tets are selected by a property and by a quality measure") {
+  TetMesh mesh = ball();
+  const auto heat = mesh.tet_properties().add<double>("heat", 1.0);
+  const TetHandle hot = *live_tets(mesh).begin();
+  mesh.tet_properties().at(heat, hot) = 5;
+  const ValueRange above{.name = "heat", .low = 4};
+  CHECK(selected(mesh, {.below = Selection::kAll, .value = above}) == std::set<TetHandle>{hot});
+  const ValueRange sharp{.name = "min_angle", .high = 20};
+  const auto expected = where(mesh, [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    return minimum_dihedral_angle(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]),
+                                  mesh.point(v[3])) <= 20;
+  });
+  REQUIRE(expected.size() > 10);
+  CHECK(selected(mesh, {.below = Selection::kAll, .value = sharp}) == expected);
+  const ValueRange unknown{.name = "taste"};
+  CHECK_THROWS_AS(selected(mesh, {.value = unknown}), Error);
+}
+
+TEST_CASE("conditions hold together, and the worst are chosen among those that meet them") {
+  TetMesh mesh = ball();
+  const auto left_and_bad = where(
+      mesh, [&](TetHandle t) { return mesh.label(t) == 1 && mesh.quality(t) < kBadThreshold; });
+  CHECK(selected(mesh, {.labels = {1}}) == left_and_bad);
+  CHECK(selected(mesh, {.worst = 5, .labels = {1}}) == worst(mesh, left_and_bad, 5));
+}
+
+TEST_CASE("descriptions differ where selections differ") {
+  const std::vector<Selection> all = {{},
+                                      {.below = 0.4f},
+                                      {.at_least = 3},
+                                      {.worst = 3},
+                                      {.share = 0.5},
+                                      {.labels = {3}},
+                                      {.box = Eigen::AlignedBox3d(Point(0, 0, 0), Point(1, 1, 1))},
+                                      {.value = ValueRange{.name = "heat"}}};
+  std::set<std::string> texts;
+  for (const Selection& selection : all) texts.insert(selection.describe());
+  CHECK(texts.size() == all.size());
+  CHECK(Selection().describe() == Selection{.below = kBadThreshold}.describe());
+}
+
+TEST_CASE("vertices of selected tets are queued once, and fixed ones never") {
+  TetMesh mesh = ball();
+  Registry registry;
+  Run run(mesh, registry);
+  PassScope scope(run, "test");
+  for (const Selection& selection :
+       {Selection{}, Selection{.worst = 9}, Selection{.labels = {2}}}) {
+    std::set<VertexHandle> expected;
+    for (const TetHandle t : selected(mesh, selection)) {
+      for (const VertexHandle v : mesh.vertices(t)) {
+        if (!mesh.is_fixed(v)) expected.insert(v);
+      }
+    }
+    const auto queued = queue_vertices(scope, mesh, selection, 0);
+    std::set<VertexHandle> vertices;
+    for (const QueuedVertex& entry : queued) vertices.insert(entry.vertex);
+    CHECK(vertices == expected);
+    CHECK(queued.size() == expected.size());
+  }
+}
