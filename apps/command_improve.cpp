@@ -90,8 +90,8 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
   return mesh;
 }
 
-void run_schedule(const ChosenSchedule& chosen, double time_limit, TetMesh& mesh,
-                  const Registry& registry, ProgressLine& progress, ImproveReport& report) {
+void run_schedule(const ChosenSchedule& chosen, double time_limit, const Registry& registry,
+                  TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
   const Interruption interruption;
   Run run(mesh, registry);
   run.set_listener(&progress);
@@ -151,8 +151,8 @@ std::size_t peak_memory() {
 
 int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
-  const ChosenSchedule chosen = choose_schedule(options.schedule);
   const Registry registry = load_operators(options.plugins);
+  const ChosenSchedule chosen = choose_schedule(options.schedule);
   const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
@@ -168,7 +168,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
     progress.show("measuring");
     report.before = measure(mesh);
   }
-  run_schedule(chosen, options.schedule.time_limit, mesh, registry, progress, report);
+  run_schedule(chosen, options.schedule.time_limit, registry, mesh, progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/plugins.h"
 #include "schedule/reference.h"
 #include "schedule/schedule.h"
 
@@ -15,12 +16,14 @@ namespace {
 
 struct Options {
   std::string name;
+  std::vector<std::filesystem::path> plugins;
   bool source = false;
   bool words = false;
   bool markdown = false;
 };
 
 int run_schedules(const Options& options) {
+  load_operators(options.plugins);  // one that cannot be loaded is found here, too
   if (options.markdown) {
     fmt::print("{}", format_reference());
     return 0;
@@ -53,6 +56,7 @@ void add_schedules(CLI::App& app, Invocation& invocation) {
       app.add_subcommand("schedules", "List the schedules that 'improve --schedule' knows");
   command->add_option("NAME", options->name, "Only this one, or a .lua file, with its parameters")
       ->type_name("");
+  add_plugin_option(*command, options->plugins);
   command->add_flag("--source", options->source, "Print its script, to start from");
   command->add_flag("--words", options->words, "Explain the words of the language");
   command->add_flag("--markdown", options->markdown, "All of it as in docs/schedules.md");

@@ -18,7 +18,8 @@ struct Ground {
   TetMesh mesh;
 };
 
-/// The zoo, a mesh with constraints of all kinds, and one with free slots between the live ones.
+/// The zoo, a mesh with constraints of all kinds, one with frozen tets, and one with free slots
+/// between the live ones.
 std::vector<Ground> grounds();
 
 /// With the default parameters.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
 
@@ -100,14 +101,47 @@ TEST_CASE("a plugin that cannot be loaded stops each command before it works") {
   CHECK(folder.entries() == 0);
 }
 
-TEST_CASE("a mesh is improved with a plugin loaded") {
+TEST_CASE("a schedule uses a plugin's operator by its name") {
   const TempFolder folder;
   const std::string mesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
-  const Outcome outcome = run_program({"improve", "--plugin", plugin_file("sound"), mesh, "-o",
-                                       (folder / "out.mesh").string(), "--quiet"});
+  const std::string script = (folder / "mine.lua").string();
+  const std::string report = (folder / "report.json").string();
+  write_text(script, "apply({\"odt_smoothing\", halvings = 4}, {on = {below = 0.6}})\n");
+  const Outcome outcome = run_program({"improve", "--plugin", plugin_file("odt_smoothing"), mesh,
+                                       "-o", (folder / "out.mesh").string(), "--schedule", script,
+                                       "--report", report, "--quiet"});
   CHECK(outcome.err.empty());
-  CHECK(outcome.status == 0);
-  CHECK(folder.entries() == 1);
+  REQUIRE(outcome.status == 0);
+  const auto passes = nlohmann::json::parse(read_text(report))["passes"];
+  REQUIRE(passes.size() == 1);
+  CHECK(passes[0]["accepted"] > 0);
+  // Without the plugin there is no such operator.
+  const Outcome without =
+      run_program({"improve", mesh, "-o", (folder / "other.mesh").string(), "--schedule", script});
+  check_complaint(without, 1);
+  CHECK(contains(without.err, "unknown operator 'odt_smoothing'"));
+}
+
+TEST_CASE("an operator that throws ends the program with its name, and no output is touched") {
+  const TempFolder folder;
+  const std::string mesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/bracket.meshb";
+  const std::string script = (folder / "mine.lua").string();
+  const std::string out = (folder / "out.mesh").string();
+  const std::string plugin = plugin_file("throwing");
+  for (const std::string threads : {"1", "3"}) {
+    for (const std::string name : {"throws_in_evaluate", "throws_in_apply", "throws_when_made"}) {
+      CAPTURE(name);
+      write_text(out, "dear to me");
+      write_text(script, "local_reconnection{}\napply(\"" + name + "\")\n");
+      const Outcome outcome = run_program({"improve", mesh, "-o", out, "--plugin", plugin,
+                                           "--schedule", script, "--threads", threads});
+      check_complaint(outcome, 1);
+      CHECK(outcome.out.empty());
+      CHECK(contains(outcome.err, "operator '" + name + "' of " + plugin));
+      CHECK(read_text(out) == "dear to me");
+      CHECK(folder.entries() == 2);
+    }
+  }
 }
 
 TEST_CASE("check-plugin has a line for each mesh, also the user's, and status 0 for a sound one") {

@@ -8,7 +8,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "ops/plugin.h"
-#include "schedule/shell_schedule.h"
+#include "schedule/schedule.h"
 
 int main(int argc, char** argv) try {
   if (argc != 4) return 2;
