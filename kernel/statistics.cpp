@@ -313,15 +313,14 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
   };
   const auto parts = map_chunks<Partial>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
     Partial part;
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      const TetHandle t(static_cast<std::uint32_t>(slot));
+    mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
       const Quality q = mesh.quality(t);
-      if (!(q < kBadThreshold) && !(q < part.worst)) continue;
       part.worst = std::min(part.worst, q);
-      if (q < kBadThreshold) {
-        ++part.n_bad;
-        part.bad.add(static_cast<double>(q));
-      }
+      ++part.n_bad;
+      part.bad.add(static_cast<double>(q));
+    });
+    for (std::size_t t = begin; t < end && part.n_bad == 0; ++t) {
+      part.worst = std::min(part.worst, mesh.quality(TetHandle(static_cast<std::uint32_t>(t))));
     }
     return part;
   });

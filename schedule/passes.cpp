@@ -58,14 +58,14 @@ bool changed_around(const TetMesh& mesh, const std::array<VertexHandle, N>& vert
 /// The worst of the bad tets.
 std::vector<BadTet> collect_bad_tets(PassScope& scope, const TetMesh& mesh, Quality threshold,
                                      Worst worst, Date since) {
-  auto tets =
-      collect<BadTet>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadTet>& out) {
-        const TetHandle t(i);
-        if (mesh.quality(t) >= threshold) return;  // deleted ones as well
-        if (changed_since(mesh, mesh.vertices(t), since)) {
-          out.push_back({mesh.quality(t), t, mesh.vertices(t)});
-        }
-      });
+  auto tets = collect<BadTet>(scope, mesh.tet_slots(),
+                              [&](std::size_t begin, std::size_t end, std::vector<BadTet>& out) {
+                                mesh.visit_below(threshold, begin, end, [&](TetHandle t) {
+                                  if (changed_since(mesh, mesh.vertices(t), since)) {
+                                    out.push_back({mesh.quality(t), t, mesh.vertices(t)});
+                                  }
+                                });
+                              });
   if (worst.below >= threshold || tets.size() <= worst.at_least) return tets;
   const auto least = tets.begin() + static_cast<std::ptrdiff_t>(worst.at_least);
   std::nth_element(tets.begin(), least, tets.end());
@@ -78,13 +78,13 @@ std::vector<BadTet> collect_bad_tets(PassScope& scope, const TetMesh& mesh, Qual
 /// Movable vertices of bad tets around which something changed, in slot order.
 std::vector<BadPoint> collect_bad_points(PassScope& scope, const TetMesh& mesh, Quality threshold,
                                          Date since) {
-  auto points =
-      collect<BadPoint>(scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<BadPoint>& out) {
-        const TetHandle t(i);
-        if (mesh.quality(t) >= threshold) return;  // deleted ones as well
-        for (const VertexHandle v : mesh.vertices(t)) {
-          if (!mesh.is_fixed(v) && mesh.changed(v) >= since) out.push_back({v});
-        }
+  auto points = collect<BadPoint>(
+      scope, mesh.tet_slots(), [&](std::size_t begin, std::size_t end, std::vector<BadPoint>& out) {
+        mesh.visit_below(threshold, begin, end, [&](TetHandle t) {
+          for (const VertexHandle v : mesh.vertices(t)) {
+            if (!mesh.is_fixed(v) && mesh.changed(v) >= since) out.push_back({v});
+          }
+        });
       });
   const PassScope::Scan timed(scope);
   tbb::parallel_sort(points.begin(), points.end());

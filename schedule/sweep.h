@@ -131,14 +131,14 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
   run.note_added_vertices(run.worker());
 }
 
-/// Calls take(i, out) for every i below `size`; what it appends to `out` comes back in the order of
-/// i.
+/// Calls take(begin, end, out) for the chunks of 0..size; what it appends to `out` comes back in
+/// the order of the chunks.
 template <class Item, class Take>
 std::vector<Item> collect(PassScope& scope, std::size_t size, const Take& take) {
   const PassScope::Scan timed(scope);
   auto parts = map_chunks<std::vector<Item>>(size, [&](std::size_t begin, std::size_t end) {
     std::vector<Item> part;
-    for (std::size_t i = begin; i < end; ++i) take(static_cast<std::uint32_t>(i), part);
+    take(begin, end, part);
     return part;
   });
   std::vector<std::size_t> place = {0};
