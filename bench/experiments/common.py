@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the experiments share: runs of tetmend judged by bench/measure, and their results on disk."""
+"""What the experiments share: runs of tetmend, judged by bench/measure, and files of results."""
 
 import argparse
 import datetime
