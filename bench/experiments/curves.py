@@ -6,7 +6,7 @@ import math
 import charts
 
 COLOURS = ["#1f5fa8", "#2b8a3e", "#c2410c", "#7c3aed"]
-LEFT, TOP, WIDTH, HEIGHT, LEGEND = 80, 50, 560, 340, 190
+LEFT, TOP, WIDTH, HEIGHT, LEGEND = 110, 50, 560, 340, 190
 
 Curve = list[tuple[float, float]]
 
