@@ -226,7 +226,8 @@ def named_mesh(name: str) -> Path:
     """A file, or one of the default meshes by its name."""
     if Path(name).exists():
         return Path(name).resolve()
-    candidates = [own_mesh(), *SHARED.glob(f"{name}.mesh"), *SHARED.glob(f"{name}.mesh.xz")]
+    own = (ROOT / "assets" / "meshes").glob("*.mesh*")
+    candidates = [*own, *SHARED.glob(f"{name}.mesh"), *SHARED.glob(f"{name}.mesh.xz")]
     for mesh in candidates:
         if name in (mesh.name, mesh.name.split(".")[0]):
             return unpacked(mesh) if mesh.suffix == ".xz" else mesh
