@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import compare  # noqa: E402
 import report  # noqa: E402
 
-SCHEDULES = ["grummp", "stellar", "shell"]  # of Tables 3 and Figure 12
+SCHEDULES = ["grummp", "stellar", "shell"]  # of Table 3 and Figure 12
 TITLES = {"grummp": "Grummp's schedule", "stellar": "Stellar's schedule", "shell": "Algorithm 6"}
 
 
@@ -53,6 +53,8 @@ def improve(mesh: Path, options: argparse.Namespace, *arguments: str) -> dict:
                "--quiet", "--report", str(told), "--time-limit", f"{options.time_limit:g}"]
     subprocess.run([*command, *arguments], check=True)
     measured = compare.program_json("measure", str(mesh), str(result))
+    if not measured["surface"]["surface"] == "identical":
+        sys.exit(f"{mesh}: {' '.join(arguments)}: the surface changed")
     measured["seconds"] = json.loads(told.read_text())["seconds"]["improving"]
     measured["over_limit"] = measured["seconds"] >= options.time_limit
     result.unlink()

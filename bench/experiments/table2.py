@@ -2,11 +2,9 @@
 """One reconnection pass over the bad tets with each scheme [chen, Table 2]."""
 
 import common
+import compare
 import paper
 import report
-
-SCHEMES = {"grummp": "2-3 flip + edge removal", "stellar": "edge removal + multi-face",
-           "shell_flat": "shell transformation, l_max 0", "shell": "shell transformation, l_max 5"}
 
 
 def main() -> None:
@@ -15,12 +13,12 @@ def main() -> None:
     results = []
     for mesh in common.meshes(options):
         rows = {scheme: common.improve(mesh, options, "--schedule", "table2", "--set",
-                                       f"scheme={scheme}") for scheme in SCHEMES}
+                                       f"scheme={scheme}") for scheme in compare.SCHEMES}
         before = rows["shell"]["before"]
         table.append([mesh.stem, "input", *common.cells(before, None), "here"])
         for scheme, row in rows.items():
             cells = common.cells(row["after"], row["seconds"])
-            table.append([mesh.stem, SCHEMES[scheme], *cells, "here"])
+            table.append([mesh.stem, compare.SCHEMES[scheme], *cells, "here"])
         results.append({"mesh": mesh.stem, "rows": rows})
     common.save("table2", options, {"meshes": results}, table + report.paper_rows(paper.TABLE_2))
 
