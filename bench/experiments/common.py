@@ -3,6 +3,7 @@
 
 import argparse
 import datetime
+import hashlib
 import json
 import subprocess
 import sys
@@ -44,10 +45,21 @@ def meshes(options: argparse.Namespace) -> list[Path]:
     return own_meshes() + [path for path in shared if path not in own_meshes()]
 
 
+def fingerprint(mesh: Path, options: argparse.Namespace, arguments: tuple[str, ...]) -> str:
+    """Of all that a run depends on."""
+    program = (compare.BUILD / "bin" / "tetmend").read_bytes()
+    parts = [program, mesh.read_bytes(), repr((arguments, options.time_limit)).encode()]
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
+
+
 def improve(mesh: Path, options: argparse.Namespace, *arguments: str) -> dict:
-    """One run: figures of bench/measure before and after, and the seconds of improving."""
+    """One run: figures of bench/measure before and after, and the seconds of improving. A run that
+    is there already is not made again: the experiments share some."""
     folder = options.output / "runs"
     folder.mkdir(exist_ok=True)
+    kept = folder / f"{fingerprint(mesh, options, arguments)[:16]}.json"
+    if kept.exists():
+        return json.loads(kept.read_text())
     result, told = folder / "result.meshb", folder / "report.json"
     command = [str(compare.BUILD / "bin" / "tetmend"), "improve", str(mesh), "-o", str(result),
                "--quiet", "--report", str(told), "--time-limit", f"{options.time_limit:g}"]
@@ -59,6 +71,7 @@ def improve(mesh: Path, options: argparse.Namespace, *arguments: str) -> dict:
     measured["over_limit"] = measured["seconds"] >= options.time_limit
     result.unlink()
     told.unlink()
+    kept.write_text(json.dumps(measured))
     compare.progress(f"{mesh.stem}: {' '.join(arguments)}: {measured['seconds']:.2f} s")
     return measured
 
