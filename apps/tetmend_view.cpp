@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/output_file.h"
 #include "viewer/script.h"
 #include "viewer/ui/headless.h"
+#include "viewer/ui/window.h"
 
 namespace tetmend::apps {
 namespace {
@@ -26,6 +28,9 @@ struct Options {
   std::string script;
   std::string size;
   std::string view;
+  std::string report;
+  float scale = 0;
+  bool panels = false;
   bool keys = false;
 };
 
@@ -47,6 +52,13 @@ void prepare(const Options& options, Document& document) {
   if (!options.view.empty()) apply_json_text(document.view, options.view);
 }
 
+void write_report(const std::string& file, Document& document) {
+  OutputFile out(file);
+  out.put(state_of(document).dump(2));
+  out.put('\n');
+  out.commit();
+}
+
 int run(const Options& options) {
   if (options.keys) {
     fmt::print("{}", command_reference());
@@ -54,10 +66,16 @@ int run(const Options& options) {
   }
   Document document;
   prepare(options, document);
-  const auto host = make_headless_host();
-  Session session{document, *host};
-  if (!options.script.empty()) run_script_file(session, options.script);
-  if (!options.picture.empty()) write_png(options.picture, host->render(document));
+  if (options.script.empty() && options.picture.empty()) {
+    run_window(document, options.scale);
+  } else {
+    document.show_panels = options.panels;
+    const auto host = make_headless_host(options.scale > 0 ? options.scale : 1);
+    Session session{document, *host};
+    if (!options.script.empty()) run_script_file(session, options.script);
+    if (!options.picture.empty()) write_png(options.picture, host->render(document));
+  }
+  if (!options.report.empty()) write_report(options.report, document);
   return kSuccess;
 }
 
@@ -80,6 +98,10 @@ int main(int argc, char** argv) {
   app.add_option("--script", options.script, "Run a Lua script and exit; needs no display");
   app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT");
   app.add_option("--view", options.view, "Settings of the view as JSON: what Ctrl+C copies");
+  app.add_option("--scale", options.scale, "Size of text and panels; 1 is usual, 2 for 4K")
+      ->check(CLI::Range(0.5, 4.0));
+  app.add_option("--report", options.report, "Write the last state as JSON on leaving");
+  app.add_flag("--panels", options.panels, "Draw the panels into pictures, too");
   app.add_flag("--keys", options.keys, "Print all keys and script words");
   try {
     app.parse(argc, argv);

@@ -8,7 +8,8 @@
 
 namespace tetmend::viewer {
 
-/// Draws into memory; the clipboard is a string. Needs no display.
-std::unique_ptr<Host> make_headless_host();
+/// Draws into memory; the clipboard is a string. Needs no display. `scale` is that of the panels,
+/// which are drawn when the document shows them. There can be one at a time.
+std::unique_ptr<Host> make_headless_host(float scale);
 
 }  // namespace tetmend::viewer
