@@ -72,6 +72,8 @@ int run(const Options& options) {
     document.show_panels = options.panels;
     const auto host = make_headless_host(options.scale > 0 ? options.scale : 1);
     Session session{document, *host};
+    host->arrange(document);
+    if (document.has_mesh() && options.view.empty()) document.go_home();
     if (!options.script.empty()) run_script_file(session, options.script);
     if (!options.picture.empty()) write_png(options.picture, host->render(document));
   }

@@ -17,6 +17,8 @@ namespace tetmend::viewer {
 class Host {
  public:
   virtual ~Host() = default;
+  /// Gives the mesh the part of the document's window that is left for it.
+  virtual void arrange(Document& document) = 0;
   /// The picture of the document as it is now, in the size of its window.
   virtual Image render(Document& document) = 0;
   virtual void set_clipboard(const std::string& text) = 0;

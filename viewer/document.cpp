@@ -21,9 +21,6 @@ TetMesh read_tet_mesh(const std::filesystem::path& file) {
   } catch (const BuildError& error) {
     throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
   }
-  if (mesh.tet_count() == 0) {
-    throw Error(fmt::format("{}: there are no tets in this file", file.string()));
-  }
   return mesh;
 }
 

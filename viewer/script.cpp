@@ -69,6 +69,7 @@ int call(const Command& command, Session& session, lua_State* lua) {
   json arguments = json::array();
   const int count = lua_gettop(lua);
   for (int i = 1; i <= count; ++i) arguments.push_back(to_json(read_value(lua, i)));
+  session.host.arrange(session.document);  // places below are those of the next picture
   const json result = command.run(session, arguments);
   if (session.document.quit) throw ScriptStop();
   push(lua, result);

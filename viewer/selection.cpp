@@ -63,7 +63,7 @@ class Painter {
   void paint(TetHandle t) {
     const TetVertices& v = mesh_.vertices(t);
     Colour colour = kSelectionColour;
-    colour.alpha = 110;
+    colour.alpha = 50;  // red stays red
     for (const auto& f : kFaceVertices) face(v[f[0]], v[f[1]], v[f[2]], colour);
     for (const auto& e : kEdgeVertices) line(v[e[0]], v[e[1]], kSelectionColour, 3);
   }

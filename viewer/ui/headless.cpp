@@ -15,7 +15,13 @@ class HeadlessHost : public Host {
  public:
   explicit HeadlessHost(float scale) : scale_(scale) {}
 
+  void arrange(Document& document) override {
+    if (document.show_panels || document.show_keys) prepare_interface();
+    if (interface_) interface_->arrange(document);
+  }
+
   Image render(Document& document) override {
+    arrange(document);
     const gl::OffscreenPicture picture(document.window);
     const bool has_interface = document.show_panels || document.show_keys;
     if (has_interface) build_interface(document);
@@ -27,9 +33,12 @@ class HeadlessHost : public Host {
   std::string clipboard() override { return clipboard_; }
 
  private:
+  void prepare_interface() {
+    if (!interface_) interface_ = std::make_unique<ui::Interface>(scale_);
+  }
+
   void build_interface(Document& document) {
     constexpr int kFrames = 3;  // panels take their sizes from the last frame
-    if (!interface_) interface_ = std::make_unique<ui::Interface>(scale_);
     ImGui::GetIO().DisplaySize = {static_cast<float>(document.window.width),
                                   static_cast<float>(document.window.height)};
     Session session{document, *this};

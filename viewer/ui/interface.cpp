@@ -177,7 +177,7 @@ void Interface::keys_page(Session& session) const {
   ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
-    ImGui::TableSetupColumn("", 0, 0.45F);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45F);
     const auto row = [](std::string_view keys, std::string_view effect) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();

@@ -10,10 +10,11 @@ namespace tetmend::viewer::ui {
 void draw_worst_panel(Session& session) {
   Document& document = session.document;
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  const float height = std::max(ImGui::GetContentRegionAvail().y, 8 * ImGui::GetFontSize());
+  const float height =
+      std::max(ImGui::GetContentRegionAvail().y - ImGui::GetFontSize(), 8 * ImGui::GetFontSize());
   if (!ImGui::BeginTable("##worst", 3, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("", 0, 0.4F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.4F);
   ImGui::TableSetupColumn("tet");
   ImGui::TableSetupColumn(document.view.scene.measure.c_str());
   ImGui::TableHeadersRow();

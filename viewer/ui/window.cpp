@@ -90,6 +90,7 @@ class Window : public Host {
     }
   }
 
+  void arrange(Document& document) override { interface_->arrange(document); }
   Image render(Document&) override {
     frame();
     return gl::read_framebuffer(document_.window);
@@ -121,7 +122,12 @@ class Window : public Host {
   static Window& self(GLFWwindow* window) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
   }
-  static bool panels_take_mouse() { return ImGui::GetIO().WantCaptureMouse; }
+  /// What ImGui wants is known from the last frame only; the mouse may have come here since.
+  bool panels_take_mouse() const {
+    const glm::dvec2 at = document_.to_canvas(mouse().x, mouse().y);
+    return ImGui::GetIO().WantCaptureMouse || at.x < 0 || at.y < 0 ||
+           at.x >= document_.canvas.width || at.y >= document_.canvas.height;
+  }
   static bool panels_take_keys() { return ImGui::GetIO().WantTextInput; }
 
   glm::dvec2 mouse() const {
@@ -176,7 +182,7 @@ class Window : public Host {
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
       const glm::dvec2 at = self(w).mouse();
-      if (!panels_take_mouse()) self(w).controller_.scroll(steps, at.x, at.y);
+      if (!self(w).panels_take_mouse()) self(w).controller_.scroll(steps, at.x, at.y);
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int code, int action, int mods) {
       self(w).on_key(key, code, action, mods);
