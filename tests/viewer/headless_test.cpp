@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/formats/mesh_io.h"
 #include "tests/apps/program.h"
@@ -25,7 +26,7 @@ Outcome run_script(const TempFolder& folder, const std::string& text) {
 }
 
 std::string in_quotes(const std::filesystem::path& file) {
-  return "\"" + file.string() + "\"";
+  return fmt::format("\"{}\"", file.string());
 }
 
 }  // namespace

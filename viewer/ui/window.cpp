@@ -124,24 +124,23 @@ class Window : public Host {
   }
   /// What ImGui wants is known from the last frame only; the mouse may have come here since.
   bool panels_take_mouse() const {
-    const glm::dvec2 at = document_.to_canvas(mouse().x, mouse().y);
+    const glm::dvec2 at = document_.to_canvas(mouse_.x, mouse_.y);
     return ImGui::GetIO().WantCaptureMouse || at.x < 0 || at.y < 0 ||
            at.x >= document_.canvas.width || at.y >= document_.canvas.height;
   }
   static bool panels_take_keys() { return ImGui::GetIO().WantTextInput; }
 
-  glm::dvec2 mouse() const {
-    glm::dvec2 at(0);
-    glfwGetCursorPos(window_, &at.x, &at.y);
+  /// Units of the window system to pixels.
+  glm::dvec2 to_pixels(double x, double y) const {
     int width = 1;
     int height = 1;
     glfwGetWindowSize(window_, &width, &height);
-    return at * glm::dvec2(document_.window.width, document_.window.height) /
-           glm::dvec2(std::max(width, 1), std::max(height, 1));
+    return {x * document_.window.width / std::max(width, 1),
+            y * document_.window.height / std::max(height, 1)};
   }
 
   void on_button(int button, int action, int mods) {
-    const glm::dvec2 at = mouse();
+    const glm::dvec2 at = mouse_;
     if (action == GLFW_RELEASE) {
       controller_.release(at.x, at.y, glfwGetTime());
     } else if (!panels_take_mouse()) {
@@ -176,12 +175,12 @@ class Window : public Host {
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
       self(w).on_button(button, action, mods);
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) {
-      const glm::dvec2 at = self(w).mouse();
-      self(w).controller_.move(at.x, at.y);
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+      self(w).mouse_ = self(w).to_pixels(x, y);
+      self(w).controller_.move(self(w).mouse_.x, self(w).mouse_.y);
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
-      const glm::dvec2 at = self(w).mouse();
+      const glm::dvec2 at = self(w).mouse_;
       if (!self(w).panels_take_mouse()) self(w).controller_.scroll(steps, at.x, at.y);
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int code, int action, int mods) {
@@ -196,6 +195,7 @@ class Window : public Host {
   Document& document_;
   Session session_;
   Controller controller_;
+  glm::dvec2 mouse_{0};  // where it was at the event at hand; GLFW tells only where it is now
   bool fit_first_ = false;
   GLFWwindow* window_ = nullptr;
   std::unique_ptr<gl::Renderer> renderer_;
