@@ -101,6 +101,10 @@ void Renderer::draw_once_per_pixel(const Buffer& buffer, float opacity, float ed
 void Renderer::draw(Document& document) {
   upload(document);
   const Canvas& canvas = document.canvas;
+  const Look look = look_of(document.view.theme);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(look.high.x, look.high.y, look.high.z, 1);  // under the panels
+  glClear(GL_COLOR_BUFFER_BIT);
   // OpenGL counts rows from below.
   const int bottom = document.window.height - document.canvas_corner.y - canvas.height;
   glViewport(document.canvas_corner.x, bottom, canvas.width, canvas.height);
@@ -113,7 +117,6 @@ void Renderer::draw(Document& document) {
   glClear(GL_DEPTH_BUFFER_BIT);
   draw_background(document);
 
-  const Look look = look_of(document.view.theme);
   const glm::mat4 view(document.view.camera.view(document.ball().centre));
   const glm::mat4 projection(document.view.camera.projection(canvas, document.ball()));
   surface_.use();

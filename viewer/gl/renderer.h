@@ -12,7 +12,7 @@ class Renderer {
  public:
   Renderer();
 
-  /// Fills the canvas of the document, inside its window. Uploads what has changed since the last
+  /// Fills the canvas of the document, and clears the rest of its window. Uploads what has changed since the last
   /// call. Leaves blending and depth test off.
   void draw(Document& document);
 

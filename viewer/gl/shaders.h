@@ -66,7 +66,7 @@ void main() {
   vec3 cover = 1.0 - smoothstep(step_ * (line_width - 0.5), step_ * (line_width + 0.5), corner);
   cover *= vec3((drawn & 1u) != 0u, (drawn & 2u) != 0u, (drawn & 4u) != 0u);
   float largest = max(step_.x, max(step_.y, step_.z));
-  float fade = 1.0 - smoothstep(0.05, 0.4, largest);
+  float fade = 1.0 - smoothstep(0.04, 0.32, largest);
   float line = edges * fade * max(cover.x, max(cover.y, cover.z));
   colour = vec4(mix(lit, edge_tint, line), opacity * face_tint.a);
 }
