@@ -43,7 +43,7 @@ struct Scene {
 };
 
 /// More bad tets than this are not seen through the rest; the worst are taken.
-inline constexpr std::size_t kMostBadTets = 40000;
+inline constexpr std::size_t kMostBadTets = 20000;
 /// With more tets shown than this, only those next to what is seen are shrunk and drawn.
 inline constexpr std::size_t kMostShrunkTets = 60000;
 

@@ -132,7 +132,6 @@ void Renderer::draw(Document& document) {
   glEnable(GL_BLEND);
   glEnable(GL_CULL_FACE);
   draw_surface(ghost_vertices_, 1, document.view.edges ? 0.5F : 0.0F);
-  glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
 
@@ -140,6 +139,7 @@ void Renderer::draw(Document& document) {
   // Over the colours of a measure red must stay faint.
   const bool is_plain = document.view.scene.colour == "region";
   draw_once_per_pixel(through_vertices_, is_plain ? 1.0F : 0.4F, 0.25F);
+  glDisable(GL_CULL_FACE);
 
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
