@@ -59,7 +59,9 @@ TEST_CASE("scripts with mistakes end with status 1, name line and word, and touc
   Bench bench;
   const std::string input = read_text(kSheet);
   write_text(bench.out, "earlier output\n");
-  for (const auto& [script, message] : scripts) {
+  for (const auto& entry : scripts) {
+    const auto& script = entry.first;
+    const auto& message = entry.second;
     CAPTURE(script);
     const Outcome outcome = bench.improve(script);
     CHECK(outcome.status == 1);

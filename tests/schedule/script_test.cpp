@@ -188,7 +188,9 @@ TEST_CASE(
       {"smoth{}", "unknown name 'smoth'; valid: all_of, apply"},
       {"io.open('/etc/passwd')", "unknown name 'io'"},
   };
-  for (const auto& [script, message] : cases) {
+  for (const auto& entry : cases) {
+    const auto& script = entry.first;
+    const auto& message = entry.second;
     CAPTURE(script);
     std::string second_line = "\n";
     second_line += script;
