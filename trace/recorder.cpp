@@ -74,8 +74,8 @@ TraceRecorder::~TraceRecorder() {
 }
 
 std::uint64_t TraceRecorder::ticks() const {
-  const std::chrono::duration<double> now = std::chrono::steady_clock::now() - start_;
-  return static_cast<std::uint64_t>(now.count() / EventEncoder::kTick);
+  const std::chrono::nanoseconds now = std::chrono::steady_clock::now() - start_;
+  return static_cast<std::uint64_t>(now.count()) / EventEncoder::kTickNanoseconds;
 }
 
 void TraceRecorder::write_frame(char kind, std::span<const std::byte> content) {

@@ -22,9 +22,10 @@ void EventEncoder::put_time(std::uint64_t ticks) {
 
 /// The number of the name in this chunk; a new one is followed by its text.
 void EventEncoder::put_name(std::string_view name) {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  out_.put(static_cast<std::uint64_t>(found - names_.begin()));
-  if (found != names_.end()) return;
+  std::size_t number = 0;
+  while (number < names_.size() && names_[number] != name) ++number;
+  out_.put(number);
+  if (number < names_.size()) return;
   names_.emplace_back(name);
   out_.put_text(name);
 }
@@ -157,7 +158,7 @@ void EventDecoder::begin(std::span<const std::byte> content, std::vector<std::st
 
 void EventDecoder::get_time(TraceEvent& event) {
   ticks_ += in_.get();
-  event.seconds = static_cast<double>(ticks_) * EventEncoder::kTick;
+  event.seconds = static_cast<double>(ticks_ * EventEncoder::kTickNanoseconds) * 1e-9;
 }
 
 std::uint32_t EventDecoder::get_name() {

@@ -68,8 +68,8 @@ class EventEncoder {
   /// Takes back what was written beyond `size`; may be done for edits only.
   void cut(std::size_t size) { out_.cut(size); }
 
-  // `ticks` is the time since the trace began in units of kTick.
-  static constexpr double kTick = 64e-9;
+  // `ticks` is the time since the trace began in units of 64 nanoseconds.
+  static constexpr unsigned kTickNanoseconds = 64;
   void pass_begins(std::string_view name, unsigned round, std::uint64_t ticks);
   void pass_ends(const QualityIndicators& now, std::uint64_t ticks);
   void visit_begins(const TetVertices& tet, Quality quality, std::uint64_t ticks);
