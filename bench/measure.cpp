@@ -81,12 +81,17 @@ class Statistics {
       bands.push_back(percent * static_cast<double>(band));
       extreme += band;
     }
+    Json angle_percent = Json::array();
+    for (const std::size_t bin : bins_) {
+      angle_percent.push_back(percent * static_cast<double>(bin));
+    }
     return {{"tets", tets_},
             {"points", points_},
             {"theta_min", theta_min_},
             {"theta_max", theta_max_},
             {"lambda", percent * static_cast<double>(extreme)},
             {"lambda_bands", bands},
+            {"angle_percent", angle_percent},
             {"n_bad", bad_},
             {"worst_sine", worst_sine_},
             {"inverted", inverted_},
@@ -120,6 +125,7 @@ class Statistics {
   void count(double degrees) {
     theta_min_ = std::min(theta_min_, degrees);
     theta_max_ = std::max(theta_max_, degrees);
+    ++bins_[std::min<std::size_t>(59, static_cast<std::size_t>(degrees / 3))];
     const double distance = std::min(degrees, 180 - degrees);
     // Bands of 6 degrees; 30 itself belongs to the last.
     if (distance <= 30) ++bands_[std::min<std::size_t>(4, static_cast<std::size_t>(distance / 6))];
@@ -139,6 +145,7 @@ class Statistics {
   std::size_t inverted_ = 0;
   std::size_t flat_ = 0;
   std::array<std::size_t, 5> bands_{};  // angles outside 30 to 150 degrees, worst first
+  std::array<std::size_t, 60> bins_{};  // all angles, 3 degrees each
   double theta_min_ = 180;
   double theta_max_ = 0;
   double worst_sine_ = std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hilbert keys by the Gray-code walk: axes are turned and reflected bit by bit, then interleaved.
+// Hilbert keys by the Gray-code walk, with a table of the ways in which axes are turned and
+// reflected from level to level.
 #include "kernel/hilbert.h"
 
 #include <algorithm>
@@ -16,14 +17,64 @@ namespace {
 
 constexpr int kBits = 21;
 
-/// Two zero bits after each of the 21 bits.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x001F00000000FFFFull;
-  x = (x | x << 16) & 0x001F0000FF0000FFull;
-  x = (x | x << 8) & 0x100F00F00F00F00Full;
-  x = (x | x << 4) & 0x10C30C30C30C30C3ull;
-  return (x | x << 2) & 0x1249249249249249ull;
+/// One step along the curve: the bits of the three axes at one level, most significant first, give
+/// one digit of the key and the way in which the axes are turned and reflected below.
+struct Step {
+  std::uint8_t digit;
+  std::uint8_t next;
+};
+
+/// How the axes are turned and reflected: axis[i] of a point stands where axis i should, with its
+/// bits inverted if flip[i]; `odd` inverts the digits.
+struct Turn {
+  std::array<std::uint8_t, 3> axis = {0, 1, 2};
+  std::array<bool, 3> flip = {};
+  bool odd = false;
+  friend constexpr bool operator==(const Turn&, const Turn&) = default;
+};
+
+/// The Gray-code walk of one level; `bits` holds those of axis i at bit i.
+constexpr unsigned walk(Turn& turn, unsigned bits) {
+  std::array<bool, 3> x{};
+  for (std::size_t i = 0; i < 3; ++i) x[i] = ((bits >> turn.axis[i] & 1u) != 0) != turn.flip[i];
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (x[i]) {
+      turn.flip[0] = !turn.flip[0];
+    } else {
+      const Turn before = turn;
+      turn.axis[0] = before.axis[i];
+      turn.axis[i] = before.axis[0];
+      turn.flip[0] = before.flip[i];
+      turn.flip[i] = before.flip[0];
+    }
+  }
+  const bool second = x[1] != x[0];
+  const bool third = x[2] != second;
+  const bool odd = turn.odd;
+  turn.odd = odd != third;
+  return (x[0] != odd ? 4u : 0u) | (second != odd ? 2u : 0u) | (third != odd ? 1u : 0u);
 }
+
+constexpr std::size_t kTurns = 96;
+using Steps = std::array<std::array<Step, 8>, kTurns>;
+
+/// All turns that can follow each other, from the first on, in the order in which they are met.
+constexpr Steps kSteps = [] {
+  std::array<Turn, kTurns> turns{};
+  std::size_t known = 1;
+  Steps steps{};
+  for (std::size_t n = 0; n < known; ++n) {
+    for (unsigned bits = 0; bits < 8; ++bits) {
+      Turn turn = turns[n];
+      steps[n][bits].digit = static_cast<std::uint8_t>(walk(turn, bits));
+      std::size_t next = 0;
+      while (next < known && !(turns[next] == turn)) ++next;
+      if (next == known) turns[known++] = turn;
+      steps[n][bits].next = static_cast<std::uint8_t>(next);
+    }
+  }
+  return steps;
+}();
 
 }  // namespace
 
@@ -54,21 +105,16 @@ std::uint64_t HilbertCurve::key(const Point& p) const {
     const double cell = std::clamp((p[i] - origin_[i]) * scale_, 0.0, double((1 << kBits) - 1));
     x[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell);
   }
-  // Without branches: which way they go is as good as random.
-  for (std::uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
-    const std::uint32_t lower = q - 1;
-    for (std::uint32_t& axis : x) {
-      const std::uint32_t turn = (axis & q) != 0 ? lower : 0;
-      const std::uint32_t exchange = (x[0] ^ axis) & lower & ~turn;
-      x[0] ^= turn | exchange;
-      axis ^= exchange;
-    }
+  std::uint64_t key = 0;
+  std::size_t turn = 0;
+  for (int level = kBits - 1; level >= 0; --level) {
+    const unsigned bits =
+        (x[0] >> level & 1u) | (x[1] >> level & 1u) << 1 | (x[2] >> level & 1u) << 2;
+    const Step step = kSteps[turn][bits];
+    key = key << 3 | step.digit;
+    turn = step.next;
   }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) t ^= (x[2] & q) != 0 ? q - 1 : 0;
-  return spread(x[0] ^ t) << 2 | spread(x[1] ^ t) << 1 | spread(x[2] ^ t);
+  return key;
 }
 
 void sort_along_curve(std::span<const Point> points, std::vector<std::uint32_t>& numbers) {

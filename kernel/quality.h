@@ -101,6 +101,17 @@ inline double deficit(double quality) {
   return (lack * lack) * (lack * lack);
 }
 
+/// True if the tets lack less in sum. By the order of quality vectors alone, insertions raise the
+/// worst tet a little and leave more bad tets than they found.
+inline bool lowers_deficit(std::span<const Quality> now, std::span<const Quality> before) {
+  const auto total = [](std::span<const Quality> qualities) {
+    double sum = 0;
+    for (const Quality q : qualities) sum += deficit(q);
+    return sum;
+  };
+  return total(now) < total(before);
+}
+
 /// An operator that finds a worst quality below this does not ask what its gain costs the tets
 /// around.
 inline constexpr double kDesperate = 0.2;

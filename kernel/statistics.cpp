@@ -313,15 +313,16 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
   };
   const auto parts = map_chunks<Partial>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
     Partial part;
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      const TetHandle t(static_cast<std::uint32_t>(slot));
+    mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
       const Quality q = mesh.quality(t);
-      if ((!(q < kBadThreshold) && !(q < part.worst)) || mesh.is_frozen(t)) continue;
+      if (mesh.is_frozen(t)) return;
       part.worst = std::min(part.worst, q);
-      if (q < kBadThreshold) {
-        ++part.n_bad;
-        part.bad.add(static_cast<double>(q));
-      }
+      ++part.n_bad;
+      part.bad.add(static_cast<double>(q));
+    });
+    for (std::size_t slot = begin; slot < end && part.n_bad == 0; ++slot) {
+      const TetHandle t(static_cast<std::uint32_t>(slot));
+      if (!mesh.is_frozen(t)) part.worst = std::min(part.worst, mesh.quality(t));
     }
     return part;
   });

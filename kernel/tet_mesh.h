@@ -106,11 +106,26 @@ class TetMesh {
   /// The other side of a face: a half-face of the neighbouring tet, or the outside.
   HalfFace twin(HalfFace f) const { return cells_[f.tet().index()].neighbours[f.face()]; }
   Quality quality(TetHandle t) const { return quality_[t.index()]; }
+  /// Calls visit(t) for the live tets of a range of slots whose quality is below a limit, in order.
+  template <class Visit>
+  void visit_below(Quality limit, std::size_t begin, std::size_t end, const Visit& visit) const {
+    constexpr std::size_t kGroup = 32;  // compared at once; most groups have none
+    while (begin < end) {
+      const std::size_t stop = std::min(end, begin + kGroup);
+      unsigned below = 0;
+      for (std::size_t i = begin; i < stop; ++i) below |= quality_[i] < limit ? 1u : 0u;
+      for (; below != 0 && begin < stop; ++begin) {
+        if (quality_[begin] < limit) visit(TetHandle(static_cast<std::uint32_t>(begin)));
+      }
+      begin = stop;
+    }
+  }
   Label label(TetHandle t) const { return label_[t.index()]; }
   /// Position of v in t; 4 when t does not contain v.
   unsigned local_index(TetHandle t, VertexHandle v) const {
+    // Without branches: which of the four it is cannot be predicted.
     const TetVertices& tv = cells_[t.index()].vertices;
-    return tv[0] == v ? 0u : tv[1] == v ? 1u : tv[2] == v ? 2u : tv[3] == v ? 3u : 4u;
+    return 4u - 4u * (tv[0] == v) - 3u * (tv[1] == v) - 2u * (tv[2] == v) - 1u * (tv[3] == v);
   }
   bool is_boundary(HalfFace f) const { return twin(f).is_outside(); }
   bool is_constrained(HalfFace f) const { return (tet_flags_[f.tet().index()] >> f.face()) & 1u; }

@@ -29,6 +29,29 @@ using Values = BallOptimiser::Values;
 // A vector of the compiler: one register or several, as the processor has them.
 using Vector = double __attribute__((vector_size(sizeof(Values))));
 
+/// Computes what depends on the corners alone.
+TETMEND_WIDE
+void complete_triangles(Lanes* lanes, std::size_t count) {
+  using B = BallOptimiser;
+  for (std::size_t n = 0; n < count; ++n) {
+    auto* ball = reinterpret_cast<Vector*>(&lanes[n]);
+    const Vector ux = ball[B::bx] - ball[B::ax], vx = ball[B::cx] - ball[B::ax];
+    const Vector uy = ball[B::by] - ball[B::ay], vy = ball[B::cy] - ball[B::ay];
+    const Vector uz = ball[B::bz] - ball[B::az], vz = ball[B::cz] - ball[B::az];
+    const Vector wx = ball[B::cx] - ball[B::bx];
+    const Vector wy = ball[B::cy] - ball[B::by];
+    const Vector wz = ball[B::cz] - ball[B::bz];
+    const Vector nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    ball[B::nx] = nx;
+    ball[B::ny] = ny;
+    ball[B::nz] = nz;
+    ball[B::n2] = nx * nx + ny * ny + nz * nz;
+    ball[B::ab2] = ux * ux + uy * uy + uz * uz;
+    ball[B::bc2] = wx * wx + wy * wy + wz * wz;
+    ball[B::ca2] = vx * vx + vy * vy + vz * vz;
+  }
+}
+
 /// Returns the smallest.
 TETMEND_WIDE
 double evaluate_ball(const Lanes* lanes, std::size_t count, double px, double py, double pz,
@@ -82,36 +105,26 @@ void BallOptimiser::add(const Point& a, const Point& b, const Point& c) {
   const std::size_t n = size_ / kLanes;
   const std::size_t k = size_ % kLanes;
   if (n == lanes_.size()) lanes_.emplace_back();
-  const Point normal = (b - a).cross(c - a);
-  const std::array<double, kFields> row = {a.x(),
-                                           a.y(),
-                                           a.z(),
-                                           b.x(),
-                                           b.y(),
-                                           b.z(),
-                                           c.x(),
-                                           c.y(),
-                                           c.z(),
-                                           normal.x(),
-                                           normal.y(),
-                                           normal.z(),
-                                           normal.squaredNorm(),
-                                           (b - a).squaredNorm(),
-                                           (c - b).squaredNorm(),
-                                           (a - c).squaredNorm()};
   auto& of = lanes_[n].of;
-  for (std::size_t f = 0; f < kFields; ++f) {
-    if (k == 0) {
-      of[f].fill(row[f]);
-    } else {
-      of[f][k] = row[f];
+  Field f = ax;
+  for (const Point* p : {&a, &b, &c}) {
+    for (int i = 0; i < 3; ++i) {
+      if (k == 0) {
+        of[f].fill((*p)[i]);
+      } else {
+        of[f][k] = (*p)[i];
+      }
+      f = static_cast<Field>(f + 1);
     }
   }
   ++size_;
+  complete_ = false;
 }
 
 double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares) {
   const std::size_t count = (size_ + kLanes - 1) / kLanes;
+  if (!complete_) complete_triangles(lanes_.data(), count);
+  complete_ = true;
   if (squares.size() < count) squares.resize(lanes_.size());
   return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data());
 }
@@ -152,7 +165,7 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
   if (!(norm2[3] > 0)) return;
   const auto log_gradient = [&](unsigned f) -> Point {  // d log|normal| / dp
     if (f == 3) return Point::Zero();
-    return (to[(f + 1) % 3] - to[(f + 2) % 3]).cross(face[f]) / norm2[f];
+    return (to[(f + 1) % 3] - to[(f + 2) % 3]).cross(face[f]) * (1 / norm2[f]);
   };
 
   const std::array<double, 3> far2 = {value(bc2, i), value(ca2, i), value(ab2, i)};
@@ -168,7 +181,7 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
     if (signed_square * length2 > band_square * product) continue;
     const double scale = std::sqrt(length2 / product);
     Point log_part = -log_gradient(f) - log_gradient(g);
-    if (e < 3) log_part -= to[e] / length2;
+    if (e < 3) log_part -= to[e] * (1 / length2);
     gradients_[count++] = -scale * normal + v6 * scale * log_part;
   }
 }

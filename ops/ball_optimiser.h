@@ -42,7 +42,7 @@ class BallOptimiser {
 
   // Four tets side by side; a lane that is not in use repeats another.
   static constexpr std::size_t kLanes = 4;
-  // Corners, normal of the triangle, squared normal, squared edges.
+  // Corners; from these: normal of the triangle, squared normal, squared edges.
   enum Field { ax, ay, az, bx, by, bz, cx, cy, cz, nx, ny, nz, n2, ab2, bc2, ca2, kFields };
   struct alignas(sizeof(double) * kLanes) Lanes {
     std::array<std::array<double, kLanes>, kFields> of;
@@ -68,6 +68,7 @@ class BallOptimiser {
   }
 
   std::size_t size_ = 0;
+  bool complete_ = false;  // the fields after the corners are computed
   std::vector<Lanes> lanes_;
   // Squares of the qualities with their signs: the root is taken of few.
   std::vector<Values> square_;

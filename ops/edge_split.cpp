@@ -70,7 +70,11 @@ class EdgeSplit final : public Operator {
     if (verdict != Verdict::accepted) return verdict;
     if (relax_) repair(context, transaction, v);
     transaction.compare(scratch.before, scratch.now);
-    return is_worth_it(scratch.before, scratch.now) ? Verdict::accepted : Verdict::no_improvement;
+    // DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
+    // - q)^4 over the bad tets must fall, unless the worst tet is desperate.
+    const bool worth_it =
+        scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+    return worth_it ? Verdict::accepted : Verdict::no_improvement;
   }
 
  private:
@@ -126,19 +130,6 @@ class EdgeSplit final : public Operator {
     const double start = scratch.ball.worst(point);
     if (start >= limits_.enough || scratch.ball.optimise(point, limits_) <= start) return;
     transaction.move_vertex(v, point, scratch.link);
-  }
-
-  /// DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
-  /// - q)^4 over the bad tets must fall, unless the worst tet is desperate. By the order alone,
-  /// splits raise the worst tet a little and leave more bad tets than they found.
-  bool is_worth_it(std::span<const Quality> before, std::span<const Quality> now) const {
-    if (before[0] < desperate_) return true;
-    const auto total = [](std::span<const Quality> qualities) {
-      double sum = 0;
-      for (const Quality q : qualities) sum += deficit(q);
-      return sum;
-    };
-    return total(now) < total(before);
   }
 
   double least_gain_;

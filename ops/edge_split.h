@@ -10,7 +10,7 @@ namespace tetmend {
 /// vertex to where the worst new tet is best
 /// ([chen, 6.3]). With `relax`, the tets around the new vertex are then reconnected and its
 /// neighbours smoothed before the outcome is judged. Refuses boundary and constrained edges, and
-/// splits that pay for a better worst tet with many new bad ones (see is_worth_it in the source),
+/// splits that pay for a better worst tet with many new bad ones,
 /// so that the mesh does not grow for nothing. Cost: the smoothing of one vertex, with `relax` of
 /// about 30 and of their shells.
 const OperatorInfo& edge_split_info();

@@ -28,19 +28,21 @@ class Recursion {
         budget_(budget),
         reflex_only_(reflex_only) {}
 
-  Verdict reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, int level);
+  /// Removes the edge of a searchable shell, which may change on the way.
+  Verdict remove(Shell& shell) { return reduce(State::found, shell, VertexHandle(), 0); }
 
  private:
+  enum class State { gone, reduced, found, blocked };
+  Verdict reduce(State state, Shell& shell, VertexHandle face, int level);
   Verdict reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level);
   Verdict try_transform(const Shell& shell, int level);
   struct Ancestor {
     VertexHandle a;
     VertexHandle b;
   };
-  enum class State { gone, reduced, found, blocked };
 
   State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell);
-  State relocate(VertexHandle a, VertexHandle b, VertexHandle face, Shell& shell);
+  State relocate(VertexHandle face, Shell& shell);
   Verdict transform(const Shell& shell, int level);
   ShellLocks locks(const Shell& shell, int level) const;
   VertexHandle pick_link_edge(const Shell& shell, unsigned i, int level) const;
@@ -73,8 +75,9 @@ Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hin
 }
 
 /// As locate(), with the tets of the old shell as hints: often one of them still holds the edge.
-Recursion::State Recursion::relocate(VertexHandle a, VertexHandle b, VertexHandle face,
-                                     Shell& shell) {
+Recursion::State Recursion::relocate(VertexHandle face, Shell& shell) {
+  const VertexHandle a = shell.a;
+  const VertexHandle b = shell.b;
   TetHandle hint;
   for (unsigned i = 0; i < shell.degree && !hint.is_valid(); ++i) {
     const TetHandle t = shell.tets[i];
@@ -172,25 +175,27 @@ Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle
   const VertexHandle p = shell.ring[i];
   const VertexHandle face = end == shell.a ? shell.b : shell.a;
   ancestors_[static_cast<std::size_t>(level)] = {shell.a, shell.b};
-  if (context_.trace == nullptr) return reduce(end, p, shell.tets[i], face, level + 1);
+  Shell next;
+  const auto reduce_next = [&] {
+    const State state = locate(end, p, shell.tets[i], face, next);
+    return reduce(state, next, face, level + 1);
+  };
+  if (context_.trace == nullptr) return reduce_next();
   const std::array<VertexHandle, 2> edge = {end, p};
   context_.trace->attempt_begins(
       {"recursive_shell_transformation", edge, static_cast<unsigned>(level + 1)});
-  const Verdict verdict = reduce(end, p, shell.tets[i], face, level + 1);
+  const Verdict verdict = reduce_next();
   context_.trace->attempt_ends(to_string(verdict), {}, {});
   return verdict;
 }
 
-Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face,
-                          int level) {
-  Shell shell;
-  State state = locate(a, b, hint, face, shell);
+Verdict Recursion::reduce(State state, Shell& shell, VertexHandle face, int level) {
   for (;;) {
     if (state == State::gone || state == State::reduced) return Verdict::accepted;
     if (state == State::blocked) return Verdict::constrained;
     if (budget_ <= 0) return Verdict::budget_spent;
     if (transform(shell, level) == Verdict::accepted) {
-      state = relocate(a, b, face, shell);
+      state = relocate(face, shell);
       if (state == State::gone || state == State::reduced) return Verdict::accepted;
       if (state == State::blocked) return Verdict::constrained;
     }
@@ -206,7 +211,7 @@ Verdict Recursion::reduce(VertexHandle a, VertexHandle b, TetHandle hint, Vertex
       const std::size_t changes = changes_;
       reduce_link_edge(shell, i, end, level);
       if (changes_ == changes) continue;
-      state = relocate(a, b, face, shell);
+      state = relocate(face, shell);
       if (state == State::gone || state == State::reduced) return Verdict::accepted;
       if (state == State::blocked) return Verdict::constrained;
       smaller = shell.degree < degree;
@@ -231,10 +236,9 @@ class RecursiveShellTransformation final : public Operator {
     return find_searchable_shell(context, target.edge(), context.scratch.shell);
   }
   Verdict evaluate(OperatorContext&, Target) const override { return Verdict::accepted; }
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
-    const auto [a, b] = context.mesh.vertices(target.edge());
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
     Recursion recursion(context, max_level_, budget_, reflex_only_);
-    const Verdict verdict = recursion.reduce(a, b, target.edge().tet(), VertexHandle(), 0);
+    const Verdict verdict = recursion.remove(context.scratch.shell);
     // What was reached on the way is an improvement by itself.
     return transaction.empty() ? verdict : Verdict::accepted;
   }

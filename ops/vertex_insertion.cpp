@@ -130,13 +130,16 @@ Verdict trim_cavity(OperatorContext& context) {
 VertexInsertion::VertexInsertion(const OperatorInfo& info, const ParameterValues& values)
     : Operator(info),
       max_tets_(static_cast<std::size_t>(values.integer("max_tets"))),
-      smooth_(values.flag("smooth")) {}
+      smooth_(values.flag("smooth")),
+      desperate_(static_cast<Quality>(values.real("desperate"))) {}
 
 std::span<const ParameterSpec> VertexInsertion::parameters() {
-  static constexpr std::array<ParameterSpec, 2> kParameters = {{
+  static constexpr std::array<ParameterSpec, 3> kParameters = {{
       {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64,
        "most tets that give way; 1: only the one that holds the vertex"},
       {"smooth", ParameterSpec::Kind::flag, 0, 1, 1, "move the vertex before judging"},
+      {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+       "below this worst quality, new bad tets are no reason to refuse"},
   }};
   return kParameters;
 }
@@ -176,7 +179,13 @@ Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& tr
     const auto [a, b, c] = context.mesh.vertices(f);
     scratch.new_tets.push_back({v, a, b, c});
   }
-  return to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+  const Verdict verdict =
+      to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+  if (verdict != Verdict::accepted) return verdict;
+  transaction.compare(scratch.before, scratch.now);
+  const bool worth_it =
+      scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+  return worth_it ? Verdict::accepted : Verdict::no_improvement;
 }
 
 }  // namespace tetmend

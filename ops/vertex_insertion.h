@@ -16,8 +16,9 @@ namespace tetmend {
 /// Refuses as `not_applicable` a target that is not certified positive, or whose vertex lies more
 /// than 64 tets away; as `constrained` when boundary or a constrained face parts the target from
 /// the vertex, or when the cavity would swallow a fixed vertex; as `no_improvement` when the target
-/// would stay, or the worst tet would be no better. Cost: the way to the vertex, the square of the
-/// size of the cavity at worst, and the smoothing of one vertex.
+/// would stay, or the worst tet would be no
+/// better, or only at the price of many new bad tets (as edge_split). Cost: the way to the vertex,
+/// the square of the size of the cavity at worst, and the smoothing of one vertex.
 class VertexInsertion : public Operator {
  public:
   VertexInsertion(const OperatorInfo& info, const ParameterValues& values);
@@ -34,6 +35,7 @@ class VertexInsertion : public Operator {
  private:
   std::size_t max_tets_;
   bool smooth_;
+  Quality desperate_;
   BallOptimiser::Limits limits_;
 };
 

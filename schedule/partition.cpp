@@ -63,9 +63,11 @@ Partition::Partition(const TetMesh& mesh, std::size_t blocks, unsigned shift)
 
 void Partition::include(const TetMesh& mesh, std::span<const VertexHandle> added) {
   block_.resize(mesh.vertex_slots(), 0);
-  for (const VertexHandle v : added) {
-    if (!mesh.is_deleted(v)) block_[v.index()] = find_block(mesh.point(v));
-  }
+  for_chunks(added.size(), [&](std::size_t begin, std::size_t end) {
+    for (const VertexHandle v : added.subspan(begin, end - begin)) {
+      if (!mesh.is_deleted(v)) block_[v.index()] = find_block(mesh.point(v));
+    }
+  });
 }
 
 BlockId Partition::find_block(const Point& p) const {

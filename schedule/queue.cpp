@@ -38,14 +38,16 @@ std::vector<QueuedTet> queue_tets(PassScope& scope, const TetMesh& mesh, const S
                                   Date since) {
   const SelectionTest test(mesh, selection);
   const Quality limit = test.limit();
-  auto tets = collect<QueuedTet>(
-      scope, mesh.tet_slots(), [&](std::uint32_t i, std::vector<QueuedTet>& out) {
-        const TetHandle t(i);
-        if (mesh.quality(t) >= limit || mesh.is_frozen(t)) return;  // deleted ones as well
-        if (changed_since(mesh, mesh.vertices(t), since) && test.admits(t)) {
-          out.push_back({mesh.quality(t), t, mesh.vertices(t)});
-        }
-      });
+  auto tets =
+      collect<QueuedTet>(scope, mesh.tet_slots(),
+                         [&](std::size_t begin, std::size_t end, std::vector<QueuedTet>& out) {
+                           mesh.visit_below(limit, begin, end, [&](TetHandle t) {
+                             if (mesh.is_frozen(t) || !changed_since(mesh, mesh.vertices(t), since))
+                               return;
+                             if (test.admits(t))
+                               out.push_back({mesh.quality(t), t, mesh.vertices(t)});
+                           });
+                         });
   if (!takes_all(selection)) keep_worst(test, selection.below, tets);
   return tets;
 }
@@ -60,12 +62,13 @@ std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
   std::vector<QueuedVertex> all;
   if (takes_all(selection)) {
     const SelectionTest test(mesh, selection);
-    all = collect<QueuedVertex>(scope, mesh.tet_slots(),
-                                [&](std::uint32_t i, std::vector<QueuedVertex>& out) {
-                                  const TetHandle t(i);
-                                  if (mesh.quality(t) >= selection.below) return;  // deleted ones
-                                  if (test.admits(t)) take(mesh.vertices(t), out);
-                                });
+    all = collect<QueuedVertex>(
+        scope, mesh.tet_slots(),
+        [&](std::size_t begin, std::size_t end, std::vector<QueuedVertex>& out) {
+          mesh.visit_below(selection.below, begin, end, [&](TetHandle t) {
+            if (test.admits(t)) take(mesh.vertices(t), out);
+          });
+        });
   } else {
     for (const QueuedTet& tet : queue_tets(scope, mesh, selection, 0)) take(tet.vertices, all);
   }

@@ -129,7 +129,7 @@ class Run {
   void report_done(const PassRecord& record);
 
  private:
-  static constexpr unsigned kPartitions = 6;
+  static constexpr unsigned kPartitions = 12;
   struct ShiftedBlocks {
     std::unique_ptr<Partition> partition;  // made when first needed
     std::vector<VertexHandle> added;       // since it was last used

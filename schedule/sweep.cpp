@@ -7,37 +7,51 @@ namespace tetmend {
 
 namespace {
 
-/// The part of `slots` from `begin` to `end`.
-template <class Handle>
-std::vector<Handle> deal(const std::vector<Handle>& slots, std::size_t begin, std::size_t end) {
-  return {slots.begin() + static_cast<std::ptrdiff_t>(begin),
-          slots.begin() + static_cast<std::ptrdiff_t>(end)};
+/// How many free slots of each kind the loads before the n-th get; the last is the sum.
+struct Shares {
+  std::vector<std::size_t> tets = {0};
+  std::vector<std::size_t> vertices = {0};
+};
+
+/// In proportion to the items. Most operations leave fewer tets than they find, those that add a
+/// vertex leave more; what runs out of slots is deferred.
+Shares share_slots(std::span<const BlockLoad> loads, double new_vertices) {
+  constexpr std::size_t kLeast = 64;
+  constexpr double kTetsPerItem = 0.125;
+  constexpr double kTetsPerVertex = 2;
+  Shares shares;
+  for (const BlockLoad& load : loads) {
+    const auto items = static_cast<double>(kLeast + load.end - load.begin);
+    const double tets = items * (kTetsPerItem + kTetsPerVertex * new_vertices);
+    shares.tets.push_back(shares.tets.back() + kLeast + static_cast<std::size_t>(tets));
+    shares.vertices.push_back(shares.vertices.back() +
+                              static_cast<std::size_t>(new_vertices * items));
+  }
+  return shares;
 }
 
-/// Takes free slots from the mesh for each load, in proportion to its items.
+/// Takes the slots of share `n` out of a pool, of which those from `first` on are shared out.
+template <class Handle>
+std::vector<Handle> deal(const std::vector<Handle>& pool, std::size_t first,
+                         std::span<const std::size_t> shares, std::size_t n) {
+  const auto begin = pool.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin + static_cast<std::ptrdiff_t>(shares[n]),
+          begin + static_cast<std::ptrdiff_t>(shares[n + 1])};
+}
+
+/// Takes free slots from the mesh for each load.
 std::vector<Workspace::FreeSlots> deal_slots(Run& run, std::span<const BlockLoad> loads,
                                              double new_vertices) {
-  // Most operations leave fewer tets than they find; what runs out of slots is deferred.
-  constexpr std::size_t kLeast = 64;
-  std::size_t tets = 0;
-  for (const BlockLoad& load : loads) tets += kLeast + load.end - load.begin;
-  const auto vertices_for = [&](std::size_t items) {
-    return static_cast<std::size_t>(new_vertices * static_cast<double>(items));
-  };
+  const Shares shares = share_slots(loads, new_vertices);
   Workspace& all = run.worker().workspace();
-  all.provide(run.mesh(), tets, vertices_for(tets));
+  all.provide(run.mesh(), shares.tets.back(), shares.vertices.back());
   Workspace::FreeSlots& pool = all.free_slots();
-  const std::size_t first_tet = pool.tets.size() - tets;
-  const std::size_t first_vertex = pool.vertices.size() - vertices_for(tets);
-
+  const std::size_t first_tet = pool.tets.size() - shares.tets.back();
+  const std::size_t first_vertex = pool.vertices.size() - shares.vertices.back();
   std::vector<Workspace::FreeSlots> dealt(loads.size());
-  std::size_t done = 0;
   for (std::size_t n = 0; n < loads.size(); ++n) {
-    const std::size_t next = done + kLeast + loads[n].end - loads[n].begin;
-    dealt[n].tets = deal(pool.tets, first_tet + done, first_tet + next);
-    dealt[n].vertices =
-        deal(pool.vertices, first_vertex + vertices_for(done), first_vertex + vertices_for(next));
-    done = next;
+    dealt[n].tets = deal(pool.tets, first_tet, shares.tets, n);
+    dealt[n].vertices = deal(pool.vertices, first_vertex, shares.vertices, n);
   }
   pool.tets.resize(first_tet);
   pool.vertices.resize(first_vertex);

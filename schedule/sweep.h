@@ -28,7 +28,7 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
                 double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work);
 
 /// Fewer items than this are not worth a division into blocks.
-inline constexpr std::size_t kFewItems = 256;
+inline constexpr std::size_t kFewItems = 64;
 
 namespace detail {
 
@@ -64,6 +64,19 @@ std::vector<BlockLoad> divide(const Partition& partition, std::vector<Item>& ite
   });
   items.swap(sorted);
   return loads;
+}
+
+/// Appends the items at the front of each load, up to `kept` of its block.
+template <class Item>
+void append_kept(const std::vector<Item>& items, std::span<const BlockLoad> loads,
+                 std::span<const std::size_t> kept, std::vector<Item>& out) {
+  std::vector<std::size_t> place = {out.size()};
+  for (const BlockLoad& load : loads) place.push_back(place.back() + kept[load.block] - load.begin);
+  out.resize(place.back());
+  tbb::parallel_for(std::size_t{0}, loads.size(), [&](std::size_t n) {
+    std::copy_n(items.begin() + static_cast<std::ptrdiff_t>(loads[n].begin),
+                place[n + 1] - place[n], out.begin() + static_cast<std::ptrdiff_t>(place[n]));
+  });
 }
 
 /// Works off a sorted range. Items that are to be tried again stay at its front; returns their end.
@@ -106,12 +119,9 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
                  kept[load.block] =
                      detail::work_off_range(scope, worker, items, load.begin, load.end, try_item);
                });
-    std::size_t deferred = rest.size();
-    for (const BlockLoad& load : loads) deferred += kept[load.block] - load.begin;
-    rest.reserve(deferred);
-    for (const BlockLoad& load : loads) {
-      rest.insert(rest.end(), items.begin() + static_cast<std::ptrdiff_t>(load.begin),
-                  items.begin() + static_cast<std::ptrdiff_t>(kept[load.block]));
+    {
+      const PassScope::Scan timed(scope);
+      detail::append_kept(items, loads, kept, rest);
     }
     std::swap(items, rest);
     scope.note_deferred(items.size());
@@ -121,24 +131,24 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
   run.note_added_vertices(run.worker());
 }
 
-/// Calls take(i, out) for every i below `size`; what it appends to `out` comes back in the order of
-/// i.
+/// Calls take(begin, end, out) for the chunks of 0..size; what it appends to `out` comes back in
+/// the order of the chunks.
 template <class Item, class Take>
 std::vector<Item> collect(PassScope& scope, std::size_t size, const Take& take) {
   const PassScope::Scan timed(scope);
   auto parts = map_chunks<std::vector<Item>>(size, [&](std::size_t begin, std::size_t end) {
     std::vector<Item> part;
-    for (std::size_t i = begin; i < end; ++i) take(static_cast<std::uint32_t>(i), part);
+    take(begin, end, part);
     return part;
   });
-  std::vector<Item> all;
-  std::size_t total = 0;
-  for (const auto& part : parts) total += part.size();
-  all.reserve(total);
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    std::vector<Item>().swap(part);
-  }
+  std::vector<std::size_t> place = {0};
+  for (const auto& part : parts) place.push_back(place.back() + part.size());
+  std::vector<Item> all(place.back());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t n) {
+    std::copy(parts[n].begin(), parts[n].end(),
+              all.begin() + static_cast<std::ptrdiff_t>(place[n]));
+    std::vector<Item>().swap(parts[n]);
+  });
   return all;
 }
 

@@ -4,7 +4,7 @@ description "Algorithm 6 of the paper: rounds of reconnection, suppression and i
 local max_rounds     = parameter{"max_rounds", default = 30, low = 0, high = 10000, help = "rounds in all"}
 local least_progress = parameter{"least_progress", default = 0.1, low = 0, high = 1,
                                  help = "least share of the bad tets that a plain round must remove"}
-local max_failed     = parameter{"max_failed", default = 1, low = 1, high = 1000,
+local max_failed     = parameter{"max_failed", default = 2, low = 1, high = 1000,
                                  help = "thorough rounds in sequence without progress that end them"}
 local last_rounds    = parameter{"last_rounds", default = 4, low = 0, high = 1000,
                                  help = "rounds for the very worst tets at the end"}
@@ -25,10 +25,13 @@ local function round(thorough)
   return quality()
 end
 
+-- For so few tets a new mild bad one is no reason to refuse.
 local function last_round()
   begin_round()
-  return local_reconnection{on = worst, reflex_only = false}
-       + insert_points{on = worst, relax = true, desperate = 0.35}
+  return smooth{on = worst, desperate = 0.35, steps = 30}
+       + local_reconnection{on = worst, reflex_only = false}
+       + insert_points{on = worst, desperate = 0.35, relax = true}
+       + apply(first_of{"circumcentre_insertion", "centroid_insertion"}, {on = worst})
        + smooth{} + suppress_points{} + smooth{}
        + local_reconnection{} + smooth{}
 end

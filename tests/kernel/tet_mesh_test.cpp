@@ -481,3 +481,27 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("tets below a limit are visited in the order of their slots, deleted ones never") {
+  TetMesh mesh = TetMesh::sorted(kuhn_cube(6, 0.3, 1));
+  Workspace workspace(mesh);
+  workspace.provide(mesh, 100, 0);  // deleted slots at the end
+  REQUIRE(mesh.tet_slots() > mesh.tet_count());
+  const Quality limit = 0.6f;
+  using Range = std::pair<std::size_t, std::size_t>;
+  for (const Range& range :
+       {Range{0, mesh.tet_slots()}, Range{5, 5}, Range{7, 200}, Range{33, 64}}) {
+    const std::size_t begin = range.first;
+    const std::size_t end = range.second;
+    CAPTURE(begin);
+    CAPTURE(end);
+    std::vector<TetHandle> expected;
+    for (const TetHandle t : live_tets(mesh)) {
+      if (t.index() >= begin && t.index() < end && mesh.quality(t) < limit) expected.push_back(t);
+    }
+    std::vector<TetHandle> visited;
+    mesh.visit_below(limit, begin, end, [&](TetHandle t) { visited.push_back(t); });
+    CHECK(visited == expected);
+    if (begin == 0) CHECK(expected.size() > mesh.tet_count() / 4);
+  }
+}

@@ -166,7 +166,7 @@ struct Recorder final : TraceSink {
   std::vector<std::string> events;
   void attempt_begins(const AttemptEvent& event) override {
     std::string text = std::string(event.operator_name) + " at";
-    for (const VertexHandle v : event.target) text += " " + std::to_string(v.index());
+    for (const VertexHandle v : event.target) text.append(" ").append(std::to_string(v.index()));
     events.push_back(text + " level " + std::to_string(event.level));
   }
   void attempt_ends(std::string_view verdict, std::span<const Quality> before,
@@ -287,7 +287,7 @@ TEST_CASE("the trace hears operator, target, level, verdict and the quality vect
   worker.attempt(refusing, Target::of(VertexHandle(4)), &trace);
   const auto face = worker.mesh.vertices(HalfFace(TetHandle(0), 0));
   std::string corners;
-  for (const VertexHandle v : face) corners += " " + std::to_string(v.index());
+  for (const VertexHandle v : face) corners.append(" ").append(std::to_string(v.index()));
   const std::vector<std::string> expected = {"scripted at 0 1 2 3 level 2",
                                              "inverted 0 0",
                                              "scripted at 0 1 level 0",

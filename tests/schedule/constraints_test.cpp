@@ -246,6 +246,15 @@ Cells frozen_cells(const TetMesh& mesh) {
   return all;
 }
 
+/// What the tets that are not frozen lack to be good.
+double free_deficit(const TetMesh& mesh) {
+  double sum = 0;
+  for (const TetHandle t : live_tets(mesh)) {
+    if (!mesh.is_frozen(t)) sum += deficit(mesh.quality(t));
+  }
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("the schedule keeps each region, and all that a file names, in any number of blocks") {
@@ -332,10 +341,13 @@ TEST_CASE("frozen tets go through the schedule untouched, and the others get bet
       REQUIRE(frozen > 100);
       REQUIRE(cells.size() == frozen);
       const QualityIndicators free_before = quality_indicators(mesh);
+      const double deficit_before = free_deficit(mesh);
       improve_in_blocks(mesh, blocks);
       CHECK(frozen_cells(mesh) == cells);
       check_kept(portrait(mesh.to_data()), before);
-      CHECK(quality_indicators(mesh).n_bad < free_before.n_bad);
+      // Among so many fixed vertices a better worst tet may be paid for with mild bad ones.
+      CHECK(quality_indicators(mesh).q_worst >= free_before.q_worst);
+      CHECK(free_deficit(mesh) < 0.9 * deficit_before);
     }
   }
 }

@@ -170,9 +170,12 @@ TEST_CASE("what is collected comes in the order of the slots") {
   Run run(mesh, kRegistry);
   PassScope scope(run, "test");
   const std::vector<std::uint32_t> found = on_threads(4, [&] {
-    return collect<std::uint32_t>(scope, 100'000, [](std::uint32_t i, auto& out) {
-      if (i % 3 == 0) out.push_back(i);
-    });
+    return collect<std::uint32_t>(scope, 100'000,
+                                  [](std::size_t begin, std::size_t end, auto& out) {
+                                    for (std::size_t i = begin; i < end; ++i) {
+                                      if (i % 3 == 0) out.push_back(static_cast<std::uint32_t>(i));
+                                    }
+                                  });
   });
   REQUIRE(found.size() == 33'334);
   for (std::size_t n = 0; n < found.size(); ++n) REQUIRE(found[n] == 3 * n);
