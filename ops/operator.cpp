@@ -94,7 +94,7 @@ Verdict Operator::attempt(OperatorContext& context, Target target) const {
       vertices[count++] = target.vertex();
       break;
   }
-  context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level});
+  context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level, settings_});
   const Verdict verdict = try_target(context, target);
   report_end(context, verdict);
   return verdict;

@@ -185,7 +185,7 @@ void TraceRecorder::attempt_begins(const AttemptEvent& event) {
       wrote_event();
       visit_->written = true;
     }
-    encoder_.attempt_begins(event.operator_name, event.target, event.level, now);
+    encoder_.attempt_begins(event, now);
     wrote_event();
   }
   open_.push_back({near, inside, written});

@@ -68,13 +68,13 @@ void EventEncoder::visit_ends(std::uint64_t ticks) {
   put_time(ticks);
 }
 
-void EventEncoder::attempt_begins(std::string_view name, std::span<const VertexHandle> target,
-                                  unsigned level, std::uint64_t ticks) {
+void EventEncoder::attempt_begins(const AttemptEvent& event, std::uint64_t ticks) {
   put_kind(EventKind::attempt_begins);
   put_time(ticks);
-  put_name(name);
-  put_vertices(target);
-  out_.put(level);
+  put_name(event.operator_name);
+  put_vertices(event.target);
+  out_.put(event.level);
+  put_name(event.settings);
 }
 
 void EventEncoder::candidate_found() {
@@ -231,6 +231,7 @@ void EventDecoder::next(TraceEvent& event) {
       event.name = get_name();
       get_vertices(event);
       event.number = in_.get32();
+      event.settings = get_name();
       break;
     case EventKind::attempt_ends:
       event.name = get_name();

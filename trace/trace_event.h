@@ -11,6 +11,7 @@
 #include "kernel/statistics.h"
 #include "kernel/tet_mesh.h"
 #include "trace/byte_stream.h"
+#include "trace/trace_sink.h"
 
 namespace tetmend {
 
@@ -46,6 +47,7 @@ constexpr bool changes_mesh(EventKind kind) {
 struct TraceEvent {
   EventKind kind{};
   std::uint32_t name = 0;              ///< of pass, operator or verdict: see TraceFile::name()
+  std::uint32_t settings = 0;          ///< of the operator; likewise
   std::uint32_t number = 0;            ///< round of a pass, level of an attempt
   double seconds = 0;                  ///< since the trace began; not of edits and candidates
   std::vector<VertexHandle> vertices;  ///< of the target, of the visited tet, or of a vertex edit
@@ -74,8 +76,7 @@ class EventEncoder {
   void pass_ends(const QualityIndicators& now, std::uint64_t ticks);
   void visit_begins(const TetVertices& tet, Quality quality, std::uint64_t ticks);
   void visit_ends(std::uint64_t ticks);
-  void attempt_begins(std::string_view name, std::span<const VertexHandle> target, unsigned level,
-                      std::uint64_t ticks);
+  void attempt_begins(const AttemptEvent& event, std::uint64_t ticks);
   void candidate_found();
   void attempt_ends(std::string_view verdict, std::span<const Quality> before,
                     std::span<const Quality> now, std::uint64_t ticks);

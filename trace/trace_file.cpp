@@ -121,6 +121,7 @@ void TraceFile::index_event(const TraceEvent& event) {
       Call& call = calls_.emplace_back();
       call.events = begin;
       call.operator_name = event.name;
+      call.settings = event.settings;
       call.parent = open_.empty() ? kNoCall : open_.back();
       call.level = static_cast<std::uint16_t>(event.number);
       call.depth = static_cast<std::uint16_t>(open_.size());

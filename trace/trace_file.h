@@ -33,6 +33,7 @@ struct EventRange {
 struct Call {
   EventRange events;
   std::uint32_t operator_name = 0;  ///< see TraceFile::name()
+  std::uint32_t settings = 0;       ///< likewise; "" for a call by an operator
   std::uint32_t verdict = 0;        ///< likewise; "" if the trace ends before
   std::uint32_t parent = kNoCall;
   std::uint32_t subtree_end = 0;

@@ -19,6 +19,8 @@ struct AttemptEvent {
   std::string_view operator_name;
   std::span<const VertexHandle> target;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   unsigned level = 0;                    ///< recursion level, 0 for a call by the scheduler
+  /// Values of the operator's parameters, as a script writes them; empty for a call by an operator.
+  std::string_view settings = {};
 };
 
 /// Receives events in the order in which they happen: passes, in them visits of tets, in them
