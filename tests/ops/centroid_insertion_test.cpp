@@ -90,6 +90,16 @@ TEST_CASE("no more than max_tets give way") {
   CHECK(worker.tets() == kEightTets);
 }
 
+TEST_CASE("a better worst tet is not worth many new bad ones, unless it is desperate") {
+  MeshData faces = octahedron(2, 3, 1);
+  faces.points[5].y() = -2;
+  faces.triangles = {{{0, 1, 3}, 1}, {{0, 1, 5}, 1}};
+  LoneWorker worker(faces);
+  CHECK(worker.worst() > kDesperate);
+  CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::no_improvement);
+  CHECK(insert(worker, {0, 1, 2, 3}, {{"desperate", 1}}) == Verdict::accepted);
+}
+
 TEST_CASE("the cavity ends at constrained faces and at other regions") {
   MeshData faces = octahedron(2, 3, 1);
   faces.points[5].y() = -2;
@@ -100,7 +110,7 @@ TEST_CASE("the cavity ends at constrained faces and at other regions") {
                                   {0, 2, 3, 6}, {0, 2, 5, 6}, {1, 2, 3, 6}, {1, 2, 5, 6}};
   for (const MeshData& data : {faces, regions}) {
     LoneWorker worker(data);
-    REQUIRE(insert(worker, {0, 1, 2, 3}) == Verdict::accepted);
+    REQUIRE(insert(worker, {0, 1, 2, 3}, {{"desperate", 1}}) == Verdict::accepted);
     CHECK(worker.tets() == half);
   }
 }

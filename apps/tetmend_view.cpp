@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The viewer: reads the command line, then shows a window, draws a picture or runs a script.
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/output_file.h"
+#include "viewer/script.h"
+#include "viewer/ui/headless.h"
+#include "viewer/ui/window.h"
+
+namespace tetmend::apps {
+namespace {
+
+using namespace viewer;
+
+enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2 };
+
+struct Options {
+  std::string file;
+  std::string before;
+  std::string picture;
+  std::string script;
+  std::string size;
+  std::string view;
+  std::string report;
+  float scale = 0;
+  bool panels = false;
+  bool keys = false;
+};
+
+Canvas read_size(const std::string& text) {
+  constexpr int kMost = 8192;
+  Canvas size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
+      size.width < 1 || size.height < 1 || size.width > kMost || size.height > kMost) {
+    throw Error(fmt::format("--size must be WIDTHxHEIGHT, up to {} each, not '{}'", kMost, text));
+  }
+  return size;
+}
+
+void prepare(const Options& options, Document& document) {
+  if (!options.size.empty()) document.resize(read_size(options.size));
+  if (!options.before.empty()) document.compare_with(options.before);
+  if (!options.file.empty()) document.open(options.file);
+  if (!options.view.empty()) apply_json_text(document.view, options.view);
+}
+
+void write_report(const std::string& file, Document& document) {
+  OutputFile out(file);
+  out.put(state_of(document).dump(2));
+  out.put('\n');
+  out.commit();
+}
+
+int run(const Options& options) {
+  if (options.keys) {
+    fmt::print("{}", command_reference());
+    return kSuccess;
+  }
+  Document document;
+  prepare(options, document);
+  if (options.script.empty() && options.picture.empty()) {
+    run_window(document, options.scale);
+  } else {
+    document.show_panels = options.panels;
+    const auto host = make_headless_host(options.scale > 0 ? options.scale : 1);
+    Session session{document, *host};
+    host->arrange(document);
+    if (document.has_mesh() && options.view.empty()) document.go_home();
+    if (!options.script.empty()) run_script_file(session, options.script);
+    if (!options.picture.empty()) write_png(options.picture, host->render(document));
+  }
+  if (!options.report.empty()) write_report(options.report, document);
+  return kSuccess;
+}
+
+int complain(Status status, const std::string& message) {
+  fmt::print(stderr, "tetmend-view: {}\n", message);
+  return status;
+}
+
+}  // namespace
+}  // namespace tetmend::apps
+
+int main(int argc, char** argv) {
+  using namespace tetmend::apps;
+  Options options;
+  CLI::App app("tetmend-view shows a tetrahedral mesh and where it is bad.", "tetmend-view");
+  app.set_version_flag("--version", "tetmend " TETMEND_VERSION);
+  app.add_option("FILE", options.file, "Mesh to open");
+  app.add_option("--before", options.before, "Mesh whose statistics are shown beside");
+  app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display");
+  app.add_option("--script", options.script, "Run a Lua script and exit; needs no display");
+  app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT");
+  app.add_option("--view", options.view, "Settings of the view as JSON: what Ctrl+C copies");
+  app.add_option("--scale", options.scale, "Size of text and panels; 1 is usual, 2 for 4K")
+      ->check(CLI::Range(0.5, 4.0));
+  app.add_option("--report", options.report, "Write the last state as JSON on leaving");
+  app.add_flag("--panels", options.panels, "Draw the panels into pictures, too");
+  app.add_flag("--keys", options.keys, "Print all keys and script words");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return complain(kWrongUsage, fmt::format("{} (see tetmend-view --help)", error.what()));
+  }
+  try {
+    return run(options);
+  } catch (const std::bad_alloc&) {
+    return complain(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(kFailed, error.what());
+  }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/document.h"
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
+#include "tests/kernel/formats/fixtures.h"
+#include "tests/viewer/session.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+using test::TestSession;
+
+TEST_CASE("a mesh in the same place keeps the view, another one does not") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  s.document.view.camera.orbit(100, 20);
+  const Camera turned = s.document.view.camera;
+  s.document.set_mesh(TetMesh(test::kuhn_cube(3, 0, 1)), "finer");
+  CHECK(s.document.view.camera == turned);
+  s.document.set_mesh(TetMesh(test::one_tet()), "elsewhere");
+  CHECK(s.document.view.camera.yaw == Camera::kHomeYaw);
+  CHECK(s.document.view.camera.target != turned.target);
+}
+
+TEST_CASE("a file that cannot be opened leaves everything as it was") {
+  TestSession s(test::one_tet());
+  const test::TempFolder folder;
+  CHECK_THROWS_AS(s.document.open(folder / "missing.mesh"), Error);
+  MeshData empty = test::one_tet();
+  empty.tets.clear();
+  write_mesh(folder / "empty.mesh", empty);
+  CHECK_THROWS_WITH_AS(s.document.open(folder / "empty.mesh"), doctest::Contains("no tet"), Error);
+  CHECK(s.document.mesh().tet_count() == 1);
+  CHECK(s.document.file() == "test.mesh");
+}
+
+TEST_CASE("the list of the worst leads from tet to tet, and around") {
+  TestSession s(test::delaunay_ball(100, 1));
+  const auto worst = s.document.worst();
+  CHECK(s.run("worst", {2}) == worst[1].index());
+  CHECK(std::get<TetHandle>(s.document.selection()) == worst[1]);
+  s.run("previous_worst");
+  s.run("previous_worst");
+  CHECK(std::get<TetHandle>(s.document.selection()) == worst.back());
+  s.run("next_worst");
+  CHECK(std::get<TetHandle>(s.document.selection()) == worst.front());
+  const nlohmann::json at = s.run("locate");
+  CHECK(static_cast<double>(at["x"]) == doctest::Approx(200).epsilon(0.02));
+  CHECK(static_cast<double>(at["y"]) == doctest::Approx(150).epsilon(0.02));
+  CHECK_THROWS_AS(s.run("worst", {101}), Error);
+}
+
+TEST_CASE("the statistics of another mesh stand beside") {
+  TestSession s(test::one_tet());
+  const test::TempFolder folder;
+  write_mesh(folder / "before.mesh", test::two_tets());
+  s.document.compare_with(folder / "before.mesh");
+  REQUIRE(s.document.statistics_before());
+  CHECK(s.document.statistics_before()->tets == 2);
+  CHECK(s.document.statistics().tets == 1);
+}
+
+TEST_CASE("a scene is made again only when something it shows has changed") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  const unsigned first = s.document.scene_revision();
+  s.document.view.camera.orbit(10, 10);
+  s.document.view.theme = "dark";
+  CHECK(s.document.scene_revision() == first);
+  s.document.view.scene.peel = 1;
+  CHECK(s.document.scene_revision() != first);
+}

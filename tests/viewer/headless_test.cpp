@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Pictures and scripts without a display, by the real program.
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "kernel/formats/mesh_io.h"
+#include "tests/apps/program.h"
+#include "tests/support/zoo.h"
+#include "tests/viewer/png.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::string kSheet = TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh";
+
+Outcome run_script(const TempFolder& folder, const std::string& text) {
+  ::unsetenv("DISPLAY");
+  std::ofstream(folder / "script.lua") << text;
+  return run_program({"--script", (folder / "script.lua").string()});
+}
+
+std::string in_quotes(const std::filesystem::path& file) {
+  return fmt::format("\"{}\"", file.string());
+}
+
+}  // namespace
+
+TEST_CASE("a picture of an asset has the size asked for, and the mesh in its middle") {
+  ::unsetenv("DISPLAY");
+  const TempFolder folder;
+  const std::string file = (folder / "out.png").string();
+  const Outcome outcome =
+      run_program({"--render", file, "--size", "320x240", "--view", R"({"bad": false})", kSheet});
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.status == 0);
+  const viewer::Image image = read_png(file);
+  CHECK(image.width == 320);
+  CHECK(image.height == 240);
+  CHECK(image.at(160, 120) != image.at(2, 120));
+  CHECK(viewer::count_red(image) == 0);
+}
+
+TEST_CASE("the picture is red where the bad tet is, and nowhere when it is gone") {
+  const TempFolder folder;
+  write_mesh(folder / "bad.mesh", middle_tet(0.1));
+  write_mesh(folder / "good.mesh", kuhn_cube(2, 0, 1));
+  const Outcome outcome = run_script(folder, R"lua(
+    size(300, 240)
+    open()lua" + in_quotes(folder / "bad.mesh") + R"lua()
+    worst(1)
+    local p = locate()
+    deselect()
+    expect(red_pixels(p.x, p.y, 4) > 20, "red where the worst tet is")
+    expect(red_pixels() > 100, "red")
+    filter(0.5, 1)
+    expect(red_pixels() == 0, "no red when bad tets are filtered out")
+    open()lua" + in_quotes(folder / "good.mesh") +
+                                                 R"lua()
+    show_all()
+    expect(red_pixels() == 0, "no red in a good mesh")
+  )lua");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
+TEST_CASE("a bad tet inside is seen through the surface") {
+  const TempFolder folder;
+  const Outcome outcome = run_script(folder, R"lua(
+    size(300, 240)
+    open()lua" + in_quotes(kSheet) + R"lua()
+    bad()
+    expect(red_pixels() == 0, "no red on the surface")
+    bad()
+    local all = red_pixels()
+    expect(all > 50, "red through the surface")
+    cut(1, {exact = true})
+    expect(red_pixels() ~= all, "a cut takes some away")
+  )lua");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
+TEST_CASE("an edge that is picked shows its shell") {
+  const TempFolder folder;
+  write_mesh(folder / "shell.mesh", shell_mesh({.degree = 6}));
+  const Outcome outcome = run_script(folder, R"lua(
+    size(300, 240)
+    open()lua" + in_quotes(folder / "shell.mesh") +
+                                                 R"lua()
+    select_edge(0, 1)
+    fit()
+    local p = locate()
+    local c = pixel(p.x, p.y)
+    expect(c.red > 150 and c.green < 100, "the supporting edge, drawn over the rest")
+    pick_kind("vertex")
+    expect(pick(p.x, p.y).kind == "vertex", "a vertex is picked")
+  )lua");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
+TEST_CASE("panels can be part of the picture, in both themes") {
+  const TempFolder folder;
+  const Outcome outcome = run_script(folder, R"lua(
+    size(1000, 600)
+    open()lua" + in_quotes(kSheet) + R"lua()
+    local light = pixel(100, 590)
+    panels()
+    expect(pixel(20, 300).red > 200, "a light panel")
+    theme("dark")
+    expect(pixel(20, 590).red < 80, "a dark panel")
+    keys()
+    screenshot()lua" + in_quotes(folder / "keys.png") +
+                                                 R"lua()
+  )lua");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+  CHECK(read_png(folder / "keys.png").width == 1000);
+}
+
+TEST_CASE("what is wrong is said in one line, with an exit status") {
+  const TempFolder folder;
+  const auto fails = [](const std::vector<std::string>& arguments, int status,
+                        const std::string& message) {
+    const Outcome outcome = run_program(arguments);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == status);
+    CHECK(outcome.err.find(message) != std::string::npos);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  };
+  const std::string out = (folder / "out.png").string();
+  fails({"--render", out, "missing.mesh"}, 1, "missing.mesh");
+  fails({"--render", out, "--view", R"({"peal": 1})", kSheet}, 1, "no setting 'peal'");
+  fails({"--render", (folder / "out.gif").string(), kSheet}, 1, ".png");
+  fails({"--render", out, "--size", "12", kSheet}, 1, "WIDTHxHEIGHT");
+  fails({"--script", "missing.lua"}, 1, "missing.lua");
+  fails({"--nonsense"}, 2, "--nonsense");
+  CHECK_FALSE(std::filesystem::exists(out));
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/document.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
+#include "viewer/tet_values.h"
+
+namespace tetmend::viewer {
+
+namespace {
+
+TetMesh read_tet_mesh(const std::filesystem::path& file) {
+  TetMesh mesh;
+  try {
+    mesh = TetMesh(read_mesh(file));
+  } catch (const BuildError& error) {
+    throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
+  }
+  return mesh;
+}
+
+template <class Visit>
+void for_each_used_point(const TetMesh& mesh, Visit visit) {
+  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
+    const VertexHandle v(i);
+    if (!mesh.is_deleted(v) && mesh.tet_of(v).is_valid()) visit(to_glm(mesh.point(v)));
+  }
+}
+
+std::array<glm::dvec3, 8> box_corners(const TetMesh& mesh) {
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high = -low;
+  for_each_used_point(mesh, [&](const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  });
+  std::array<glm::dvec3, 8> corners;
+  for (unsigned i = 0; i < corners.size(); ++i) {
+    corners[i] = {(i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
+                  (i & 4U) != 0 ? high.z : low.z};
+  }
+  return corners;
+}
+
+Ball enclosing_ball(const TetMesh& mesh, const glm::dvec3& centre) {
+  double radius = 1e-12;
+  for_each_used_point(
+      mesh, [&](const glm::dvec3& p) { radius = std::max(radius, glm::distance(p, centre)); });
+  return {centre, radius};
+}
+
+bool is_alike(const Ball& a, const Ball& b) {
+  constexpr double kShare = 0.02;
+  return glm::distance(a.centre, b.centre) <= kShare * a.radius &&
+         std::abs(a.radius - b.radius) <= kShare * a.radius;
+}
+
+}  // namespace
+
+void Document::resize(const Canvas& size) {
+  window = size;
+  canvas = size;
+  canvas_corner = {0, 0};
+}
+
+void Document::open(const std::filesystem::path& file) {
+  set_mesh(read_tet_mesh(file), file.string());
+}
+
+void Document::set_mesh(TetMesh mesh, const std::string& name) {
+  const bool is_first = !has_mesh();
+  mesh_ = std::move(mesh);
+  file_ = name;
+  box_ = box_corners(mesh_);
+  const Ball ball = enclosing_ball(mesh_, box_.front() / 2.0 + box_.back() / 2.0);
+  const bool keep_view = !is_first && is_alike(ball_, ball);
+  ball_ = ball;
+  statistics_ = compute_statistics(mesh_);
+  regions_ = region_labels(mesh_);
+  values_.clear();
+  layers_.clear();
+  listed_measure_.clear();
+  drawn_.reset();
+  select({});
+  if (!keep_view) go_home();
+  message = {
+      fmt::format("{}: {} tets, {} of them bad", std::filesystem::path(name).filename().string(),
+                  statistics_.tets, statistics_.n_bad),
+      false};
+}
+
+void Document::compare_with(const std::filesystem::path& file) {
+  before_ = compute_statistics(read_tet_mesh(file));
+}
+
+void Document::select(const Selection& selection) {
+  selection_ = selection;
+  highlight_.reset();
+  ++highlight_revision_;
+}
+
+void Document::pick(double x, double y) {
+  const glm::dvec2 at = to_canvas(x, y);
+  const auto hit = cast(scene(), view.camera.ray(at.x, at.y, canvas));
+  select(hit ? refine(mesh_, *hit, pick_kind, view.camera, canvas) : Selection());
+}
+
+void Document::go_home() {
+  view.camera.look_from("home");
+  view.camera.fit(box_, canvas);
+}
+
+void Document::fit() {
+  if (std::holds_alternative<std::monostate>(selection_)) {
+    view.camera.fit(box_, canvas);
+  } else {
+    view.camera.fit(ball_around(mesh_, selection_), canvas);
+  }
+}
+
+const Histogram& Document::histogram() {
+  update_lists();
+  return histogram_;
+}
+
+const std::vector<TetHandle>& Document::worst() {
+  update_lists();
+  return worst_;
+}
+
+void Document::fly_to_worst(std::size_t i) {
+  if (i >= worst().size()) {
+    throw Error(
+        fmt::format("the list of the worst has {} tets, there is no {}", worst().size(), i + 1));
+  }
+  select(worst()[i]);
+  // Close enough to see the tet, far enough to see where it is.
+  const Ball around = ball_around(mesh_, selection_);
+  view.camera.fit({around.centre, std::max(3 * around.radius, 1e-3 * ball_.radius)}, canvas);
+}
+
+std::optional<std::size_t> Document::place_among_worst() {
+  const auto* tet = std::get_if<TetHandle>(&selection_);
+  if (tet == nullptr) return std::nullopt;
+  const auto found = std::find(worst().begin(), worst().end(), *tet);
+  if (found == worst_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - worst_.begin());
+}
+
+const Scene& Document::scene() {
+  update_scene();
+  return scene_;
+}
+
+unsigned Document::scene_revision() {
+  update_scene();
+  return scene_revision_;
+}
+
+const Highlight& Document::highlighted() {
+  if (!highlight_) highlight_ = highlight(mesh_, selection_, ball_.centre);
+  return *highlight_;
+}
+
+unsigned Document::highlight_revision() {
+  return highlight_revision_;
+}
+
+std::span<const float> Document::values_of(const std::string& measure) {
+  auto found = values_.find(measure);
+  if (found == values_.end()) {
+    found = values_.emplace(measure, measure_tets(mesh_, find_quality_measure(measure))).first;
+  }
+  return found->second;
+}
+
+void Document::update_lists() {
+  if (listed_measure_ == view.scene.measure) return;
+  const auto values_now = values();
+  histogram_ = Histogram(values_now, display_range(find_quality_measure(view.scene.measure)));
+  worst_ = worst_tets(values_now, kWorstListed);
+  listed_measure_ = view.scene.measure;
+}
+
+void Document::update_scene() {
+  if (drawn_ == view.scene) return;
+  if (view.scene.peel > 0 && layers_.empty()) layers_ = boundary_layers(mesh_);
+  SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, ball_};
+  if (view.scene.colour != "region") {
+    input.colour_values = values_of(view.scene.colour);
+    input.colour_range = display_range(find_quality_measure(view.scene.colour));
+  }
+  scene_ = build_scene(input);
+  drawn_ = view.scene;
+  ++scene_revision_;
+}
+
+}  // namespace tetmend::viewer

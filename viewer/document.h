@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The state of the viewer without a window: the mesh, what is shown of it, and what follows from
+// both.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/statistics.h"
+#include "kernel/tet_mesh.h"
+#include "viewer/scene.h"
+#include "viewer/selection.h"
+#include "viewer/view_settings.h"
+
+namespace tetmend::viewer {
+
+/// What the status line says.
+struct Message {
+  std::string text;
+  bool is_error = false;
+};
+
+/// Change `view`, `canvas` and the like freely; all that follows from them is computed when it is
+/// asked for, and kept until something it depends on has changed.
+class Document {
+ public:
+  ViewSettings view;
+  Canvas window;                ///< the whole picture, panels included
+  Canvas canvas;                ///< the part of it that shows the mesh
+  glm::ivec2 canvas_corner{0};  ///< upper left, in pixels of the window
+  PickKind pick_kind = PickKind::nearest;
+  Message message;
+  bool show_keys = false;     ///< the page of F1
+  bool show_panels = true;    ///< beside the picture
+  bool ask_for_file = false;  ///< the window asks for a name
+  bool quit = false;
+
+  /// The mesh takes the whole window.
+  void resize(const Canvas& size);
+  /// Pixel of the window to pixel of the canvas.
+  glm::dvec2 to_canvas(double x, double y) const {
+    return {x - canvas_corner.x, y - canvas_corner.y};
+  }
+
+  /// Reads a mesh. The view stays if the new mesh is about as large and in the same place as the
+  /// old one; otherwise the camera goes home. @throws Error, and nothing changes.
+  void open(const std::filesystem::path& file);
+  /// Takes over a mesh that is called `name`.
+  void set_mesh(TetMesh mesh, const std::string& name);
+  /// Reads a mesh for its statistics only: the state before. @throws Error, and nothing changes.
+  void compare_with(const std::filesystem::path& file);
+
+  bool has_mesh() const { return mesh_.tet_count() > 0; }
+  const TetMesh& mesh() const { return mesh_; }
+  const std::string& file() const { return file_; }
+  const Ball& ball() const { return ball_; }  ///< encloses the mesh
+  const MeshStatistics& statistics() const { return statistics_; }
+  const std::optional<MeshStatistics>& statistics_before() const { return before_; }
+  const std::vector<Label>& regions() const { return regions_; }
+
+  const Selection& selection() const { return selection_; }
+  /// Precondition: it names something in the mesh.
+  void select(const Selection& selection);
+  /// What lies under a pixel of the window, or nothing.
+  void pick(double x, double y);
+  /// The whole mesh from the home direction.
+  void go_home();
+  /// The selection fills the picture, or the whole mesh without one.
+  void fit();
+
+  /// Of the measure of the view, by slot.
+  std::span<const float> values() { return values_of(view.scene.measure); }
+  const Histogram& histogram();
+  /// The worst by that measure.
+  static constexpr std::size_t kWorstListed = 100;
+  const std::vector<TetHandle>& worst();
+  /// Selects entry i of worst() and moves the camera there.
+  void fly_to_worst(std::size_t i);
+  std::optional<std::size_t> place_among_worst();  ///< of the selected tet
+
+  const Scene& scene();
+  const Highlight& highlighted();
+  /// Change when scene() or highlighted() would return something else.
+  unsigned scene_revision();
+  unsigned highlight_revision();
+
+ private:
+  std::span<const float> values_of(const std::string& measure);
+  void update_lists();
+  void update_scene();
+
+  TetMesh mesh_;
+  std::string file_;
+  Ball ball_;
+  std::array<glm::dvec3, 8> box_{};  // corners of the box around the mesh
+  MeshStatistics statistics_;
+  std::optional<MeshStatistics> before_;
+  std::vector<Label> regions_;
+  Selection selection_;
+
+  std::map<std::string, std::vector<float>> values_;
+  std::vector<std::uint32_t> layers_;  // empty until something is peeled
+  std::string listed_measure_;         // of the next two; empty: not made yet
+  Histogram histogram_;
+  std::vector<TetHandle> worst_;
+  std::optional<SceneSettings> drawn_;  // what scene_ was made of
+  Scene scene_;
+  std::optional<Highlight> highlight_;
+  unsigned scene_revision_ = 0;
+  unsigned highlight_revision_ = 0;
+};
+
+}  // namespace tetmend::viewer

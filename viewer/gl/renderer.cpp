@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/gl/renderer.h"
+
+#include <cstddef>
+
+#include "viewer/gl/shaders.h"
+
+namespace tetmend::viewer::gl {
+
+namespace {
+
+// Parts of the depth buffer: what lies in a nearer part is in front of all that lies further.
+constexpr double kHighlightDepth = 0.1;
+constexpr double kThroughDepth = 0.3;
+
+struct Look {
+  glm::vec3 low;
+  glm::vec3 high;
+  glm::vec3 edge;
+};
+
+Look look_of(const std::string& theme) {
+  if (theme == "dark") return {{0.10F, 0.11F, 0.13F}, {0.17F, 0.19F, 0.22F}, {0.06F, 0.07F, 0.09F}};
+  return {{0.89F, 0.91F, 0.94F}, {0.985F, 0.988F, 0.992F}, {0.16F, 0.19F, 0.24F}};
+}
+
+std::initializer_list<Attribute> surface_attributes() {
+  static constexpr std::initializer_list<Attribute> kAttributes = {
+      {3, GL_FLOAT, GL_FALSE, false, offsetof(SurfaceVertex, position)},
+      {4, GL_UNSIGNED_BYTE, GL_TRUE, false, offsetof(SurfaceVertex, colour)},
+      {3, GL_BYTE, GL_TRUE, false, offsetof(SurfaceVertex, normal)},
+      {1, GL_UNSIGNED_BYTE, GL_FALSE, true, offsetof(SurfaceVertex, edges)}};
+  return kAttributes;
+}
+
+}  // namespace
+
+Renderer::Renderer()
+    : background_(kBackgroundVertex, kBackgroundFragment),
+      surface_(kSurfaceVertex, kSurfaceFragment),
+      lines_(kLineVertex, kLineFragment),
+      nothing_(0, {}, false),
+      surface_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
+      through_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
+      ghost_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
+      highlight_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
+      highlight_lines_(sizeof(Line),
+                       {{3, GL_FLOAT, GL_FALSE, false, offsetof(Line, from)},
+                        {3, GL_FLOAT, GL_FALSE, false, offsetof(Line, to)},
+                        {4, GL_UNSIGNED_BYTE, GL_TRUE, false, offsetof(Line, colour)},
+                        {1, GL_FLOAT, GL_FALSE, false, offsetof(Line, width)}},
+                       true) {}
+
+void Renderer::upload(Document& document) {
+  if (document.scene_revision() != scene_revision_) {
+    scene_revision_ = document.scene_revision();
+    const Scene& scene = document.scene();
+    surface_vertices_.fill(scene.surface.data(), scene.surface.size());
+    through_vertices_.fill(scene.through.data(), scene.through.size());
+    ghost_vertices_.fill(scene.ghosts.data(), scene.ghosts.size());
+  }
+  if (document.highlight_revision() != highlight_revision_) {
+    highlight_revision_ = document.highlight_revision();
+    const Highlight& shown = document.highlighted();
+    highlight_vertices_.fill(shown.faces.data(), shown.faces.size());
+    highlight_lines_.fill(shown.lines.data(), shown.lines.size());
+  }
+}
+
+void Renderer::draw_background(const Document& document) const {
+  const Look look = look_of(document.view.theme);
+  background_.use();
+  background_.set("low", look.low);
+  background_.set("high", look.high);
+  nothing_.bind();
+  glDepthMask(GL_FALSE);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+void Renderer::draw_surface(const Buffer& buffer, float opacity, float edges) const {
+  surface_.set("opacity", opacity);
+  surface_.set("edges", edges);
+  buffer.bind();
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(buffer.count()));
+}
+
+/// Blends the nearest triangle at each pixel and no other.
+void Renderer::draw_once_per_pixel(const Buffer& buffer, float opacity, float edges) const {
+  if (buffer.count() == 0) return;
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_surface(buffer, opacity, edges);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_EQUAL);
+  glEnable(GL_BLEND);
+  draw_surface(buffer, opacity, edges);
+  glDisable(GL_BLEND);
+  glDepthFunc(GL_LESS);
+}
+
+void Renderer::draw(Document& document) {
+  upload(document);
+  const Canvas& canvas = document.canvas;
+  const Look look = look_of(document.view.theme);
+  glDisable(GL_SCISSOR_TEST);
+  glClearColor(look.high.x, look.high.y, look.high.z, 1);  // under the panels
+  glClear(GL_COLOR_BUFFER_BIT);
+  // OpenGL counts rows from below.
+  const int bottom = document.window.height - document.canvas_corner.y - canvas.height;
+  glViewport(document.canvas_corner.x, bottom, canvas.width, canvas.height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(document.canvas_corner.x, bottom, canvas.width, canvas.height);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  draw_background(document);
+
+  const glm::mat4 view(document.view.camera.view(document.ball().centre));
+  const glm::mat4 projection(document.view.camera.projection(canvas, document.ball()));
+  surface_.use();
+  surface_.set("view", view);
+  surface_.set("projection", projection);
+  surface_.set("edge_tint", look.edge);
+  surface_.set("line_width", 0.6F);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthRange(kThroughDepth, 1);
+  draw_surface(surface_vertices_, 1, document.view.edges ? 0.75F : 0.0F);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glEnable(GL_CULL_FACE);
+  draw_surface(ghost_vertices_, 1, document.view.edges ? 0.5F : 0.0F);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+
+  glDepthRange(kHighlightDepth, kThroughDepth);
+  // Over the colours of a measure red must stay faint.
+  const bool is_plain = document.view.scene.colour == "region";
+  draw_once_per_pixel(through_vertices_, is_plain ? 1.0F : 0.4F, 0.25F);
+  glDisable(GL_CULL_FACE);
+
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  draw_surface(highlight_vertices_, 1, 0);
+  lines_.use();
+  lines_.set("view", view);
+  lines_.set("projection", projection);
+  lines_.set("canvas", glm::vec2(canvas.width, canvas.height));
+  highlight_lines_.bind();
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(highlight_lines_.count()));
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDepthRange(0, 1);
+  glBindVertexArray(0);
+}
+
+}  // namespace tetmend::viewer::gl

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/ui/interface.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "kernel/error.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+constexpr float kFontSize = 16;  // pixels at scale 1
+constexpr float kSideWidth = 290;
+constexpr float kMenuHeight = 24;
+constexpr float kStatusHeight = 26;
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+void load_font(float scale) {
+  ImFontConfig config;
+  config.OversampleH = 2;
+  ImFontAtlas* fonts = ImGui::GetIO().Fonts;
+  const float size = std::round(kFontSize * scale);
+  if (std::filesystem::exists(kFont)) {
+    fonts->AddFontFromFileTTF(kFont, size, &config);
+  } else {
+    config.SizePixels = size;
+    fonts->AddFontDefault(&config);
+  }
+}
+
+/// Text for the name of a key, as menus print it.
+const char* c_text(std::string_view literal) {
+  return literal.data();  // all of them are literals
+}
+
+}  // namespace
+
+Interface::Interface(float scale) : scale_(scale) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  load_font(scale);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Interface::~Interface() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext();
+}
+
+void Interface::apply_theme(const std::string& theme) {
+  if (theme == theme_) return;
+  theme_ = theme;
+  ImGuiStyle style;
+  style.FrameRounding = 3;
+  style.GrabRounding = 3;
+  style.WindowBorderSize = 0;
+  style.FramePadding = {6, 3};
+  style.ItemSpacing = {8, 5};
+  style.ScaleAllSizes(scale_);
+  if (theme == "dark") {
+    ImGui::StyleColorsDark(&style);
+    style.Colors[ImGuiCol_WindowBg] = {0.13F, 0.14F, 0.16F, 1};
+    style.Colors[ImGuiCol_MenuBarBg] = {0.10F, 0.11F, 0.13F, 1};
+    style.Colors[ImGuiCol_TextDisabled] = {0.62F, 0.65F, 0.70F, 1};
+  } else {
+    ImGui::StyleColorsLight(&style);
+    style.Colors[ImGuiCol_WindowBg] = {0.965F, 0.97F, 0.975F, 1};
+    style.Colors[ImGuiCol_FrameBg] = {0.88F, 0.90F, 0.93F, 1};
+    style.Colors[ImGuiCol_TextDisabled] = {0.36F, 0.40F, 0.46F, 1};
+  }
+  ImGui::GetStyle() = style;
+}
+
+void Interface::arrange(Document& document) const {
+  const Canvas window = document.window;
+  document.resize(window);
+  if (!document.show_panels) return;
+  const int side = static_cast<int>(kSideWidth * scale_);
+  const int top = static_cast<int>(kMenuHeight * scale_);
+  const int bottom = static_cast<int>(kStatusHeight * scale_);
+  if (window.width < 3 * side || window.height < 6 * top) return;  // no room: panels cover the mesh
+  document.canvas_corner = {side, top};
+  document.canvas = {window.width - 2 * side, window.height - top - bottom};
+}
+
+void Interface::build(Session& session) {
+  apply_theme(session.document.view.theme);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  if (session.document.show_panels) {
+    menu(session);
+    sides(session);
+    status_line(session);
+  }
+  if (session.document.show_keys) keys_page(session);
+  file_dialog(session);
+  ImGui::Render();
+}
+
+void Interface::draw() const {
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Interface::menu(Session& session) const {
+  if (!ImGui::BeginMainMenuBar()) return;
+  for (const char* title : {"File", "View", "Show", "Select"}) {
+    if (!ImGui::BeginMenu(title)) continue;
+    for (const Command& command : commands()) {
+      if (command.menu == title && ImGui::MenuItem(c_text(command.help), c_text(command.keys))) {
+        run_from_window(command, session);
+      }
+    }
+    ImGui::EndMenu();
+  }
+  ImGui::EndMainMenuBar();
+}
+
+void Interface::sides(Session& session) const {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float width = kSideWidth * scale_;
+  const float top = kMenuHeight * scale_;
+  const float height = window.y - top - kStatusHeight * scale_;
+  for (const Side side : {Side::left, Side::right}) {
+    ImGui::SetNextWindowPos({side == Side::left ? 0 : window.x - width, top});
+    ImGui::SetNextWindowSize({width, height});
+    ImGui::Begin(side == Side::left ? "##left" : "##right", nullptr, kFixed);
+    for (const Panel& panel : panels()) {
+      if (panel.side != side || !session.document.has_mesh()) continue;
+      if (!ImGui::CollapsingHeader(panel.title, ImGuiTreeNodeFlags_DefaultOpen)) continue;
+      ImGui::PushID(panel.title);
+      panel.draw(session);
+      ImGui::PopID();
+      ImGui::Spacing();
+    }
+    ImGui::End();
+  }
+}
+
+void Interface::status_line(Session& session) const {
+  const Document& document = session.document;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0, window.y - kStatusHeight * scale_});
+  ImGui::SetNextWindowSize({window.x, kStatusHeight * scale_});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale_, 3 * scale_});
+  ImGui::Begin("##status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
+  if (document.message.is_error) {
+    ImGui::TextColored({0.85F, 0.2F, 0.2F, 1}, "%s", document.message.text.c_str());
+  } else if (document.has_mesh()) {
+    const Scene& scene = session.document.scene();
+    ImGui::TextUnformatted(document.message.text.c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled("  shown: %zu  %s", scene.tets_shown, scene.note.c_str());
+  } else {
+    ImGui::TextDisabled("drop a mesh here, or press Ctrl+O; F1 shows all keys");
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void Interface::keys_page(Session& session) const {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(window.x, 900 * scale_), std::min(window.y, 640 * scale_)});
+  ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45F);
+    const auto row = [](std::string_view keys, std::string_view effect) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(c_text(keys));
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(c_text(effect));
+    };
+    for (const auto& gesture : mouse_gestures()) row(gesture.first, gesture.second);
+    for (const Command& command : commands()) {
+      if (!command.keys.empty()) row(command.keys, command.help);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+void Interface::file_dialog(Session& session) {
+  constexpr const char* kTitle = "Open a mesh";
+  if (session.document.ask_for_file) {
+    session.document.ask_for_file = false;
+    ImGui::OpenPopup(kTitle);
+  }
+  ImGui::SetNextWindowSize({560 * scale_, 0});
+  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_NoResize)) return;
+  ImGui::TextUnformatted("File (or drop it on the window):");
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool is_done =
+      ImGui::InputText("##file", &typed_file_, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::Button("Open") || is_done) {
+    try {
+      session.document.open(typed_file_);
+    } catch (const Error& error) {
+      session.document.message = {error.what(), true};
+    }
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace tetmend::viewer::ui

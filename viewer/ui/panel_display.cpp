@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Colours, regions, and what else is drawn.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "kernel/quality.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+void choose_colour(SceneSettings& scene) {
+  if (ImGui::BeginCombo("colour", scene.colour.c_str())) {
+    if (ImGui::Selectable("region", scene.colour == "region")) scene.colour = "region";
+    for (const QualityMeasure& m : quality_measures()) {
+      if (ImGui::Selectable(m.name.data(), scene.colour == m.name)) {
+        scene.colour = m.name;
+        if (scene.measure != m.name) scene.filtered = false;
+        scene.measure = m.name;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  if (ImGui::BeginCombo("map", scene.map.c_str())) {
+    for (const ColourMap& map : colour_maps()) {
+      if (ImGui::Selectable(map.name.data(), scene.map == map.name)) scene.map = map.name;
+    }
+    ImGui::EndCombo();
+  }
+}
+
+void slide(const char* name, double& value, double low, double high, const char* format) {
+  ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &low, &high, format);
+}
+
+/// Only where there are several; a long list would drown the rest.
+void choose_regions(const std::vector<Label>& regions, SceneSettings& scene) {
+  constexpr std::size_t kMost = 24;
+  if (regions.size() < 2) return;
+  ImGui::TextDisabled("regions");
+  for (std::size_t i = 0; i < std::min(regions.size(), kMost); ++i) {
+    const Label label = regions[i];
+    const Colour c = region_colour(label);
+    auto& hidden = scene.hidden_regions;
+    const auto found = std::find(hidden.begin(), hidden.end(), label);
+    bool shown = found == hidden.end();
+    const ImVec4 tint(static_cast<float>(c.red) / 255, static_cast<float>(c.green) / 255,
+                      static_cast<float>(c.blue) / 255, 1);
+    const std::string name = fmt::format("{}", label);
+    ImGui::ColorButton(name.c_str(), tint, ImGuiColorEditFlags_NoTooltip);
+    ImGui::SameLine();
+    if (ImGui::Checkbox(name.c_str(), &shown)) {
+      if (shown) {
+        hidden.erase(found);
+      } else {
+        hidden.push_back(label);
+      }
+    }
+    if (i % 3 != 2 && i + 1 < regions.size()) ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+}  // namespace
+
+void draw_display_panel(Session& session) {
+  ViewSettings& view = session.document.view;
+  SceneSettings& scene = view.scene;
+  ImGui::PushItemWidth(0.6F * ImGui::GetContentRegionAvail().x);
+  choose_colour(scene);
+  ImGui::Checkbox("bad tets in red", &scene.bad);
+  slide("bad below", scene.bad_below, 0, 1, "%.2f");
+  ImGui::Checkbox("edges", &view.edges);
+  ImGui::SameLine();
+  ImGui::Checkbox("constraints", &scene.constraints);
+  constexpr int kMostLayers = 20;
+  ImGui::SliderInt("peel", &scene.peel, 0, std::max(kMostLayers, scene.peel), "%d layers");
+  scene.peel = std::max(scene.peel, 0);
+  slide("shrink", scene.shrink, 0, 0.9, "%.2f");
+  slide("ghosts", scene.ghosts, 0, 1, "%.2f");
+  ImGui::PopItemWidth();
+  scene.shrink = std::clamp(scene.shrink, 0.0, 0.9);
+  scene.ghosts = std::clamp(scene.ghosts, 0.0, 1.0);
+  choose_regions(session.document.regions(), scene);
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Histogram in the colours of the map; dragging over it filters.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "kernel/quality.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+ImU32 to_imgui(const Colour& c) {
+  return IM_COL32(c.red, c.green, c.blue, c.alpha);
+}
+
+void choose_measure(SceneSettings& scene) {
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("##measure", scene.measure.c_str())) return;
+  for (const QualityMeasure& m : quality_measures()) {
+    if (ImGui::Selectable(m.name.data(), scene.measure == m.name)) {
+      const bool follow = scene.colour == scene.measure;
+      scene.measure = m.name;
+      scene.filtered = false;
+      if (follow) scene.colour = m.name;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", m.help.data());
+  }
+  ImGui::EndCombo();
+}
+
+void draw_bars(const Histogram& histogram, const SceneSettings& scene, ImVec2 corner, ImVec2 size) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ColourMap& map = find_colour_map(scene.map);
+  const float width = size.x / static_cast<float>(Histogram::kBins);
+  const float bottom = corner.y + size.y;
+  list->AddRectFilled(corner, {corner.x + size.x, bottom}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+  for (std::size_t i = 0; i < Histogram::kBins; ++i) {
+    const double middle = (static_cast<double>(i) + 0.5) / static_cast<double>(Histogram::kBins);
+    const Range bin = histogram.bin(i);
+    Colour colour = map.at(middle);
+    const bool is_in = scene.range.contains((bin.low + bin.high) / 2);
+    if (scene.filtered && is_in == scene.outside) colour.alpha = 70;
+    const float left = corner.x + width * static_cast<float>(i);
+    const auto height = static_cast<float>(histogram.bar(i)) * (size.y - 4);
+    list->AddRectFilled({left, bottom - height}, {left + width + 0.5F, bottom}, to_imgui(colour));
+  }
+}
+
+void draw_brush(const Histogram& histogram, const SceneSettings& scene, ImVec2 corner,
+                ImVec2 size) {
+  if (!scene.filtered) return;
+  const Range& all = histogram.range();
+  const auto place = [&](double value) {
+    const double t = std::clamp((value - all.low) / (all.high - all.low), 0.0, 1.0);
+    return corner.x + size.x * static_cast<float>(t);
+  };
+  ImGui::GetWindowDrawList()->AddRect({place(scene.range.low), corner.y},
+                                      {place(scene.range.high), corner.y + size.y},
+                                      ImGui::GetColorU32(ImGuiCol_Text), 0, 0, 1.5F);
+}
+
+void follow_mouse(const Histogram& histogram, SceneSettings& scene, float left, float width) {
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2)) {
+    const double from = (ImGui::GetIO().MouseClickedPos[0].x - left) / width;
+    const double to = (ImGui::GetIO().MousePos.x - left) / width;
+    scene.range = histogram.brushed(from, to);
+    scene.filtered = true;
+  } else if (ImGui::IsItemDeactivated() && !ImGui::IsMouseDragging(0, 2)) {
+    const ImVec2 moved = ImGui::GetMouseDragDelta(0, 2);
+    if (moved.x == 0 && moved.y == 0) scene.filtered = false;
+  }
+}
+
+void explain_bin(const Histogram& histogram, float left, float width) {
+  if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
+  const float t = std::clamp((ImGui::GetIO().MousePos.x - left) / width, 0.0F, 0.9999F);
+  const auto i = static_cast<std::size_t>(t * static_cast<float>(Histogram::kBins));
+  const Range bin = histogram.bin(i);
+  ImGui::SetTooltip("%.3g to %.3g: %zu tets\ndrag to filter, click for all", bin.low, bin.high,
+                    histogram.counts()[i]);
+}
+
+}  // namespace
+
+void draw_histogram_panel(Session& session) {
+  Document& document = session.document;
+  SceneSettings& scene = document.view.scene;
+  choose_measure(scene);
+  const Histogram& histogram = document.histogram();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const ImVec2 size = {ImGui::GetContentRegionAvail().x, 7 * ImGui::GetFontSize()};
+  ImGui::InvisibleButton("##histogram", size);
+  follow_mouse(histogram, scene, corner.x, size.x);
+  draw_bars(histogram, scene, corner, size);
+  draw_brush(histogram, scene, corner, size);
+  explain_bin(histogram, corner.x, size.x);
+
+  const std::string high = fmt::format("{:.3g}", histogram.range().high);
+  ImGui::Text("%.3g", histogram.range().low);
+  ImGui::SameLine();
+  ImGui::TextDisabled("tets, logarithmic");
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(high.c_str()).x);
+  ImGui::TextUnformatted(high.c_str());
+  ImGui::Checkbox("filter", &scene.filtered);
+  ImGui::SameLine();
+  ImGui::Checkbox("outside", &scene.outside);
+  if (scene.filtered) {
+    ImGui::SameLine();
+    const Range& all = histogram.range();
+    ImGui::Text("%.3g - %.3g", std::max(scene.range.low, all.low),
+                std::min(scene.range.high, all.high));
+  }
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The figures of the mesh, and of the state before when there is one.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+struct Row {
+  const char* name;
+  std::string (*value)(const MeshStatistics& s);
+};
+
+constexpr Row kRows[] = {
+    {"tets", [](const MeshStatistics& s) { return fmt::format("{}", s.tets); }},
+    {"vertices", [](const MeshStatistics& s) { return fmt::format("{}", s.vertices); }},
+    {"triangles", [](const MeshStatistics& s) { return fmt::format("{}", s.boundary_triangles); }},
+    {"theta_min", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_min); }},
+    {"theta_max", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_max); }},
+    {"lambda", [](const MeshStatistics& s) { return fmt::format("{:.3f} %", s.lambda); }},
+    {"bad tets", [](const MeshStatistics& s) { return fmt::format("{}", s.n_bad); }},
+    {"q_worst", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
+    {"q_aver", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
+    {"inverted", [](const MeshStatistics& s) { return fmt::format("{}", s.inverted); }},
+    {"volume", [](const MeshStatistics& s) { return fmt::format("{:.6g}", s.volume); }},
+};
+
+}  // namespace
+
+void draw_statistics_panel(Session& session) {
+  const Document& document = session.document;
+  const auto& before = document.statistics_before();
+  if (!ImGui::BeginTable("##statistics", before ? 3 : 2, ImGuiTableFlags_RowBg)) return;
+  if (before) {
+    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("before");
+    ImGui::TableSetupColumn("now");
+    ImGui::TableHeadersRow();
+  }
+  for (const Row& row : kRows) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", row.name);
+    if (before) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(row.value(*before).c_str());
+    }
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.value(document.statistics()).c_str());
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The worst tets by the chosen measure; a click goes there.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+void draw_worst_panel(Session& session) {
+  Document& document = session.document;
+  constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+  const float height =
+      std::max(ImGui::GetContentRegionAvail().y - ImGui::GetFontSize(), 8 * ImGui::GetFontSize());
+  if (!ImGui::BeginTable("##worst", 3, kLooks, {0, height})) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.4F);
+  ImGui::TableSetupColumn("tet");
+  ImGui::TableSetupColumn(document.view.scene.measure.c_str());
+  ImGui::TableHeadersRow();
+  const auto place = document.place_among_worst();
+  const auto values = document.values();
+  const std::vector<TetHandle> worst = document.worst();
+  for (std::size_t i = 0; i < worst.size(); ++i) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    if (ImGui::Selectable(fmt::format("{}", i + 1).c_str(), place == i,
+                          ImGuiSelectableFlags_SpanAllColumns)) {
+      document.fly_to_worst(i);
+    }
+    ImGui::TableNextColumn();
+    ImGui::Text("%u", worst[i].index());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.5f", static_cast<double>(values[worst[i].index()]));
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/ui/panels.h"
+
+#include <array>
+
+namespace tetmend::viewer::ui {
+
+std::span<const Panel> panels() {
+  static constexpr std::array<Panel, 6> kPanels = {
+      {{"Histogram", Side::left, &draw_histogram_panel},
+       {"Display", Side::left, &draw_display_panel},
+       {"Cuts", Side::left, &draw_cuts_panel},
+       {"Statistics", Side::right, &draw_statistics_panel},
+       {"Selection", Side::right, &draw_selection_panel},
+       {"Worst tets", Side::right, &draw_worst_panel}}};
+  return kPanels;
+}
+
+}  // namespace tetmend::viewer::ui

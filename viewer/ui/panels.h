@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The panels beside the picture. A new one is a file with a draw function and a row in panels.cpp.
+#pragma once
+
+#include <span>
+
+#include "viewer/commands.h"
+
+namespace tetmend::viewer::ui {
+
+enum class Side { left, right };
+
+struct Panel {
+  const char* title;
+  Side side;
+  void (*draw)(Session& session);
+};
+
+/// All panels, from top to bottom. Drawn only when there is a mesh.
+std::span<const Panel> panels();
+
+void draw_histogram_panel(Session& session);
+void draw_display_panel(Session& session);
+void draw_cuts_panel(Session& session);
+void draw_worst_panel(Session& session);
+void draw_statistics_panel(Session& session);
+void draw_selection_panel(Session& session);
+
+}  // namespace tetmend::viewer::ui
