@@ -52,6 +52,11 @@ void prepare(const Options& options, Document& document) {
   if (!options.view.empty()) apply_json_text(document.view, options.view);
 }
 
+/// Otherwise the mesh is to fill the space that the panels leave.
+bool has_camera(const Options& options) {
+  return !options.view.empty() && nlohmann::json::parse(options.view).contains("camera");
+}
+
 void write_report(const std::string& file, Document& document) {
   OutputFile out(file);
   out.put(state_of(document).dump(2));
@@ -67,13 +72,13 @@ int run(const Options& options) {
   Document document;
   prepare(options, document);
   if (options.script.empty() && options.picture.empty()) {
-    run_window(document, options.scale);
+    run_window(document, options.scale, !has_camera(options));
   } else {
     document.show_panels = options.panels;
     const auto host = make_headless_host(options.scale > 0 ? options.scale : 1);
     Session session{document, *host};
     host->arrange(document);
-    if (document.has_mesh() && options.view.empty()) document.go_home();
+    if (document.has_mesh() && !has_camera(options)) document.go_home();
     if (!options.script.empty()) run_script_file(session, options.script);
     if (!options.picture.empty()) write_png(options.picture, host->render(document));
   }

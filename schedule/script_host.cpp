@@ -159,7 +159,9 @@ ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const Scr
   if (!value.list.empty()) {
     throw Error(fmt::format("{} takes named arguments only: {}", word.name, word.usage));
   }
-  for (const auto& [name, argument] : value.fields) {
+  for (const ScriptValue::Field& entry : value.fields) {
+    const std::string& name = entry.name;
+    const ScriptValue& argument = entry.value;
     const Subject subject = Subject{std::string(word.name)}.of(name);
     if (name == "on") {
       arguments.on = read_selection(subject, argument);

@@ -34,8 +34,7 @@ ScriptValue read_table(lua_State* lua, int index, int depth) {
   lua_pushnil(lua);
   while (lua_next(lua, index) != 0) {
     if (lua_type(lua, -2) == LUA_TSTRING) {
-      value.fields.emplace_back(lua_tostring(lua, -2),
-                                read_nested(lua, lua_gettop(lua), depth + 1));
+      value.fields.push_back({lua_tostring(lua, -2), read_nested(lua, lua_gettop(lua), depth + 1)});
     } else if (!lua_isinteger(lua, -2) || lua_tointeger(lua, -2) < 1 ||
                lua_tointeger(lua, -2) > length) {
       throw Error("a table has keys that are neither names nor 1, 2, ... n");
@@ -43,7 +42,7 @@ ScriptValue read_table(lua_State* lua, int index, int depth) {
     lua_pop(lua, 1);
   }
   std::sort(value.fields.begin(), value.fields.end(),
-            [](const auto& x, const auto& y) { return x.first < y.first; });
+            [](const auto& x, const auto& y) { return x.name < y.name; });
   return value;
 }
 

@@ -5,7 +5,6 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <lua.hpp>
@@ -17,18 +16,25 @@ namespace tetmend {
 
 /// A value without functions in it.
 struct ScriptValue {
+  struct Field;
   enum class Kind { nothing, flag, number, text, table };
   Kind kind = Kind::nothing;
   double number = 0;        ///< of a flag: 0 or 1
   bool is_integer = false;  ///< a number that the script wrote without fraction
   std::string text;
-  std::vector<ScriptValue> list;                            ///< of a table: 1, 2, ... n
-  std::vector<std::pair<std::string, ScriptValue>> fields;  ///< of a table: by name, in their order
+  std::vector<ScriptValue> list;  ///< of a table: 1, 2, ... n
+  std::vector<Field> fields;      ///< of a table: by name, in their order
 
   /// Null when there is none.
   const ScriptValue* field(std::string_view name) const;
   /// As an error message quotes it: 3, true, "bad", a table.
   std::string quoted() const;
+};
+
+/// One named entry of a table.
+struct ScriptValue::Field {
+  std::string name;
+  ScriptValue value;
 };
 
 /// @throws Error for functions, for keys that are neither names nor 1 to n, and for tables too

@@ -15,13 +15,14 @@ namespace tetmend::viewer {
 namespace {
 
 TetMesh read_tet_mesh(const std::filesystem::path& file) {
-  TetMesh mesh;
+  MeshData data = read_mesh(file);
   try {
-    mesh = TetMesh(read_mesh(file));
+    return TetMesh(std::move(data));
   } catch (const BuildError& error) {
     throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
   }
-  return mesh;
 }
 
 template <class Visit>

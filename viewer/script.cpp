@@ -35,7 +35,7 @@ json to_json(const ScriptValue& value) {
     return list;
   }
   json fields = json::object();
-  for (const auto& field : value.fields) fields[field.first] = to_json(field.second);
+  for (const auto& field : value.fields) fields[field.name] = to_json(field.value);
   return fields;
 }
 

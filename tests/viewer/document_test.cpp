@@ -30,7 +30,8 @@ TEST_CASE("a file that cannot be opened leaves everything as it was") {
   MeshData empty = test::one_tet();
   empty.tets.clear();
   write_mesh(folder / "empty.mesh", empty);
-  CHECK_THROWS_WITH_AS(s.document.open(folder / "empty.mesh"), doctest::Contains("no tet"), Error);
+  CHECK_THROWS_WITH_AS(s.document.open(folder / "empty.mesh"),
+                       doctest::Contains("empty.mesh: the mesh has no tet"), Error);
   CHECK(s.document.mesh().tet_count() == 1);
   CHECK(s.document.file() == "test.mesh");
 }

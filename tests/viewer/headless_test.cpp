@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "kernel/formats/mesh_io.h"
 #include "tests/apps/program.h"
@@ -122,6 +123,21 @@ TEST_CASE("panels can be part of the picture, in both themes") {
   CHECK(outcome.err == "");
   CHECK(outcome.status == 0);
   CHECK(read_png(folder / "keys.png").width == 1000);
+}
+
+TEST_CASE("a view from the command line sets the camera, and one without a camera does not") {
+  const TempFolder folder;
+  const auto yaw_with = [&](const std::string& view) {
+    const std::string report = (folder / "report.json").string();
+    const Outcome outcome =
+        run_program({"--render", (folder / "out.png").string(), "--size", "900x200", "--panels",
+                     "--view", view, "--report", report, kSheet});
+    CHECK(outcome.err == "");
+    const auto camera = nlohmann::json::parse(read_text(report))["view"]["camera"];
+    return camera["yaw"].get<double>();
+  };
+  CHECK(yaw_with(R"({"camera": {"yaw": 10}})") == 10);
+  CHECK(yaw_with(R"({"peel": 1})") == -55);
 }
 
 TEST_CASE("what is wrong is said in one line, with an exit status") {

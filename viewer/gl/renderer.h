@@ -12,8 +12,8 @@ class Renderer {
  public:
   Renderer();
 
-  /// Fills the canvas of the document, and clears the rest of its window. Uploads what has changed since the last
-  /// call. Leaves blending and depth test off.
+  /// Fills the canvas of the document, and clears the rest of its window. Uploads what has changed
+  /// since the last call. Leaves blending and depth test off.
   void draw(Document& document);
 
  private:

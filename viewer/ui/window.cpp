@@ -77,9 +77,9 @@ class Window : public Host {
   Window& operator=(const Window&) = delete;
 
   /// Draws only after events: a few times, because panels take their sizes from the last frame.
-  void run() {
+  void run(bool fit) {
     constexpr int kFrames = 3;
-    fit_first_ = document_.has_mesh();
+    fit_first_ = fit && document_.has_mesh();
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !document_.quit) {
       for (int i = 0; i < kFrames && !document_.quit; ++i) {
         frame();
@@ -204,9 +204,9 @@ class Window : public Host {
 
 }  // namespace
 
-void run_window(Document& document, float scale) {
+void run_window(Document& document, float scale, bool fit) {
   const Library library;
-  Window(document, scale).run();
+  Window(document, scale).run(fit);
 }
 
 }  // namespace tetmend::viewer
