@@ -16,8 +16,8 @@ namespace tetmend {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'T', 'E', 'T', 'T', 'R', 'A', 'C', '\n'};
-/// The run waits for it: level 1 takes twice the time and saves a quarter of the file.
-constexpr int kLevel = -3;
+/// The run waits for it: level -3 takes twice the time and saves a quarter of the file.
+constexpr int kLevel = -16;
 /// More than any frame that is written, far less than what a damaged length may ask for.
 constexpr std::uint64_t kMostContent = std::uint64_t{1} << 36;
 
