@@ -20,6 +20,7 @@
 #include "apps/regions.h"
 #include "apps/schedule_options.h"
 #include "apps/threads.h"
+#include "apps/trace_options.h"
 #include "kernel/chunks.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
@@ -38,6 +39,7 @@ struct Options {
   std::vector<std::filesystem::path> plugins;
   int threads = 1;
   RegionOptions regions;
+  TraceOptions trace;
   bool quiet = false;
 };
 
@@ -75,12 +77,14 @@ MeshCheck measure(const TetMesh& mesh) {
           .not_positive = count_not_positive(mesh)};
 }
 
-TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& report) {
+TetMesh load(const Options& options, TracePlan& tracing, ProgressLine& progress,
+             ImproveReport& report) {
   MeshData data;
   {
     const Stopwatch watch(report.seconds.reading);
     progress.show(fmt::format("reading {}", options.input.string()));
     data = read_mesh(options.input);
+    tracing.locate(data);
   }
   const Stopwatch watch(report.seconds.building);
   progress.show("building the mesh");
@@ -91,11 +95,13 @@ TetMesh load(const Options& options, ProgressLine& progress, ImproveReport& repo
 }
 
 void run_schedule(const ChosenSchedule& chosen, double time_limit, const Registry& registry,
-                  TetMesh& mesh, ProgressLine& progress, ImproveReport& report) {
+                  TetMesh& mesh, TraceRecorder* trace, ProgressLine& progress,
+                  ImproveReport& report) {
   const Interruption interruption;
   Run run(mesh, registry);
   run.set_listener(&progress);
   run.set_cancel_flag(&interruption.requested());
+  run.set_trace(trace);
   progress.set_indicators(quality_indicators(mesh));
   {
     const Stopwatch watch(report.seconds.improving);
@@ -153,6 +159,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
   check(options);
   const Registry registry = load_operators(options.plugins);
   const ChosenSchedule chosen = choose_schedule(options.schedule);
+  TracePlan tracing(options.trace, registry);
   const ThreadLimit limit(options.threads);
   ProgressLine progress(!options.quiet);
   ImproveReport report;
@@ -162,13 +169,14 @@ int run_improve(const Options& options, const Invocation& invocation) {
   report.schedule = options.schedule.schedule;
   report.settings = chosen.settings;
   report.threads = options.threads;
-  TetMesh mesh = load(options, progress, report);
+  TetMesh mesh = load(options, tracing, progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");
     report.before = measure(mesh);
   }
-  run_schedule(chosen, options.schedule.time_limit, registry, mesh, progress, report);
+  const auto trace = tracing.start(mesh, options.input, chosen);
+  run_schedule(chosen, options.schedule.time_limit, registry, mesh, trace.get(), progress, report);
   {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");
@@ -181,6 +189,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
     progress.show(fmt::format("writing {}", options.output.string()));
     write_mesh(options.output, MeshView(mesh));
   }
+  if (trace) trace->finish();
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);
   progress.clear();
@@ -205,6 +214,7 @@ void add_improve(CLI::App& app, Invocation& invocation) {
   add_plugin_option(*command, options->plugins);
   add_threads_option(*command, options->threads);
   add_region_options(*command, options->regions);
+  add_trace_options(*command, options->trace);
   command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");

@@ -56,6 +56,7 @@ Exit status: 0 success, 1 the work failed (bad file, cannot write), 2 wrong usag
   add_surface(*app, invocation);
   add_operators(*app, invocation);
   add_schedules(*app, invocation);
+  add_trace(*app, invocation);
   add_check_plugin(*app, invocation);
   return app;
 }

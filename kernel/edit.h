@@ -73,4 +73,16 @@ struct Journal {
   }
 };
 
+/// Told of every edit and of every undo, in the order in which they happen; also of edits in
+/// attempts that are refused later.
+class EditListener {
+ public:
+  virtual ~EditListener() = default;
+  /// The last edit of the journal was just made: the mesh holds what it created. A vertex that
+  /// lost its last tet is removed by an edit of its own, right after.
+  virtual void edit_made(const TetMesh& mesh, const Journal& journal) = 0;
+  /// The last edit that was made and not undone yet was just undone.
+  virtual void edit_undone() = 0;
+};
+
 }  // namespace tetmend

@@ -25,6 +25,8 @@ class MeshView {
 
   std::size_t point_count() const { return point_count_; }
   const Point& point(std::size_t i) const { return points_[order_.empty() ? i : order_[i]]; }
+  /// Of a TetMesh: the slots of its vertices in the order of this list.
+  std::span<const std::uint32_t> vertex_slots() const { return order_; }
   bool has_point_labels() const { return !point_labels_.empty(); }
   Label point_label(std::size_t i) const { return has_point_labels() ? point_labels_[i] : 0; }
 

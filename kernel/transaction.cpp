@@ -52,6 +52,14 @@ std::span<const TetHandle> Transaction::created() const {
   return {};
 }
 
+/// Writes an edit that was just made into the journal.
+void Transaction::note(const Edit& edit) {
+  workspace_.journal_.edits.push_back(edit);
+  if (workspace_.listener_ != nullptr) {
+    workspace_.listener_->edit_made(mesh_, workspace_.journal_);
+  }
+}
+
 // --- replace_cavity
 // ------------------------------------------------------------------------------------------------------------------
 
@@ -224,7 +232,7 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
   link_vertices(created, edit);
   workspace_.tet_count(mesh_) += created.size();
   workspace_.tet_count(mesh_) -= old.size();
-  workspace_.journal_.edits.push_back(edit);
+  note(edit);
   remove_isolated(edit);
   return EditResult::made;
 }
@@ -363,7 +371,7 @@ void Transaction::remove_isolated(const Edit& replaced) {
     clear_slot(v);
     workspace_.free_.vertices.push_back(v);
     --workspace_.vertex_count(mesh_);
-    journal.edits.push_back(edit);
+    note(edit);
   }
 }
 
@@ -389,7 +397,7 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   mesh_.points_[edit.vertex.index()] = point;
   mesh_.vertex_flags_[edit.vertex.index()] = 0;
   ++workspace_.vertex_count(mesh_);
-  workspace_.journal_.edits.push_back(edit);
+  note(edit);
   return edit.vertex;
 }
 
@@ -419,7 +427,7 @@ EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
     quality = mesh_.evaluate(mesh_.vertices(f.tet()));
   }
   edit.qualities_end = size32(journal.qualities);
-  journal.edits.push_back(edit);
+  note(edit);
   return EditResult::made;
 }
 
@@ -445,6 +453,7 @@ void Transaction::undo() {
         undo_remove(edit);
         break;
     }
+    if (workspace_.listener_ != nullptr) workspace_.listener_->edit_undone();
   }
 }
 

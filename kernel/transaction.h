@@ -79,6 +79,7 @@ class Transaction {
   void fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit);
   void link_vertices(std::span<const TetVertices> created, Edit& edit);
   void remove_isolated(const Edit& edit);
+  void note(const Edit& edit);
   TetHandle append_tet();
   void clear_slot(TetHandle t);
   void clear_slot(VertexHandle v);

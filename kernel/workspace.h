@@ -29,6 +29,9 @@ class Workspace {
   /// Precondition: no transaction is open.
   void set_date(Date date) { date_ = date; }
 
+  /// Told of every edit from now on. Null: nobody. Precondition: no transaction is open.
+  void set_listener(EditListener* listener) { listener_ = listener; }
+
   /// Where this worker may work.
   const Territory& territory() const { return territory_; }
   /// The same questions as to the territory; a "no" is noted.
@@ -97,6 +100,7 @@ class Workspace {
 
   Date date_ = 1;
   Journal journal_;
+  EditListener* listener_ = nullptr;
   unsigned depth_ = 0;  // open transactions
   FreeSlots free_;
   Territory territory_;

@@ -52,7 +52,9 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   Verdict verdict = precondition(context, target);
   if (verdict == Verdict::accepted) verdict = evaluate(context, target);
   if (!transaction.empty()) throw Error("it edits the mesh before apply()");
-  if (verdict == Verdict::accepted) verdict = apply(context, target, transaction);
+  if (verdict != Verdict::accepted) return verdict;
+  if (context.trace != nullptr) context.trace->candidate_found();
+  verdict = apply(context, target, transaction);
   if (verdict != Verdict::accepted) return verdict;
   if (!is_better(transaction, context.scratch)) return Verdict::no_improvement;
   transaction.keep();
@@ -92,7 +94,7 @@ Verdict Operator::attempt(OperatorContext& context, Target target) const {
       vertices[count++] = target.vertex();
       break;
   }
-  context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level});
+  context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level, settings_});
   const Verdict verdict = try_target(context, target);
   report_end(context, verdict);
   return verdict;

@@ -71,6 +71,8 @@ class Operator {
   const OperatorInfo& info() const { return info_; }
   /// File of the plugin that it comes from; empty for an operator of tetmend itself.
   const std::string& origin() const { return origin_; }
+  /// Values of its parameters, as a script writes them.
+  const std::string& settings() const { return settings_; }
 
   /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
   /// result only if the quality vector of all that changed improves (see improves()). After a
@@ -91,7 +93,7 @@ class Operator {
                         Transaction& transaction) const = 0;
 
  private:
-  friend class Registry;  // sets the origin
+  friend class Registry;  // sets origin and settings
 
   Verdict run_stages(OperatorContext& context, Target target) const;
   Verdict try_target(OperatorContext& context, Target target) const;
@@ -99,6 +101,7 @@ class Operator {
 
   const OperatorInfo& info_;
   std::string origin_;
+  std::string settings_;
 };
 
 constexpr std::string_view to_string(TargetKind kind) {

@@ -45,4 +45,17 @@ double ParameterValues::real(std::string_view name) const {
   return 0;
 }
 
+std::string ParameterValues::describe() const {
+  std::string text;
+  for (std::size_t i = 0; i < specs_.size(); ++i) {
+    text += fmt::format("{}{} = ", i > 0 ? ", " : "", specs_[i].name);
+    if (specs_[i].kind == ParameterSpec::Kind::flag) {
+      text += values_[i] != 0 ? "true" : "false";
+    } else {
+      text += fmt::format("{}", values_[i]);
+    }
+  }
+  return text;
+}
+
 }  // namespace tetmend

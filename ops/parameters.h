@@ -35,6 +35,8 @@ class ParameterValues {
   double real(std::string_view name) const;
   int integer(std::string_view name) const { return static_cast<int>(real(name)); }
   bool flag(std::string_view name) const { return real(name) != 0; }
+  /// "max_level = 5, reflex_only = true": all, as a script writes them.
+  std::string describe() const;
 
  private:
   std::span<const ParameterSpec> specs_;

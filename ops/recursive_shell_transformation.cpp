@@ -126,6 +126,7 @@ Verdict Recursion::try_transform(const Shell& shell, int level) {
   --budget_;
   Verdict verdict = propose_covering(context_, shell, locks(shell, level), true);
   if (verdict != Verdict::accepted) return verdict;
+  if (context_.trace != nullptr) context_.trace->candidate_found();
   Transaction step(context_.mesh, context_.workspace);
   verdict = to_verdict(step.replace_cavity(context_.scratch.old_tets, context_.scratch.new_tets));
   if (verdict != Verdict::accepted) return verdict;

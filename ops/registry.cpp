@@ -101,7 +101,11 @@ std::unique_ptr<Operator> Registry::make(std::string_view name,
   const std::size_t i = index_of(name);
   const OperatorInfo& info = *infos_[i];
   const ParameterValues values(info.name, info.parameters, settings);
-  if (origins_[i].empty()) return info.make(values);
+  if (origins_[i].empty()) {
+    std::unique_ptr<Operator> made = info.make(values);
+    made->settings_ = values.describe();
+    return made;
+  }
   const auto complain = [&](std::string_view about) -> Error {
     return Error(fmt::format("operator '{}' of {} cannot be made: {}", name, origins_[i], about));
   };
@@ -116,6 +120,7 @@ std::unique_ptr<Operator> Registry::make(std::string_view name,
   if (!made) throw complain("its function made nothing");
   if (&made->info() != &info) throw complain("its function made another operator");
   made->origin_ = origins_[i];
+  made->settings_ = values.describe();
   return made;
 }
 

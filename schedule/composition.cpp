@@ -138,7 +138,10 @@ TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition
 bool TetAttempts::work_off(Worker& worker, QueuedTet& entry, Date since) const {
   worker.provide_memory(leaves_);
   Progress progress{worker, entry, since};
+  TraceSink* trace = worker.context().trace;
+  if (trace != nullptr) trace->visit_begins(entry.vertices, entry.quality);
   run(root_, progress);
+  if (trace != nullptr) trace->visit_ends();
   if (progress.done()) return true;
   entry.todo = progress.deferred;
   return progress.deferred == 0;

@@ -59,6 +59,7 @@ Run::Run(TetMesh& mesh, const Registry& registry)
 void Run::set_trace(TraceSink* trace) {
   trace_ = trace;
   worker_.context().trace = trace;
+  worker_.workspace().set_listener(trace);
 }
 
 void Run::set_time_limit(double seconds) {
@@ -117,6 +118,7 @@ void Run::on_all_threads(const std::function<void(Worker&)>& work) {
       mine = std::make_unique<Worker>(mesh_, Workspace::without_slots(worker_.workspace()));
     }
     mine->context().trace = trace_;
+    mine->workspace().set_listener(trace_);
     mine->workspace().set_date(worker_.workspace().date());
     work(*mine);
   };
@@ -161,11 +163,13 @@ PassScope::PassScope(Run& run, std::string_view name)
     record_.after = run.records.back().after;
     measured_ = true;
   }
+  if (run_.trace() != nullptr) run_.trace()->pass_begins(record_.name, record_.round);
 }
 
 PassScope::~PassScope() {
   indicators();
   record_.seconds = record_.split.total = seconds_since(start_);
+  if (run_.trace() != nullptr) run_.trace()->pass_ends(record_.after);
   run_.report_done(record_);
   run_.records.push_back(std::move(record_));
 }

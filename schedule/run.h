@@ -97,8 +97,9 @@ class Run {
   void check_time();
   /// Since the run was made.
   double seconds() const;
-  /// All attempts are told to the sink, by one thread. Null: no trace.
+  /// Passes, attempts and edits are told to the sink, by one thread. Null: no trace.
   void set_trace(TraceSink* trace);
+  TraceSink* trace() const { return trace_; }
   /// For experiments: another number of blocks than the size of the mesh asks for. 1: no division.
   void set_block_count(std::size_t blocks);
 

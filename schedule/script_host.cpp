@@ -9,6 +9,7 @@
 
 #include "kernel/error.h"
 #include "kernel/statistics.h"
+#include "schedule/single_attempt.h"
 
 namespace tetmend {
 
@@ -97,6 +98,7 @@ void ScriptHost::add_words() {
   add("suppress_points", &ScriptHost::suppress);
   add("insert_points", &ScriptHost::insert);
   add("apply", &ScriptHost::apply);
+  add("attempt", &ScriptHost::attempt);
   for (const char* how : {"first_of", "all_of"}) {
     lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
   }
@@ -266,6 +268,24 @@ int ScriptHost::apply(lua_State* lua) {
   options.sweeps = static_cast<unsigned>(numbers.integer("sweeps"));
   options.again = numbers.flag("again");
   return make_pass(lua, [&] { tetmend::apply(*run_, options); });
+}
+
+int ScriptHost::attempt(lua_State* lua) {
+  begin_work();
+  const Composition what = read_composition(run_->registry(), {"attempt"}, read_value(lua, 1));
+  if (what.kind != Composition::Kind::one) throw Error("attempt: must be one operator");
+  const ScriptValue value = read_value(lua, 2);
+  std::vector<std::uint32_t> vertices;
+  for (const ScriptValue& item : value.list) {
+    const double number = read_number({"attempt: vertex"}, item);
+    if (!item.is_integer || number < 0 || number >= 0xFFFFFFFFu) {
+      throw Error(fmt::format("attempt: {} is no number of a vertex", item.quoted()));
+    }
+    vertices.push_back(static_cast<std::uint32_t>(number));
+  }
+  return make_pass(lua, [&] {
+    attempt_once(*run_, {what.operator_name, what.settings, vertices});
+  });
 }
 
 int ScriptHost::compose(lua_State* lua, const char* how) {

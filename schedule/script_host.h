@@ -44,6 +44,7 @@ class ScriptHost {
   int suppress(lua_State* lua);
   int insert(lua_State* lua);
   int apply(lua_State* lua);
+  int attempt(lua_State* lua);
   int compose(lua_State* lua, const char* how);
   int quality(lua_State* lua);
   int measure(lua_State* lua);

@@ -32,7 +32,7 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
 }};
 
-constexpr std::array<WordInfo, 15> kWords = {{
+constexpr std::array<WordInfo, 16> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -63,6 +63,10 @@ constexpr std::array<WordInfo, 15> kWords = {{
      "value, order = \"sine\", \"longest\" or \"shortest\"}, first_of{...} or all_of{...}. An "
      "operator on edges, faces or vertices is tried on those of the tet",
      kOnlyOn, kApplyNumbers},
+    {"attempt", "attempt(what, {vertex, ...})",
+     "tries one operator once: `what` as for apply, without order; at the vertex, or at the edge, "
+     "face or tet of these vertices, by their numbers in the mesh as it would be written now, from "
+     "0"},
     {"first_of", "first_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",

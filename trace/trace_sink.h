@@ -6,8 +6,10 @@
 #include <span>
 #include <string_view>
 
+#include "kernel/edit.h"
 #include "kernel/handles.h"
 #include "kernel/quality.h"
+#include "kernel/statistics.h"
 
 namespace tetmend {
 
@@ -17,18 +19,31 @@ struct AttemptEvent {
   std::string_view operator_name;
   std::span<const VertexHandle> target;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   unsigned level = 0;                    ///< recursion level, 0 for a call by the scheduler
+  /// Values of the operator's parameters, as a script writes them; empty for a call by an operator.
+  std::string_view settings = {};
 };
 
-/// Receives events in the order in which they happen; attempts nest. Views are valid during the
-/// call only.
-class TraceSink {
+/// Receives events in the order in which they happen: passes, in them visits of tets, in them
+/// attempts, which nest. Views are valid during the call only. What a sink does not care about it
+/// need not override.
+class TraceSink : public EditListener {
  public:
-  virtual ~TraceSink() = default;
   virtual void attempt_begins(const AttemptEvent& event) = 0;
   /// `verdict` is the name of the verdict. The quality vectors (ascending) of what changed are
   /// empty after a refusal.
   virtual void attempt_ends(std::string_view verdict, std::span<const Quality> before,
                             std::span<const Quality> now) = 0;
+  /// The innermost attempt knows what to do, and is about to do it.
+  virtual void candidate_found() {}
+
+  virtual void pass_begins(std::string_view /*name*/, unsigned /*round*/) {}
+  virtual void pass_ends(const QualityIndicators& /*now*/) {}
+  /// A pass turns to a tet that it wants to get rid of.
+  virtual void visit_begins(const TetVertices& /*tet*/, Quality /*quality*/) {}
+  virtual void visit_ends() {}
+
+  void edit_made(const TetMesh& /*mesh*/, const Journal& /*journal*/) override {}
+  void edit_undone() override {}
 };
 
 }  // namespace tetmend

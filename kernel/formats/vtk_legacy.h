@@ -2,7 +2,10 @@
 // Legacy VTK files `.vtk` with an unstructured grid.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
@@ -16,10 +19,19 @@ namespace tetmend::formats {
 /// tools use (`vtk_label_names` in the .cpp, best first). @throws Error
 MeshData read_vtk_legacy(const std::filesystem::path& file, TetPlace* question = nullptr);
 
+/// One whole number for each tet, in the order of the mesh.
+struct TetField {
+  std::string_view name;  ///< without blanks
+  std::span<const std::int32_t> values;
+};
+
 /// Binary, in the layout of version 4.2 that also old readers take. Labels go to the cell array
 /// CellEntityIds, as Gmsh has it, and to the point array of that name. Required vertices have no
 /// place in the format. The format has no end mark: of a file cut exactly before its labels nothing
 /// tells that they are missing. @throws Error also for more than 2^31 - 1 vertices
 void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh);
+/// With further cell arrays, in which triangles and edges have 0.
+void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh,
+                      std::span<const TetField> fields);
 
 }  // namespace tetmend::formats

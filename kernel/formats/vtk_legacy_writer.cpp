@@ -44,7 +44,15 @@ void write_types(OutputFile& out, std::size_t count, std::int32_t type) {
 
 constexpr std::string_view kLabelArray = "SCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n";
 
-void write_view(OutputFile& out, const MeshView& mesh) {
+void write_field(OutputFile& out, const TetField& field, std::size_t other_cells) {
+  out.put(fmt::format("SCALARS {} int 1\nLOOKUP_TABLE default\n", field.name));
+  put_rows(out, field.values.size(),
+           [&](std::size_t i, OutputBuffer& buffer) { put_big_endian(buffer, field.values[i]); });
+  put_rows(out, other_cells,
+           [](std::size_t, OutputBuffer& buffer) { put_big_endian(buffer, std::int32_t{0}); });
+}
+
+void write_view(OutputFile& out, const MeshView& mesh, std::span<const TetField> fields) {
   out.put("# vtk DataFile Version 3.0\nwritten by tetmend\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
   out.put(fmt::format("POINTS {} double\n", mesh.point_count()));
   put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
@@ -70,6 +78,10 @@ void write_view(OutputFile& out, const MeshView& mesh) {
   });
   write_labels(out, mesh.triangles());
   write_labels(out, mesh.edges());
+  for (const TetField& field : fields) {
+    out.put("\n");
+    write_field(out, field, triangles + edges);
+  }
   if (mesh.has_point_labels()) {
     out.put(fmt::format("\nPOINT_DATA {}\n{}", mesh.point_count(), kLabelArray));
     put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
@@ -82,13 +94,18 @@ void write_view(OutputFile& out, const MeshView& mesh) {
 }  // namespace
 
 void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh) {
+  write_vtk_legacy(file, mesh, {});
+}
+
+void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh,
+                      std::span<const TetField> fields) {
   if (mesh.point_count() > INT32_MAX) {
     throw Error(
         fmt::format("{}: cannot be written: the format holds at most {} vertices, the mesh has {}",
                     file.string(), INT32_MAX, mesh.point_count()));
   }
   OutputFile out(file);
-  write_view(out, mesh);
+  write_view(out, mesh, fields);
   out.commit();
 }
 

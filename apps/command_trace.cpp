@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// tetmend trace: looks into a recorded run.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/output_file.h"
+#include "kernel/formats/vtk_legacy.h"
+#include "trace/call_extract.h"
+#include "trace/call_tree.h"
+#include "trace/replay.h"
+#include "trace/trace_file.h"
+#include "trace/trace_summary.h"
+
+namespace tetmend::apps {
+namespace {
+
+struct Options {
+  std::filesystem::path file;
+  std::filesystem::path output;
+  std::optional<std::uint32_t> tree;
+  std::optional<std::uint32_t> dot;
+  std::optional<std::uint64_t> at;
+  std::optional<std::uint32_t> extract;
+  bool slices = false;
+};
+
+void check_call(const TraceFile& file, std::uint32_t call) {
+  if (call < file.calls().size()) return;
+  throw Error(fmt::format("there is no call {}; the trace has {}, counted from 0", call,
+                          file.calls().size()));
+}
+
+/// To the file that was asked for, or to standard output.
+void put_text(const Options& options, std::string_view text) {
+  if (options.output.empty()) {
+    fmt::print("{}", text);
+    return;
+  }
+  OutputFile out(options.output);
+  out.put(text);
+  out.commit();
+}
+
+void write_slices(const Options& options, const TraceFile& file) {
+  if (options.output.empty()) {
+    tetmend::write_slices(file, [](std::string_view text) { fmt::print("{}", text); });
+    return;
+  }
+  OutputFile out(options.output);
+  tetmend::write_slices(file, [&](std::string_view text) { out.put(text); });
+  out.commit();
+}
+
+/// 1: created by the last event; 2: removed by the next one; 3: both.
+std::vector<std::int32_t> cavity_field(const TraceFile& file, Replay& replay) {
+  std::vector<std::int32_t> by_slot(replay.mesh().tet_slots(), 0);
+  for (const CavityTet& t : replay.cavity().created) by_slot[t.tet.index()] |= 1;
+  const std::uint64_t here = replay.position();
+  if (here < file.event_count()) {
+    replay.seek(here + 1);
+    for (const CavityTet& t : replay.cavity().removed) by_slot[t.tet.index()] |= 2;
+    replay.seek(here);
+  }
+  std::vector<std::int32_t> live;
+  for (std::uint32_t i = 0; i < by_slot.size(); ++i) {
+    if (!replay.mesh().is_deleted(TetHandle(i))) live.push_back(by_slot[i]);
+  }
+  return live;
+}
+
+void write_mesh_at(const Options& options, const TraceFile& file) {
+  if (*options.at > file.event_count()) {
+    throw Error(fmt::format("--at {}: the trace has {} events", *options.at, file.event_count()));
+  }
+  Replay replay(file, 0);
+  replay.seek(*options.at);
+  const MeshData data = replay.mesh().to_data();
+  if (options.output.extension() != ".vtk") return write_mesh(options.output, data);
+  const std::vector<std::int32_t> cavity = cavity_field(file, replay);
+  const formats::TetField field{"cavity", cavity};
+  formats::write_vtk_legacy(options.output, MeshView(data), {&field, 1});
+}
+
+void write_text(const std::filesystem::path& file, std::string_view text) {
+  OutputFile out(file);
+  out.put(text);
+  out.commit();
+}
+
+/// A folder with all that repeating one call needs.
+void write_extract(const Options& options, const TraceFile& file) {
+  check_call(file, *options.extract);
+  Replay replay(file, 0);
+  const CallExtract kit = extract_call(file, replay, *options.extract);
+  const Call& call = file.calls()[kit.call];
+  const std::string_view verdict = file.name(call.verdict);
+  const std::string_view settings = file.name(call.settings);
+  std::error_code failed;
+  std::filesystem::create_directories(options.output, failed);
+  write_mesh(options.output / "call.mesh", kit.mesh);
+  write_text(options.output / "call.lua",
+             fmt::format("-- Call {} of {}: {} -> {}\nattempt({{\"{}\"{}{}}}, {{{}}})\n", kit.call,
+                         options.file.filename().string(), describe_call(file, kit.call), verdict,
+                         file.name(call.operator_name), settings.empty() ? "" : ", ", settings,
+                         fmt::join(kit.target, ", ")));
+  write_text(options.output / "README.txt",
+             fmt::format("Repeats call {} of a run of {}\n\n"
+                         "  tetmend improve call.mesh -o out.mesh --schedule call.lua{} --trace "
+                         "out.trace\n  tetmend trace out.trace --tree 0\n\nIn the run:\n\n{}",
+                         kit.call, file.header().program,
+                         kit.frozen ? fmt::format(" --protect label:{}", *kit.frozen) : "",
+                         call_tree_text(file, kit.call)));
+}
+
+int run_trace(const Options& options) {
+  if (options.at) {
+    if (options.output.empty()) throw UsageError("--at needs -o, a file for the mesh");
+    check_mesh_extension(options.output);
+  }
+  if (options.extract && options.output.empty()) {
+    throw UsageError("--extract needs -o, a folder for the files");
+  }
+  if (!options.output.empty() && !options.extract) check_writable(options.output);
+  const TraceFile file(options.file);
+  if (!file.damage().empty()) fmt::print(stderr, "tetmend: warning: {}\n", file.damage());
+  if (options.at) {
+    write_mesh_at(options, file);
+  } else if (options.extract) {
+    write_extract(options, file);
+  } else if (options.slices) {
+    write_slices(options, file);
+  } else if (options.tree) {
+    check_call(file, *options.tree);
+    put_text(options, call_tree_text(file, *options.tree));
+  } else if (options.dot) {
+    check_call(file, *options.dot);
+    put_text(options, call_tree_dot(file, *options.dot));
+  } else {
+    put_text(options, format_summary(file, summarize(file)));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_trace(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("trace", "Look into a run that was recorded");
+  command->add_option("FILE", options->file, "What 'tetmend improve --trace FILE' wrote")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", options->output, "File for the output, instead of the screen")
+      ->type_name("OUT");
+  CLI::Option_group* what = command->add_option_group("what");
+  what->add_option("--tree", options->tree, "A call and all calls in it, as text")
+      ->type_name("CALL");
+  what->add_option("--dot", options->dot, "The same as a graph for Graphviz")->type_name("CALL");
+  what->add_flag("--slices", options->slices,
+                 "The whole trace as JSON for Perfetto and\nchrome://tracing");
+  what->add_option("--at", options->at, "Mesh after the first N events; needs -o")->type_name("N");
+  what->add_option("--extract", options->extract,
+                   "A folder (-o) with a small mesh and a schedule\nthat repeat a call")
+      ->type_name("CALL");
+  what->require_option(0, 1);
+  command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
+events are counted from 0; vertices are named by their handle numbers. Of
+--at N -o mesh.vtk the field 'cavity' is 1 for tets that event N - 1 created, 2
+for those that event N removes, 3 for both. A trace that is cut off or damaged
+is read up to there, with a warning.
+
+Examples:
+  tetmend improve part.mesh -o better.mesh --trace run.trace
+  tetmend trace run.trace
+  tetmend trace run.trace --tree 17
+  tetmend trace run.trace --dot 17 | dot -Tsvg -o call.svg
+  tetmend trace run.trace --slices -o run.json
+  tetmend trace run.trace --at 1200 -o then.vtk
+  tetmend trace run.trace --extract 17 -o report
+
+Exit status: 0 success, 1 the work failed, 2 wrong usage)");
+  command->callback(
+      [options, &invocation] { invocation.action = [options] { return run_trace(*options); }; });
+}
+
+}  // namespace tetmend::apps

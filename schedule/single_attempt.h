@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// One attempt at one place: to look at it, or to repeat what a trace shows.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "schedule/run.h"
+
+namespace tetmend {
+
+struct SingleAttempt {
+  std::string operator_name;
+  ParameterSettings settings = {};
+  /// Of the target; numbers as in MeshView(mesh), so at first those of the mesh's file.
+  std::vector<std::uint32_t> vertices;
+};
+
+/// A pass of one attempt. If several tets have the target, it is named by one that lists the
+/// vertices in the order given, where there is one.
+/// @throws Error for an unknown operator or parameter, a vertex that does not exist, or when no
+/// tet, edge, face or vertex is made up of the vertices. Cost: linear in the mesh.
+void attempt_once(Run& run, const SingleAttempt& options);
+
+}  // namespace tetmend

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Traces from the command line: recording, filters, exports, damaged files.
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "kernel/formats/mesh_io.h"
+#include "tests/apps/program.h"
+#include "trace/call_tree.h"
+#include "trace/trace_file.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::string kSheet = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+struct Bench {
+  TempFolder folder;
+  std::string out = (folder / "out.mesh").string();
+  std::string trace = (folder / "run.trace").string();
+
+  Outcome improve(std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"improve", kSheet, "-o", out, "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  }
+  Outcome record(std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--trace", trace});
+    return improve(more);
+  }
+  Outcome look(std::vector<std::string> more) {
+    more.insert(more.begin(), {"trace", trace});
+    return run_program(more);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a run that is recorded writes the same mesh, and its trace has a summary") {
+  Bench bench;
+  REQUIRE(bench.improve().status == 0);
+  const std::string plain = read_text(bench.out);
+  REQUIRE(bench.record({"--threads", "2"}).status == 0);
+  CHECK(read_text(bench.out) == plain);
+  CHECK(bench.folder.entries() == 2);
+  const Outcome summary = bench.look({});
+  CHECK(summary.status == 0);
+  CHECK(summary.err.empty());
+  const TraceFile file(bench.trace);
+  CHECK(contains(summary.out, fmt::format("{} events in ", file.event_count())));
+  CHECK(contains(summary.out, fmt::format("{} calls, ", file.calls().size())));
+  CHECK(contains(summary.out, "recursive_shell_transformation"));
+}
+
+TEST_CASE("filters make the trace smaller and leave the mesh as it was") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const std::string mesh = read_text(bench.out);
+  const std::size_t calls = TraceFile(bench.trace).calls().size();
+  const std::vector<std::vector<std::string>> filters = {
+      {"--trace-around", "17"}, {"--trace-around", "17,0.2"}, {"--trace-operator", "smoothing"},
+      {"--trace-depth", "1"},   {"--trace-limit", "100K"},    {"--trace-around", "0,0,0,0.5"}};
+  for (const auto& filter : filters) {
+    CAPTURE(filter[0]);
+    CAPTURE(filter[1]);
+    REQUIRE(bench.record(filter).status == 0);
+    CHECK(read_text(bench.out) == mesh);
+    const TraceFile file(bench.trace);
+    CHECK(file.calls().size() < calls);
+    CHECK(!file.header().filter.empty());
+  }
+}
+
+TEST_CASE("mistakes in the options of a trace are wrong usage, before any work") {
+  Bench bench;
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"--trace-around", "x"}, "--trace-around: 'x' is not a number"},
+      {{"--trace-around", "1,2,3"}, "'1,2,3' is not of the form TET, TET,RADIUS or X,Y,Z,RADIUS"},
+      {{"--trace-around", "1,-2"}, "the radius -2 is not positive"},
+      {{"--trace-operator", "flip"}, "unknown operator 'flip'; valid: "},
+      {{"--trace-depth", "-1"}, "--trace-depth"},
+      {{"--trace-limit", "5X"}, "'5X' is not a size such as 500M"}};
+  for (const auto& [options, message] : wrong) {
+    CAPTURE(message);
+    const Outcome outcome = bench.record(options);
+    CHECK(outcome.status == 2);
+    CHECK_MESSAGE(contains(outcome.err, message), outcome.err);
+  }
+  CHECK(bench.improve({"--trace-depth", "1"}).status == 2);
+  CHECK(bench.folder.entries() == 0);
+  const Outcome outcome = bench.record({"--trace-around", "3327"});
+  CHECK(outcome.status == 1);
+  CHECK(contains(outcome.err, "there is no tet 3327; the mesh has 3327, counted from 0"));
+}
+
+TEST_CASE("a call is shown as a tree, as a graph and as slices") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const TraceFile file(bench.trace);
+  std::uint32_t call = 0;
+  while (file.calls()[call].subtree_end - call < 10) call = file.calls()[call].subtree_end;
+  const std::string number = std::to_string(call);
+  CHECK(bench.look({"--tree", number}).out == call_tree_text(file, call));
+  CHECK(bench.look({"--dot", number}).out == call_tree_dot(file, call));
+  const std::string slices = (bench.folder / "slices.json").string();
+  REQUIRE(bench.look({"--slices", "-o", slices}).status == 0);
+  const auto json = nlohmann::json::parse(read_text(slices));
+  CHECK(json["traceEvents"].size() ==
+        file.passes().size() + file.visits().size() + file.calls().size());
+  const Outcome none = bench.look({"--tree", "99999999"});
+  CHECK(none.status == 1);
+  CHECK(contains(none.err, "there is no call 99999999"));
+}
+
+TEST_CASE("the mesh at an event is written, with the cavity as a field of a VTK file") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const TraceFile file(bench.trace);
+  const std::string first = (bench.folder / "first.mesh").string();
+  REQUIRE(bench.look({"--at", "0", "-o", first}).status == 0);
+  CHECK(read_mesh(first).tets.size() == read_mesh(kSheet).tets.size());
+  const std::string last = (bench.folder / "last.mesh").string();
+  REQUIRE(bench.look({"--at", std::to_string(file.event_count()), "-o", last}).status == 0);
+  CHECK(read_mesh(last).tets.size() == read_mesh(bench.out).tets.size());
+  EventCursor events(file);
+  while (events.next().kind != EventKind::replace_cavity) {
+  }
+  const std::string vtk = (bench.folder / "then.vtk").string();
+  REQUIRE(bench.look({"--at", std::to_string(events.position()), "-o", vtk}).status == 0);
+  const std::string content = read_text(vtk);
+  const std::string head = "SCALARS cavity int 1\nLOOKUP_TABLE default\n";
+  const std::size_t at = content.find(head);
+  REQUIRE(at != std::string::npos);
+  EventCursor again(file);
+  again.move_to(events.position() - 1);
+  std::size_t created = 0;
+  const std::size_t tets = read_mesh(vtk).tets.size();
+  for (std::size_t i = 0; i < tets; ++i) created += content[at + head.size() + 4 * i + 3] & 1;
+  CHECK(created == again.next().created.size());
+  CHECK(bench.look({"--at", "0"}).status == 2);
+  CHECK(bench.look({"--at", "99999999", "-o", vtk}).status == 1);
+}
+
+TEST_CASE("a call that was extracted has the same verdict when it is repeated") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const TraceFile file(bench.trace);
+  std::size_t repeated = 0;
+  std::size_t accepted = 0;
+  for (std::uint32_t c = 0; c < file.calls().size(); c = file.calls()[c].subtree_end) {
+    if (c % 97 != 0 && !(file.calls()[c].accepted && c % 7 == 0)) continue;
+    if (++repeated > 40) break;
+    CAPTURE(describe_call(file, c));
+    const std::string kit = (bench.folder / "kit").string();
+    REQUIRE(bench.look({"--extract", std::to_string(c), "-o", kit}).status == 0);
+    const std::string again = (bench.folder / "again.trace").string();
+    const Outcome outcome = run_program({"improve", kit + "/call.mesh", "-o", kit + "/out.mesh",
+                                         "--schedule", kit + "/call.lua", "--trace", again, "-q"});
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const TraceFile repeat(again);
+    CHECK(repeat.name(repeat.calls()[0].verdict) == file.name(file.calls()[c].verdict));
+    accepted += file.calls()[c].accepted ? 1 : 0;
+  }
+  CHECK(repeated > 20);
+  CHECK(accepted > 5);
+}
+
+TEST_CASE("a trace that is cut off is summarised with a warning; what is none is refused") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const std::string whole = read_text(bench.trace);
+  write_text(bench.trace, whole.substr(0, whole.size() - 100));
+  const Outcome cut = bench.look({});
+  CHECK(cut.status == 0);
+  CHECK(contains(cut.err, "tetmend: warning: "));
+  CHECK(contains(cut.err, "read up to event "));
+  write_text(bench.trace, "no trace");
+  const Outcome none = bench.look({});
+  CHECK(none.status == 1);
+  CHECK(contains(none.err, "is no trace of tetmend"));
+}

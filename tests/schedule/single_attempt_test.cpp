@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/single_attempt.h"
+
+#include <doctest/doctest.h>
+
+#include "ops/registry.h"
+#include "schedule/schedule.h"
+#include "tests/support/zoo.h"
+#include "trace/text_trace.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// The trace of a script on a shell of three tets around the edge 0 1, the ring 2 3 4.
+std::string trace_of(const std::string& script) {
+  TetMesh mesh(shell_mesh({.degree = 3, .height = 1.4142135623730951}));
+  Registry registry;
+  register_builtin_operators(registry);
+  Run run(mesh, registry);
+  TextTrace trace;
+  run.set_trace(&trace);
+  improve(run, Schedule("test.lua", script));
+  CHECK(run.records.size() == 1);
+  return trace.text();
+}
+
+}  // namespace
+
+TEST_CASE("a single attempt aims at the target of the vertices and at nothing else") {
+  CHECK(trace_of("attempt('edge_removal', {0, 1})") ==
+        "edge_removal(0 1) level 0\n-> accepted, 3 tets 0.5774 -> 2 tets 0.9428\n");
+  CHECK(trace_of("attempt('edge_removal', {2, 3})") ==
+        "edge_removal(2 3) level 0\n-> constrained\n");
+  CHECK(trace_of("attempt('smoothing', {4})") == "smoothing(4) level 0\n-> constrained\n");
+  CHECK(trace_of("attempt({'recursive_shell_transformation', max_level = 0}, {0, 1})")
+            .find("-> accepted") != std::string::npos);
+}
+
+TEST_CASE("a single attempt at what is not there is a mistake of the script") {
+  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 9})"),
+                       doctest::Contains("there is no vertex 9; the mesh has 5"), Error);
+  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 1, 2})"),
+                       doctest::Contains("edge_removal: no edge has the vertices 0, 1, 2"), Error);
+  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 0.5})"),
+                       doctest::Contains("0.5 is no number of a vertex"), Error);
+  CHECK_THROWS_WITH_AS(trace_of("attempt(all_of{'smoothing'}, {0})"),
+                       doctest::Contains("must be one operator"), Error);
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "trace/recorder.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "tests/kernel/formats/fixtures.h"
+#include "tests/support/threads.h"
+#include "tests/support/traced_run.h"
+#include "trace/replay.h"
+#include "trace/trace_file.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// The replay of the whole trace ends with the mesh that the run left.
+bool ends_with(const TraceFile& file, const TetMesh& mesh) {
+  Replay replay(file);
+  replay.seek(file.event_count());
+  return replay.mesh().fingerprint() == SlotMesh(mesh).fingerprint();
+}
+
+bool is_inside(const Call& call, const TraceFile& file, std::string_view operator_name) {
+  for (const Call* c = &call;; c = &file.calls()[c->parent]) {
+    if (file.name(c->operator_name) == operator_name) return true;
+    if (c->parent == kNoCall) return false;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a mesh is the same with and without a recorder") {
+  const TempFolder folder;
+  TetMesh plain = asset_mesh("sheet.mesh");
+  TetMesh traced = plain;
+  Registry registry;
+  register_builtin_operators(registry);
+  Run run(plain, registry);
+  improve(run);
+  record(traced, folder / "trace");
+  CHECK(plain == traced);
+}
+
+TEST_CASE("a trace does not depend on the number of threads, but for its times") {
+  const TempFolder folder;
+  const auto events = [&](int threads) {
+    TetMesh mesh = asset_mesh("sheet.mesh");
+    on_threads(threads, [&] { record(mesh, folder / "trace"); });
+    const TraceFile file(folder / "trace");
+    std::string text;
+    for (std::uint32_t c = 0; c < file.calls().size(); ++c) {
+      const Call& call = file.calls()[c];
+      text += std::to_string(call.events.begin) + " " + std::string(file.name(call.verdict)) + "\n";
+    }
+    return text;
+  };
+  CHECK(events(1) == events(3));
+}
+
+TEST_CASE("equal runs give equal files when steps are the clock") {
+  const TempFolder folder;
+  const auto bytes = [&](TraceClock clock) {
+    TetMesh mesh = asset_mesh("sheet.mesh");
+    record(mesh, folder / "trace", {}, {}, Schedule("brief", "local_reconnection{}"), true, clock);
+    return read_text(folder / "trace");
+  };
+  CHECK(bytes(TraceClock::steps) == bytes(TraceClock::steps));
+  CHECK(bytes(TraceClock::real) != bytes(TraceClock::real));
+  bytes(TraceClock::steps);
+  const TraceFile file(folder / "trace");
+  CHECK(file.calls()[1].events.begin_seconds > file.calls()[0].events.begin_seconds);
+}
+
+TEST_CASE("a filter by operator keeps its calls with all in them, and the way of the mesh") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh again = mesh;
+  record(mesh, folder / "all");
+  const TraceFile all(folder / "all");
+  for (const std::string name : {"smoothing", "shell_transformation"}) {
+    CAPTURE(name);
+    TetMesh filtered = again;
+    record(filtered, folder / "some", {.operators = {name}});
+    const TraceFile some(folder / "some");
+    const auto wanted = std::ranges::count_if(
+        all.calls(), [&](const Call& call) { return is_inside(call, all, name); });
+    CHECK(wanted > 0);
+    CHECK(some.calls().size() == static_cast<std::size_t>(wanted));
+    CHECK(some.event_count() < all.event_count());
+    CHECK(ends_with(some, mesh));
+  }
+}
+
+TEST_CASE("a filter by depth keeps the outer calls, and the way of the mesh") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh again = mesh;
+  record(mesh, folder / "all");
+  const TraceFile all(folder / "all");
+  for (const unsigned depth : {0u, 2u}) {
+    TetMesh filtered = again;
+    record(filtered, folder / "some", {.depth = depth});
+    const TraceFile some(folder / "some");
+    const auto wanted =
+        std::ranges::count_if(all.calls(), [&](const Call& call) { return call.depth <= depth; });
+    CHECK(some.calls().size() == static_cast<std::size_t>(wanted));
+    CHECK(some.calls().size() < all.calls().size());
+    CHECK(ends_with(some, mesh));
+  }
+}
+
+TEST_CASE("a filter by place keeps the calls that aim at it, with all in them") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  const TetMesh before = mesh;
+  record(mesh, folder / "all");
+  const TraceFile all(folder / "all");
+  const VertexHandle centre = all.calls()[0].target_vertices[0];
+  const TraceFilter::Ball ball{before.point(centre), 1e-9};
+  TetMesh filtered = before;
+  record(filtered, folder / "some", {.around = ball});
+  const TraceFile some(folder / "some");
+  CHECK(!some.calls().empty());
+  CHECK(some.calls().size() < all.calls().size());
+  for (const Call& call : some.calls()) {
+    if (call.depth == 0) CHECK(std::ranges::count(call.target(), centre) == 1);
+  }
+  CHECK(ends_with(some, mesh));
+}
+
+TEST_CASE("a trace with a limit ends before it, and the run goes on") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh limited = mesh;
+  record(mesh, folder / "all");
+  const std::uintmax_t size = std::filesystem::file_size(folder / "all");
+  record(limited, folder / "some", {.most_bytes = size / 2 + size / 3});
+  CHECK(std::filesystem::file_size(folder / "some") <= size / 2 + size / 3);
+  CHECK(mesh == limited);
+  const TraceFile some(folder / "some");
+  CHECK(some.limit_reached());
+  CHECK(some.damage().empty());
+  CHECK(some.event_count() > 0);
+  CHECK(some.event_count() < TraceFile(folder / "all").event_count());
+}
+
+TEST_CASE("a trace that is not finished stays as a part and can be read") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  record(mesh, folder / "trace", {}, {}, Schedule::builtin("shell"), false);
+  CHECK(!std::filesystem::exists(folder / "trace"));
+  const TraceFile file(folder / "trace.part");
+  CHECK(file.damage().find("has no end") != std::string::npos);
+  CHECK(ends_with(file, mesh));
+}
+
+TEST_CASE("a trace that cannot be written is an error with the reason") {
+  const TempFolder folder;
+  const TetMesh mesh = asset_mesh("sheet.mesh");
+  CHECK_THROWS_WITH_AS(TraceRecorder(folder / "no" / "trace", mesh, {}),
+                       doctest::Contains("No such file or directory"), Error);
+}

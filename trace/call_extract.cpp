@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "trace/call_extract.h"
+
+#include <algorithm>
+
+namespace tetmend {
+
+namespace {
+
+constexpr int kLayers = 2;
+
+/// What the calls of a tree aimed at or changed, by vertex slot.
+std::vector<std::uint8_t> touched_vertices(const TraceFile& file, std::uint32_t root) {
+  std::vector<std::uint8_t> touched;
+  const auto touch = [&](VertexHandle v) {
+    if (v.index() >= touched.size()) touched.resize(v.index() + 1u, 0);
+    touched[v.index()] = 1;
+  };
+  const Call& call = file.calls()[root];
+  for (std::uint32_t c = root; c < call.subtree_end; ++c) {
+    for (const VertexHandle v : file.calls()[c].target()) touch(v);
+  }
+  EventCursor cursor(file);
+  cursor.move_to(call.events.begin);
+  while (cursor.position() < call.events.end) {
+    const TraceEvent& event = cursor.next();
+    if (event.kind != EventKind::replace_cavity) continue;
+    for (const TetVertices& tet : event.created_vertices) {
+      for (const VertexHandle v : tet) touch(v);
+    }
+  }
+  return touched;
+}
+
+bool touches(const SlotMesh& mesh, TetHandle t, const std::vector<std::uint8_t>& marked) {
+  return std::ranges::any_of(mesh.vertices(t), [&](VertexHandle v) {
+    return v.index() < marked.size() && marked[v.index()] != 0;
+  });
+}
+
+/// Gives frozen tets a label of their own, by which a run can be told to keep them.
+std::optional<Label> mark_frozen(std::span<const std::uint32_t> frozen,
+                                 std::span<const TetHandle> tets, MeshData& data) {
+  Label label = 0;
+  for (const MeshData::Tet& tet : data.tets) label = std::max(label, tet.label);
+  ++label;
+  bool found = false;
+  for (std::size_t k = 0; k < tets.size(); ++k) {
+    if (!std::ranges::binary_search(frozen, tets[k].index())) continue;
+    data.tets[k].label = label;
+    found = true;
+  }
+  return found ? std::optional(label) : std::nullopt;
+}
+
+}  // namespace
+
+CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t call) {
+  while (file.calls()[call].parent != kNoCall) call = file.calls()[call].parent;
+  replay.seek(file.calls()[call].events.begin);
+  const SlotMesh& mesh = replay.mesh();
+  std::vector<std::uint8_t> marked = touched_vertices(file, call);
+  marked.resize(std::max(marked.size(), mesh.vertex_slots()), 0);
+  std::vector<TetHandle> tets;
+  for (int layer = 0; layer <= kLayers; ++layer) {
+    tets.clear();
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      const TetHandle t(i);
+      if (!mesh.is_deleted(t) && touches(mesh, t, marked)) tets.push_back(t);
+    }
+    for (const TetHandle t : tets) {
+      for (const VertexHandle v : mesh.vertices(t)) marked[v.index()] = 1;
+    }
+  }
+  CallExtract result;
+  result.call = call;
+  std::vector<std::uint32_t> slots;
+  result.mesh = mesh.extract(tets, &slots);
+  result.frozen = mark_frozen(mesh.frozen_tets(), tets, result.mesh);
+  for (const VertexHandle v : file.calls()[call].target()) {
+    const auto found = std::lower_bound(slots.begin(), slots.end(), v.index());
+    result.target.push_back(static_cast<std::uint32_t>(found - slots.begin()));
+  }
+  return result;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// A chunk ends only between two outermost attempts, so that no edit in it refers to another chunk.
+#include "trace/recorder.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "trace/slot_mesh.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Before compression: a few thousand events.
+constexpr std::size_t kChunkBytes = std::size_t{1} << 17;
+
+}  // namespace
+
+void TraceHeader::encode(ByteWriter& out) const {
+  for (const std::string* text : {&program, &input, &schedule, &schedule_text, &filter}) {
+    out.put_text(*text);
+  }
+  out.put(settings.size());
+  for (const auto& [name, value] : settings) {
+    out.put_text(name);
+    out.put_text(value);
+  }
+}
+
+TraceHeader TraceHeader::decode(ByteReader& in) {
+  TraceHeader header;
+  for (std::string* text :
+       {&header.program, &header.input, &header.schedule, &header.schedule_text, &header.filter}) {
+    *text = in.get_text();
+  }
+  header.settings.resize(in.get_count());
+  for (auto& [name, value] : header.settings) {
+    name = in.get_text();
+    value = in.get_text();
+  }
+  return header;
+}
+
+std::string TraceFilter::describe() const {
+  std::vector<std::string> parts;
+  if (around) {
+    parts.push_back(fmt::format("around {},{},{} within {}", around->centre.x(), around->centre.y(),
+                                around->centre.z(), around->radius));
+  }
+  if (!operators.empty()) parts.push_back(fmt::format("operators {}", fmt::join(operators, " ")));
+  if (depth != TraceFilter().depth) parts.push_back(fmt::format("depth at most {}", depth));
+  if (most_bytes != TraceFilter().most_bytes) {
+    parts.push_back(fmt::format("at most {} bytes", most_bytes));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TetMesh& mesh,
+                             TraceHeader header, TraceFilter filter, TraceClock clock)
+    : mesh_(mesh), filter_(std::move(filter)), clock_(clock), file_(file) {
+  header.filter = filter_.describe();
+  ByteWriter content;
+  header.encode(content);
+  write_frame('H', content.bytes());
+  content.cut(0);
+  SlotMesh(mesh).encode(content);
+  write_frame('M', content.bytes());
+}
+
+TraceRecorder::~TraceRecorder() {
+  if (active_) write_chunk();
+}
+
+std::uint64_t TraceRecorder::ticks() const {
+  constexpr std::uint64_t kTicksPerStep = 16;
+  if (clock_ == TraceClock::steps) return kTicksPerStep * events_;
+  const std::chrono::nanoseconds now = std::chrono::steady_clock::now() - start_;
+  return static_cast<std::uint64_t>(now.count()) / EventEncoder::kTickNanoseconds;
+}
+
+void TraceRecorder::write_frame(char kind, std::span<const std::byte> content) {
+  ByteWriter whole;
+  whole.put_raw(kind);
+  whole.put_bytes(content.data(), content.size());
+  file_.write(file_.pack(whole.bytes()));
+}
+
+void TraceRecorder::write_end(TraceEnd end) {
+  ByteWriter content;
+  content.put(events_);
+  content.put(static_cast<std::uint64_t>(end));
+  write_frame('Z', content.bytes());
+}
+
+void TraceRecorder::write_chunk() {
+  if (encoder_.size() == 0) return;
+  content_.cut(0);
+  content_.put_raw('E');
+  content_.put(chunk_begin_);
+  content_.put(events_ - chunk_begin_);
+  content_.put_bytes(encoder_.bytes().data(), encoder_.size());
+  try {
+    constexpr std::size_t kEndBytes = 64;
+    const auto packed = file_.pack(content_.bytes());
+    if (file_.written() + packed.size() + kEndBytes > filter_.most_bytes) {
+      active_ = false;
+      events_ = chunk_begin_;
+      write_end(TraceEnd::limit_reached);
+    } else {
+      file_.write(packed);
+    }
+  } catch (const Error& error) {
+    active_ = false;
+    trouble_ = error.what();
+  }
+  encoder_.clear();
+  chunk_begin_ = events_;
+  fence_ = 0;
+}
+
+void TraceRecorder::finish() {
+  if (active_) {
+    write_chunk();
+    if (active_) write_end(TraceEnd::complete);
+  }
+  active_ = false;
+  if (!trouble_.empty()) throw Error(trouble_);
+  file_.finish();
+}
+
+/// An event that stays, other than an edit.
+void TraceRecorder::wrote_event() {
+  ++events_;
+  fence_ = encoder_.size();
+}
+
+void TraceRecorder::pass_begins(std::string_view name, unsigned round) {
+  if (!active_) return;
+  encoder_.pass_begins(name, round, ticks());
+  wrote_event();
+}
+
+void TraceRecorder::pass_ends(const QualityIndicators& now) {
+  if (!active_) return;
+  encoder_.pass_ends(now, ticks());
+  wrote_event();
+}
+
+/// Written when the first attempt in it is.
+void TraceRecorder::visit_begins(const TetVertices& tet, Quality quality) {
+  visit_ = Visit{tet, quality, false};
+}
+
+void TraceRecorder::visit_ends() {
+  if (active_ && visit_ && visit_->written) {
+    encoder_.visit_ends(ticks());
+    wrote_event();
+  }
+  visit_.reset();
+}
+
+bool TraceRecorder::is_near(const AttemptEvent& event) const {
+  if (!open_.empty()) return open_.back().near;
+  return !filter_.around ||
+         std::any_of(event.target.begin(), event.target.end(), [&](VertexHandle v) {
+           return (mesh_.point(v) - filter_.around->centre).norm() <= filter_.around->radius;
+         });
+}
+
+bool TraceRecorder::is_wanted(std::string_view operator_name) const {
+  const auto& wanted = filter_.operators;
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), operator_name) != wanted.end();
+}
+
+void TraceRecorder::attempt_begins(const AttemptEvent& event) {
+  if (!active_) return;
+  const bool near = is_near(event);
+  const bool inside =
+      (!open_.empty() && open_.back().inside) || (near && is_wanted(event.operator_name));
+  const bool written = inside && open_.size() <= filter_.depth;
+  if (written) {
+    const std::uint64_t now = ticks();
+    if (visit_ && !visit_->written) {
+      encoder_.visit_begins(visit_->tet, visit_->quality, now);
+      wrote_event();
+      visit_->written = true;
+    }
+    encoder_.attempt_begins(event, now);
+    wrote_event();
+  }
+  open_.push_back({near, inside, written});
+}
+
+void TraceRecorder::candidate_found() {
+  if (!active_ || !is_written()) return;
+  encoder_.candidate_found();
+  wrote_event();
+}
+
+void TraceRecorder::attempt_ends(std::string_view verdict, std::span<const Quality> before,
+                                 std::span<const Quality> now) {
+  if (!active_) return;
+  if (is_written()) {
+    encoder_.attempt_ends(verdict, before, now, ticks());
+    wrote_event();
+  }
+  open_.pop_back();
+  if (!open_.empty()) return;
+  edits_.clear();
+  if (encoder_.size() >= kChunkBytes) write_chunk();
+}
+
+void TraceRecorder::edit_made(const TetMesh& mesh, const Journal& journal) {
+  if (!active_) return;
+  edits_.push_back(encoder_.size());
+  encoder_.edit(mesh, journal);
+  ++events_;
+}
+
+/// In an attempt that is not written nothing is known of edits that were undone.
+void TraceRecorder::edit_undone() {
+  if (!active_) return;
+  const std::size_t begin = edits_.back();
+  edits_.pop_back();
+  if (begin >= fence_ && !is_written()) {
+    encoder_.cut(begin);
+    --events_;
+    return;
+  }
+  encoder_.undo();
+  wrote_event();
+}
+
+}  // namespace tetmend

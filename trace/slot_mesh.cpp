@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include "trace/slot_mesh.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "kernel/mesh_view.h"
+
+namespace tetmend {
+
+namespace {
+
+constexpr std::uint32_t kNowhere = 0xFFFFFFFFu;
+
+class Fingerprint {
+ public:
+  void add(std::uint64_t value) {
+    state_ = (state_ ^ value) * 0x9E3779B97F4A7C15u;
+    state_ ^= state_ >> 29;
+  }
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0x243F6A8885A308D3u;
+};
+
+void encode_slots(ByteWriter& out, std::span<const std::uint32_t> slots) {
+  out.put(slots.size());
+  std::uint32_t last = 0;
+  for (const std::uint32_t slot : slots) out.put_step(slot, last);
+}
+
+std::vector<std::uint32_t> decode_slots(ByteReader& in, std::size_t end) {
+  std::vector<std::uint32_t> slots(in.get_count());
+  std::uint32_t last = 0;
+  for (std::uint32_t& slot : slots) {
+    slot = in.get_step(last);
+    if (slot >= end) throw ByteReader::Damage();
+  }
+  return slots;
+}
+
+template <class Element>
+void encode_named(ByteWriter& out, std::span<const Element> elements) {
+  out.put(elements.size());
+  std::uint32_t last = 0;
+  for (const Element& element : elements) {
+    for (const std::uint32_t v : element.vertices) out.put_step(v, last);
+    out.put_signed(element.label);
+  }
+}
+
+template <class Element>
+void decode_named(ByteReader& in, std::size_t vertices, std::vector<Element>& elements) {
+  elements.resize(in.get_count());
+  std::uint32_t last = 0;
+  for (Element& element : elements) {
+    for (std::uint32_t& v : element.vertices) {
+      v = in.get_step(last);
+      if (v >= vertices) throw ByteReader::Damage();
+    }
+    element.label = static_cast<Label>(in.get_signed());
+  }
+}
+
+}  // namespace
+
+SlotMesh::SlotMesh(const TetMesh& mesh) {
+  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
+    const VertexHandle v(i);
+    points_.push_back(mesh.point(v));
+    live_.push_back(mesh.is_deleted(v) ? 0 : 1);
+  }
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    tets_.push_back(mesh.vertices(t));
+    labels_.push_back(mesh.label(t));
+    if (!mesh.is_deleted(t) && mesh.is_frozen(t)) frozen_tets_.push_back(i);
+  }
+  tet_count_ = mesh.tet_count();
+  vertex_count_ = mesh.vertex_count();
+  const MeshView view(mesh);
+  const std::span<const std::uint32_t> slots = view.vertex_slots();
+  const auto by_slot = [&](auto elements, auto& out) {
+    for (auto element : elements) {
+      for (std::uint32_t& v : element.vertices) v = slots.empty() ? v : slots[v];
+      out.push_back(element);
+    }
+  };
+  by_slot(view.triangles(), triangles_);
+  by_slot(view.edges(), edges_);
+  for (const std::uint32_t v : view.required_vertices()) {
+    required_vertices_.push_back(slots.empty() ? v : slots[v]);
+  }
+}
+
+Quality SlotMesh::quality(TetHandle t) const {
+  const TetVertices& v = tets_[t.index()];
+  return static_cast<Quality>(minimum_sine(point(v[0]), point(v[1]), point(v[2]), point(v[3])));
+}
+
+MeshData SlotMesh::to_data() const {
+  std::vector<TetHandle> all;
+  all.reserve(tet_count_);
+  for (std::uint32_t i = 0; i < tets_.size(); ++i) {
+    if (!is_deleted(TetHandle(i))) all.push_back(TetHandle(i));
+  }
+  return extract(all);
+}
+
+MeshData SlotMesh::extract(std::span<const TetHandle> tets,
+                           std::vector<std::uint32_t>* vertex_slots) const {
+  std::vector<std::uint32_t> number(points_.size(), kNowhere);
+  const bool all = tets.size() == tet_count_;
+  for (const TetHandle t : tets) {
+    for (const VertexHandle v : vertices(t)) number[v.index()] = 0;
+  }
+  MeshData data;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    if (number[i] == kNowhere && !(all && live_[i])) continue;
+    number[i] = static_cast<std::uint32_t>(data.points.size());
+    data.points.push_back(points_[i]);
+    if (vertex_slots != nullptr) vertex_slots->push_back(i);
+  }
+  for (const TetHandle t : tets) {
+    MeshData::Tet& tet = data.tets.emplace_back();
+    for (unsigned i = 0; i < 4; ++i) tet.vertices[i] = number[vertices(t)[i].index()];
+    tet.label = label(t);
+  }
+  const auto take = [&](const auto& elements, auto& out) {
+    for (auto element : elements) {
+      for (std::uint32_t& v : element.vertices) v = number[v];
+      if (std::ranges::count(element.vertices, kNowhere) == 0) out.push_back(element);
+    }
+  };
+  take(triangles_, data.triangles);
+  take(edges_, data.edges);
+  for (const std::uint32_t v : required_vertices_) {
+    if (number[v] != kNowhere) data.required_vertices.push_back(number[v]);
+  }
+  return data;
+}
+
+std::uint64_t SlotMesh::fingerprint() const {
+  Fingerprint print;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    if (!live_[i]) continue;
+    print.add(i);
+    for (int axis = 0; axis < 3; ++axis) print.add(std::bit_cast<std::uint64_t>(points_[i][axis]));
+  }
+  for (std::uint32_t i = 0; i < tets_.size(); ++i) {
+    if (is_deleted(TetHandle(i))) continue;
+    print.add(i);
+    for (const VertexHandle v : tets_[i]) print.add(v.index());
+    print.add(static_cast<std::uint64_t>(labels_[i]));
+  }
+  return print.value();
+}
+
+std::size_t SlotMesh::bytes() const {
+  return tets_.size() * (sizeof(TetVertices) + sizeof(Label)) +
+         points_.size() * (sizeof(Point) + 1) + triangles_.size() * sizeof(MeshData::Triangle);
+}
+
+void SlotMesh::encode(ByteWriter& out) const {
+  out.put(points_.size());
+  out.put_bytes(live_.data(), live_.size());
+  out.put_bytes(points_.data(), points_.size() * sizeof(Point));
+  out.put(tets_.size());
+  TetVertices corner{VertexHandle(0), VertexHandle(0), VertexHandle(0), VertexHandle(0)};
+  for (const TetVertices& tet : tets_) {
+    for (unsigned i = 0; i < 4; ++i) {
+      std::uint32_t from = corner[i].index();
+      out.put_step(tet[i].index(), from);
+    }
+    corner = tet;
+  }
+  std::int64_t label = 0;
+  for (const Label next : labels_) {
+    out.put_signed(next - label);
+    label = next;
+  }
+  encode_named<MeshData::Triangle>(out, triangles_);
+  encode_named<MeshData::Edge>(out, edges_);
+  encode_slots(out, required_vertices_);
+  encode_slots(out, frozen_tets_);
+}
+
+SlotMesh SlotMesh::decode(ByteReader& in) {
+  SlotMesh mesh;
+  const std::size_t vertices = in.get_count();
+  mesh.live_.resize(vertices);
+  in.get_bytes(mesh.live_.data(), vertices);
+  if (in.left() / sizeof(Point) < vertices) throw ByteReader::Damage();
+  mesh.points_.resize(vertices);
+  in.get_bytes(mesh.points_.data(), vertices * sizeof(Point));
+  mesh.tets_.resize(in.get_count());
+  TetVertices corner{VertexHandle(0), VertexHandle(0), VertexHandle(0), VertexHandle(0)};
+  for (TetVertices& tet : mesh.tets_) {
+    for (unsigned i = 0; i < 4; ++i) {
+      std::uint32_t from = corner[i].index();
+      corner[i] = VertexHandle(in.get_step(from));
+      if (corner[i].is_valid() && corner[i].index() >= vertices) throw ByteReader::Damage();
+    }
+    tet = corner;
+    if (tet[0].is_valid()) ++mesh.tet_count_;
+  }
+  std::int64_t label = 0;
+  mesh.labels_.resize(mesh.tets_.size());
+  for (Label& next : mesh.labels_) next = static_cast<Label>(label += in.get_signed());
+  decode_named(in, vertices, mesh.triangles_);
+  decode_named(in, vertices, mesh.edges_);
+  mesh.required_vertices_ = decode_slots(in, vertices);
+  mesh.frozen_tets_ = decode_slots(in, mesh.tets_.size());
+  mesh.vertex_count_ =
+      vertices - static_cast<std::size_t>(std::ranges::count(mesh.live_, std::uint8_t{0}));
+  return mesh;
+}
+
+void SlotMesh::set_tet(TetHandle t, const TetVertices& vertices, Label label) {
+  const std::size_t i = t.index();
+  if (i >= tets_.size()) {
+    tets_.resize(i + 1);
+    labels_.resize(i + 1);
+  }
+  tet_count_ += vertices[0].is_valid() ? 1 : 0;
+  tet_count_ -= tets_[i][0].is_valid() ? 1 : 0;
+  tets_[i] = vertices;
+  labels_[i] = label;
+}
+
+void SlotMesh::set_vertex(VertexHandle v, bool live, const Point& point) {
+  const std::size_t i = v.index();
+  if (i >= points_.size()) {
+    points_.resize(i + 1, Point::Zero());
+    live_.resize(i + 1, 0);
+  }
+  vertex_count_ += live ? 1 : 0;
+  vertex_count_ -= live_[i] ? 1 : 0;
+  points_[i] = point;
+  live_[i] = live ? 1 : 0;
+}
+
+}  // namespace tetmend

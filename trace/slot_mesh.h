@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// A mesh by slots, without adjacency: what replay changes and viewers draw.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+#include "kernel/tet_mesh.h"
+#include "trace/byte_stream.h"
+
+namespace tetmend {
+
+/// The same handle numbers as in the TetMesh that it shows. Reading is safe from any thread.
+class SlotMesh {
+ public:
+  SlotMesh() = default;
+  explicit SlotMesh(const TetMesh& mesh);
+
+  std::size_t tet_slots() const { return tets_.size(); }
+  std::size_t vertex_slots() const { return points_.size(); }
+  std::size_t tet_count() const { return tet_count_; }
+  std::size_t vertex_count() const { return vertex_count_; }
+  /// True also for slots beyond the last.
+  bool is_deleted(TetHandle t) const {
+    return t.index() >= tets_.size() || !tets_[t.index()][0].is_valid();
+  }
+  bool is_deleted(VertexHandle v) const { return v.index() >= points_.size() || !live_[v.index()]; }
+  const TetVertices& vertices(TetHandle t) const { return tets_[t.index()]; }
+  const Point& point(VertexHandle v) const { return points_[v.index()]; }
+  Label label(TetHandle t) const { return labels_[t.index()]; }
+  /// Minimum sine, computed from the points: the bits that TetMesh::quality() had.
+  Quality quality(TetHandle t) const;
+
+  /// What the file of the mesh named: these never change. Vertices by slot.
+  std::span<const MeshData::Triangle> triangles() const { return triangles_; }
+  std::span<const MeshData::Edge> edges() const { return edges_; }
+  std::span<const std::uint32_t> required_vertices() const { return required_vertices_; }
+  /// Tets that the user wants to stay as they are, by slot, ascending: these never change, either.
+  std::span<const std::uint32_t> frozen_tets() const { return frozen_tets_; }
+
+  /// Live vertices and tets in the order of their slots, with what the file named.
+  MeshData to_data() const;
+  /// The tets listed and what they need; of what the file named, the part all of whose vertices
+  /// are there. `vertex_slots` gets the slot of each point.
+  MeshData extract(std::span<const TetHandle> tets,
+                   std::vector<std::uint32_t>* vertex_slots = nullptr) const;
+
+  /// A number that tells meshes apart: of handles, points and labels of all that is live.
+  std::uint64_t fingerprint() const;
+  std::size_t bytes() const;
+
+  void encode(ByteWriter& out) const;
+  /// @throws ByteReader::Damage
+  static SlotMesh decode(ByteReader& in);
+
+  // For replay: contents of slots, which come into being as needed. An invalid first vertex
+  // deletes a tet.
+  void set_tet(TetHandle t, const TetVertices& vertices, Label label);
+  void set_vertex(VertexHandle v, bool live, const Point& point);
+
+ private:
+  std::vector<TetVertices> tets_;
+  std::vector<Label> labels_;
+  std::vector<Point> points_;
+  std::vector<std::uint8_t> live_;
+  std::size_t tet_count_ = 0;
+  std::size_t vertex_count_ = 0;
+  std::vector<MeshData::Triangle> triangles_;
+  std::vector<MeshData::Edge> edges_;
+  std::vector<std::uint32_t> required_vertices_;
+  std::vector<std::uint32_t> frozen_tets_;
+};
+
+}  // namespace tetmend

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// docs/trace.md describes the bytes.
+#include "trace/trace_event.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace tetmend {
+
+// --- writing -------------------------------------------------------------------------------------
+
+void EventEncoder::clear() {
+  out_.cut(0);
+  last_ticks_ = 0;
+  names_.clear();
+}
+
+void EventEncoder::put_time(std::uint64_t ticks) {
+  out_.put(ticks - last_ticks_);
+  last_ticks_ = ticks;
+}
+
+/// The number of the name in this chunk; a new one is followed by its text. The same name mostly
+/// lies where it lay before, which saves the search.
+void EventEncoder::put_name(std::string_view name) {
+  constexpr std::uint64_t kScatter = 0x9E3779B97F4A7C15u;
+  std::uint8_t& guess = guesses_[std::bit_cast<std::uintptr_t>(name.data()) * kScatter >> 56];
+  if (guess < names_.size() && names_[guess] == name) return out_.put(guess);
+  std::size_t number = 0;
+  while (number < names_.size() && names_[number] != name) ++number;
+  guess = static_cast<std::uint8_t>(number);
+  out_.put(number);
+  if (number < names_.size()) return;
+  names_.emplace_back(name);
+  out_.put_text(name);
+}
+
+void EventEncoder::put_vertices(std::span<const VertexHandle> vertices) {
+  out_.put(vertices.size());
+  std::uint32_t last = 0;
+  for (const VertexHandle v : vertices) out_.put_step(v.index(), last);
+}
+
+void EventEncoder::put_qualities(std::span<const Quality> qualities) {
+  out_.put(qualities.size());
+  out_.put_bytes(qualities.data(), qualities.size_bytes());
+}
+
+void EventEncoder::pass_begins(std::string_view name, unsigned round, std::uint64_t ticks) {
+  put_kind(EventKind::pass_begins);
+  put_time(ticks);
+  put_name(name);
+  out_.put(round);
+}
+
+void EventEncoder::pass_ends(const QualityIndicators& now, std::uint64_t ticks) {
+  put_kind(EventKind::pass_ends);
+  put_time(ticks);
+  out_.put_raw(now.q_worst);
+  out_.put(now.n_bad);
+  out_.put_raw(now.q_aver);
+}
+
+void EventEncoder::visit_begins(const TetVertices& tet, Quality quality, std::uint64_t ticks) {
+  put_kind(EventKind::visit_begins);
+  put_time(ticks);
+  put_vertices(tet);
+  out_.put_raw(quality);
+}
+
+void EventEncoder::visit_ends(std::uint64_t ticks) {
+  put_kind(EventKind::visit_ends);
+  put_time(ticks);
+}
+
+void EventEncoder::attempt_begins(const AttemptEvent& event, std::uint64_t ticks) {
+  put_kind(EventKind::attempt_begins);
+  put_time(ticks);
+  put_name(event.operator_name);
+  put_vertices(event.target);
+  out_.put(event.level);
+  put_name(event.settings);
+}
+
+void EventEncoder::candidate_found() {
+  put_kind(EventKind::candidate_found);
+}
+
+void EventEncoder::attempt_ends(std::string_view verdict, std::span<const Quality> before,
+                                std::span<const Quality> now, std::uint64_t ticks) {
+  put_kind(EventKind::attempt_ends);
+  put_time(ticks);
+  put_name(verdict);
+  put_qualities(before);
+  put_qualities(now);
+}
+
+void EventEncoder::edit(const TetMesh& mesh, const Journal& journal) {
+  const Edit& edit = journal.edits.back();
+  switch (edit.kind) {
+    case Edit::Kind::replace_cavity:
+      return replace_cavity(mesh, journal, edit);
+    case Edit::Kind::move_vertex: {
+      put_kind(EventKind::move_vertex);
+      out_.put(edit.vertex.index());
+      out_.put_bytes(mesh.point(edit.vertex).data(), 3 * sizeof(double));
+      out_.put(edit.qualities_end - edit.qualities_begin);
+      std::uint32_t last = 0;
+      for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+        out_.put_step(journal.qualities[k].tet.index(), last);
+      }
+      return;
+    }
+    case Edit::Kind::add_vertex:
+      put_kind(EventKind::add_vertex);
+      out_.put(edit.vertex.index());
+      out_.put_bytes(mesh.point(edit.vertex).data(), 3 * sizeof(double));
+      return;
+    case Edit::Kind::remove_vertex:
+      put_kind(EventKind::remove_vertex);
+      out_.put(edit.vertex.index());
+      return;
+  }
+}
+
+void EventEncoder::replace_cavity(const TetMesh& mesh, const Journal& journal, const Edit& edit) {
+  put_kind(EventKind::replace_cavity);
+  const std::uint32_t removed = edit.removed_end - edit.removed_begin;
+  const std::uint32_t created = edit.created_end - edit.created_begin;
+  out_.put(removed);
+  out_.put(created);
+  std::uint32_t last = 0;
+  for (std::uint32_t k = 0; k < removed; ++k) {
+    out_.put_step(journal.removed[edit.removed_begin + k].tet.index(), last);
+  }
+  TetVertices corner{VertexHandle(0), VertexHandle(0), VertexHandle(0), VertexHandle(0)};
+  for (std::uint32_t k = 0; k < created; ++k) {
+    const TetHandle t = journal.created[edit.created_begin + k];
+    // The first take the slots of the removed ones, in order.
+    assert(k >= removed || t == journal.removed[edit.removed_begin + k].tet);
+    if (k >= removed) out_.put_step(t.index(), last);
+    const TetVertices& vertices = mesh.vertices(t);
+    for (unsigned i = 0; i < 4; ++i) {
+      std::uint32_t from = corner[i].index();
+      out_.put_step(vertices[i].index(), from);
+    }
+    corner = vertices;
+  }
+}
+
+void EventEncoder::undo() {
+  put_kind(EventKind::undo);
+}
+
+// --- reading -------------------------------------------------------------------------------------
+
+void EventDecoder::begin(std::span<const std::byte> content, std::vector<std::string>& names) {
+  in_ = ByteReader(content);
+  ticks_ = 0;
+  names_ = &names;
+  chunk_names_.clear();
+}
+
+void EventDecoder::get_time(TraceEvent& event) {
+  ticks_ += in_.get();
+  event.seconds = static_cast<double>(ticks_ * EventEncoder::kTickNanoseconds) * 1e-9;
+}
+
+std::uint32_t EventDecoder::get_name() {
+  const std::uint64_t number = in_.get();
+  if (number < chunk_names_.size()) return chunk_names_[number];
+  if (number > chunk_names_.size()) throw ByteReader::Damage();
+  const std::string text = in_.get_text();
+  const auto found = std::find(names_->begin(), names_->end(), text);
+  chunk_names_.push_back(static_cast<std::uint32_t>(found - names_->begin()));
+  if (found == names_->end()) names_->push_back(text);
+  return chunk_names_.back();
+}
+
+void EventDecoder::get_vertices(TraceEvent& event) {
+  event.vertices.resize(in_.get_count());
+  std::uint32_t last = 0;
+  for (VertexHandle& v : event.vertices) v = VertexHandle(in_.get_step(last));
+}
+
+void EventDecoder::get_qualities(std::vector<Quality>& qualities) {
+  qualities.resize(in_.get_count());
+  in_.get_bytes(qualities.data(), qualities.size() * sizeof(Quality));
+}
+
+void EventDecoder::get_cavity(TraceEvent& event) {
+  event.removed.resize(in_.get_count());
+  event.created.resize(in_.get_count());
+  event.created_vertices.resize(event.created.size());
+  std::uint32_t last = 0;
+  for (TetHandle& t : event.removed) t = TetHandle(in_.get_step(last));
+  TetVertices corner{VertexHandle(0), VertexHandle(0), VertexHandle(0), VertexHandle(0)};
+  for (std::size_t k = 0; k < event.created.size(); ++k) {
+    event.created[k] = k < event.removed.size() ? event.removed[k] : TetHandle(in_.get_step(last));
+    for (unsigned i = 0; i < 4; ++i) {
+      std::uint32_t from = corner[i].index();
+      corner[i] = VertexHandle(in_.get_step(from));
+    }
+    event.created_vertices[k] = corner;
+  }
+}
+
+void EventDecoder::get_star(TraceEvent& event) {
+  event.removed.resize(in_.get_count());
+  std::uint32_t last = 0;
+  for (TetHandle& t : event.removed) t = TetHandle(in_.get_step(last));
+}
+
+void EventDecoder::next(TraceEvent& event) {
+  const std::uint64_t kind = in_.get();
+  if (kind >= kEventKinds) throw ByteReader::Damage();
+  event.kind = static_cast<EventKind>(kind);
+  if (event.kind <= EventKind::attempt_ends && event.kind != EventKind::candidate_found) {
+    get_time(event);
+  }
+  switch (event.kind) {
+    case EventKind::pass_begins:
+      event.name = get_name();
+      event.number = in_.get32();
+      break;
+    case EventKind::pass_ends:
+      event.now.q_worst = in_.get_raw<double>();
+      event.now.n_bad = in_.get();
+      event.now.q_aver = in_.get_raw<double>();
+      break;
+    case EventKind::visit_begins:
+      get_vertices(event);
+      event.quality = in_.get_raw<Quality>();
+      break;
+    case EventKind::attempt_begins:
+      event.name = get_name();
+      get_vertices(event);
+      event.number = in_.get32();
+      event.settings = get_name();
+      break;
+    case EventKind::attempt_ends:
+      event.name = get_name();
+      get_qualities(event.before);
+      get_qualities(event.after);
+      break;
+    case EventKind::replace_cavity:
+      get_cavity(event);
+      break;
+    case EventKind::move_vertex:
+    case EventKind::add_vertex:
+    case EventKind::remove_vertex:
+      event.vertices.assign(1, VertexHandle(in_.get32()));
+      if (event.kind == EventKind::remove_vertex) break;
+      in_.get_bytes(event.point.data(), 3 * sizeof(double));
+      if (event.kind == EventKind::move_vertex) get_star(event);
+      break;
+    case EventKind::visit_ends:
+    case EventKind::candidate_found:
+    case EventKind::undo:
+      break;
+  }
+}
+
+}  // namespace tetmend

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "trace/trace_file.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace tetmend {
+
+namespace {
+
+char kind_of(const std::vector<std::byte>& frame) {
+  return frame.empty() ? '\0' : static_cast<char>(frame.front());
+}
+
+ByteReader content_of(const std::vector<std::byte>& frame) {
+  return ByteReader(std::span(frame).subspan(1));
+}
+
+}  // namespace
+
+TraceFile::TraceFile(const std::filesystem::path& file) : path_(file), frames_(file) {
+  std::vector<std::byte> frame;
+  const auto expect = [&](char kind) {
+    if (!frames_.next()) {
+      throw Error(fmt::format("{}: ends before its first event", path_.string()));
+    }
+    frames_.unpack(frames_.offset(), frame);
+    if (kind_of(frame) != kind) throw ByteReader::Damage();
+    return content_of(frame);
+  };
+  try {
+    ByteReader header = expect('H');
+    header_ = TraceHeader::decode(header);
+    ByteReader mesh = expect('M');
+    mesh_ = SlotMesh::decode(mesh);
+  } catch (const ByteReader::Damage&) {
+    throw Error(fmt::format("{}: byte {}: damaged before its first event", path_.string(),
+                            frames_.offset()));
+  }
+  read_chunks();
+  close_all();
+}
+
+/// Reads up to the end or the first damage.
+void TraceFile::read_chunks() {
+  while (!ended_ && frames_.next()) {
+    try {
+      index_chunk(frames_.offset());
+    } catch (const Error&) {
+      damage_ = fmt::format("{}: byte {}: damaged; read up to event {}", path_.string(),
+                            frames_.offset(), events_);
+      return;
+    }
+  }
+  if (!frames_.damage().empty()) {
+    damage_ = fmt::format("{}; read up to event {}", frames_.damage(), events_);
+  } else if (!ended_) {
+    damage_ = fmt::format("{}: has no end, the run was not finished; read up to event {}",
+                          path_.string(), events_);
+  }
+}
+
+void TraceFile::index_chunk(std::size_t offset) {
+  std::vector<std::byte> frame;
+  frames_.unpack(offset, frame);
+  ByteReader in = content_of(frame);
+  if (kind_of(frame) == 'Z') {
+    if (in.get() != events_) throw ByteReader::Damage();
+    limit_reached_ = in.get() == static_cast<std::uint64_t>(TraceEnd::limit_reached);
+    ended_ = true;
+    return;
+  }
+  if (kind_of(frame) != 'E' || in.get() != events_) throw ByteReader::Damage();
+  const std::uint64_t count = in.get();
+  EventDecoder decoder;
+  decoder.begin(std::span(frame).last(in.left()), names_);
+  chunk_begins_.push_back(events_);
+  chunk_offsets_.push_back(offset);
+  TraceEvent event;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    decoder.next(event);
+    index_event(event);
+    ++events_;
+  }
+}
+
+void TraceFile::close(EventRange& range, double seconds) const {
+  range.end = events_ + 1;
+  range.end_seconds = seconds;
+}
+
+void TraceFile::index_event(const TraceEvent& event) {
+  const auto calls = static_cast<std::uint32_t>(calls_.size());
+  const EventRange begin = {events_, 0, event.seconds, 0};
+  switch (event.kind) {
+    case EventKind::pass_begins:
+      passes_.push_back({begin, event.name, event.number, {}, calls, 0});
+      pass_open_ = true;
+      break;
+    case EventKind::pass_ends:
+      if (!pass_open_) throw ByteReader::Damage();
+      close(passes_.back().events, event.seconds);
+      passes_.back().now = event.now;
+      passes_.back().last_call = calls;
+      pass_open_ = false;
+      break;
+    case EventKind::visit_begins:
+      if (event.vertices.size() != 4) throw ByteReader::Damage();
+      visits_.push_back({begin, {}, event.quality, calls, 0});
+      std::copy_n(event.vertices.begin(), 4, visits_.back().tet.begin());
+      visit_open_ = true;
+      break;
+    case EventKind::visit_ends:
+      if (!visit_open_) throw ByteReader::Damage();
+      close(visits_.back().events, event.seconds);
+      visits_.back().last_call = calls;
+      visit_open_ = false;
+      break;
+    case EventKind::attempt_begins: {
+      Call& call = calls_.emplace_back();
+      call.events = begin;
+      call.operator_name = event.name;
+      call.settings = event.settings;
+      call.parent = open_.empty() ? kNoCall : open_.back();
+      call.level = static_cast<std::uint16_t>(event.number);
+      call.depth = static_cast<std::uint16_t>(open_.size());
+      if (event.vertices.size() > 4) throw ByteReader::Damage();
+      call.target_size = static_cast<std::uint8_t>(event.vertices.size());
+      std::copy(event.vertices.begin(), event.vertices.end(), call.target_vertices.begin());
+      open_.push_back(calls);
+      break;
+    }
+    case EventKind::candidate_found:
+      if (open_.empty()) throw ByteReader::Damage();
+      calls_[open_.back()].candidate_found = true;
+      break;
+    case EventKind::attempt_ends: {
+      if (open_.empty()) throw ByteReader::Damage();
+      Call& call = calls_[open_.back()];
+      open_.pop_back();
+      close(call.events, event.seconds);
+      call.subtree_end = calls;
+      call.verdict = event.name;
+      call.accepted = name(event.name) == "accepted";
+      if (!event.before.empty()) call.worst_before = event.before.front();
+      if (!event.after.empty()) call.worst_after = event.after.front();
+      break;
+    }
+    case EventKind::replace_cavity:
+    case EventKind::move_vertex:
+    case EventKind::add_vertex:
+    case EventKind::remove_vertex:
+      if (!open_.empty()) ++calls_[open_.back()].edits;
+      return;
+    case EventKind::undo:
+      return;
+  }
+  if (event.kind != EventKind::candidate_found) seconds_ = event.seconds;
+}
+
+/// What the trace does not see end ends with it.
+void TraceFile::close_all() {
+  const auto end = [&](EventRange& range) {
+    range.end = events_;
+    range.end_seconds = seconds_;
+  };
+  const auto calls = static_cast<std::uint32_t>(calls_.size());
+  for (const std::uint32_t call : open_) {
+    end(calls_[call].events);
+    calls_[call].subtree_end = calls;
+  }
+  open_.clear();
+  if (visit_open_) {
+    end(visits_.back().events);
+    visits_.back().last_call = calls;
+  }
+  if (pass_open_) {
+    end(passes_.back().events);
+    passes_.back().last_call = calls;
+  }
+}
+
+std::uint32_t TraceFile::call_at(std::uint64_t event) const {
+  const auto after = std::upper_bound(
+      calls_.begin(), calls_.end(), event,
+      [](std::uint64_t number, const Call& call) { return number < call.events.begin; });
+  if (after == calls_.begin()) return kNoCall;
+  auto call = static_cast<std::uint32_t>(after - calls_.begin() - 1);
+  while (call != kNoCall && calls_[call].events.end <= event) call = calls_[call].parent;
+  return call;
+}
+
+std::string_view TraceFile::reason(const Call& call) const {
+  const std::string_view verdict = name(call.verdict);
+  if (verdict.empty()) return "the trace ends before the call does";
+  if (verdict == "accepted") {
+    return call.worst_after > 0 || call.worst_before != 0
+               ? "the quality vector of all that changed is better"
+               : "what the call was for is done";
+  }
+  const bool tried = call.candidate_found;
+  const auto number = static_cast<std::uint32_t>(&call - calls_.data());
+  const bool calls_others = call.subtree_end > number + 1;
+  if (verdict == "not applicable") {
+    return tried ? "the candidate does not fit into its cavity"
+                 : "the target is gone or is not of the kind that the operator works on";
+  }
+  if (verdict == "constrained") {
+    if (calls_others) return "what is left to transform lies on the boundary or on a constraint";
+    return tried ? "the candidate would remove a constrained face, edge or vertex"
+                 : "the target lies on the boundary or on a constraint";
+  }
+  if (verdict == "no improvement") {
+    if (calls_others) return "what the calls in it reached is not enough";
+    return tried ? "the quality vector with the candidate is not better"
+                 : "no candidate is better than what is there";
+  }
+  if (verdict == "inverted") return "a tet of the candidate is not certified positive";
+  if (verdict == "depth spent") return "nothing helped up to the deepest level allowed";
+  if (verdict == "budget spent") return "the call used up its transformations";
+  if (verdict == "deferred") {
+    return "another worker's part of the mesh is in the way; to be tried again";
+  }
+  return verdict;
+}
+
+// --- one event after the other -------------------------------------------------------------------
+
+void EventCursor::open_chunk(std::size_t chunk) {
+  const std::span<const std::uint64_t> begins = file_.chunk_begins();
+  file_.frames_.unpack(file_.chunk_offsets_[chunk], content_);
+  ByteReader in = content_of(content_);
+  in.get();  // number of the first event
+  in.get();  // number of events
+  names_ = file_.names_;
+  decoder_.begin(std::span<const std::byte>(content_).last(in.left()), names_);
+  chunk_ = chunk;
+  position_ = begins[chunk];
+  chunk_end_ = chunk + 1 < begins.size() ? begins[chunk + 1] : file_.event_count();
+}
+
+void EventCursor::move_to(std::uint64_t event) {
+  const std::span<const std::uint64_t> begins = file_.chunk_begins();
+  if (event == position_ || begins.empty()) return;
+  const auto after = std::upper_bound(begins.begin(), begins.end(), event);
+  const auto chunk = static_cast<std::size_t>(after - begins.begin()) - 1;
+  if (chunk != chunk_ || event < position_) open_chunk(chunk);
+  while (position_ < event) next();
+}
+
+const TraceEvent& EventCursor::next() {
+  const std::size_t following = chunk_ + 1;  // the first, when none is open
+  if (position_ == chunk_end_) open_chunk(following);
+  decoder_.next(event_);
+  ++position_;
+  return event_;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// A trace file, opened: its events, and the calls, visits and passes that they make up.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trace/recorder.h"
+#include "trace/slot_mesh.h"
+#include "trace/trace_event.h"
+#include "trace/trace_frame.h"
+
+namespace tetmend {
+
+inline constexpr std::uint32_t kNoCall = std::numeric_limits<std::uint32_t>::max();
+
+/// From the event that begins something to the one after the event that ends it. Of something that
+/// a cut-off trace does not see end, the end is that of the trace.
+struct EventRange {
+  std::uint64_t begin = 0, end = 0;
+  double begin_seconds = 0, end_seconds = 0;  ///< since the trace began
+  double seconds() const { return end_seconds - begin_seconds; }
+};
+
+/// One attempt of an operator. Calls are numbered in the order in which they begin, so that those
+/// that a call makes, directly or not, are the ones from its own number + 1 to subtree_end.
+struct Call {
+  EventRange events;
+  std::uint32_t operator_name = 0;  ///< see TraceFile::name()
+  std::uint32_t settings = 0;       ///< likewise; "" for a call by an operator
+  std::uint32_t verdict = 0;        ///< likewise; "" if the trace ends before
+  std::uint32_t parent = kNoCall;
+  std::uint32_t subtree_end = 0;
+  std::uint32_t edits = 0;       ///< made by itself, not by calls in it; also those undone
+  std::uint16_t level = 0;       ///< of recursion, as the operator counts it
+  std::uint16_t depth = 0;       ///< number of calls around it
+  std::uint8_t target_size = 0;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
+  bool candidate_found = false;  ///< it knew what to do
+  bool accepted = false;
+  std::array<VertexHandle, 4> target_vertices;
+  Quality worst_before = 0, worst_after = 0;  ///< of an accepted call with quality vectors, else 0
+
+  std::span<const VertexHandle> target() const { return {target_vertices.data(), target_size}; }
+};
+
+/// A tet that a pass wanted to get rid of, and what was tried.
+struct Visit {
+  EventRange events;
+  TetVertices tet;
+  Quality quality = 0;
+  std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
+};
+
+struct TracedPass {
+  EventRange events;
+  std::uint32_t name = 0;
+  unsigned round = 0;
+  QualityIndicators now;                        ///< when it ended
+  std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
+};
+
+/// Holds the compressed events and an index of them in memory: about 90 bytes a call.
+class TraceFile {
+ public:
+  /// Reads all events once. A trace that is cut off or damaged is opened up to there.
+  /// @throws Error when the file cannot be read, is no trace, is of an unknown version, or is
+  /// damaged before the first event. Cost: linear; about 0.2 s for a million events.
+  explicit TraceFile(const std::filesystem::path& file);
+
+  const TraceHeader& header() const { return header_; }
+  /// Before the first event.
+  const SlotMesh& initial_mesh() const { return mesh_; }
+  std::uint64_t event_count() const { return events_; }
+  std::size_t file_size() const { return frames_.file_size(); }
+  /// One line for the user: what is damaged or missing, and how far the trace can be read; empty
+  /// for a complete trace.
+  const std::string& damage() const { return damage_; }
+  /// The trace ends before the run did, because it would have become too large.
+  bool limit_reached() const { return limit_reached_; }
+
+  std::span<const TracedPass> passes() const { return passes_; }
+  std::span<const Visit> visits() const { return visits_; }
+  std::span<const Call> calls() const { return calls_; }
+  /// Text of a name of a pass, an operator or a verdict.
+  std::string_view name(std::uint32_t name) const { return names_[name]; }
+  /// The innermost call that `event` belongs to, its first and last event included; kNoCall.
+  std::uint32_t call_at(std::uint64_t event) const;
+  /// Why a call ended as it did, in a sentence. Precondition: `call` is one of calls().
+  std::string_view reason(const Call& call) const;
+
+  /// First events of the chunks that the file is made of; see EventCursor.
+  std::span<const std::uint64_t> chunk_begins() const { return chunk_begins_; }
+
+ private:
+  friend class EventCursor;
+
+  void read_chunks();
+  void index_chunk(std::size_t offset);
+  void index_event(const TraceEvent& event);
+  void close(EventRange& range, double seconds) const;
+  void close_all();
+
+  std::filesystem::path path_;
+  FrameReader frames_;
+  TraceHeader header_;
+  SlotMesh mesh_;
+  std::uint64_t events_ = 0;
+  std::string damage_;
+  bool ended_ = false;
+  bool limit_reached_ = false;
+  std::vector<std::string> names_ = {""};
+  std::vector<std::uint64_t> chunk_begins_;
+  std::vector<std::size_t> chunk_offsets_;
+  std::vector<TracedPass> passes_;
+  std::vector<Visit> visits_;
+  std::vector<Call> calls_;
+  std::vector<std::uint32_t> open_;  // calls, while events are read
+  bool visit_open_ = false;
+  bool pass_open_ = false;
+  double seconds_ = 0;  // of the event read last
+};
+
+/// Reads events one after the other, from any on.
+class EventCursor {
+ public:
+  /// Precondition: `file` outlives the cursor.
+  explicit EventCursor(const TraceFile& file) : file_(file) {}
+
+  /// Number of the event that next() reads. Precondition: at most event_count().
+  std::uint64_t position() const { return position_; }
+  /// Cost: up to one chunk, less than a millisecond.
+  void move_to(std::uint64_t event);
+  /// Precondition: position() < event_count(). The event is valid until the next call.
+  const TraceEvent& next();
+
+ private:
+  void open_chunk(std::size_t chunk);
+
+  const TraceFile& file_;
+  std::uint64_t position_ = 0;
+  std::size_t chunk_ = static_cast<std::size_t>(-1);
+  std::uint64_t chunk_end_ = 0;
+  std::vector<std::byte> content_;
+  std::vector<std::string> names_;
+  EventDecoder decoder_;
+  TraceEvent event_;
+};
+
+}  // namespace tetmend
