@@ -90,13 +90,21 @@ class Search {
   }
 
   bool run(const Box& all) const {
+    // The angles of the regular tet, as far as the ranges go, will often do.
+    constexpr double kRegular = 1.23;
+    std::array<double, 3> likely{};
+    for (unsigned i = 0; i < 3; ++i) {
+      likely[i] =
+          std::clamp(kRegular, all[i].range.low, std::max(all[i].range.low, all[i].range.high));
+    }
+    if (is_apex(likely)) return true;
     std::vector<Box> open = {all};
     for (std::size_t boxes = 0; !open.empty(); ++boxes) {
       if (boxes == kMostBoxes) return true;
       const Box box = open.back();
       open.pop_back();
       if (is_empty(box)) continue;
-      if (has_apex_in_middle(box)) return true;
+      if (is_apex({box[0].middle(), box[1].middle(), box[2].middle()})) return true;
       const auto widest = static_cast<std::size_t>(
           std::max_element(box.begin(), box.end(),
                            [](const Arc& a, const Arc& b) { return a.width() < b.width(); }) -
@@ -122,9 +130,8 @@ class Search {
     }
     return false;
   }
-  bool has_apex_in_middle(const Box& box) const {
-    const std::array<Direction, 3> t = {Direction(box[0].middle()), Direction(box[1].middle()),
-                                        Direction(box[2].middle())};
+  bool is_apex(const std::array<double, 3>& base) const {
+    const std::array<Direction, 3> t = {Direction(base[0]), Direction(base[1]), Direction(base[2])};
     if (!meet_above(t)) return false;
     for (unsigned k = 0; k < 3; ++k) {
       const double cosine = cosine_at_side(cosine_[k], t[(k + 1) % 3], t[(k + 2) % 3]);

@@ -106,8 +106,8 @@ Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
 /// is better than step n; ranges shrink as n grows.
 class Bound {
  public:
-  static constexpr int kSteps = 30000;
-  static constexpr double kStep = 30.0 / kSteps;  // degrees
+  static constexpr int kSteps = 90000;
+  static constexpr double kStep = 90.0 / kSteps;  // degrees
 
   template <class RangeOf>
   void tighten(const WallProbe& probe, const RangeOf& range_of) {
@@ -139,38 +139,84 @@ struct Bounds {
     smallest.tighten(probe, [](int n) { return AngleRange{n * kStep, std::numbers::pi}; });
     largest.tighten(probe, [](int n) { return AngleRange{0, std::numbers::pi - n * kStep}; });
   }
+  void tighten(const Bounds& other) {
+    quality.tighten(other.quality);
+    smallest.tighten(other.smallest);
+    largest.tighten(other.largest);
+  }
 };
 
-struct Findings {
-  std::vector<Argument> arguments;
-  Bounds bounds;
+/// A wall with a sharp sector: others allow so much that they do not matter.
+struct SharpWall {
+  double angle = 0;  ///< of the smallest sector
+  HalfFace wall;
+  friend auto operator<=>(const SharpWall&, const SharpWall&) = default;
 };
 
-Findings examine(const TetMesh& mesh, const std::vector<HalfFace>& walls) {
-  const auto parts = map_chunks<Findings>(
+/// The sharpest first, which bound most.
+std::vector<SharpWall> find_sharp_walls(const TetMesh& mesh) {
+  constexpr double kSharp = 120 * kDegree;
+  const auto parts =
+      map_chunks<std::vector<SharpWall>>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        std::vector<SharpWall> part;
+        for (std::size_t i = begin; i < end; ++i) {
+          const TetHandle t(static_cast<std::uint32_t>(i));
+          if (mesh.is_deleted(t) || mesh.is_frozen(t)) continue;
+          for (unsigned f = 0; f < 4; ++f) {
+            const HalfFace face(t, f);
+            if (!is_wall(mesh, face)) continue;
+            double angle = kSharp;
+            for (unsigned k = 0; k < 3; ++k) {
+              angle = std::min(angle, find_sector(mesh, face, k).angle);
+            }
+            if (angle < kSharp) part.push_back({angle, face});
+          }
+        }
+        return part;
+      });
+  std::vector<SharpWall> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+Bounds find_bounds(const TetMesh& mesh) {
+  const std::vector<SharpWall> walls = find_sharp_walls(mesh);
+  const auto tighten = [&](Bounds& bounds, std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) bounds.tighten(WallProbe(mesh, walls[n].wall));
+  };
+  Bounds all;
+  const std::size_t first = std::min(walls.size(), kWallsPerChunk);
+  tighten(all, 0, first);  // so that the others have little to do
+  const auto parts = map_chunks<Bounds>(
+      walls.size() - first,
+      [&](std::size_t begin, std::size_t end) {
+        Bounds part = all;
+        tighten(part, first + begin, first + end);
+        return part;
+      },
+      kWallsPerChunk);
+  for (const Bounds& part : parts) all.tighten(part);
+  return all;
+}
+
+std::vector<Argument> find_arguments(const TetMesh& mesh, const std::vector<HalfFace>& walls) {
+  const auto parts = map_chunks<std::vector<Argument>>(
       walls.size(),
       [&](std::size_t begin, std::size_t end) {
-        Findings part;
+        std::vector<Argument> part;
         for (std::size_t n = begin; n < end; ++n) {
-          const WallProbe probe(mesh, walls[n]);
-          Argument argument = find_argument(mesh, probe);
-          if (argument.walls.empty()) continue;
-          part.arguments.push_back(std::move(argument));
-          part.bounds.tighten(probe);
+          Argument argument = find_argument(mesh, WallProbe(mesh, walls[n]));
+          if (!argument.walls.empty()) part.push_back(std::move(argument));
         }
         return part;
       },
       kWallsPerChunk);
-  Findings all;
-  for (const Findings& part : parts) {
-    all.arguments.insert(all.arguments.end(), part.arguments.begin(), part.arguments.end());
-    all.bounds.quality.tighten(part.bounds.quality);
-    all.bounds.smallest.tighten(part.bounds.smallest);
-    all.bounds.largest.tighten(part.bounds.largest);
-  }
-  std::stable_sort(
-      all.arguments.begin(), all.arguments.end(),
-      [](const Argument& a, const Argument& b) { return a.walls.size() < b.walls.size(); });
+  std::vector<Argument> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  std::stable_sort(all.begin(), all.end(), [](const Argument& a, const Argument& b) {
+    return a.walls.size() < b.walls.size();
+  });
   return all;
 }
 
@@ -248,19 +294,19 @@ std::string_view to_string(Hindrance hindrance) {
 
 SurfaceLimit compute_surface_limit(const TetMesh& mesh) {
   const std::vector<TetHandle> bad_tets = find_bad_tets(mesh);
-  const Findings findings = examine(mesh, walls_around(mesh, bad_tets));
-  const ForcedTets forced(mesh, findings.arguments);
+  const std::vector<Argument> arguments = find_arguments(mesh, walls_around(mesh, bad_tets));
+  const ForcedTets forced(mesh, arguments);
+  const Bounds bounds = find_bounds(mesh);
   SurfaceLimit limit;
   for (const TetHandle t : bad_tets) {
     const Hindrance hindrance = hindrance_of(mesh, t, forced);
     ++limit.bad[static_cast<std::size_t>(hindrance)];
     if (hindrance != Hindrance::frozen) ++limit.n_bad;
   }
-  limit.n_forced = count_independent(findings.arguments);
-  if (const auto angle = findings.bounds.quality.value())
-    limit.q_worst = std::sin(*angle * kDegree);
-  limit.theta_min = findings.bounds.smallest.value();
-  if (const auto angle = findings.bounds.largest.value()) limit.theta_max = 180 - *angle;
+  limit.n_forced = count_independent(arguments);
+  if (const auto angle = bounds.quality.value()) limit.q_worst = std::sin(*angle * kDegree);
+  limit.theta_min = bounds.smallest.value();
+  if (const auto angle = bounds.largest.value()) limit.theta_max = 180 - *angle;
   return limit;
 }
 

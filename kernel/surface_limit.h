@@ -27,11 +27,12 @@ std::string_view to_string(Hindrance hindrance);
 
 /// Bounds that hold for every mesh with the same walls, whatever vertices are inside.
 struct SurfaceLimit {
-  std::size_t n_forced = 0;         ///< no mesh has fewer bad tets besides frozen ones
-  std::size_t n_bad = 0;            ///< bad tets of this mesh that are not frozen
-  std::optional<double> q_worst;    ///< no mesh is better; only where that is below kBadThreshold
-  std::optional<double> theta_min;  ///< degrees; none is larger; only below 30
-  std::optional<double> theta_max;  ///< degrees; none is smaller; only above 150
+  std::size_t n_forced = 0;  ///< no mesh has fewer bad tets besides frozen ones
+  std::size_t n_bad = 0;     ///< bad tets of this mesh that are not frozen
+  // In steps of 0.001 degrees; nothing where no sharp edge bounds them.
+  std::optional<double> q_worst;                   ///< no mesh is better
+  std::optional<double> theta_min;                 ///< degrees; none has a larger one
+  std::optional<double> theta_max;                 ///< degrees; none has a smaller one
   std::array<std::size_t, kHindranceCount> bad{};  ///< of this mesh, by Hindrance
 
   std::size_t bad_by(Hindrance hindrance) const { return bad[static_cast<std::size_t>(hindrance)]; }

@@ -71,9 +71,10 @@ TEST_CASE("a cube forces no bad tet, however bad the tets inside are") {
   CHECK(limit.n_forced == 0);
   CHECK(limit.bad_by(Hindrance::surface) == 0);
   CHECK(limit.bad_by(Hindrance::search) + limit.bad_by(Hindrance::no_free_vertex) == limit.n_bad);
-  CHECK(!limit.q_worst.has_value());
-  CHECK(!limit.theta_min.has_value());
-  CHECK(!limit.theta_max.has_value());
+  // One tet fills a right angle, and two would have 45 degrees each.
+  CHECK(*limit.theta_min >= 45);
+  CHECK(*limit.q_worst >= 0.7071);
+  CHECK(limit.theta_max.value_or(90) < 150);
 }
 
 TEST_CASE("a sharp ridge forces a bad tet at each of its edges, and bounds the angles") {
@@ -114,6 +115,18 @@ TEST_CASE("a bad tet alone is forced by its surface, and its smallest angle is t
   CHECK(*limit.theta_max <= statistics.theta_max);
   REQUIRE(limit.q_worst.has_value());
   CHECK(*limit.q_worst == doctest::Approx(statistics.q_worst).epsilon(1e-3));
+}
+
+TEST_CASE("where the one tet that could fill a sector is bad, halves of the sector are the best") {
+  // 50 degrees at the edge 0 1, but the third vertices of its walls lie far apart along the edge.
+  const double turn = 50 * std::numbers::pi / 180;
+  MeshData data;
+  data.points = {{0, 0, 0}, {1, 0, 0}, {-4, std::cos(turn), std::sin(turn)}, {5, 1, 0}};
+  data.tets = {{{0, 1, 3, 2}, 0}};
+  const SurfaceLimit limit = compute_surface_limit(TetMesh(data));
+  CHECK(limit.n_forced == 1);
+  REQUIRE(limit.theta_min.has_value());
+  CHECK(*limit.theta_min <= 25.0011);
 }
 
 TEST_CASE("two sharp sectors beside a face that stands free are forced by a constraint") {

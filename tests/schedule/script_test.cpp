@@ -278,7 +278,7 @@ TEST_CASE("a time limit stops a pass in its middle, and the mesh is sound and no
 
 TEST_CASE("a script learns what the surface allows, and what holds its bad tets") {
   CHECK(note("limit().n_forced") == "0");
-  CHECK(note("limit().theta_min") == "nil");
+  CHECK(note("limit().n_bad") == "nil");
   const std::string sum =
       "(function(l) return l.surface + l.constraint + l.no_free_vertex + l.search end)(limit())";
   CHECK(note(sum + " == quality().n_bad and quality().n_bad > 0") == "true");
