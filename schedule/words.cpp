@@ -75,6 +75,13 @@ constexpr std::array<WordInfo, 16> kWords = {{
      "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
      "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
      "are read, which must be before the next pass"},
+    {"limit", "limit()",
+     "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
+     "the "
+     "least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. And "
+     "how "
+     "many bad tets of the mesh now are held by what: frozen, surface, constraint, no_free_vertex, "
+     "search. Takes as long as a short pass"},
     {"is_progress", "is_progress(before, now)",
      "true if the quality `now` is noticeably better: the worst by 0.005, the number of bad tets "
      "by "

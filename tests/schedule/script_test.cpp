@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/integrity.h"
+#include "kernel/surface_limit.h"
 #include "schedule/reference.h"
 #include "schedule/schedule.h"
 #include "schedule/words.h"
@@ -275,6 +276,28 @@ TEST_CASE("a time limit stops a pass in its middle, and the mesh is sound and no
   CHECK(run.records.size() < 100);
   CHECK(check_integrity(mesh).empty());
   CHECK(quality_indicators(mesh).q_worst >= q_worst);
+}
+
+TEST_CASE("a script learns what the surface allows, and what holds its bad tets") {
+  CHECK(note("limit().n_forced") == "0");
+  CHECK(note("limit().n_bad") == "nil");
+  const std::string sum =
+      "(function(l) return l.surface + l.constraint + l.no_free_vertex + l.search end)(limit())";
+  CHECK(note(sum + " == quality().n_bad and quality().n_bad > 0") == "true");
+
+  MeshData flat = one_tet();
+  for (Point& p : flat.points) p.z() *= 0.1;
+  TetMesh mesh(flat);
+  const SurfaceLimit limit = compute_surface_limit(mesh);
+  Run run(mesh, kRegistry);
+  improve(run, Schedule("test.lua",
+                        "local l = limit() log(l.n_forced, l.surface, l.frozen) "
+                        "log(l.q_worst) log(l.theta_min) log(l.theta_max)"));
+  REQUIRE(run.notes.size() == 4);
+  CHECK(run.notes[0] == "1 1 0");
+  CHECK(std::stod(run.notes[1]) == doctest::Approx(limit.q_worst.value()));
+  CHECK(std::stod(run.notes[2]) == doctest::Approx(limit.theta_min.value()));
+  CHECK(std::stod(run.notes[3]) == doctest::Approx(limit.theta_max.value()));
 }
 
 TEST_CASE("scripts see the operators that are registered") {
