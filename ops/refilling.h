@@ -14,8 +14,8 @@ struct RefillLimits {
 
 /// Searches a better filling for the polyhedron of the scratch, whose vertices the search of the
 /// scratch already has, and leaves old and new tets in the scratch. `accepted` if its worst tet is
-/// better and, unless the old worst is desperate, the bad tets lack no more in sum; `budget_spent` if
-/// the nodes were spent before one was found. `kept`: vertices inside that must stay.
+/// better and, unless the old worst is desperate, the bad tets lack no more in sum; `budget_spent`
+/// if the nodes were spent before one was found. `kept`: vertices inside that must stay.
 /// Precondition: the tets of the polyhedron do not overlap.
 Verdict refill(OperatorContext& context, PointMask kept, const RefillLimits& limits);
 
