@@ -9,10 +9,12 @@
 #include "ops/flip_3_2.h"
 #include "ops/flip_4_4.h"
 #include "ops/multi_face_removal.h"
+#include "ops/polyhedron_reconnection.h"
 #include "ops/recursive_shell_transformation.h"
 #include "ops/registry.h"
 #include "ops/shell_transformation.h"
 #include "ops/smoothing.h"
+#include "ops/vertex_removal.h"
 
 namespace tetmend {
 
@@ -29,6 +31,8 @@ void register_builtin_operators(Registry& registry) {
   registry.add(edge_contraction_info());
   registry.add(centroid_insertion_info());
   registry.add(circumcentre_insertion_info());
+  registry.add(polyhedron_reconnection_info());
+  registry.add(vertex_removal_info());
 }
 
 }  // namespace tetmend

@@ -7,12 +7,16 @@
 #include "kernel/shell.h"
 #include "ops/ball_optimiser.h"
 #include "ops/covering_search.h"
+#include "ops/polyhedron.h"
+#include "ops/polyhedron_search.h"
 
 namespace tetmend {
 
 struct Scratch {
   CoveringSearch search;
   BallOptimiser ball;
+  Polyhedron polyhedron;
+  PolyhedronSearch polyhedron_search;
   Shell shell;
   // What evaluate() proposes to apply(): tets to replace, and by what.
   std::vector<TetHandle> old_tets;
