@@ -6,6 +6,7 @@
 
 #include "kernel/shell.h"
 #include "ops/ball_optimiser.h"
+#include "ops/cavity.h"
 #include "ops/covering_search.h"
 
 namespace tetmend {
@@ -13,6 +14,8 @@ namespace tetmend {
 struct Scratch {
   CoveringSearch search;
   BallOptimiser ball;
+  Cavity cavity;
+  std::vector<Cavity::Place> places;
   Shell shell;
   // What evaluate() proposes to apply(): tets to replace, and by what.
   std::vector<TetHandle> old_tets;
