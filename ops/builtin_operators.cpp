@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The operators of tetmend itself, one line each.
+#include "ops/cavity_insertion.h"
 #include "ops/centroid_insertion.h"
 #include "ops/circumcentre_insertion.h"
 #include "ops/edge_contraction.h"
@@ -33,6 +34,7 @@ void register_builtin_operators(Registry& registry) {
   registry.add(circumcentre_insertion_info());
   registry.add(polyhedron_reconnection_info());
   registry.add(vertex_removal_info());
+  registry.add(cavity_insertion_info());
 }
 
 }  // namespace tetmend

@@ -6,6 +6,7 @@
 
 #include "kernel/shell.h"
 #include "ops/ball_optimiser.h"
+#include "ops/cavity.h"
 #include "ops/covering_search.h"
 #include "ops/polyhedron.h"
 #include "ops/polyhedron_search.h"
@@ -17,6 +18,8 @@ struct Scratch {
   BallOptimiser ball;
   Polyhedron polyhedron;
   PolyhedronSearch polyhedron_search;
+  Cavity cavity;
+  std::vector<Cavity::Place> places;
   Shell shell;
   // What evaluate() proposes to apply(): tets to replace, and by what.
   std::vector<TetHandle> old_tets;
