@@ -15,12 +15,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace tetmend {
 
 namespace {
 
+constexpr double kRight = std::numbers::pi / 2;
 constexpr double kSmallestBox = 1e-4;  // radians
 constexpr std::size_t kMostBoxes = 4000;
 
@@ -82,11 +84,14 @@ class Search {
  public:
   Search(const std::array<double, 3>& corners, AngleRange side) {
     for (unsigned k = 0; k < 3; ++k) {
-      edge_length_[k] = std::sin(corners[k]);  // law of sines
+      // Law of sines. The other two angles tell the sine even where the corner is nearly straight.
+      const double others = corners[(k + 1) % 3] + corners[(k + 2) % 3];
+      edge_length_[k] = std::sin(corners[k] < kRight ? corners[k] : others);
       cosine_[k] = std::cos(corners[k]);
     }
-    allowed_.low = std::cos(std::min(side.high + kAngleSlack, 3.14159265358979));
-    allowed_.high = std::cos(std::max(side.low - kAngleSlack, 0.0));
+    const AngleRange wide{side.low - kAngleSlack, side.high + kAngleSlack};
+    allowed_.low = wide.high < std::numbers::pi ? std::cos(wide.high) : -2;
+    allowed_.high = wide.low > 0 ? std::cos(wide.low) : 2;
   }
 
   bool run(const Box& all) const {
@@ -158,9 +163,9 @@ bool has_apex(const std::array<double, 3>& corners, const std::array<AngleRange,
     if (range.low > range.high + kAngleSlack) return false;
   }
   const auto widened = [](AngleRange range) {
-    constexpr double kLeast = 1e-6;
-    return Arc(
-        {std::max(range.low - kAngleSlack, kLeast), std::min(range.high + kAngleSlack, 3.1415926)});
+    constexpr double kLeast = 1e-8;  // sines stay positive
+    return Arc({std::max(range.low - kAngleSlack, kLeast),
+                std::min(range.high + kAngleSlack, std::numbers::pi - kLeast)});
   };
   return Search(corners, side).run({widened(base[0]), widened(base[1]), widened(base[2])});
 }

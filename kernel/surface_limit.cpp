@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "kernel/chunks.h"
@@ -30,8 +31,18 @@ AngleRange symmetric(double least) {
 
 const AngleRange kGood = symmetric(std::asin(static_cast<double>(kBadThreshold)));
 
+/// Names a wall whatever its tet is: its vertices, the first one first, in the sense of its side.
+using WallName = std::array<VertexHandle, 3>;
+
+WallName name_of(const TetMesh& mesh, HalfFace wall) {
+  WallName v = mesh.vertices(wall);
+  std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+  return v;
+}
+
 /// In every mesh a tet on one of these walls is bad.
 struct Argument {
+  WallName name;  ///< of the wall that it was found at
   std::vector<HalfFace> walls;
   std::vector<HalfFace> partners;  ///< walls that may share a bad tet with one of them
   bool by_constraint = false;      ///< some wall that it depends on lies inside
@@ -80,6 +91,7 @@ bool is_bad(const TetMesh& mesh, HalfFace wall) {
 /// The argument about the fewest tets; without walls if there is none.
 Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
   Argument argument;
+  argument.name = name_of(mesh, probe.wall());
   for (const WallProbe::Scope scope : {0b0000, 0b0001, 0b0010, 0b0100, 0b0111, 0b1111}) {
     std::vector<HalfFace> walls = probe.walls(scope);
     // This mesh shows that all of them can be good.
@@ -149,6 +161,7 @@ struct Bounds {
 /// A wall with a sharp sector: others allow so much that they do not matter.
 struct SharpWall {
   double angle = 0;  ///< of the smallest sector
+  WallName name;
   HalfFace wall;
   friend auto operator<=>(const SharpWall&, const SharpWall&) = default;
 };
@@ -169,7 +182,7 @@ std::vector<SharpWall> find_sharp_walls(const TetMesh& mesh) {
             for (unsigned k = 0; k < 3; ++k) {
               angle = std::min(angle, find_sector(mesh, face, k).angle);
             }
-            if (angle < kSharp) part.push_back({angle, face});
+            if (angle < kSharp) part.push_back({angle, name_of(mesh, face), face});
           }
         }
         return part;
@@ -214,8 +227,8 @@ std::vector<Argument> find_arguments(const TetMesh& mesh, const std::vector<Half
       kWallsPerChunk);
   std::vector<Argument> all;
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  std::stable_sort(all.begin(), all.end(), [](const Argument& a, const Argument& b) {
-    return a.walls.size() < b.walls.size();
+  std::sort(all.begin(), all.end(), [](const Argument& a, const Argument& b) {
+    return std::pair(a.walls.size(), a.name) < std::pair(b.walls.size(), b.name);
   });
   return all;
 }
