@@ -32,7 +32,7 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
 }};
 
-constexpr std::array<WordInfo, 16> kWords = {{
+constexpr std::array<WordInfo, 17> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
