@@ -108,10 +108,11 @@ void write_extract(const Options& options, const TraceFile& file) {
   std::filesystem::create_directories(options.output, failed);
   write_mesh(options.output / "call.mesh", kit.mesh);
   write_text(options.output / "call.lua",
-             fmt::format("-- Call {} of {}: {} -> {}\nattempt({{\"{}\"{}{}}}, {{{}}})\n", kit.call,
-                         options.file.filename().string(), describe_call(file, kit.call), verdict,
-                         file.name(call.operator_name), settings.empty() ? "" : ", ", settings,
-                         fmt::join(kit.target, ", ")));
+             fmt::format("-- Call {} of {}: {} -> {}\nattempt({{\"{}\"{}{}}}, {{{}}}{})\n",
+                         kit.call, options.file.filename().string(), describe_call(file, kit.call),
+                         verdict, file.name(call.operator_name), settings.empty() ? "" : ", ",
+                         settings, fmt::join(kit.target, ", "),
+                         kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
   write_text(options.output / "README.txt",
              fmt::format("Repeats call {} of a run of {}\n\n"
                          "  tetmend improve call.mesh -o out.mesh --schedule call.lua{} --trace "

@@ -42,6 +42,19 @@ std::string read_operator_name(const Registry& registry, const Subject& subject,
   return composition.operator_name;
 }
 
+/// Of an attempt: {number, ...}.
+std::vector<std::uint32_t> read_vertices(const ScriptValue& value) {
+  std::vector<std::uint32_t> vertices;
+  for (const ScriptValue& item : value.list) {
+    const double number = read_number({"attempt: vertex"}, item);
+    if (!item.is_integer || number < 0 || number >= 0xFFFFFFFFu) {
+      throw Error(fmt::format("attempt: {} is no number of a vertex", item.quoted()));
+    }
+    vertices.push_back(static_cast<std::uint32_t>(number));
+  }
+  return vertices;
+}
+
 QualityIndicators read_indicators(const Subject& subject, const ScriptValue& value) {
   const auto number = [&](std::string_view name) {
     const ScriptValue* field = value.field(name);
@@ -276,17 +289,11 @@ int ScriptHost::attempt(lua_State* lua) {
   begin_work();
   const Composition what = read_composition(run_->registry(), {"attempt"}, read_value(lua, 1));
   if (what.kind != Composition::Kind::one) throw Error("attempt: must be one operator");
-  const ScriptValue value = read_value(lua, 2);
-  std::vector<std::uint32_t> vertices;
-  for (const ScriptValue& item : value.list) {
-    const double number = read_number({"attempt: vertex"}, item);
-    if (!item.is_integer || number < 0 || number >= 0xFFFFFFFFu) {
-      throw Error(fmt::format("attempt: {} is no number of a vertex", item.quoted()));
-    }
-    vertices.push_back(static_cast<std::uint32_t>(number));
-  }
+  const std::vector<std::uint32_t> vertices = read_vertices(read_value(lua, 2));
+  std::vector<std::uint32_t> tet;
+  if (!lua_isnoneornil(lua, 3)) tet = read_vertices(read_value(lua, 3));
   return make_pass(lua, [&] {
-    attempt_once(*run_, {what.operator_name, what.settings, vertices});
+    attempt_once(*run_, {what.operator_name, what.settings, vertices, tet});
   });
 }
 

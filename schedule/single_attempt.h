@@ -15,10 +15,13 @@ struct SingleAttempt {
   ParameterSettings settings = {};
   /// Of the target; numbers as in MeshView(mesh), so at first those of the mesh's file.
   std::vector<std::uint32_t> vertices;
+  /// Of the tet that names the target; empty: any. Operators start their walks there, so what they
+  /// try in which order may depend on it.
+  std::vector<std::uint32_t> tet = {};
 };
 
-/// A pass of one attempt. If several tets have the target, it is named by one that lists the
-/// vertices in the order given, where there is one.
+/// A pass of one attempt. If several tets may name the target, it is one that lists the vertices in
+/// the order given, where there is one.
 /// @throws Error for an unknown operator or parameter, a vertex that does not exist, or when no
 /// tet, edge, face or vertex is made up of the vertices. Cost: linear in the mesh.
 void attempt_once(Run& run, const SingleAttempt& options);

@@ -63,10 +63,11 @@ constexpr std::array<WordInfo, 17> kWords = {{
      "value, order = \"sine\", \"longest\" or \"shortest\"}, first_of{...} or all_of{...}. An "
      "operator on edges, faces or vertices is tried on those of the tet",
      kOnlyOn, kApplyNumbers},
-    {"attempt", "attempt(what, {vertex, ...})",
+    {"attempt", "attempt(what, {vertex, ...}, {vertex, vertex, vertex, vertex})",
      "tries one operator once: `what` as for apply, without order; at the vertex, or at the edge, "
      "face or tet of these vertices, by their numbers in the mesh as it would be written now, from "
-     "0"},
+     "0. An edge or face is seen from the tet of the last four vertices, if they are given: what "
+     "is tried in which order may depend on it"},
     {"first_of", "first_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",

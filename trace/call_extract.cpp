@@ -38,6 +38,14 @@ bool touches(const SlotMesh& mesh, TetHandle t, const std::vector<std::uint8_t>&
   });
 }
 
+/// Null for a call outside of visits.
+const Visit* visit_of(const TraceFile& file, std::uint32_t call) {
+  const std::span<const Visit> visits = file.visits();
+  const auto after = std::ranges::upper_bound(visits, call, {}, &Visit::first_call);
+  if (after == visits.begin() || call >= (after - 1)->last_call) return nullptr;
+  return &*(after - 1);
+}
+
 /// Gives frozen tets a label of their own, by which a run can be told to keep them.
 std::optional<Label> mark_frozen(std::span<const std::uint32_t> frozen,
                                  std::span<const TetHandle> tets, MeshData& data) {
@@ -77,10 +85,16 @@ CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t ca
   std::vector<std::uint32_t> slots;
   result.mesh = mesh.extract(tets, &slots);
   result.frozen = mark_frozen(mesh.frozen_tets(), tets, result.mesh);
-  for (const VertexHandle v : file.calls()[call].target()) {
-    const auto found = std::lower_bound(slots.begin(), slots.end(), v.index());
-    result.target.push_back(static_cast<std::uint32_t>(found - slots.begin()));
-  }
+  const auto numbers_of = [&slots](std::span<const VertexHandle> vertices) {
+    std::vector<std::uint32_t> numbers;
+    for (const VertexHandle v : vertices) {
+      const auto found = std::lower_bound(slots.begin(), slots.end(), v.index());
+      numbers.push_back(static_cast<std::uint32_t>(found - slots.begin()));
+    }
+    return numbers;
+  };
+  result.target = numbers_of(file.calls()[call].target());
+  if (const Visit* visit = visit_of(file, call)) result.tet = numbers_of(visit->tet);
   return result;
 }
 

@@ -15,6 +15,7 @@ struct CallExtract {
   std::uint32_t call = 0;             ///< the outermost call around the one asked for
   MeshData mesh;                      ///< as the call found it
   std::vector<std::uint32_t> target;  ///< vertices of the target, by their numbers in `mesh`
+  std::vector<std::uint32_t> tet;     ///< the tet visited, which names the target; empty: none
   std::optional<Label> frozen;        ///< label that tets have here which the run had to keep
 };
 

@@ -32,13 +32,16 @@ struct TraceHeader {
   static TraceHeader decode(ByteReader& in);
 };
 
+/// A place in the mesh.
+struct TraceBall {
+  Point centre = Point::Zero();
+  double radius = 0;
+};
+
 /// Which attempts are written. Those that are not leave no event, except for what they changed
 /// for good: replay is exact all the same.
 struct TraceFilter {
-  struct Ball {
-    Point centre = Point::Zero();
-    double radius = 0;
-  };
+  using Ball = TraceBall;
   std::optional<Ball> around = {};          ///< a vertex of the outermost target lies in it
   std::vector<std::string> operators = {};  ///< of these, with all that they call; empty: any
   /// Attempts nested deeper are left out; 0: only the outermost are written.

@@ -153,8 +153,7 @@ class Teller {
       }
     }
     std::ranges::sort(vertices);
-    const auto [first, last] = std::ranges::unique(vertices);
-    vertices.erase(first, last);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
   }
   Cavity cavity(std::uint64_t at) {

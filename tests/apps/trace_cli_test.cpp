@@ -89,11 +89,11 @@ TEST_CASE("mistakes in the options of a trace are wrong usage, before any work")
       {{"--trace-operator", "flip"}, "unknown operator 'flip'; valid: "},
       {{"--trace-depth", "-1"}, "--trace-depth"},
       {{"--trace-limit", "5X"}, "'5X' is not a size such as 500M"}};
-  for (const auto& [options, message] : wrong) {
-    CAPTURE(message);
-    const Outcome outcome = bench.record(options);
+  for (const auto& mistake : wrong) {
+    CAPTURE(mistake.second);
+    const Outcome outcome = bench.record(mistake.first);
     CHECK(outcome.status == 2);
-    CHECK_MESSAGE(contains(outcome.err, message), outcome.err);
+    CHECK_MESSAGE(contains(outcome.err, mistake.second), outcome.err);
   }
   CHECK(bench.improve({"--trace-depth", "1"}).status == 2);
   CHECK(bench.folder.entries() == 0);
@@ -150,28 +150,50 @@ TEST_CASE("the mesh at an event is written, with the cavity as a field of a VTK 
   CHECK(bench.look({"--at", "99999999", "-o", vtk}).status == 1);
 }
 
-TEST_CASE("a call that was extracted has the same verdict when it is repeated") {
+TEST_CASE("a call that was extracted goes the same way when it is repeated") {
   Bench bench;
-  REQUIRE(bench.record().status == 0);
+  std::vector<std::string> protect;
+  SUBCASE("of a whole mesh") {}
+  SUBCASE("beside protected tets") {
+    protect = {"--protect", "box:0,0,0,13,11,4"};
+  }
+  REQUIRE(bench.record(protect).status == 0);
   const TraceFile file(bench.trace);
   std::size_t repeated = 0;
   std::size_t accepted = 0;
+  std::size_t protected_again = 0;
   for (std::uint32_t c = 0; c < file.calls().size(); c = file.calls()[c].subtree_end) {
-    if (c % 97 != 0 && !(file.calls()[c].accepted && c % 7 == 0)) continue;
+    const Call& call = file.calls()[c];
+    if (c % 97 != 0 && !(call.accepted && c % 7 == 0)) continue;
     if (++repeated > 40) break;
     CAPTURE(describe_call(file, c));
     const std::string kit = (bench.folder / "kit").string();
     REQUIRE(bench.look({"--extract", std::to_string(c), "-o", kit}).status == 0);
     const std::string again = (bench.folder / "again.trace").string();
-    const Outcome outcome = run_program({"improve", kit + "/call.mesh", "-o", kit + "/out.mesh",
-                                         "--schedule", kit + "/call.lua", "--trace", again, "-q"});
+    std::vector<std::string> command = {
+        "improve",    kit + "/call.mesh", "-o",      kit + "/out.mesh",
+        "--schedule", kit + "/call.lua",  "--trace", again,
+        "-q"};
+    const std::string told = read_text(kit + "/README.txt");
+    if (const std::size_t at = told.find("--protect label:"); at != std::string::npos) {
+      const std::size_t label = at + std::string("--protect ").size();
+      command.insert(command.end(),
+                     {"--protect", told.substr(label, told.find(' ', label) - label)});
+      ++protected_again;
+    }
+    const Outcome outcome = run_program(command);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const TraceFile repeat(again);
-    CHECK(repeat.name(repeat.calls()[0].verdict) == file.name(file.calls()[c].verdict));
-    accepted += file.calls()[c].accepted ? 1 : 0;
+    const Call& now = repeat.calls()[0];
+    CHECK(repeat.name(now.verdict) == file.name(call.verdict));
+    CHECK(now.subtree_end == call.subtree_end - c);
+    CHECK(now.worst_before == call.worst_before);
+    CHECK(now.worst_after == call.worst_after);
+    accepted += call.accepted ? 1 : 0;
   }
   CHECK(repeated > 20);
   CHECK(accepted > 5);
+  CHECK((protected_again > 0) == !protect.empty());
 }
 
 TEST_CASE("a trace that is cut off is summarised with a warning; what is none is refused") {

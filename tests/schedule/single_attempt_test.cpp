@@ -38,6 +38,17 @@ TEST_CASE("a single attempt aims at the target of the vertices and at nothing el
             .find("-> accepted") != std::string::npos);
 }
 
+TEST_CASE("a single attempt sees its target from the tet that is named") {
+  // The two tets of a face list its vertices in opposite sense.
+  CHECK(trace_of("attempt('flip_2_3', {0, 1, 3}, {0, 1, 2, 3})").find("flip_2_3(0 1 3)") == 0);
+  CHECK(trace_of("attempt('flip_2_3', {0, 1, 3}, {0, 1, 3, 4})").find("flip_2_3(0 3 1)") == 0);
+  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {2, 3}, {0, 1, 3, 4})"),
+                       doctest::Contains("no edge has the vertices 2, 3 in a tet of 0, 1, 3, 4"),
+                       Error);
+  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 1}, {0, 1, 9, 4})"),
+                       doctest::Contains("there is no vertex 9"), Error);
+}
+
 TEST_CASE("a single attempt at what is not there is a mistake of the script") {
   CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 9})"),
                        doctest::Contains("there is no vertex 9; the mesh has 5"), Error);

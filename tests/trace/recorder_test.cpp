@@ -44,20 +44,37 @@ TEST_CASE("a mesh is the same with and without a recorder") {
   CHECK(plain == traced);
 }
 
-TEST_CASE("a trace does not depend on the number of threads, but for its times") {
+TEST_CASE(
+    "a mesh that is divided among threads has the same trace and the same end on any number") {
   const TempFolder folder;
-  const auto events = [&](int threads) {
-    TetMesh mesh = asset_mesh("sheet.mesh");
-    on_threads(threads, [&] { record(mesh, folder / "trace"); });
-    const TraceFile file(folder / "trace");
-    std::string text;
-    for (std::uint32_t c = 0; c < file.calls().size(); ++c) {
-      const Call& call = file.calls()[c];
-      text += std::to_string(call.events.begin) + " " + std::string(file.name(call.verdict)) + "\n";
-    }
-    return text;
+  TetMesh last = asset_mesh("folded_sheet.mesh");
+  const auto run_divided = [&](int threads, TraceRecorder* recorder) {
+    Registry registry;
+    register_builtin_operators(registry);
+    on_threads(threads, [&] {
+      Run run(last, registry);
+      run.set_block_count(8);
+      run.set_trace(recorder);
+      improve(run, Schedule::builtin("shell"));
+    });
   };
-  CHECK(events(1) == events(3));
+  const auto trace_on = [&](int threads) {
+    last = asset_mesh("folded_sheet.mesh");
+    TraceRecorder recorder(folder / "trace", last, {}, {}, TraceClock::steps);
+    run_divided(threads, &recorder);
+    recorder.finish();
+    return read_text(folder / "trace");
+  };
+  const std::string alone = trace_on(1);
+  CHECK(trace_on(3) == alone);
+  const TetMesh traced = last;
+  last = asset_mesh("folded_sheet.mesh");
+  run_divided(3, nullptr);
+  CHECK(last == traced);
+  const TraceFile file(folder / "trace");
+  CHECK(ends_with(file, traced));
+  CHECK(std::ranges::any_of(
+      file.calls(), [&](const Call& call) { return file.name(call.verdict) == "deferred"; }));
 }
 
 TEST_CASE("equal runs give equal files when steps are the clock") {
