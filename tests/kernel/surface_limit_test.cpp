@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -44,6 +45,13 @@ MeshData ridge(unsigned n, double degrees) {
     add({a + 1, a + 2, a + 3, a + 4});
     add({a + 2, a + 3, a + 4, a + 5});
   }
+  return data;
+}
+
+/// A ball squeezed flat: sharp all around, and thin.
+MeshData flat_ball(std::uint64_t seed) {
+  MeshData data = delaunay_ball(80, seed);
+  for (Point& p : data.points) p.z() *= 0.1;
   return data;
 }
 
@@ -132,13 +140,13 @@ TEST_CASE("where the one tet that could fill a sector is bad, halves of the sect
 TEST_CASE("two sharp sectors beside a face that stands free are forced by a constraint") {
   // Two tets of 20 degrees each at the edge 0 1; the face between them is named or not. Together
   // they are good.
-  const auto fan = [](bool named) {
+  const auto fan = [](bool named, double dent = 0) {
     MeshData data;
     data.points = {{0, 0, -0.5}, {0, 0, 0.5}};
     for (const double degrees : {0.0, 20.0, 40.0}) {
       const double turn = degrees * std::numbers::pi / 180;
       // The middle lies in the plane of the other two, so that one tet without it fits.
-      const double radius = degrees == 20 ? std::cos(turn) : 1;
+      const double radius = degrees == 20 ? std::cos(turn) - dent : 1;
       data.points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0);
     }
     data.tets = {{{0, 1, 2, 3}, 0}, {{0, 1, 3, 4}, 0}};
@@ -152,6 +160,9 @@ TEST_CASE("two sharp sectors beside a face that stands free are forced by a cons
   CHECK(*limit.theta_min == doctest::Approx(20).epsilon(1e-3));
   // Vertex 3 stays on the surface: one of the two tets stands on the wall 0 2 3 whatever is inside.
   CHECK(compute_surface_limit(TetMesh(fan(false))).n_forced == 1);
+  // Nearer to the edge, it is in the way of the one tet. Then two or more share 40 degrees: one of
+  // those on the two walls is bad, and both walls say so of each other.
+  CHECK(compute_surface_limit(TetMesh(fan(false, 0.2))).n_forced == 1);
 }
 
 TEST_CASE("needles of triangles alone force nothing") {
@@ -181,6 +192,9 @@ TEST_CASE("frozen bad tets are told apart, and their faces are walls") {
 TEST_CASE("no improvement breaks the bounds, and bounds do not depend on the tets between walls") {
   std::vector<NamedMesh> meshes = zoo();
   meshes.push_back({"ridge", ridge(4, 12)});
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    meshes.push_back({"flat_ball_" + std::to_string(seed), flat_ball(seed)});
+  }
   for (const char* name : {"sheet", "folded_sheet", "two_materials"}) {
     meshes.push_back(
         {name, read_mesh(std::string(TETMEND_SOURCE_DIR "/assets/meshes/") + name + ".mesh")});

@@ -3,6 +3,7 @@
 #include "kernel/wall_probe.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <doctest/doctest.h>
@@ -78,4 +79,32 @@ TEST_CASE("a tet alone allows exactly its own angles") {
     CHECK(!probe.allows({own.low, own.high - kLess}, 0b1111));
     CHECK(probe.walls(0b1111).size() == 4);
   }
+}
+
+TEST_CASE("a tet that fills one sector must leave nothing or enough at the other edges") {
+  // Two tets of 20 degrees at the edge 0 1. Vertex 3 lies in the middle between 2 and 4, so that
+  // one tet 0 1 2 4 would leave nothing at 0 2 where the next wall is 0 2 3.
+  MeshData data;
+  data.points = {{0, 0, -0.5}, {0, 0, 0.5}};
+  for (const double degrees : {0.0, 20.0, 40.0}) {
+    const double radius = degrees == 20 ? std::cos(20 * kDegree) : 1;
+    data.points.emplace_back(radius * std::cos(degrees * kDegree),
+                             radius * std::sin(degrees * kDegree), 0);
+  }
+  data.tets = {{{0, 1, 2, 3}, 0}, {{0, 1, 3, 4}, 0}};
+  const TetMesh mesh(data);
+  const TetHandle t(0);
+  const WallProbe probe(mesh, HalfFace(t, mesh.local_index(t, VertexHandle(3))));
+  const auto corners = mesh.vertices(probe.wall());
+  const auto bit = [&](std::uint32_t opposite) {
+    const auto at = std::find(corners.begin(), corners.end(), VertexHandle(opposite));
+    return WallProbe::Scope(1u << (at - corners.begin()));
+  };
+  const AngleRange good{30 * kDegree, 150 * kDegree};
+  CHECK(probe
+            .sector(static_cast<unsigned>(
+                std::find(corners.begin(), corners.end(), VertexHandle(2)) - corners.begin()))
+            .angle == doctest::Approx(40 * kDegree));
+  CHECK(probe.allows(good, bit(2)));
+  CHECK(!probe.allows(good, bit(2) | bit(1)));
 }
