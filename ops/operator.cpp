@@ -54,7 +54,8 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   if (!transaction.empty()) throw Error("it edits the mesh before apply()");
   if (verdict == Verdict::accepted) verdict = apply(context, target, transaction);
   if (verdict != Verdict::accepted) return verdict;
-  if (!is_better(transaction, context.scratch)) return Verdict::no_improvement;
+  const bool better = is_better(transaction, context.scratch);
+  if (!better && !context.opening) return Verdict::no_improvement;
   transaction.keep();
   return Verdict::accepted;
 }
