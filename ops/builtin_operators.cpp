@@ -9,6 +9,7 @@
 #include "ops/flip_2_3.h"
 #include "ops/flip_3_2.h"
 #include "ops/flip_4_4.h"
+#include "ops/joint_smoothing.h"
 #include "ops/multi_face_removal.h"
 #include "ops/polyhedron_reconnection.h"
 #include "ops/recursive_shell_transformation.h"
@@ -28,6 +29,7 @@ void register_builtin_operators(Registry& registry) {
   registry.add(flip_3_2_info());
   registry.add(flip_4_4_info());
   registry.add(smoothing_info());
+  registry.add(joint_smoothing_info());
   registry.add(edge_split_info());
   registry.add(edge_contraction_info());
   registry.add(centroid_insertion_info());

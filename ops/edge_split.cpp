@@ -49,7 +49,9 @@ class EdgeSplit final : public Operator {
     const double reached = scratch.ball.optimise(scratch.point, limits_);
     // What is left to be gained by smoothing the neighbours is limited.
     constexpr double kRelaxedShare = 0.2;
-    const double least = relax_ ? kRelaxedShare * std::max(floor, 0.0f) : floor + least_gain_;
+    const double least = relax_            ? kRelaxedShare * std::max(floor, 0.0f)
+                         : context.opening ? required_quality(context, floor)
+                                           : floor + least_gain_;
     return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -71,8 +73,8 @@ class EdgeSplit final : public Operator {
     transaction.compare(scratch.before, scratch.now);
     // DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
     // - q)^4 over the bad tets must fall, unless the worst tet is desperate.
-    const bool worth_it =
-        scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+    const bool worth_it = context.opening || scratch.before[0] < desperate_ ||
+                          lowers_deficit(scratch.now, scratch.before);
     return worth_it ? Verdict::accepted : Verdict::no_improvement;
   }
 

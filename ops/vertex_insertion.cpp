@@ -169,7 +169,7 @@ Verdict VertexInsertion::evaluate(OperatorContext& context, Target target) const
   load_ball(mesh, scratch.link, scratch.ball);
   const double reached =
       smooth_ ? scratch.ball.optimise(scratch.point, limits_) : scratch.ball.worst(scratch.point);
-  return reached > floor ? Verdict::accepted : Verdict::no_improvement;
+  return reached > required_quality(context, floor) ? Verdict::accepted : Verdict::no_improvement;
 }
 
 Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction) const {
@@ -185,8 +185,8 @@ Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& tr
       to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
   if (verdict != Verdict::accepted) return verdict;
   transaction.compare(scratch.before, scratch.now);
-  const bool worth_it =
-      scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+  const bool worth_it = context.opening || scratch.before[0] < desperate_ ||
+                        lowers_deficit(scratch.now, scratch.before);
   return worth_it ? Verdict::accepted : Verdict::no_improvement;
 }
 

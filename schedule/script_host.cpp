@@ -113,7 +113,7 @@ void ScriptHost::add_words() {
   add("insert_points", &ScriptHost::insert);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
-  for (const char* how : {"first_of", "all_of"}) {
+  for (const char* how : {"first_of", "all_of", "sequence"}) {
     lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
   }
   add("quality", &ScriptHost::quality);
@@ -305,6 +305,8 @@ int ScriptHost::compose(lua_State* lua, const char* how) {
     lua_rawgeti(lua, 1, i);
     lua_rawseti(lua, -2, i);
   }
+  lua_getfield(lua, 1, "desperate");
+  lua_setfield(lua, -2, "desperate");
   lua_pushstring(lua, how);
   lua_setfield(lua, -2, "how");
   return 1;

@@ -108,6 +108,13 @@ TEST_CASE("words do what the passes in C++ do") {
   same("insert_points{relax = true, on = {below = 0.25, at_least = 10}}", [](Run& r) {
     insert_points(r, {.on = {.below = 0.25f, .at_least = 10}, .settings = {{"relax", 1}}});
   });
+  same("apply(sequence{'edge_split', 'edge_removal', 'smoothing', desperate = 0.3})", [](Run& r) {
+    Composition parts{.kind = Composition::Kind::sequence, .desperate = 0.3};
+    for (const char* name : {"edge_split", "edge_removal", "smoothing"}) {
+      parts.parts.push_back(Composition{.operator_name = name});
+    }
+    apply(r, {.what = parts});
+  });
   same("apply(first_of{{'edge_split', order = 'longest', steps = 3}, 'smoothing'}, {on = 'all'})",
        [](Run& r) {
          Composition split{.operator_name = "edge_split",
@@ -171,12 +178,15 @@ TEST_CASE(
       {"local_reconnection{edges = 'edge_removal', max_level = 3}",
        "local_reconnection has no parameter 'max_level'; valid: on, edges, faces, sweeps"},
       {"apply('magic')", "unknown operator 'magic'"},
-      {"apply(3)", "apply must be an operator, first_of{...} or all_of{...}, is 3"},
+      {"apply(3)", "apply must be an operator, first_of{...}, all_of{...} or sequence{...}, is 3"},
       {"apply({'edge_split', relaxed = true})",
        "edge_split has no parameter 'relaxed'; valid: order, least_gain"},
       {"apply({'edge_split', order = 'best'})",
        "edge_split: order has no value 'best'; valid: sine, longest, shortest"},
       {"apply(first_of{})", "apply: nothing to try"},
+      {"apply(sequence{'smoothing'})", "apply: a sequence is an operator and what follows it"},
+      {"apply(sequence{'smoothing', 'flip_2_3', desperate = 2})",
+       "apply: desperate = 2 is outside"},
       {"apply('smoothing', {sweep = 3})", "apply has no parameter 'sweep'; valid: on, sweeps"},
       {"apply(function() end)", "a function is of no use here"},
       {"is_progress(quality(), 3)", "is_progress: now needs what quality() returns"},
