@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "ops/relaxation.h"
 #include "ops/smoothing.h"
@@ -17,7 +18,8 @@ class CavityInsertion final : public Operator {
       : Operator(cavity_insertion_info()),
         tries_(static_cast<std::size_t>(values.integer("tries"))),
         relax_(values.flag("relax")),
-        desperate_(static_cast<Quality>(values.real("desperate"))) {
+        desperate_(static_cast<Quality>(values.real("desperate"))),
+        exponent_(values.real("exponent")) {
     growth_.max_tets = static_cast<std::size_t>(values.integer("max_tets"));
     limits_.steps = values.integer("steps");
   }
@@ -122,20 +124,32 @@ class CavityInsertion final : public Operator {
     if (verdict != Verdict::accepted) return verdict;
     if (relax_) relax(context, transaction, v, limits_);
     if (!is_better(transaction, scratch)) return Verdict::no_improvement;
-    // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others.
+    // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others;
+    // how many are too many is for the exponent to say.
     const Quality worst = *std::min_element(scratch.before.begin(), scratch.before.end());
-    const bool worth_it = worst < desperate_ || lowers_deficit(scratch.now, scratch.before);
+    const bool worth_it =
+        worst < desperate_ || total_deficit(scratch.now) < total_deficit(scratch.before);
     return worth_it ? Verdict::accepted : Verdict::no_improvement;
+  }
+
+  /// As lowers_deficit() adds up, with the exponent of this operator.
+  double total_deficit(std::span<const Quality> qualities) const {
+    double sum = 0;
+    for (const Quality q : qualities) {
+      if (q < kBadThreshold) sum += std::pow(kBadThreshold - q, exponent_);
+    }
+    return sum;
   }
 
   std::size_t tries_;
   bool relax_;
   Quality desperate_;
+  double exponent_;
   Cavity::Limits growth_;
   BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 5> kParameters = {{
+constexpr std::array<ParameterSpec, 6> kParameters = {{
     {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64, "most tets that give way"},
     {"tries", ParameterSpec::Kind::integer, 1, 11, 6,
      "most places at which the vertex is inserted and judged, the most promising first"},
@@ -143,6 +157,8 @@ constexpr std::array<ParameterSpec, 5> kParameters = {{
      "smooth and reconnect around the new vertex before judging"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
+    {"exponent", ParameterSpec::Kind::real, 1, 64, 4,
+     "the sum of (0.5 - q)^exponent over the bad tets must fall; large: mild ones hardly count"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 8,
      "most directions that each placement follows"},
 }};

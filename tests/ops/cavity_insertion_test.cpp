@@ -110,10 +110,24 @@ TEST_CASE("a better worst tet is not worth many new bad ones, unless it is despe
   MeshData faces = octahedron(2, 3, 1);
   faces.points[5].y() = -2;
   faces.triangles = {{{0, 1, 3}, 1}, {{0, 1, 5}, 1}};
-  LoneWorker worker(faces);
-  CHECK(worker.worst() > kDesperate);
-  CHECK(insert(worker, kTarget) == Verdict::no_improvement);
-  CHECK(insert(worker, kTarget, {{"desperate", 1}}) == Verdict::accepted);
+  REQUIRE(LoneWorker(faces).worst() > kDesperate);
+  const auto verdict = [&](const ParameterSettings& settings) {
+    LoneWorker worker(faces);
+    return insert(worker, kTarget, settings);
+  };
+  CHECK(verdict({}) == Verdict::no_improvement);
+  CHECK(verdict({{"desperate", 1}}) == Verdict::accepted);
+}
+
+TEST_CASE("the larger the exponent, the less do mild bad tets count against a better worst tet") {
+  const MeshData ball = zoo_data("ball_60");
+  std::size_t last = 0;
+  for (const double exponent : {1, 4, 64}) {
+    const std::size_t accepted =
+        count_accepted(ball, {{"exponent", exponent}, {"desperate", -1}, {"relax", 0}});
+    CHECK(accepted > last);
+    last = accepted;
+  }
 }
 
 TEST_CASE("a constrained edge inside the cavity is kept: the insertion is refused") {
