@@ -87,7 +87,7 @@ class EdgeSplit final : public Operator {
       const auto ring = one_ring(mesh, v, context.workspace);
       scratch.neighbours.assign(ring.begin(), ring.end());
       scratch.neighbours.push_back(v);
-      for (const VertexHandle w : scratch.neighbours) climb(context, transaction, w);
+      for (const VertexHandle w : scratch.neighbours) climb(context, transaction, w, limits_);
       if (round > 0) break;
       reconnect(context, v);
       // The second round of smoothing is as dear as the first; it cannot make up for this much.
@@ -117,19 +117,6 @@ class EdgeSplit final : public Operator {
         }
       }
     }
-  }
-
-  /// Smooths one vertex.
-  void climb(OperatorContext& context, Transaction& transaction, VertexHandle v) const {
-    const TetMesh& mesh = context.mesh;
-    if (mesh.is_fixed(v)) return;
-    Scratch& scratch = context.scratch;
-    if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
-    load_ball(mesh, scratch.link, scratch.ball);
-    Point point = mesh.point(v);
-    const double start = scratch.ball.worst(point);
-    if (start >= limits_.enough || scratch.ball.optimise(point, limits_) <= start) return;
-    transaction.move_vertex(v, point, scratch.link);
   }
 
   double least_gain_;
