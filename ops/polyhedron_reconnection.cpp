@@ -1,22 +1,43 @@
 // SPDX-License-Identifier: MIT
+//   evaluate: grow to the full size, only to know that nobody else is in the way; start again
+//   apply:    search, replace, smooth, judge; undo, grow and try again until it is worth it
 #include "ops/polyhedron_reconnection.h"
 
 #include <algorithm>
 
 #include "ops/refilling.h"
+#include "ops/smoothing.h"
 
 namespace tetmend {
 
 namespace {
 
+/// Corners of the target in the numbers of the polyhedron that starts with it.
+constexpr PointMask kTarget = 15;
+
+Point mean(const TetMesh& mesh, std::span<const VertexHandle> vertices) {
+  Point sum = Point::Zero();
+  for (const VertexHandle v : vertices) sum += mesh.point(v);
+  return sum / static_cast<double>(vertices.size());
+}
+
+std::ptrdiff_t count_bad(const std::vector<Quality>& ascending) {
+  return std::lower_bound(ascending.begin(), ascending.end(), kBadThreshold) - ascending.begin();
+}
+
 class PolyhedronReconnection final : public Operator {
  public:
   explicit PolyhedronReconnection(const ParameterValues& values)
       : Operator(polyhedron_reconnection_info()),
+        insert_(values.flag("insert")),
+        remove_(values.flag("remove")),
+        relax_(values.flag("relax")),
+        rounds_(values.integer("rounds")),
         min_vertices_(static_cast<std::size_t>(values.integer("min_vertices"))),
-        max_vertices_(static_cast<std::size_t>(values.integer("max_vertices"))),
-        limits_{static_cast<unsigned>(values.integer("max_nodes")),
-                static_cast<Quality>(values.real("desperate"))} {}
+        max_vertices_(static_cast<std::size_t>(values.integer("max_vertices") - insert_)),
+        step_(values.integer("step")),
+        max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))),
+        desperate_(static_cast<Quality>(values.real("desperate"))) {}
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
@@ -24,45 +45,138 @@ class PolyhedronReconnection final : public Operator {
   }
 
   Verdict evaluate(OperatorContext& context, Target target) const override {
-    const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    Polyhedron& polyhedron = scratch.polyhedron;
-    PolyhedronSearch& search = scratch.polyhedron_search;
-    const bool may_overlap = context.workspace.mesh_may_overlap();
-    polyhedron.start(mesh, target.tet());
-    search.clear();
-    while (polyhedron.vertices().size() < min_vertices_ &&
-           polyhedron.grow(mesh, context.workspace, max_vertices_)) {
+    Polyhedron& polyhedron = context.scratch.polyhedron;
+    polyhedron.start(context.mesh, target.tet());
+    while (grow(context)) {
     }
+    if (context.workspace.met_border()) return Verdict::deferred;
+    polyhedron.start(context.mesh, target.tet());
+    while (polyhedron.vertices().size() < min_vertices_ && grow(context)) {
+    }
+    context.scratch.polyhedron_search.clear();
+    return Verdict::accepted;
+  }
+
+  Verdict apply(OperatorContext& context, Target, Transaction&) const override {
     Verdict verdict = Verdict::no_improvement;
     do {
-      for (std::size_t n = search.size(); n < polyhedron.vertices().size(); ++n) {
-        search.add(mesh.point(polyhedron.vertices()[n]));
-      }
-      if (may_overlap && !polyhedron.is_embedded(mesh, search.table())) break;
-      verdict = refill(context, polyhedron.inside(), limits_);
-    } while (verdict != Verdict::accepted &&
-             polyhedron.grow(mesh, context.workspace, max_vertices_));
+      Transaction attempt(context.mesh, context.workspace);
+      verdict = try_size(context, attempt);
+      if (verdict != Verdict::accepted) continue;
+      attempt.keep();
+      return verdict;
+    } while (grow_by_step(context));
     return verdict;
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+ private:
+  bool grow(OperatorContext& context) const {
+    return context.scratch.polyhedron.grow(context.mesh, context.workspace, max_vertices_);
   }
 
- private:
+  bool grow_by_step(OperatorContext& context) const {
+    int grown = 0;
+    while (grown < step_ && grow(context)) ++grown;
+    return grown > 0;
+  }
+
+  /// Fills the polyhedron as it is now.
+  Verdict try_size(OperatorContext& context, Transaction& transaction) const {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    VertexHandle added;
+    if (insert_) {
+      added = transaction.add_vertex(mean(mesh, scratch.polyhedron.vertices()));
+      if (!added.is_valid()) return Verdict::deferred;
+    }
+    load_points(context, added);
+    if (context.workspace.mesh_may_overlap() &&
+        !scratch.polyhedron.is_embedded(mesh, scratch.polyhedron_search.table())) {
+      return Verdict::not_applicable;
+    }
+    Verdict verdict = refill(context, make_problem(mesh, scratch.polyhedron), added);
+    if (verdict != Verdict::accepted) return verdict;
+    verdict = to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    if (verdict != Verdict::accepted) return verdict;
+    if (relax_) smooth(context, transaction, added);
+    return is_worth_it(transaction, scratch) ? Verdict::accepted : Verdict::no_improvement;
+  }
+
+  /// A vertex to be added has the number after those of the polyhedron, so with it the table is
+  /// made anew for each size.
+  void load_points(OperatorContext& context, VertexHandle added) const {
+    const auto vertices = context.scratch.polyhedron.vertices();
+    PolyhedronSearch& search = context.scratch.polyhedron_search;
+    if (insert_) search.clear();
+    while (search.size() < vertices.size()) {
+      search.add(context.mesh.point(vertices[search.size()]));
+    }
+    if (insert_) search.add(context.mesh.point(added));
+  }
+
+  PolyhedronProblem make_problem(const TetMesh& mesh, const Polyhedron& polyhedron) const {
+    // What smoothing can make good of is limited.
+    constexpr Quality kRelaxedShare = 0.5;
+    PolyhedronProblem problem = better_filling(mesh, polyhedron, desperate_);
+    problem.max_nodes = max_nodes_;
+    const auto vertices = polyhedron.vertices();
+    for (unsigned n = 0; n < vertices.size(); ++n) {
+      const PointMask bit = PointMask{1} << n;
+      if (!remove_ || mesh.is_fixed(vertices[n])) problem.kept |= polyhedron.inside() & bit;
+    }
+    if (insert_) problem.kept |= PointMask{1} << vertices.size();
+    if (relax_) {
+      problem.floor *= kRelaxedShare;
+      problem.deficit_limit = std::numeric_limits<double>::infinity();
+      problem.banned = kTarget;
+    }
+    return problem;
+  }
+
+  void smooth(OperatorContext& context, Transaction& transaction, VertexHandle added) const {
+    for (int round = 0; round < rounds_; ++round) {
+      if (added.is_valid()) climb(context, transaction, added, limits_);
+      for (const VertexHandle v : context.scratch.polyhedron.vertices()) {
+        if (!context.mesh.is_deleted(v)) climb(context, transaction, v, limits_);
+      }
+    }
+  }
+
+  bool is_worth_it(const Transaction& transaction, Scratch& scratch) const {
+    if (!is_better(transaction, scratch)) return false;
+    transaction.compare(scratch.before, scratch.now);
+    if (scratch.before[0] < desperate_) return true;
+    return count_bad(scratch.now) <= count_bad(scratch.before) &&
+           !lowers_deficit(scratch.before, scratch.now);
+  }
+
+  bool insert_;
+  bool remove_;
+  bool relax_;
+  int rounds_;
   std::size_t min_vertices_;
   std::size_t max_vertices_;
-  RefillLimits limits_;
+  int step_;
+  unsigned max_nodes_;
+  Quality desperate_;
+  BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 4> kParameters = {{
+constexpr std::array<ParameterSpec, 9> kParameters = {{
+    {"insert", ParameterSpec::Kind::flag, 0, 1, 0,
+     "with a new vertex, at the mean of those of the polyhedron"},
+    {"remove", ParameterSpec::Kind::flag, 0, 1, 0, "vertices inside the polyhedron may vanish"},
+    {"relax", ParameterSpec::Kind::flag, 0, 1, 0,
+     "fill it without the target, as well as can be, and smooth before judging"},
+    {"rounds", ParameterSpec::Kind::integer, 1, 100, 3,
+     "rounds of smoothing over the vertices of the polyhedron"},
     {"min_vertices", ParameterSpec::Kind::integer, 5, SideTable::kMaxPoints, 7,
      "vertices of the smallest polyhedron that is searched"},
     {"max_vertices", ParameterSpec::Kind::integer, 5, SideTable::kMaxPoints, 20,
-     "most vertices of the polyhedron"},
-    {"max_nodes", ParameterSpec::Kind::integer, 1, 100000, 500,
+     "most vertices of the polyhedron, the new one included"},
+    {"step", ParameterSpec::Kind::integer, 1, SideTable::kMaxPoints, 1,
+     "vertices by which it grows between two searches"},
+    {"max_nodes", ParameterSpec::Kind::integer, 1, 100000, 100,
      "most tets that each search places on its way"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},

@@ -273,7 +273,8 @@ bool PolyhedronSearch::is_admitted(PointMask tet) {
     const PlacedTet described = describe(tet);
     const auto& beyond = described.beyond;
     const PointMask inside = beyond[0] & beyond[1] & beyond[2] & beyond[3];
-    const bool refused = (inside & problem_.kept) != 0 || crosses_surface(described);
+    const bool refused =
+        tet == problem_.banned || (inside & problem_.kept) != 0 || crosses_surface(described);
     known = refused ? Admission::refused : Admission::admitted;
   }
   return known == Admission::admitted;

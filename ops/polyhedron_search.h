@@ -29,8 +29,9 @@ struct PolyhedronProblem {
 
   /// Counterclockwise seen from outside; closed. It may have several parts, and touch itself.
   std::span<const Triangle> surface;
-  PointMask kept = 0;  ///< points inside that must be corners of tets; others need not
-  Quality floor = 0;   ///< every new tet must be better than this; not negative
+  PointMask kept = 0;    ///< points inside that must be corners of tets; others need not
+  PointMask banned = 0;  ///< corners of a tet that must not be used; none if 0
+  Quality floor = 0;     ///< every new tet must be better than this; not negative
   /// The new tets must not lack more than this in sum, see deficit().
   double deficit_limit = std::numeric_limits<double>::infinity();
   /// A tetrahedralisation whose worst tet is this good ends the search.

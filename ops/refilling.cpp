@@ -5,11 +5,8 @@
 
 namespace tetmend {
 
-Verdict refill(OperatorContext& context, PointMask kept, const RefillLimits& limits) {
-  const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
-  const Polyhedron& polyhedron = scratch.polyhedron;
-  PolyhedronSearch& search = scratch.polyhedron_search;
+PolyhedronProblem better_filling(const TetMesh& mesh, const Polyhedron& polyhedron,
+                                 Quality desperate) {
   Quality worst = mesh.quality(polyhedron.tets()[0]);
   double lack = 0;
   for (const TetHandle t : polyhedron.tets()) {
@@ -18,19 +15,24 @@ Verdict refill(OperatorContext& context, PointMask kept, const RefillLimits& lim
   }
   PolyhedronProblem problem;
   problem.surface = polyhedron.surface();
-  problem.kept = kept;
   problem.floor = std::max(worst, 0.0f) + kQualityTolerance;
-  if (worst >= limits.desperate) problem.deficit_limit = lack;
-  problem.max_nodes = limits.max_nodes;
+  if (worst >= desperate) problem.deficit_limit = lack;
+  return problem;
+}
+
+Verdict refill(OperatorContext& context, const PolyhedronProblem& problem, VertexHandle added) {
+  Scratch& scratch = context.scratch;
+  const Polyhedron& polyhedron = scratch.polyhedron;
+  PolyhedronSearch& search = scratch.polyhedron_search;
   if (!search.run(problem)) {
     return search.was_cut_short() ? Verdict::budget_spent : Verdict::no_improvement;
   }
-
+  const auto vertices = polyhedron.vertices();
+  const auto vertex = [&](unsigned n) { return n < vertices.size() ? vertices[n] : added; };
   scratch.old_tets.assign(polyhedron.tets().begin(), polyhedron.tets().end());
   scratch.new_tets.clear();
-  const auto v = polyhedron.vertices();
   for (const auto& [a, b, c, d] : search.tets()) {
-    scratch.new_tets.push_back({v[a], v[b], v[c], v[d]});
+    scratch.new_tets.push_back({vertex(a), vertex(b), vertex(c), vertex(d)});
   }
   return Verdict::accepted;
 }

@@ -7,16 +7,16 @@
 
 namespace tetmend {
 
-struct RefillLimits {
-  unsigned max_nodes;
-  Quality desperate;  ///< below this worst quality, new bad tets are no reason to refuse
-};
+/// The problem of filling a polyhedron with a better worst tet and, unless the worst is desperate
+/// now, bad tets that lack no more in sum. All else is as PolyhedronProblem has it: no vertex need
+/// be kept.
+PolyhedronProblem better_filling(const TetMesh& mesh, const Polyhedron& polyhedron,
+                                 Quality desperate);
 
-/// Searches a better filling for the polyhedron of the scratch, whose vertices the search of the
-/// scratch already has, and leaves old and new tets in the scratch. `accepted` if its worst tet is
-/// better and, unless the old worst is desperate, the bad tets lack no more in sum; `budget_spent`
-/// if the nodes were spent before one was found. `kept`: vertices inside that must stay.
-/// Precondition: the tets of the polyhedron do not overlap.
-Verdict refill(OperatorContext& context, PointMask kept, const RefillLimits& limits);
+/// Searches a filling for the polyhedron of the scratch and leaves old and new tets in the scratch.
+/// The search of the scratch has the vertices of the polyhedron and may have one more, `added`.
+/// `accepted` if it found one, `budget_spent` if the nodes were spent before. Precondition: the
+/// tets of the polyhedron do not overlap.
+Verdict refill(OperatorContext& context, const PolyhedronProblem& problem, VertexHandle added = {});
 
 }  // namespace tetmend

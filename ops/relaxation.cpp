@@ -35,19 +35,6 @@ void reconnect(OperatorContext& context, VertexHandle v) {
 
 }  // namespace
 
-void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits) {
-  const TetMesh& mesh = context.mesh;
-  if (mesh.is_fixed(v)) return;
-  Scratch& scratch = context.scratch;
-  if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
-  load_ball(mesh, scratch.link, scratch.ball);
-  Point point = mesh.point(v);
-  const double start = scratch.ball.worst(point);
-  if (start >= limits.enough || scratch.ball.optimise(point, limits) <= start) return;
-  transaction.move_vertex(v, point, scratch.link);
-}
-
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
            const BallOptimiser::Limits& limits) {
   const TetMesh& mesh = context.mesh;

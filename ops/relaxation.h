@@ -7,11 +7,6 @@
 
 namespace tetmend {
 
-/// Moves a vertex to where the worst tet of its ball is best, if that is below `limits.enough`.
-/// Fixed vertices and balls across the border of the territory stay.
-void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits);
-
 /// Smooths around a new vertex, reconnects its bad tets, smooths again; ends when the second half
 /// cannot make up for what the worst tet lost. Leaves the quality vectors of the transaction as
 /// they were after the first half in the scratch. Precondition: the star of the vertex lies in the

@@ -103,6 +103,19 @@ void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimise
   }
 }
 
+void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
+           const BallOptimiser::Limits& limits) {
+  const TetMesh& mesh = context.mesh;
+  if (mesh.is_fixed(v)) return;
+  Scratch& scratch = context.scratch;
+  if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
+  load_ball(mesh, scratch.link, scratch.ball);
+  Point point = mesh.point(v);
+  const double start = scratch.ball.worst(point);
+  if (start >= limits.enough || scratch.ball.optimise(point, limits) <= start) return;
+  transaction.move_vertex(v, point, scratch.link);
+}
+
 const OperatorInfo& smoothing_info() {
   static const OperatorInfo kInfo = {
       "smoothing", TargetKind::vertex,

@@ -15,4 +15,10 @@ const OperatorInfo& smoothing_info();
 /// Loads the ball around a vertex, given by its link, into the optimiser.
 void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimiser& ball);
 
+/// Moves a vertex to where the worst tet of its ball is best, as part of a larger change. Leaves it
+/// where it is if it is fixed, its ball is good enough or partly in another worker's territory, or
+/// nothing is gained.
+void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
+           const BallOptimiser::Limits& limits);
+
 }  // namespace tetmend

@@ -12,8 +12,8 @@ class VertexRemoval final : public Operator {
  public:
   explicit VertexRemoval(const ParameterValues& values)
       : Operator(vertex_removal_info()),
-        limits_{static_cast<unsigned>(values.integer("max_nodes")),
-                static_cast<Quality>(values.real("desperate"))} {}
+        max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))),
+        desperate_(static_cast<Quality>(values.real("desperate"))) {}
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
@@ -37,7 +37,9 @@ class VertexRemoval final : public Operator {
     for (const VertexHandle v : scratch.polyhedron.vertices()) {
       scratch.polyhedron_search.add(mesh.point(v));
     }
-    return refill(context, 0, limits_);
+    PolyhedronProblem problem = better_filling(mesh, scratch.polyhedron, desperate_);
+    problem.max_nodes = max_nodes_;
+    return refill(context, problem);
   }
 
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
@@ -46,7 +48,8 @@ class VertexRemoval final : public Operator {
   }
 
  private:
-  RefillLimits limits_;
+  unsigned max_nodes_;
+  Quality desperate_;
 };
 
 constexpr std::array<ParameterSpec, 2> kParameters = {{

@@ -136,6 +136,15 @@ TEST_CASE("a point on a diagonal is kept, although no tet can hold it in its ins
   CHECK(s.search.tets().size() == 8);
 }
 
+TEST_CASE("a banned tet is not used") {
+  Search s(octahedron(1, 2, 3));
+  REQUIRE(s.run());
+  REQUIRE(s.tets() == kAround01);
+  s.problem.banned = 1u << 0 | 1u << 1 | 1u << 3 | 1u << 4;
+  REQUIRE(s.run());
+  CHECK(s.tets() != kAround01);
+}
+
 TEST_CASE("points may be added between runs") {
   Search s(octahedron(1, 2, 2));
   REQUIRE(s.run());
