@@ -115,12 +115,16 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   q_worst, q_aver the smallest q, and the mean over the bad tets
 In JSON the names are the same; histogram counts the angles by 5 degrees.
 
+--limit proves what no mesh of this surface can beat: a bad tet is forced if
+every mesh with the same surface and constraints has one there. It counts these
+and bounds the smallest and largest angle; more may be forced than is found.
+
 Measures:
 {}
 Formats, by extension:
 {}
 Examples:
-  tetmend quality part.mesh
+  tetmend quality part.mesh --limit
   tetmend quality part.vtk --measure radius_ratio --measure mean_ratio --json
 
 Exit status: 0 success, 1 the file cannot be read, 2 wrong usage)",
