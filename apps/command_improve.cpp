@@ -181,6 +181,7 @@ int run_improve(const Options& options, const Invocation& invocation) {
     const Stopwatch watch(report.seconds.measuring);
     progress.show("measuring");
     report.after = measure(mesh);
+    report.limit = compute_surface_limit(mesh);
     report.touched_share = touched_share(mesh);
   }
   check_promises(report);

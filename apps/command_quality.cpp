@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tetmend quality: the figures by which a mesh is judged.
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ constexpr std::string_view kAll = "all";
 struct Options {
   std::filesystem::path file;
   std::vector<std::string> measures;
+  bool limit = false;
   bool json = false;
   int threads = 1;
 };
@@ -46,10 +48,12 @@ std::vector<const QualityMeasure*> find_measures(const std::vector<std::string>&
 }
 
 void print_json(const std::filesystem::path& file, const MeshStatistics& statistics,
-                const std::vector<MeasureSummary>& extra, const BuildReport& build) {
+                const std::vector<MeasureSummary>& extra, const std::optional<SurfaceLimit>& limit,
+                const BuildReport& build) {
   nlohmann::json result = tetmend::to_json(statistics);
   result["file"] = file.string();
   result["build"] = to_json(build);
+  if (limit) result["limit"] = tetmend::to_json(*limit);
   for (const MeasureSummary& summary : extra) {
     result["measures"][std::string(summary.measure->name)] = {{"worst", summary.worst},
                                                               {"mean", summary.mean}};
@@ -66,13 +70,16 @@ int run_quality(const Options& options) {
   const MeshStatistics statistics = compute_statistics(mesh);
   std::vector<MeasureSummary> extra;
   for (const QualityMeasure* measure : measures) extra.push_back(summarize(mesh, *measure));
+  std::optional<SurfaceLimit> surface_limit;
+  if (options.limit) surface_limit = compute_surface_limit(mesh);
   if (options.json) {
-    print_json(options.file, statistics, extra, build);
+    print_json(options.file, statistics, extra, surface_limit, build);
     return 0;
   }
   fmt::print("{}\n\n", options.file.string());
   if (const std::string notes = format_build(build); !notes.empty()) fmt::print("{}\n", notes);
   fmt::print("{}\n{}", format_statistics(statistics, extra), format_histogram(statistics, nullptr));
+  if (surface_limit) fmt::print("\n{}", format_limit(*surface_limit));
   return 0;
 }
 
@@ -98,6 +105,8 @@ void add_quality(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
+  command->add_flag("--limit", options->limit,
+                    "Add what the surface allows at best, and why each bad\ntet is there");
   add_threads_option(*command, options->threads);
   command->footer(fmt::format(R"(The angles are those between the faces of a tet, in degrees.
   lambda          share of the angles that are <= 30 or >= 150

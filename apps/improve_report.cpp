@@ -151,6 +151,7 @@ std::string format_report(const ImproveReport& report) {
   if (!report.notes.empty()) text += '\n';
   const std::string passes = format_passes(report);
   if (!passes.empty()) text += passes + '\n';
+  if (report.limit.n_bad > 0) text += format_limit(report.limit) + '\n';
   return text + format_checks(report);
 }
 
@@ -174,6 +175,7 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"protected", to_json(report.protected_part)},
           {"before", tetmend::to_json(report.before.statistics)},
           {"after", tetmend::to_json(report.after.statistics)},
+          {"limit", tetmend::to_json(report.limit)},
           {"surface",
            {{"unchanged", report.surface_unchanged()},
             {"fingerprint_before", hex(report.before.surface_fingerprint)},

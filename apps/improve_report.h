@@ -12,6 +12,7 @@
 
 #include "apps/regions.h"
 #include "kernel/statistics.h"
+#include "kernel/surface_limit.h"
 #include "schedule/run.h"
 #include "schedule/schedule_parameter.h"
 
@@ -49,6 +50,7 @@ struct ImproveReport {
   ProtectedPart protected_part;
   MeshCheck before;
   MeshCheck after;
+  SurfaceLimit limit;  ///< of the mesh afterwards
   std::vector<PassRecord> passes;
   double touched_share = 0;  ///< tets created or with a moved vertex, as a share of all, 0 to 1
   Timing seconds;

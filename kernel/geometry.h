@@ -16,11 +16,16 @@ inline double volume6(const Point& a, const Point& b, const Point& c, const Poin
   return (b - a).dot((c - a).cross(d - a));
 }
 
-/// True only if the exact volume of the tet with the given (double) coordinates is positive: the
-/// computed value exceeds the rounding-error bound of the determinant. May say false for a positive
-/// volume at rounding level, never true for a wrong one. Source: static filter of
-/// [shewchuk_predicates], constant (7 + 56 eps) eps; the last term covers products that underflow.
-inline bool certified_positive(const Point& a, const Point& b, const Point& c, const Point& d) {
+/// Six times the signed volume of a tet as computed, and more than its rounding error. Source:
+/// static filter of [shewchuk_predicates], constant (7 + 56 eps) eps; the last term covers products
+/// that underflow.
+struct FilteredVolume {
+  double value;
+  double error;
+};
+
+inline FilteredVolume filtered_volume6(const Point& a, const Point& b, const Point& c,
+                                       const Point& d) {
   const Point u = b - a;
   const Point v = c - a;
   const Point w = d - a;
@@ -37,7 +42,21 @@ inline bool certified_positive(const Point& a, const Point& b, const Point& c, c
   const double permanent = u1 * (std::abs(v2w3) + std::abs(v3w2)) +
                            u2 * (std::abs(v3w1) + std::abs(v1w3)) +
                            u3 * (std::abs(v1w2) + std::abs(v2w1));
-  return det > 7.7715611723761027e-16 * permanent + 1e-300 * (1 + u1 + u2 + u3);
+  return {det, 7.7715611723761027e-16 * permanent + 1e-300 * (1 + u1 + u2 + u3)};
+}
+
+/// True only if the exact volume of the tet with the given (double) coordinates is positive: the
+/// computed value exceeds the rounding-error bound of the determinant. May say false for a positive
+/// volume at rounding level, never true for a wrong one.
+inline bool certified_positive(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const FilteredVolume volume = filtered_volume6(a, b, c, d);
+  return volume.value > volume.error;
+}
+
+/// 1 or -1 only if that is the sign of the exact volume; 0 if it is too close to tell.
+inline int certified_sign(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const FilteredVolume volume = filtered_volume6(a, b, c, d);
+  return volume.value > volume.error ? 1 : volume.value < -volume.error ? -1 : 0;
 }
 
 }  // namespace tetmend

@@ -403,32 +403,58 @@ VertexHandle Transaction::add_vertex(const Point& point) {
 
 EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
                                     std::span<const HalfFace> link) {
+  const VertexMove move = {v, point, link};
+  return move_vertices({&move, 1});
+}
+
+EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
   assert(!kept_);
-  if (mesh_.is_fixed(v)) return EditResult::constrained;
-  Point& stored = mesh_.points_[v.index()];
-  const Point before = stored;
-  stored = point;
-  for (const HalfFace f : link) {
-    const TetHandle t = f.tet();
-    if (mesh_.quality(t) > 0 && !mesh_.is_certified_positive(mesh_.vertices(t))) {
-      stored = before;
-      return EditResult::inverted;
+  for (const VertexMove& move : moves) {
+    if (mesh_.is_fixed(move.vertex)) return EditResult::constrained;
+  }
+  auto& before = workspace_.moved_points_;
+  before.clear();
+  for (const VertexMove& move : moves) {
+    Point& stored = mesh_.points_[move.vertex.index()];
+    before.push_back(stored);
+    stored = move.point;
+  }
+  if (turns_over(moves)) {
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      mesh_.points_[moves[i].vertex.index()] = before[i];
+    }
+    return EditResult::inverted;
+  }
+  for (std::size_t i = 0; i < moves.size(); ++i) note_move(moves[i], before[i]);
+  return EditResult::made;
+}
+
+/// A tet that was positive is not certified so with the vertices in their new places.
+bool Transaction::turns_over(std::span<const VertexMove> moves) const {
+  for (const VertexMove& move : moves) {
+    for (const HalfFace f : move.link) {
+      const TetHandle t = f.tet();
+      if (mesh_.quality(t) > 0 && !mesh_.is_certified_positive(mesh_.vertices(t))) return true;
     }
   }
+  return false;
+}
+
+/// Brings the qualities around a vertex that was moved up to date and keeps the old ones.
+void Transaction::note_move(const VertexMove& move, const Point& before) {
   Journal& journal = workspace_.journal_;
   Edit edit;
   edit.kind = Edit::Kind::move_vertex;
-  edit.vertex = v;
+  edit.vertex = move.vertex;
   edit.point = before;
   edit.qualities_begin = size32(journal.qualities);
-  for (const HalfFace f : link) {
+  for (const HalfFace f : move.link) {
     Quality& quality = mesh_.quality_[f.tet().index()];
     journal.qualities.push_back({f.tet(), quality});
     quality = mesh_.evaluate(mesh_.vertices(f.tet()));
   }
   edit.qualities_end = size32(journal.qualities);
   note(edit);
-  return EditResult::made;
 }
 
 // --- the way back
@@ -595,6 +621,23 @@ void Transaction::list_qualities(std::vector<Quality>& before, std::vector<Quali
     for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) touch(journal.created[k]);
     for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
       if (touch(journal.qualities[k].tet)) before.push_back(journal.qualities[k].quality);
+    }
+  }
+}
+
+void Transaction::list_changed(std::vector<TetHandle>& out) const {
+  const Journal& journal = workspace_.journal_;
+  IndexSet& touched = workspace_.touched_set_;
+  touched.clear();
+  out.clear();
+  const auto touch = [&](TetHandle t) {
+    if (touched.insert(t.index()) && !mesh_.is_deleted(t)) out.push_back(t);
+  };
+  for (std::size_t i = first_edit_; i < journal.edits.size(); ++i) {
+    const Edit& edit = journal.edits[i];
+    for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) touch(journal.created[k]);
+    for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+      touch(journal.qualities[k].tet);
     }
   }
 }

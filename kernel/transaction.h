@@ -22,6 +22,13 @@ enum class EditResult : std::uint8_t {
   not_closed    ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
 
+/// A vertex, where it is to go, and its link (see star.h).
+struct VertexMove {
+  VertexHandle vertex;
+  Point point;
+  std::span<const HalfFace> link;
+};
+
 /// A scope for edits. Transactions nest: one opened while another is open on the same workspace is
 /// its child. Undo restores every slot of the mesh bit by bit, handle numbers included. The
 /// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
@@ -52,12 +59,17 @@ class Transaction {
   /// Moves a vertex that is not fixed and updates the qualities of its star, given as the link (see
   /// star.h). A tet of positive quality must stay certified positive.
   EditResult move_vertex(VertexHandle v, const Point& point, std::span<const HalfFace> link);
+  /// Moves several different vertices at once, all or none: tets need to be positive only when all
+  /// are in place.
+  EditResult move_vertices(std::span<const VertexMove> moves);
 
   bool empty() const;
 
   /// Ascending quality vectors of all that this transaction has touched: as it was when the
   /// transaction began, and as it is now.
   void compare(std::vector<Quality>& before, std::vector<Quality>& now) const;
+  /// The live tets among them, each once, in the order in which they were first touched.
+  void list_changed(std::vector<TetHandle>& out) const;
   /// The same values in no particular order.
   void list_qualities(std::vector<Quality>& before, std::vector<Quality>& now) const;
 
@@ -80,6 +92,8 @@ class Transaction {
   void link_vertices(std::span<const TetVertices> created, Edit& edit);
   void remove_isolated(const Edit& edit);
   void note(const Edit& edit);
+  bool turns_over(std::span<const VertexMove> moves) const;
+  void note_move(const VertexMove& move, const Point& before);
   TetHandle append_tet();
   void clear_slot(TetHandle t);
   void clear_slot(VertexHandle v);

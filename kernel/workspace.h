@@ -127,6 +127,7 @@ class Workspace {
   std::vector<Quality> created_quality_;
   std::vector<std::uint16_t> created_flags_;
   std::vector<std::array<VertexHandle, 2>> constrained_edges_;
+  std::vector<Point> moved_points_;
 };
 
 }  // namespace tetmend

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The operators of tetmend itself, one line each.
+#include "ops/cavity_insertion.h"
 #include "ops/centroid_insertion.h"
 #include "ops/circumcentre_insertion.h"
 #include "ops/edge_contraction.h"
@@ -8,11 +9,14 @@
 #include "ops/flip_2_3.h"
 #include "ops/flip_3_2.h"
 #include "ops/flip_4_4.h"
+#include "ops/joint_smoothing.h"
 #include "ops/multi_face_removal.h"
+#include "ops/polyhedron_reconnection.h"
 #include "ops/recursive_shell_transformation.h"
 #include "ops/registry.h"
 #include "ops/shell_transformation.h"
 #include "ops/smoothing.h"
+#include "ops/vertex_removal.h"
 
 namespace tetmend {
 
@@ -25,10 +29,14 @@ void register_builtin_operators(Registry& registry) {
   registry.add(flip_3_2_info());
   registry.add(flip_4_4_info());
   registry.add(smoothing_info());
+  registry.add(joint_smoothing_info());
   registry.add(edge_split_info());
   registry.add(edge_contraction_info());
   registry.add(centroid_insertion_info());
   registry.add(circumcentre_insertion_info());
+  registry.add(polyhedron_reconnection_info());
+  registry.add(vertex_removal_info());
+  registry.add(cavity_insertion_info());
 }
 
 }  // namespace tetmend

@@ -38,8 +38,9 @@ class EdgeContraction final : public Operator {
     scratch.kept_vertex = VertexHandle();
     for (const VertexHandle w : scratch.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
-      const double least =
-          mesh.is_fixed(w) ? static_cast<double>(worst_old) : least_ratio_ * worst_old;
+      const double share = mesh.is_fixed(w) ? 1 : least_ratio_;
+      const double least = context.opening ? required_quality(context, worst_old)
+                                           : share * static_cast<double>(worst_old);
       if (!contract(mesh, w, std::max(least, 0.0), scratch)) continue;
       if (scratch.kept_vertex.is_valid() && !improves(scratch.qualities, scratch.best_qualities))
         continue;

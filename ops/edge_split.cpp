@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "kernel/star.h"
+#include "ops/relaxation.h"
 #include "ops/shell_search.h"
-#include "ops/smoothing.h"
 
 namespace tetmend {
 
@@ -50,7 +49,9 @@ class EdgeSplit final : public Operator {
     const double reached = scratch.ball.optimise(scratch.point, limits_);
     // What is left to be gained by smoothing the neighbours is limited.
     constexpr double kRelaxedShare = 0.2;
-    const double least = relax_ ? kRelaxedShare * std::max(floor, 0.0f) : floor + least_gain_;
+    const double least = relax_            ? kRelaxedShare * std::max(floor, 0.0f)
+                         : context.opening ? required_quality(context, floor)
+                                           : floor + least_gain_;
     return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -68,70 +69,16 @@ class EdgeSplit final : public Operator {
     const Verdict verdict =
         to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
     if (verdict != Verdict::accepted) return verdict;
-    if (relax_) repair(context, transaction, v);
+    if (relax_) relax(context, transaction, v, limits_);
     transaction.compare(scratch.before, scratch.now);
     // DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
     // - q)^4 over the bad tets must fall, unless the worst tet is desperate.
-    const bool worth_it =
-        scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+    const bool worth_it = context.opening || scratch.before[0] < desperate_ ||
+                          lowers_deficit(scratch.now, scratch.before);
     return worth_it ? Verdict::accepted : Verdict::no_improvement;
   }
 
  private:
-  /// Smooths around the new vertex, reconnects its bad tets, smooths again. Whether that was good
-  /// shows at the end.
-  void repair(OperatorContext& context, Transaction& transaction, VertexHandle v) const {
-    const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    for (int round = 0; round < 2; ++round) {
-      const auto ring = one_ring(mesh, v, context.workspace);
-      scratch.neighbours.assign(ring.begin(), ring.end());
-      scratch.neighbours.push_back(v);
-      for (const VertexHandle w : scratch.neighbours) climb(context, transaction, w);
-      if (round > 0) break;
-      reconnect(context, v);
-      // The second round of smoothing is as dear as the first; it cannot make up for this much.
-      constexpr Quality kHopeless = 0.5f;
-      transaction.compare(scratch.before, scratch.now);
-      if (scratch.now[0] < kHopeless * std::max(scratch.before[0], 0.0f)) break;
-    }
-  }
-
-  /// Shell transformations on the edges of the bad tets around v.
-  void reconnect(OperatorContext& context, VertexHandle v) const {
-    const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
-    for (const HalfFace opposite : scratch.link) {
-      const TetHandle t = opposite.tet();
-      for (unsigned e = 0; e < 6; ++e) {
-        // An earlier transformation may have taken the slot.
-        if (mesh.is_deleted(t) || mesh.quality(t) >= kBadThreshold) break;
-        if (find_searchable_shell(context, TetEdge(t, e), scratch.shell) != Verdict::accepted)
-          continue;
-        if (propose_covering(context, scratch.shell, {}, true) != Verdict::accepted) continue;
-        Transaction step(context.mesh, context.workspace);
-        if (step.replace_cavity(scratch.old_tets, scratch.new_tets) == EditResult::made &&
-            is_better(step, scratch)) {
-          step.keep();
-        }
-      }
-    }
-  }
-
-  /// Smooths one vertex.
-  void climb(OperatorContext& context, Transaction& transaction, VertexHandle v) const {
-    const TetMesh& mesh = context.mesh;
-    if (mesh.is_fixed(v)) return;
-    Scratch& scratch = context.scratch;
-    if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
-    load_ball(mesh, scratch.link, scratch.ball);
-    Point point = mesh.point(v);
-    const double start = scratch.ball.worst(point);
-    if (start >= limits_.enough || scratch.ball.optimise(point, limits_) <= start) return;
-    transaction.move_vertex(v, point, scratch.link);
-  }
-
   double least_gain_;
   Quality desperate_;
   bool relax_;

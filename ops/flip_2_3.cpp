@@ -29,7 +29,8 @@ class Flip23 final : public Operator {
     scratch.new_tets.clear();
     for (unsigned i = 0; i < 3; ++i) {
       const TetVertices tet = {a, b, ring[i], ring[(i + 1) % 3]};
-      if (mesh.evaluate(tet) <= std::max(floor, 0.0f)) return Verdict::no_improvement;
+      if (mesh.evaluate(tet) <= std::max(required_quality(context, floor), 0.0))
+        return Verdict::no_improvement;
       scratch.new_tets.push_back(tet);
     }
     return Verdict::accepted;

@@ -56,7 +56,8 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   if (context.trace != nullptr) context.trace->candidate_found();
   verdict = apply(context, target, transaction);
   if (verdict != Verdict::accepted) return verdict;
-  if (!is_better(transaction, context.scratch)) return Verdict::no_improvement;
+  const bool better = is_better(transaction, context.scratch);
+  if (!better && !context.opening) return Verdict::no_improvement;
   transaction.keep();
   return Verdict::accepted;
 }

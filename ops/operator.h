@@ -3,6 +3,7 @@
 // schedule owns every loop.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -45,6 +46,9 @@ struct OperatorContext {
   Scratch& scratch;
   TraceSink* trace = nullptr;  ///< null: no trace
   unsigned level = 0;          ///< recursion level of the attempt that is made next
+  /// The next attempt opens a sequence: it may make things worse, for what follows may make up for
+  /// it. Whoever sets this judges the whole.
+  bool opening = false;
 };
 
 class Operator;
@@ -75,7 +79,8 @@ class Operator {
   const std::string& settings() const { return settings_; }
 
   /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
-  /// result only if the quality vector of all that changed improves (see improves()). After a
+  /// result only if the quality vector of all that changed improves (see improves()), or if the
+  /// context says that the attempt is an opening. After a
   /// refusal the mesh is what it was, bit by bit. Anything but `accepted` is `deferred` if the
   /// territory of the workspace was in the way. Precondition: the target is of the operator's
   /// kind, names a live entity and lies in that territory.
@@ -124,6 +129,13 @@ constexpr Verdict to_verdict(EditResult result) {
       return Verdict::deferred;
   }
   return Verdict::not_applicable;
+}
+
+/// What the worst new tet must exceed when that of the old ones is `worst`. In an opening, only a
+/// share of it: what follows cannot make up for more.
+inline double required_quality(const OperatorContext& context, double worst) {
+  constexpr double kHopefulShare = 0.2;
+  return context.opening ? kHopefulShare * std::max(worst, 0.0) : worst;
 }
 
 /// True if all that the transaction changed is better now; leaves the qualities in the scratch, in

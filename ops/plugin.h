@@ -50,6 +50,8 @@ constexpr std::uint32_t plugin_layout() {
                                  sizeof(Shell),
                                  sizeof(CoveringSearch),
                                  sizeof(BallOptimiser),
+                                 sizeof(PatchOptimiser),
+                                 sizeof(VertexMove),
                                  sizeof(Scratch),
                                  sizeof(AttemptEvent),
                                  sizeof(OperatorContext),

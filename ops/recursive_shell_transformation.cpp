@@ -10,6 +10,7 @@
 #include "ops/recursive_shell_transformation.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "ops/shell_search.h"
 
@@ -19,14 +20,23 @@ namespace {
 
 constexpr int kDeepest = 16;
 
+struct Limits {
+  int max_level;
+  int budget;
+  bool reflex_only;
+  bool filter;
+  Quality floor;  // of target mode
+};
+
 class Recursion {
  public:
-  Recursion(OperatorContext& context, int max_level, int budget, bool reflex_only)
+  /// @param target in target mode, the quality of the tet that is to go
+  Recursion(OperatorContext& context, const Limits& limits, std::optional<Quality> target)
       : context_(context),
         mesh_(context.mesh),
-        max_level_(max_level),
-        budget_(budget),
-        reflex_only_(reflex_only) {}
+        limits_(limits),
+        target_(target),
+        budget_(limits.budget) {}
 
   /// Removes the edge of a searchable shell, which may change on the way.
   Verdict remove(Shell& shell) { return reduce(State::found, shell, VertexHandle(), 0); }
@@ -44,15 +54,17 @@ class Recursion {
   State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell);
   State relocate(VertexHandle face, Shell& shell);
   Verdict transform(const Shell& shell, int level);
+  std::optional<Quality> target_floor(const Shell& shell) const;
   ShellLocks locks(const Shell& shell, int level) const;
-  VertexHandle pick_link_edge(const Shell& shell, unsigned i, int level) const;
+  std::array<VertexHandle, 2> pick_link_edges(const Shell& shell, unsigned i, int level) const;
+  VertexHandle promising_end(const Shell& shell, unsigned i) const;
   bool overlaps_ancestor(const Shell& shell, unsigned i, int level) const;
 
   OperatorContext& context_;
   const TetMesh& mesh_;
-  int max_level_;
+  const Limits& limits_;
+  std::optional<Quality> target_;
   int budget_;
-  bool reflex_only_;
   bool too_deep_ = false;
   std::size_t changes_ = 0;
   std::array<Ancestor, kDeepest> ancestors_;  // supporting edges of the callers, [0, level)
@@ -122,15 +134,27 @@ Verdict Recursion::transform(const Shell& shell, int level) {
   return verdict;
 }
 
+/// In target mode a shell may get worse, but not as bad as the tet that is to go.
+std::optional<Quality> Recursion::target_floor(const Shell& shell) const {
+  if (!target_) return {};
+  Quality worst = limits_.floor;
+  for (unsigned i = 0; i < shell.degree; ++i) {
+    worst = std::min(worst, mesh_.quality(shell.tets[i]));
+  }
+  return std::max(*target_, worst);
+}
+
 Verdict Recursion::try_transform(const Shell& shell, int level) {
   --budget_;
-  Verdict verdict = propose_covering(context_, shell, locks(shell, level), true);
+  Verdict verdict =
+      propose_covering(context_, shell, locks(shell, level), true, target_floor(shell));
   if (verdict != Verdict::accepted) return verdict;
   if (context_.trace != nullptr) context_.trace->candidate_found();
   Transaction step(context_.mesh, context_.workspace);
   verdict = to_verdict(step.replace_cavity(context_.scratch.old_tets, context_.scratch.new_tets));
   if (verdict != Verdict::accepted) return verdict;
-  if (!is_better(step, context_.scratch)) return Verdict::no_improvement;
+  const bool better = is_better(step, context_.scratch);
+  if (!better && !target_) return Verdict::no_improvement;
   step.keep();
   ++changes_;
   return Verdict::accepted;
@@ -152,12 +176,19 @@ bool Recursion::overlaps_ancestor(const Shell& shell, unsigned i, int level) con
   return false;
 }
 
-/// The end of the supporting edge from which the link edge to ring vertex i starts that is worth
-/// removing, or nothing. (g, A, B) are the weights of (p_i, b, a) of the point where the line p- p+
-/// meets the plane of the face: only if p- p+ passes beyond exactly one of the link edges does
-/// removing that edge remove the face.
-VertexHandle Recursion::pick_link_edge(const Shell& shell, unsigned i, int level) const {
+/// The ends of the supporting edge from which the link edges to ring vertex i start that are to be
+/// removed; invalid ones count for nothing.
+std::array<VertexHandle, 2> Recursion::pick_link_edges(const Shell& shell, unsigned i,
+                                                       int level) const {
   if (overlaps_ancestor(shell, i, level)) return {};
+  if (!limits_.filter) return {shell.a, shell.b};
+  return {promising_end(shell, i), VertexHandle()};
+}
+
+/// The end whose link edge to ring vertex i is worth removing, or nothing. (g, A, B) are the
+/// weights of (p_i, b, a) of the point where the line p- p+ meets the plane of the face: only if p-
+/// p+ passes beyond exactly one of the link edges does removing that edge remove the face.
+VertexHandle Recursion::promising_end(const Shell& shell, unsigned i) const {
   const Point& a = mesh_.point(shell.a);
   const Point& b = mesh_.point(shell.b);
   const Point& p = mesh_.point(shell.ring[i]);
@@ -166,7 +197,7 @@ VertexHandle Recursion::pick_link_edge(const Shell& shell, unsigned i, int level
   if (volume6(a, b, before, after) <= 0) return {};
   const bool a_reflex = volume6(a, before, p, after) <= 0;
   const bool b_reflex = volume6(before, p, after, b) <= 0;
-  if (a_reflex == b_reflex) return reflex_only_ || a_reflex ? VertexHandle() : shell.a;
+  if (a_reflex == b_reflex) return limits_.reflex_only || a_reflex ? VertexHandle() : shell.a;
   return a_reflex ? shell.a : shell.b;
 }
 
@@ -199,22 +230,24 @@ Verdict Recursion::reduce(State state, Shell& shell, VertexHandle face, int leve
       if (state == State::gone || state == State::reduced) return Verdict::accepted;
       if (state == State::blocked) return Verdict::constrained;
     }
-    if (level >= max_level_) {
+    if (level >= limits_.max_level) {
       too_deep_ = true;
       return Verdict::depth_spent;
     }
     const unsigned degree = shell.degree;
     bool smaller = false;
     for (unsigned i = 0; i < shell.degree && !smaller; ++i) {
-      const VertexHandle end = pick_link_edge(shell, i, level);
-      if (!end.is_valid()) continue;
-      const std::size_t changes = changes_;
-      reduce_link_edge(shell, i, end, level);
-      if (changes_ == changes) continue;
-      state = relocate(face, shell);
-      if (state == State::gone || state == State::reduced) return Verdict::accepted;
-      if (state == State::blocked) return Verdict::constrained;
-      smaller = shell.degree < degree;
+      for (const VertexHandle end : pick_link_edges(shell, i, level)) {
+        if (!end.is_valid()) continue;
+        const std::size_t changes = changes_;
+        reduce_link_edge(shell, i, end, level);
+        if (changes_ == changes) continue;
+        state = relocate(face, shell);
+        if (state == State::gone || state == State::reduced) return Verdict::accepted;
+        if (state == State::blocked) return Verdict::constrained;
+        smaller = shell.degree < degree;
+        break;  // the ring is another one
+      }
     }
     if (!smaller)
       return budget_ <= 0 ? Verdict::budget_spent
@@ -227,34 +260,63 @@ class RecursiveShellTransformation final : public Operator {
  public:
   explicit RecursiveShellTransformation(const ParameterValues& values)
       : Operator(recursive_shell_transformation_info()),
-        max_level_(values.integer("max_level")),
-        budget_(values.integer("budget")),
-        reflex_only_(values.flag("reflex_only")) {}
+        limits_{.max_level = values.integer("max_level"),
+                .budget = values.integer("budget"),
+                .reflex_only = values.flag("reflex_only"),
+                .filter = values.flag("filter"),
+                .floor = static_cast<Quality>(values.real("floor"))},
+        target_mode_(values.flag("target_mode")),
+        desperate_(static_cast<Quality>(values.real("desperate"))) {}
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target) const override {
     return find_searchable_shell(context, target.edge(), context.scratch.shell);
   }
   Verdict evaluate(OperatorContext&, Target) const override { return Verdict::accepted; }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    Recursion recursion(context, max_level_, budget_, reflex_only_);
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
+    if (target_mode_) return remove_tet(context, target.edge().tet(), transaction);
+    Recursion recursion(context, limits_, {});
     const Verdict verdict = recursion.remove(context.scratch.shell);
     // What was reached on the way is an improvement by itself.
     return transaction.empty() ? verdict : Verdict::accepted;
   }
 
  private:
-  int max_level_;
-  int budget_;
-  bool reflex_only_;
+  /// All or nothing: on the way shells may get worse.
+  Verdict remove_tet(OperatorContext& context, TetHandle t, Transaction& transaction) const {
+    const TetMesh& mesh = context.mesh;
+    Scratch& scratch = context.scratch;
+    const TetVertices corners = mesh.vertices(t);
+    Recursion recursion(context, limits_, mesh.quality(t));
+    const Verdict verdict = recursion.remove(scratch.shell);
+    if (mesh.vertices(t) == corners) {
+      return verdict == Verdict::accepted ? Verdict::no_improvement : verdict;
+    }
+    transaction.compare(scratch.before, scratch.now);
+    const bool worth_it =
+        scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+    return worth_it ? Verdict::accepted : Verdict::no_improvement;
+  }
+
+  Limits limits_;
+  bool target_mode_;
+  Quality desperate_;
 };
 
-constexpr std::array<ParameterSpec, 3> kParameters = {{
+constexpr std::array<ParameterSpec, 7> kParameters = {{
     {"max_level", ParameterSpec::Kind::integer, 0, kDeepest - 1, 5,
      "deepest recursion level; 0 means no recursion"},
     {"budget", ParameterSpec::Kind::integer, 1, 1e6, 400,
      "most shell transformations for one target"},
     {"reflex_only", ParameterSpec::Kind::flag, 0, 1, 1, "recurse only on reflex link edges"},
+    {"filter", ParameterSpec::Kind::flag, 0, 1, 1,
+     "recurse only on link edges whose removal would remove a supporting face"},
+    {"target_mode", ParameterSpec::Kind::flag, 0, 1, 0,
+     "all or nothing for the tet of the edge: on the way, shells may get worse"},
+    {"floor", ParameterSpec::Kind::real, 0, 1, 0.35,
+     "in target mode, no shell gets worse than this"},
+    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+     "in target mode, below this worst quality new bad tets are no reason to refuse"},
 }};
 
 }  // namespace

@@ -5,21 +5,33 @@
 #include <vector>
 
 #include "kernel/shell.h"
+#include "kernel/transaction.h"
 #include "ops/ball_optimiser.h"
+#include "ops/cavity.h"
 #include "ops/covering_search.h"
+#include "ops/patch_optimiser.h"
+#include "ops/polyhedron.h"
+#include "ops/polyhedron_search.h"
 
 namespace tetmend {
 
 struct Scratch {
   CoveringSearch search;
   BallOptimiser ball;
+  Polyhedron polyhedron;
+  PolyhedronSearch polyhedron_search;
+  Cavity cavity;
+  std::vector<Cavity::Place> places;
+  PatchOptimiser patch;
   Shell shell;
   // What evaluate() proposes to apply(): tets to replace, and by what.
   std::vector<TetHandle> old_tets;
   std::vector<TetVertices> new_tets;
   Point point = Point::Zero();  // of a new or moved vertex
   VertexHandle kept_vertex;     // of a contraction
+  std::vector<VertexMove> moves;
   std::vector<HalfFace> link;
+  std::vector<HalfFace> links;  // of several vertices, one after the other
   std::vector<VertexHandle> neighbours;
   std::vector<Quality> qualities;
   std::vector<Quality> best_qualities;

@@ -22,8 +22,16 @@ Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shel
                                                              : Verdict::not_applicable;
 }
 
+Quality required_floor(const OperatorContext& context, const Shell& shell) {
+  Quality worst = context.mesh.quality(shell.tets[0]);
+  for (unsigned i = 1; i < shell.degree; ++i) {
+    worst = std::min(worst, context.mesh.quality(shell.tets[i]));
+  }
+  return static_cast<Quality>(required_quality(context, worst));
+}
+
 Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks,
-                         bool allow_core) {
+                         bool allow_core, std::optional<Quality> floor) {
   const TetMesh& mesh = context.mesh;
   Scratch& scratch = context.scratch;
   const unsigned m = shell.degree;
@@ -38,7 +46,7 @@ Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLock
   problem.b = mesh.point(shell.b);
   problem.ring = {ring.data(), m};
   problem.old_sides = {sides.data(), m};
-  problem.floor = *std::min_element(sides.begin(), sides.begin() + m);
+  problem.floor = floor.value_or(*std::min_element(sides.begin(), sides.begin() + m));
   problem.locked_vertices = locks.vertices;
   problem.locked_edges = locks.edges;
   problem.allow_core = allow_core;

@@ -2,6 +2,8 @@
 // From a shell of the mesh to a covering search and back: what all operators on edges share.
 #pragma once
 
+#include <optional>
+
 #include "ops/covering_search.h"
 #include "ops/operator.h"
 
@@ -17,10 +19,14 @@ struct ShellLocks {
 /// shell is left in `shell`.
 Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shell& shell);
 
+/// What each new tet of an attempt on a shell must exceed, see required_quality().
+Quality required_floor(const OperatorContext& context, const Shell& shell);
+
 /// Searches the best covering of a shell and leaves old and new tets in the scratch. `accepted`
-/// only if every new tet is better than the worst old one and the quality vector improves.
+/// only if there is one of which every new tet is better than `floor`, which is, if not given, the
+/// worst old tet.
 Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks,
-                         bool allow_core);
+                         bool allow_core, std::optional<Quality> floor = {});
 
 /// Writes the tets of a covering: upper and lower tets of each triangle, then the sides of the core
 /// that are new. `is_old_side(i)` tells which ring sides of the core stay as they are.

@@ -16,7 +16,8 @@ class ShellTransformation final : public Operator {
     return find_searchable_shell(context, target.edge(), context.scratch.shell);
   }
   Verdict evaluate(OperatorContext& context, Target) const override {
-    return propose_covering(context, context.scratch.shell, {}, true);
+    const Shell& shell = context.scratch.shell;
+    return propose_covering(context, shell, {}, true, required_floor(context, shell));
   }
   Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
     return to_verdict(

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 
+#include "ops/cavity.h"
 #include "ops/smoothing.h"
 
 namespace tetmend {
@@ -45,28 +45,6 @@ bool is_wall(const TetMesh& mesh, HalfFace f) {
 VertexHandle apex_behind(const TetMesh& mesh, HalfFace f) {
   const HalfFace twin = mesh.twin(f);
   return mesh.vertices(twin.tet())[twin.face()];
-}
-
-/// Cavities have 256 tets at most.
-constexpr std::size_t kMaxFaces = 1024;
-
-/// Whether a face has the edge in that sense.
-bool has_edge(const std::array<VertexHandle, 3>& face, VertexHandle from, VertexHandle to) {
-  for (unsigned i = 0; i < 3; ++i) {
-    if (face[i] == from && face[(i + 1) % 3] == to) return true;
-  }
-  return false;
-}
-
-std::size_t count_vertices(const TetMesh& mesh, std::span<const HalfFace> faces) {
-  std::array<VertexHandle, 3 * kMaxFaces> all;
-  std::size_t count = 0;
-  for (const HalfFace f : faces) {
-    for (const VertexHandle v : mesh.vertices(f)) all[count++] = v;
-  }
-  const auto end = all.begin() + static_cast<std::ptrdiff_t>(count);
-  std::sort(all.begin(), end);
-  return static_cast<std::size_t>(std::unique(all.begin(), end) - all.begin());
 }
 
 /// Walks from `start` through the faces that part it from the point of the scratch, to the tet that
@@ -116,36 +94,6 @@ Verdict grow_cavity(OperatorContext& context, std::size_t max_tets) {
     }
   }
   return Verdict::accepted;
-}
-
-/// Whether faces form one closed surface without handles or pinches. Those around a cavity of
-/// positive tets of which the point sees all do; in a folded mesh a cavity may enclose tets.
-bool is_sphere(const TetMesh& mesh, std::span<const HalfFace> faces) {
-  if (faces.size() > kMaxFaces) return false;
-  std::bitset<kMaxFaces> reached;
-  std::array<std::uint16_t, kMaxFaces> stack{};
-  std::size_t depth = 0;
-  std::size_t count = 0;
-  const auto reach = [&](std::size_t face) {
-    if (reached[face]) return;
-    reached.set(face);
-    stack[depth++] = static_cast<std::uint16_t>(face);
-    ++count;
-  };
-  reach(0);
-  while (depth > 0) {
-    const auto corners = mesh.vertices(faces[stack[--depth]]);
-    for (unsigned i = 0; i < 3; ++i) {
-      std::size_t across = 0;
-      for (std::size_t k = 0; k < faces.size(); ++k) {
-        if (!has_edge(mesh.vertices(faces[k]), corners[(i + 1) % 3], corners[i])) continue;
-        reach(k);
-        ++across;
-      }
-      if (across != 1) return false;
-    }
-  }
-  return count == faces.size() && count_vertices(mesh, faces) == faces.size() / 2 + 2;
 }
 
 /// Removes tets from the cavity until the point sees all outer faces, and lists these. Rounding in
@@ -221,7 +169,7 @@ Verdict VertexInsertion::evaluate(OperatorContext& context, Target target) const
   load_ball(mesh, scratch.link, scratch.ball);
   const double reached =
       smooth_ ? scratch.ball.optimise(scratch.point, limits_) : scratch.ball.worst(scratch.point);
-  return reached > floor ? Verdict::accepted : Verdict::no_improvement;
+  return reached > required_quality(context, floor) ? Verdict::accepted : Verdict::no_improvement;
 }
 
 Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction) const {
@@ -237,8 +185,8 @@ Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& tr
       to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
   if (verdict != Verdict::accepted) return verdict;
   transaction.compare(scratch.before, scratch.now);
-  const bool worth_it =
-      scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+  const bool worth_it = context.opening || scratch.before[0] < desperate_ ||
+                        lowers_deficit(scratch.now, scratch.before);
   return worth_it ? Verdict::accepted : Verdict::no_improvement;
 }
 

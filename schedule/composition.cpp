@@ -77,11 +77,25 @@ constexpr unsigned targets_of_a_tet(TargetKind kind) {
 
 constexpr unsigned kMostAttempts = 64;
 
+constexpr std::string_view to_string(Composition::Kind kind) {
+  switch (kind) {
+    case Composition::Kind::first_of:
+      return "first_of";
+    case Composition::Kind::all_of:
+      return "all_of";
+    case Composition::Kind::sequence:
+      return "sequence";
+    case Composition::Kind::one:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string Composition::name() const {
   if (kind == Kind::one) return operator_name;
-  std::string text = kind == Kind::first_of ? "first_of(" : "all_of(";
+  std::string text = std::string(to_string(kind)) + "(";
   for (const Composition& part : parts) {
     text += (&part == parts.data() ? "" : ", ") + part.name();
   }
@@ -90,8 +104,9 @@ std::string Composition::name() const {
 
 std::string Composition::describe() const {
   if (kind != Kind::one) {
-    std::string text = kind == Kind::first_of ? "first_of(" : "all_of(";
+    std::string text = std::string(to_string(kind)) + "(";
     for (const Composition& part : parts) text += part.describe() + "; ";
+    if (kind == Kind::sequence) text += fmt::format("desperate {}", desperate);
     return text + ")";
   }
   ParameterSettings sorted = settings;
@@ -111,28 +126,49 @@ struct TetAttempts::Progress {
   bool gone = false;
   bool accepted = false;  // since the innermost first_of began
   bool until_accepted = false;
+  bool counts = true;  // false: part of a sequence, which counts as one attempt
 
   bool done() const { return gone || (until_accepted && accepted); }
 };
 
 TetAttempts::TetAttempts(const Registry& registry, const Composition& composition)
-    : root_(build(registry, composition)) {
-  if (bits_ > kMostAttempts) {
-    throw Error(fmt::format("{} makes {} attempts at a tet; at most {} are possible",
-                            composition.name(), bits_, kMostAttempts));
-  }
-}
+    : root_(build(registry, composition)) {}
 
 TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition& composition) {
-  Node node{composition.kind, {nullptr, composition.order, leaves_, bits_}, {}};
-  if (composition.kind == Composition::Kind::one) {
-    node.leaf.op = registry.make(composition.operator_name, composition.settings);
-    ++leaves_;
-    bits_ += targets_of_a_tet(node.leaf.op->info().target);
-    return node;
+  Node node{composition.kind, {}, {}, composition.desperate};
+  switch (composition.kind) {
+    case Composition::Kind::one:
+      node.leaf = build_leaf(registry, composition);
+      break;
+    case Composition::Kind::sequence: {
+      const auto& parts = composition.parts;
+      if (parts.size() < 2 || parts[0].kind != Composition::Kind::one) {
+        throw Error("a sequence is an operator and what follows it");
+      }
+      node.leaf = build_leaf(registry, parts[0]);
+      const unsigned bits = bits_;
+      for (std::size_t i = 1; i < parts.size(); ++i) {
+        bits_ = 0;  // what follows works on tets of its own
+        node.parts.push_back(build(registry, parts[i]));
+      }
+      bits_ = bits;
+      break;
+    }
+    default:
+      for (const Composition& part : composition.parts) node.parts.push_back(build(registry, part));
   }
-  for (const Composition& part : composition.parts) node.parts.push_back(build(registry, part));
   return node;
+}
+
+TetAttempts::Leaf TetAttempts::build_leaf(const Registry& registry,
+                                          const Composition& composition) {
+  Leaf leaf{registry.make(composition.operator_name, composition.settings), composition.order,
+            leaves_++, bits_};
+  bits_ += targets_of_a_tet(leaf.op->info().target);
+  if (bits_ > kMostAttempts) {
+    throw Error(fmt::format("a composition makes more than {} attempts at a tet", kMostAttempts));
+  }
+  return leaf;
 }
 
 bool TetAttempts::work_off(Worker& worker, QueuedTet& entry, Date since) const {
@@ -148,7 +184,7 @@ bool TetAttempts::work_off(Worker& worker, QueuedTet& entry, Date since) const {
 }
 
 void TetAttempts::run(const Node& node, Progress& progress) const {
-  if (node.kind == Composition::Kind::one) return run_leaf(node.leaf, progress);
+  if (node.leaf.op != nullptr) return run_leaf(node, progress);
   const bool outer_accepted = std::exchange(progress.accepted, false);
   const bool outer_until =
       std::exchange(progress.until_accepted, node.kind == Composition::Kind::first_of);
@@ -160,20 +196,21 @@ void TetAttempts::run(const Node& node, Progress& progress) const {
   progress.accepted = progress.accepted || outer_accepted;
 }
 
-void TetAttempts::run_leaf(const Leaf& leaf, Progress& progress) const {
+void TetAttempts::run_leaf(const Node& node, Progress& progress) const {
+  const Leaf& leaf = node.leaf;
   const TetMesh& mesh = progress.worker.mesh();
   const TetHandle tet = progress.entry.tet;
   const TetVertices corners = progress.entry.vertices;
   switch (leaf.op->info().target) {
     case TargetKind::tet:
-      try_once(leaf, progress, Target::of(tet), 0, {});
+      try_once(node, progress, Target::of(tet), 0, {});
       return;
     case TargetKind::edge:
       for (const unsigned e : edges_in_order(mesh, corners, leaf.order)) {
         const TetEdge edge(tet, e);
         const auto ends = mesh.vertices(edge);
         if (!changed_around(mesh, ends, progress.since)) continue;
-        if (!try_once(leaf, progress, Target::of(edge), e, ends)) return;
+        if (!try_once(node, progress, Target::of(edge), e, ends)) return;
       }
       return;
     case TargetKind::face:
@@ -184,34 +221,84 @@ void TetAttempts::run_leaf(const Leaf& leaf, Progress& progress) const {
         const HalfFace twin = mesh.twin(face);
         // All faces between two vertices are tried together.
         const VertexHandle opposite = mesh.vertices(twin.tet())[twin.face()];
-        if (!try_once(leaf, progress, Target::of(face), f, {corners[f], opposite})) return;
+        if (!try_once(node, progress, Target::of(face), f, {corners[f], opposite})) return;
       }
       return;
     case TargetKind::vertex:
       for (unsigned i = 0; i < 4; ++i) {
         const VertexHandle v = corners[i];
         if (mesh.is_fixed(v) || mesh.changed(v) < progress.since) continue;
-        if (!try_once(leaf, progress, Target::of(v), i, {v, v})) return;
+        if (!try_once(node, progress, Target::of(v), i, {v, v})) return;
       }
       return;
   }
 }
 
 /// False when nothing more is to be tried.
-bool TetAttempts::try_once(const Leaf& leaf, Progress& progress, Target target, unsigned bit,
+bool TetAttempts::try_once(const Node& node, Progress& progress, Target target, unsigned bit,
                            std::array<VertexHandle, 2> key) const {
+  const Leaf& leaf = node.leaf;
   const std::uint64_t mark = std::uint64_t{1} << (leaf.first_bit + bit);
   if ((progress.entry.todo & mark) == 0) return true;
   PairSet& tried = progress.worker.tried[leaf.number];
   const bool remembers = target.kind != TargetKind::tet;  // each tet is queued once
   if (remembers && tried.contains(key[0].index(), key[1].index())) return true;
-  const Verdict verdict = progress.worker.attempt(*leaf.op, target);
+  const Verdict verdict = attempt(node, progress.worker, target);
+  if (progress.counts) progress.worker.count(verdict);
   progress.accepted = progress.accepted || verdict == Verdict::accepted;
   progress.gone = !progress.entry.is_there(progress.worker.mesh());
   if (progress.done()) return false;
   if (verdict == Verdict::deferred) progress.deferred |= mark;
   if (remembers && verdict != Verdict::accepted) tried.insert(key[0].index(), key[1].index());
   return true;
+}
+
+Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target) const {
+  OperatorContext& context = worker.context();
+  if (node.kind == Composition::Kind::one) return node.leaf.op->attempt(context, target);
+  Transaction sequence(context.mesh, context.workspace);
+  OperatorContext opening = context;
+  opening.opening = true;
+  const Verdict verdict = node.leaf.op->attempt(opening, target);
+  if (verdict != Verdict::accepted) return verdict;
+  bool all_tried = true;
+  for (const Node& part : node.parts) all_tried = follow_up(part, worker, sequence) && all_tried;
+  Scratch& scratch = context.scratch;
+  sequence.compare(scratch.before, scratch.now);
+  if (improves(scratch.now, scratch.before) &&
+      (scratch.before[0] < node.desperate || lowers_deficit(scratch.now, scratch.before))) {
+    sequence.keep();
+    return Verdict::accepted;
+  }
+  return all_tried ? Verdict::no_improvement : Verdict::deferred;
+}
+
+/// False if attempts were deferred.
+bool TetAttempts::follow_up(const Node& part, Worker& worker, const Transaction& sequence) const {
+  const TetMesh& mesh = worker.mesh();
+  std::vector<TetHandle> changed;
+  sequence.list_changed(changed);
+  std::vector<QueuedTet> bad;
+  for (const TetHandle t : changed) {
+    if (mesh.quality(t) < kBadThreshold) bad.push_back({mesh.quality(t), t, mesh.vertices(t)});
+  }
+  std::sort(bad.begin(), bad.end());
+  forget(part, worker);
+  bool all_tried = true;
+  for (QueuedTet& entry : bad) {
+    if (!entry.is_there(mesh)) continue;
+    Progress progress{worker, entry, 0};
+    progress.counts = false;
+    run(part, progress);
+    all_tried = all_tried && progress.deferred == 0;
+  }
+  return all_tried;
+}
+
+/// What was tried for an earlier tet may be worth another attempt.
+void TetAttempts::forget(const Node& node, Worker& worker) {
+  if (node.leaf.op != nullptr) worker.tried[node.leaf.number].clear();
+  for (const Node& part : node.parts) forget(part, worker);
 }
 
 }  // namespace tetmend

@@ -24,12 +24,18 @@ struct Composition {
   enum class Kind {
     one,       ///< the operator
     first_of,  ///< the parts in turn, until an attempt is accepted
-    all_of     ///< the parts in turn, until the tet is gone
+    all_of,    ///< the parts in turn, until the tet is gone
+    /// The first part, an operator, opens: it may make things worse. The others follow, each on the
+    /// bad tets among all that has changed, the worst first. What came of it stays only if it is
+    /// better as a whole.
+    sequence
   };
   Kind kind = Kind::one;
   std::string operator_name = {};  ///< of Kind::one
   ParameterSettings settings = {};
   EdgeOrder order = EdgeOrder::sine;
+  double desperate = kDesperate;  ///< of a sequence: below this worst quality, new bad tets are no
+                                  ///< reason to refuse
   std::vector<Composition> parts = {};  ///< of the other kinds
 
   /// As a script writes it, settings left out: first_of(edge_removal, flip_2_3).
@@ -38,12 +44,12 @@ struct Composition {
   std::string describe() const;
 };
 
-/// A composition made ready. An operator is tried on the tet itself, or on its edges, faces or
-/// movable vertices, each that changed since the last time.
+/// A composition made ready. An operator, also one that opens a sequence, is tried on the tet
+/// itself, or on its edges, faces or movable vertices, each that changed since the last time.
 class TetAttempts {
  public:
-  /// @throws Error for an unknown operator or parameter, a value out of range, or a composition of
-  /// more than 64 attempts at a tet.
+  /// @throws Error for an unknown operator or parameter, a value out of range, a sequence that does
+  /// not open with an operator, or a composition of more than 64 attempts at a tet.
   TetAttempts(const Registry& registry, const Composition& composition);
 
   /// Makes the attempts that the entry still has to do. False if some were deferred; these are
@@ -59,16 +65,21 @@ class TetAttempts {
   };
   struct Node {
     Composition::Kind kind;
-    Leaf leaf;
-    std::vector<Node> parts;
+    Leaf leaf;                ///< of an operator; of a sequence, its opening
+    std::vector<Node> parts;  ///< of a sequence, what follows
+    double desperate;
   };
   struct Progress;
 
   Node build(const Registry& registry, const Composition& composition);
+  Leaf build_leaf(const Registry& registry, const Composition& composition);
   void run(const Node& node, Progress& progress) const;
-  void run_leaf(const Leaf& leaf, Progress& progress) const;
-  bool try_once(const Leaf& leaf, Progress& progress, Target target, unsigned bit,
+  void run_leaf(const Node& node, Progress& progress) const;
+  bool try_once(const Node& node, Progress& progress, Target target, unsigned bit,
                 std::array<VertexHandle, 2> key) const;
+  Verdict attempt(const Node& node, Worker& worker, Target target) const;
+  bool follow_up(const Node& part, Worker& worker, const Transaction& sequence) const;
+  static void forget(const Node& node, Worker& worker);
 
   std::size_t leaves_ = 0;
   unsigned bits_ = 0;

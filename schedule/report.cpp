@@ -196,6 +196,53 @@ std::string format_histogram(const MeshStatistics& before, const MeshStatistics*
   return text;
 }
 
+std::string format_limit(const SurfaceLimit& limit) {
+  constexpr std::size_t kNameWidth = 21;
+  std::string text;
+  const auto line = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<{}}{}\n", name, kNameWidth, value);
+  };
+  if (limit.n_forced == 0) {
+    line("limit", "no bad tet is known to be forced by the surface");
+  } else {
+    line("limit", fmt::format("at least {} of the {} bad tets left are forced by the surface",
+                              grouped(limit.n_forced), grouped(limit.n_bad)));
+  }
+  // Rounded outward: two digits must not promise more than is known.
+  std::string bounds;
+  if (limit.theta_min) {
+    bounds = fmt::format("theta_min is {:.2f} at most", std::ceil(100 * *limit.theta_min) / 100);
+  }
+  if (limit.theta_max) {
+    bounds += fmt::format("{}theta_max is {:.2f} at least", bounds.empty() ? "" : ", ",
+                          std::floor(100 * *limit.theta_max) / 100);
+  }
+  if (!bounds.empty()) line("", bounds);
+  constexpr std::array<std::string_view, kHindranceCount> kHelp = {
+      "protected", "where the surface forces one", "held by a constraint", "without a free vertex",
+      "that the search did not improve"};
+  std::string heading = "bad tets left";
+  for (std::size_t i = 0; i < kHindranceCount; ++i) {
+    if (limit.bad[i] == 0) continue;
+    line(heading, fmt::format("{} {}", grouped(limit.bad[i]), kHelp[i]));
+    heading.clear();
+  }
+  return text;
+}
+
+nlohmann::json to_json(const SurfaceLimit& limit) {
+  const auto bound = [](const std::optional<double>& value) {
+    return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+  };
+  nlohmann::json bad = nlohmann::json::object();
+  for (std::size_t i = 0; i < kHindranceCount; ++i) {
+    bad[std::string(to_string(static_cast<Hindrance>(i)))] = limit.bad[i];
+  }
+  return {{"n_forced", limit.n_forced},          {"n_bad", limit.n_bad},
+          {"q_worst", bound(limit.q_worst)},     {"theta_min", bound(limit.theta_min)},
+          {"theta_max", bound(limit.theta_max)}, {"bad", bad}};
+}
+
 nlohmann::json to_json(const MeshStatistics& s) {
   nlohmann::json bands = nlohmann::json::array();
   for (const double share : s.lambda_bands) bands.push_back(number(share));

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "kernel/statistics.h"
+#include "kernel/surface_limit.h"
 
 namespace tetmend {
 
@@ -30,8 +31,13 @@ std::string format_statistics(const MeshStatistics& statistics,
 /// @param after may be null
 std::string format_histogram(const MeshStatistics& before, const MeshStatistics* after);
 
+/// How many of the bad tets are forced, what hinders the others, and the bounds that are known.
+std::string format_limit(const SurfaceLimit& limit);
+
 /// An object with the names of the fields of MeshStatistics; lambda_bands and histogram are arrays.
 /// A number that is not finite becomes null, which JSON can express.
 nlohmann::json to_json(const MeshStatistics& statistics);
+/// The same for SurfaceLimit; `bad` is an object by hindrance, a bound that is not known is null.
+nlohmann::json to_json(const SurfaceLimit& limit);
 
 }  // namespace tetmend

@@ -9,6 +9,7 @@
 
 #include "kernel/error.h"
 #include "kernel/statistics.h"
+#include "kernel/surface_limit.h"
 #include "schedule/single_attempt.h"
 
 namespace tetmend {
@@ -112,10 +113,11 @@ void ScriptHost::add_words() {
   add("insert_points", &ScriptHost::insert);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
-  for (const char* how : {"first_of", "all_of"}) {
+  for (const char* how : {"first_of", "all_of", "sequence"}) {
     lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
   }
   add("quality", &ScriptHost::quality);
+  add("limit", &ScriptHost::limit);
   add("is_progress", &ScriptHost::is_progress);
   add("operators", &ScriptHost::operators);
   add("log", &ScriptHost::log);
@@ -303,6 +305,8 @@ int ScriptHost::compose(lua_State* lua, const char* how) {
     lua_rawgeti(lua, 1, i);
     lua_rawseti(lua, -2, i);
   }
+  lua_getfield(lua, 1, "desperate");
+  lua_setfield(lua, -2, "desperate");
   lua_pushstring(lua, how);
   lua_setfield(lua, -2, "how");
   return 1;
@@ -360,6 +364,30 @@ int ScriptHost::measure(lua_State* lua) {
   keep("theta_max", statistics.theta_max);
   keep("lambda", statistics.lambda);
   lua_getfield(lua, 1, name);
+  return 1;
+}
+
+int ScriptHost::limit(lua_State* lua) {
+  begin_work();
+  const SurfaceLimit now = compute_surface_limit(run_->mesh());
+  lua_newtable(lua);
+  const auto count = [&](std::string_view name, std::size_t value) {
+    lua_pushlstring(lua, name.data(), name.size());
+    lua_pushinteger(lua, static_cast<lua_Integer>(value));
+    lua_rawset(lua, -3);
+  };
+  const auto bound = [&](const char* name, const std::optional<double>& value) {
+    if (!value) return;
+    lua_pushnumber(lua, *value);
+    lua_setfield(lua, -2, name);
+  };
+  count("n_forced", now.n_forced);
+  bound("q_worst", now.q_worst);
+  bound("theta_min", now.theta_min);
+  bound("theta_max", now.theta_max);
+  for (std::size_t i = 0; i < kHindranceCount; ++i) {
+    count(to_string(static_cast<Hindrance>(i)), now.bad[i]);
+  }
   return 1;
 }
 

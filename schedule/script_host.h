@@ -48,6 +48,7 @@ class ScriptHost {
   int compose(lua_State* lua, const char* how);
   int quality(lua_State* lua);
   int measure(lua_State* lua);
+  int limit(lua_State* lua);
   int is_progress(lua_State* lua);
   int operators(lua_State* lua);
   int log(lua_State* lua);

@@ -164,6 +164,18 @@ Composition read_parts(const Registry& registry, const Subject& subject, const S
   return composition;
 }
 
+Composition read_sequence(const Registry& registry, const Subject& subject,
+                          const ScriptValue& value) {
+  Composition composition = read_parts(registry, subject, value, Composition::Kind::sequence);
+  if (composition.parts.size() < 2 || composition.parts[0].kind != Composition::Kind::one) {
+    throw Error(fmt::format("{}: a sequence is an operator and what follows it", subject.text));
+  }
+  if (const ScriptValue* desperate = value.field("desperate")) {
+    composition.desperate = read_in_range(subject.of("desperate"), *desperate, -1, 1);
+  }
+  return composition;
+}
+
 EdgeOrder read_order(const Subject& subject, const ScriptValue& value) {
   static constexpr std::array<std::string_view, 3> kOrders = {"sine", "longest", "shortest"};
   const std::string& name = read_text(subject, value);
@@ -257,7 +269,7 @@ Composition read_composition(const Registry& registry, const Subject& subject,
     return composition;
   }
   if (value.kind != Kind::table) {
-    refuse(subject, "an operator, first_of{...} or all_of{...}", value);
+    refuse(subject, "an operator, first_of{...}, all_of{...} or sequence{...}", value);
   }
   if (const ScriptValue* how = value.field("how")) {
     const std::string& kind = read_text(subject, *how);
@@ -265,6 +277,7 @@ Composition read_composition(const Registry& registry, const Subject& subject,
       return read_parts(registry, subject, value, Composition::Kind::first_of);
     }
     if (kind == "all_of") return read_parts(registry, subject, value, Composition::Kind::all_of);
+    if (kind == "sequence") return read_sequence(registry, subject, value);
   }
   if (value.list.size() != 1) {
     throw Error(fmt::format("{}: an operator with settings is {{name, parameter = value, ...}}",

@@ -53,7 +53,8 @@ double read_number(const Subject& subject, const ScriptValue& value);
 const std::string& read_text(const Subject& subject, const ScriptValue& value);
 /// "bad", "all", or a table of conditions.
 Selection read_selection(const Subject& subject, const ScriptValue& value);
-/// The name of an operator, {name, parameter = value, ...}, first_of{...} or all_of{...}.
+/// The name of an operator, {name, parameter = value, ...}, first_of{...}, all_of{...} or
+/// sequence{...}.
 Composition read_composition(const Registry& registry, const Subject& subject,
                              const ScriptValue& value);
 /// Adds a setting of one of the parameters. False if there is no such parameter.

@@ -32,7 +32,7 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
 }};
 
-constexpr std::array<WordInfo, 16> kWords = {{
+constexpr std::array<WordInfo, 18> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -60,8 +60,8 @@ constexpr std::array<WordInfo, 16> kWords = {{
      "edge_split"},
     {"apply", "apply(what, {...})",
      "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
-     "value, order = \"sine\", \"longest\" or \"shortest\"}, first_of{...} or all_of{...}. An "
-     "operator on edges, faces or vertices is tried on those of the tet",
+     "value, order = \"sine\", \"longest\" or \"shortest\"}, first_of{...}, all_of{...} or "
+     "sequence{...}. An operator on edges, faces or vertices is tried on those of the tet",
      kOnlyOn, kApplyNumbers},
     {"attempt", "attempt(what, {vertex, ...}, {vertex, vertex, vertex, vertex})",
      "tries one operator once: `what` as for apply, without order; at the vertex, or at the edge, "
@@ -72,10 +72,22 @@ constexpr std::array<WordInfo, 16> kWords = {{
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until the tet is gone"},
+    {"sequence", "sequence{operator, what, ..., desperate = 0.2}",
+     "for apply: one attempt of several parts. The operator may make things worse; the others then "
+     "work on the bad tets among all that has changed. What came of it stays only if it is better "
+     "as a whole, and if it does not leave more bad tets behind, unless its worst tet was below "
+     "`desperate`"},
     {"quality", "quality()",
      "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
      "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
      "are read, which must be before the next pass"},
+    {"limit", "limit()",
+     "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
+     "the "
+     "least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. And "
+     "how "
+     "many bad tets of the mesh now are held by what: frozen, surface, constraint, no_free_vertex, "
+     "search. Takes as long as a short pass"},
     {"is_progress", "is_progress(before, now)",
      "true if the quality `now` is noticeably better: the worst by 0.005, the number of bad tets "
      "by "

@@ -25,8 +25,8 @@ class Worker {
   OperatorContext& context() { return context_; }
 
   /// Attempts and counts.
-  Verdict attempt(const Operator& op, Target target) {
-    const Verdict verdict = op.attempt(context_, target);
+  Verdict attempt(const Operator& op, Target target) { return count(op.attempt(context_, target)); }
+  Verdict count(Verdict verdict) {
     ++verdicts[static_cast<std::size_t>(verdict)];
     return verdict;
   }

@@ -10,6 +10,7 @@
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
 #include "kernel/surface.h"
+#include "kernel/surface_limit.h"
 #include "ops/registry.h"
 #include "tests/apps/program.h"
 
@@ -208,6 +209,11 @@ TEST_CASE("improving each asset keeps its surface and reports what happened") {
     CHECK(report["after"]["tets"] == after.tet_count());
     CHECK(report["after"]["n_bad"] == now.n_bad);
     CHECK(report["after"]["theta_min"].get<double>() == doctest::Approx(now.theta_min));
+    CHECK(report["limit"]["n_bad"] == now.n_bad);
+    std::size_t by_hindrance = 0;
+    for (const auto& count : report["limit"]["bad"]) by_hindrance += count.get<std::size_t>();
+    CHECK(by_hindrance == now.n_bad);
+    CHECK(contains(outcome.out, "bad tets left") == (now.n_bad > 0));
     CHECK(report["volume_change"].get<double>() < 1e-12);
     CHECK(report["touched_share"].get<double>() > 0);
     CHECK(report["touched_share"].get<double>() <= 1);
@@ -366,6 +372,19 @@ TEST_CASE("statistics as JSON are those of the library, with every measure asked
   CHECK(contains(text.out, "radius_ratio, worst"));
   CHECK(!contains(text.out, "mean_ratio"));
   CHECK(contains(text.out, "dihedral angles by 10 degrees"));
+}
+
+TEST_CASE("the limit of the surface is added when asked for") {
+  const SurfaceLimit limit = compute_surface_limit(TetMesh(read_mesh(asset("folded_sheet.mesh"))));
+  const Outcome json = run_program({"quality", asset("folded_sheet.mesh"), "--limit", "--json"});
+  REQUIRE(json.status == 0);
+  const auto found = nlohmann::json::parse(json.out).at("limit");
+  CHECK(found.at("n_bad") == limit.n_bad);
+  CHECK(found.at("n_forced") == limit.n_forced);
+  CHECK(contains(run_program({"quality", asset("folded_sheet.mesh"), "--limit"}).out,
+                 "bad tets left"));
+  const Outcome plain = run_program({"quality", asset("folded_sheet.mesh"), "--json"});
+  CHECK(!nlohmann::json::parse(plain.out).contains("limit"));
 }
 
 TEST_CASE("converting there and back keeps points, elements and labels") {

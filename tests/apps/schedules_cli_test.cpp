@@ -59,7 +59,9 @@ TEST_CASE("scripts with mistakes end with status 1, name line and word, and touc
   Bench bench;
   const std::string input = read_text(kSheet);
   write_text(bench.out, "earlier output\n");
-  for (const auto& [script, message] : scripts) {
+  for (const auto& entry : scripts) {
+    const auto& script = entry.first;
+    const auto& message = entry.second;
     CAPTURE(script);
     const Outcome outcome = bench.improve(script);
     CHECK(outcome.status == 1);
@@ -179,11 +181,23 @@ TEST_CASE("docs/schedules.md is what the program says") {
   CHECK(page.substr(first, page.find(end) - first) == run_program({"schedules", "--markdown"}).out);
 }
 
-TEST_CASE("the example of docs/schedules.md runs") {
+TEST_CASE("the examples of docs/schedules.md run") {
   const std::string page = read_text(std::string(TETMEND_SOURCE_DIR) + "/docs/schedules.md");
-  const std::size_t first = page.find("```lua\n") + 7;
+  const std::string begin = "```lua\n";
+  std::vector<std::string> examples;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    examples.push_back(page.substr(at, page.find("```", at) - at));
+  }
+  REQUIRE(examples.size() == 2);
   Bench bench;
-  const Outcome outcome = bench.improve(page.substr(first, page.find("```", first) - first));
-  CHECK(outcome.status == 0);
-  CHECK(contains(outcome.out, "bad tets, smallest angle"));
+  const Outcome rounds = bench.improve(examples[0]);
+  CHECK(rounds.status == 0);
+  CHECK(contains(rounds.out, "bad tets, smallest angle"));
+  const Outcome goal = bench.improve(examples[1], {"--set", "min_dihedral=20"});
+  CHECK(goal.status == 0);
+  CHECK(!contains(goal.out, "the surface allows"));
+  CHECK(contains(goal.out, "of 20\n"));
+  const Outcome beyond = bench.improve(examples[1], {"--set", "min_dihedral=60"});
+  CHECK(contains(beyond.out, "the surface allows"));
 }

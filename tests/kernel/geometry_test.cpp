@@ -19,6 +19,8 @@ TEST_CASE("the volume of the unit corner is 1/6, negative when two vertices are 
   CHECK(volume6(a, b, d, c) == -1);
   CHECK(certified_positive(a, b, c, d));
   CHECK_FALSE(certified_positive(a, b, d, c));
+  CHECK(certified_sign(a, b, c, d) == 1);
+  CHECK(certified_sign(a, b, d, c) == -1);
   CHECK(exact_orientation(a, b, c, d) == 1);
   CHECK(exact_orientation(a, b, d, c) == -1);
 }
@@ -26,6 +28,7 @@ TEST_CASE("the volume of the unit corner is 1/6, negative when two vertices are 
 TEST_CASE("tets of zero volume are not certified and are exactly flat") {
   const Point a(0.1, 0.2, 0.3), b(0.7, 0.2, 0.3), c(0.1, 0.9, 0.3), d(0.4, 0.4, 0.3);
   CHECK_FALSE(certified_positive(a, b, c, d));
+  CHECK(certified_sign(a, b, c, d) == 0);
   CHECK(exact_orientation(a, b, c, d) == 0);
   CHECK_FALSE(certified_positive(a, a, a, a));
   CHECK(exact_orientation(a, a, b, c) == 0);
@@ -51,6 +54,8 @@ TEST_CASE("a certified tet is positive in exact arithmetic, however flat the tet
     const bool sure = certified_positive(a, b, c, d);
     certified += sure;
     wrong += sure && sign <= 0;
+    const int told = certified_sign(a, b, c, d);
+    wrong += (told == 1) != sure || (told == -1) != certified_positive(a, b, d, c);
     exact_positive += sign > 0;
     not_positive += sign <= 0;
   }

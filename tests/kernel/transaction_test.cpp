@@ -3,8 +3,11 @@
 #include "kernel/transaction.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -578,6 +581,69 @@ TEST_CASE("a move that turns a tet over is refused, one that untangles is not") 
   CHECK(count_not_positive(tangled) == 0);
 }
 
+TEST_CASE("vertices that move together need not be in one another's way") {
+  TetMesh mesh(zoo_data("ball_60"));
+  Workspace workspace(mesh);
+  const TetMesh before = mesh;
+  Random random(5);
+  const auto free = free_vertices(mesh);
+  std::vector<Quality> old_values, now, expected;
+  int only_together = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const VertexHandle v = free[random.index(free.size())];
+    const VertexHandle w = free[random.index(free.size())];
+    if (v == w) continue;
+    const Point way = random.in_ball(0.3);
+    const auto faces = link(mesh, v, workspace);
+    const std::vector<HalfFace> of_v(faces.begin(), faces.end());
+    const auto of_w = link(mesh, w, workspace);
+    const std::array<VertexMove, 2> moves = {VertexMove{v, mesh.point(v) + way, of_v},
+                                             VertexMove{w, mesh.point(w) + way, of_w}};
+    Transaction tx(mesh, workspace);
+    if (tx.move_vertex(v, moves[0].point, of_v) != EditResult::inverted) continue;
+    if (tx.move_vertices(moves) != EditResult::made) {
+      CHECK(mesh == before);
+      continue;
+    }
+    ++only_together;
+    CHECK(mesh.point(v) == before.point(v) + way);
+    CHECK(mesh.point(w) == before.point(w) + way);
+    CHECK(to_string(check_integrity(mesh)) == "");
+    CHECK(count_not_positive(mesh) == 0);
+    // Tets of both are compared once.
+    std::set<TetHandle> around;
+    for (const HalfFace f : of_v) around.insert(f.tet());
+    for (const HalfFace f : of_w) around.insert(f.tet());
+    expected.clear();
+    for (const TetHandle t : around) expected.push_back(before.quality(t));
+    std::sort(expected.begin(), expected.end());
+    tx.compare(old_values, now);
+    CHECK(old_values == expected);
+    CHECK(now.size() == expected.size());
+    tx.undo();
+    CHECK(mesh == before);
+  }
+  CHECK(only_together > 5);
+}
+
+TEST_CASE("of vertices that move together none moves when one may not") {
+  TetMesh mesh(zoo_data("ball_60"));
+  Workspace workspace(mesh);
+  const TetMesh before = mesh;
+  const VertexHandle v = free_vertices(mesh).at(0);
+  VertexHandle fixed;
+  for (const VertexHandle w : live_vertices(mesh)) {
+    if (mesh.is_fixed(w)) fixed = w;
+  }
+  const auto faces = link(mesh, v, workspace);
+  const Point near = mesh.point(v) + Point(1e-9, 0, 0);
+  const std::array<VertexMove, 2> moves = {VertexMove{v, near, faces},
+                                           VertexMove{fixed, mesh.point(fixed), {}}};
+  Transaction tx(mesh, workspace);
+  CHECK(tx.move_vertices(moves) == EditResult::constrained);
+  CHECK(mesh == before);
+}
+
 // --- comparison ----------------------------------------------------------------------------------
 
 TEST_CASE("compare gives the qualities of all that was touched, before and now, ascending") {
@@ -643,6 +709,31 @@ TEST_CASE("compare counts a moved and then replaced tet once, with its first qua
   tx.compare(before, now);
   CHECK(before == expected);
   CHECK(now.size() == expected.size() + 3);
+}
+
+TEST_CASE("the tets that a transaction made or changed are listed once, those that are gone not") {
+  TetMesh mesh(zoo_data("cube_2"));
+  Workspace workspace(mesh);
+  const VertexHandle v = free_vertices(mesh).at(0);
+  std::vector<TetHandle> changed;
+  Transaction tx(mesh, workspace);
+  tx.list_changed(changed);
+  CHECK(changed.empty());
+  for (const double x : {0.5, 0.52}) {
+    REQUIRE(tx.move_vertex(v, {x, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::made);
+  }
+  const VertexHandle m = tx.add_vertex(middle(mesh, mesh.vertices(mesh.tet_of(v))));
+  REQUIRE(replace(tx, split_tet(mesh, mesh.tet_of(v), m)) == EditResult::made);
+  std::set<TetHandle> expected;
+  for (const VertexHandle w : {v, m}) {
+    for (const TetHandle t : star(mesh, w, workspace)) expected.insert(t);
+  }
+  tx.list_changed(changed);
+  CHECK(changed.size() == expected.size());
+  CHECK(std::set<TetHandle>(changed.begin(), changed.end()) == expected);
+  tx.undo();
+  tx.list_changed(changed);
+  CHECK(changed.empty());
 }
 
 TEST_CASE("edits that were undone do not count in compare") {

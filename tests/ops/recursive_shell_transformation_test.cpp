@@ -13,6 +13,7 @@
 #include "kernel/integrity.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
+#include "trace/text_trace.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -115,6 +116,54 @@ struct Worker {
 };
 
 }  // namespace
+
+TEST_CASE("in target mode the tet goes where no shell gets better on the way, or nothing changes") {
+  const ParameterSettings target_mode = {{"target_mode", 1}};
+  Worker worker(delaunay_ball(200, 4));
+  const auto attempt = [&](TetHandle t, unsigned e, const ParameterSettings& settings) {
+    const auto [a, b] = worker.mesh.vertices(TetEdge(t, e));
+    const TetVertices corners = worker.mesh.vertices(t);
+    Registry registry;
+    register_builtin_operators(registry);
+    const TetMesh before = worker.mesh;
+    OperatorContext context{worker.mesh, worker.workspace, *worker.scratch};
+    const Verdict verdict = registry.make("recursive_shell_transformation", settings)
+                                ->attempt(context, Target::of(TetEdge(t, e)));
+    CHECK(check_integrity(worker.mesh).empty());
+    if (verdict != Verdict::accepted) CHECK(worker.mesh == before);
+    if (verdict == Verdict::accepted && !settings.empty()) {
+      CHECK(worker.mesh.vertices(t) != corners);
+    }
+    return verdict == Verdict::accepted;
+  };
+  const auto sweep = [&](const ParameterSettings& settings) {
+    unsigned accepted = 0;
+    for (const TetHandle t : live_tets(worker.mesh)) {
+      for (unsigned e = 0; e < 6; ++e) {
+        if (worker.mesh.is_deleted(t) || worker.mesh.quality(t) >= kBadThreshold) break;
+        accepted += attempt(t, e, settings);
+      }
+    }
+    return accepted;
+  };
+  while (sweep({}) > 0) {
+  }
+  CHECK(sweep(target_mode) > 0);
+}
+
+TEST_CASE("without the filter more link edges are tried") {
+  const auto tried = [](const ParameterSettings& settings) {
+    Worker worker(three_shells());
+    TextTrace trace;
+    Registry registry;
+    register_builtin_operators(registry);
+    OperatorContext context{worker.mesh, worker.workspace, *worker.scratch, &trace};
+    registry.make("recursive_shell_transformation", settings)
+        ->attempt(context, Target::of(*worker.edge(0, 1)));
+    return std::count(trace.text().begin(), trace.text().end(), '\n');
+  };
+  CHECK(tried({{"filter", 0}}) > tried({{"reflex_only", 0}}));
+}
 
 TEST_CASE(
     "an edge that its own shell cannot lose goes when a neighbouring shell is transformed first") {

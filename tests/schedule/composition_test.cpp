@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
+#include "kernel/integrity.h"
 #include "schedule/passes.h"
 #include "tests/support/zoo.h"
 
@@ -32,6 +33,10 @@ Composition first_of(std::vector<Composition> parts) {
 }
 Composition all_of(std::vector<Composition> parts) {
   return {.kind = Composition::Kind::all_of, .parts = std::move(parts)};
+}
+
+Composition sequence(std::vector<Composition> parts, double desperate = kDesperate) {
+  return {.kind = Composition::Kind::sequence, .desperate = desperate, .parts = std::move(parts)};
 }
 
 /// Names and verdicts of all attempts.
@@ -96,6 +101,84 @@ TEST_CASE("first_of ends with the first accepted attempt, all_of when the tet is
   CHECK(std::count(first.verdicts.begin(), first.verdicts.end(), "accepted") == 1);
   CHECK(first.verdicts.back() == "accepted");
   CHECK(all.names.size() > first.names.size());
+}
+
+TEST_CASE("a sequence succeeds where its parts alone bring nothing more") {
+  TetMesh mesh(delaunay_ball(60, 4));
+  Run run(mesh, kRegistry);
+  const std::vector<Composition> parts = {op("edge_split"), op("shell_transformation"),
+                                          op("smoothing")};
+  for (std::size_t accepted = 1; accepted > 0;) {
+    accepted = 0;
+    for (const Composition& part : parts) {
+      apply(run, {.what = part});
+      accepted += run.records.back().accepted();
+    }
+  }
+  const double q_worst = run.records.back().after.q_worst;
+  apply(run, {.what = sequence(parts)});
+  CHECK(run.records.back().accepted() > 0);
+  CHECK(run.records.back().after.q_worst >= q_worst);
+  CHECK(check_integrity(mesh).empty());
+}
+
+TEST_CASE("a sequence that is refused leaves no trace, though its parts were accepted") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  const ApplyPass pass = {.what = sequence({op("flip_2_3"), op("smoothing")}), .again = true};
+  Run run(mesh, kRegistry);
+  do {
+    apply(run, pass);
+  } while (run.records.back().accepted() > 0);
+  const TetMesh before = mesh;
+  Attempts attempts;
+  run.set_trace(&attempts);
+  apply(run, pass);
+  CHECK(mesh == before);
+  CHECK(std::count(attempts.verdicts.begin(), attempts.verdicts.end(), "accepted") > 0);
+  // The report counts sequences, not their parts.
+  const auto openings = std::count(attempts.names.begin(), attempts.names.end(), "flip_2_3");
+  CHECK(run.records.back().attempts() == static_cast<std::size_t>(openings));
+  CHECK(run.records.back().accepted() == 0);
+}
+
+TEST_CASE("a sequence works off the bad tets that its opening leaves, the worst first") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  const Attempts attempts = attempts_at_worst(
+      mesh, sequence({op("edge_split", {{"steps", 1}}), op("joint_smoothing", {{"steps", 1}})}));
+  const auto& names = attempts.names;
+  REQUIRE(std::count(names.begin(), names.end(), "joint_smoothing") > 1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] != "joint_smoothing") continue;
+    // Before it, an accepted opening or another tet of the same sequence.
+    REQUIRE(i > 0);
+    CHECK((names[i - 1] == "joint_smoothing" || attempts.verdicts[i - 1] == "accepted"));
+  }
+}
+
+TEST_CASE("below its desperate quality a sequence may leave new bad tets behind") {
+  const auto deficit_after = [](double desperate) {
+    TetMesh mesh(delaunay_ball(200, 4));
+    Run run(mesh, kRegistry);
+    apply(run, {.what = sequence({op("edge_split"), op("smoothing")}, desperate), .sweeps = 3});
+    REQUIRE(run.records.back().accepted() > 0);
+    double sum = 0;
+    for (const TetHandle t : live_tets(mesh)) sum += deficit(mesh.quality(t));
+    return sum;
+  };
+  CHECK(deficit_after(-1) != deficit_after(1));
+}
+
+TEST_CASE("a sequence must open with one operator and go on") {
+  CHECK_THROWS_AS(TetAttempts(kRegistry, sequence({op("smoothing")})), Error);
+  CHECK_THROWS_AS(TetAttempts(kRegistry, sequence({first_of({op("smoothing")}), op("flip_2_3")})),
+                  Error);
+  CHECK_NOTHROW(TetAttempts(kRegistry, sequence({op("smoothing"), first_of({op("flip_2_3")})})));
+  // What follows counts by itself.
+  const std::vector<Composition> eleven(11, op("edge_removal"));
+  CHECK_NOTHROW(TetAttempts(kRegistry, sequence(eleven)));
+  CHECK(sequence({op("smoothing"), op("flip_2_3")}).name() == "sequence(smoothing, flip_2_3)");
+  CHECK(sequence({op("smoothing"), op("flip_2_3")}).describe() !=
+        sequence({op("smoothing"), op("flip_2_3")}, 0.3).describe());
 }
 
 TEST_CASE("edges are tried by length when that is asked for") {

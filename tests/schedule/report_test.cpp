@@ -238,3 +238,43 @@ TEST_CASE("numbers that are not finite become null in JSON") {
   CHECK(built.at("lambda_bands")[2].is_null());
   CHECK(nlohmann::json::parse(built.dump()) == built);
 }
+
+TEST_CASE("the limit is told with bounds rounded outward, and the bad tets by what holds them") {
+  SurfaceLimit limit;
+  limit.n_bad = 1014;
+  limit.n_forced = 12;
+  limit.theta_min = 10.0011;
+  limit.theta_max = 165.2099;
+  limit.bad = {3, 12, 0, 2, 1000};
+  CHECK(format_limit(limit) ==
+        "limit                at least 12 of the 1,014 bad tets left are forced by the surface\n"
+        "                     theta_min is 10.01 at most, theta_max is 165.20 at least\n"
+        "bad tets left        3 protected\n"
+        "                     12 where the surface forces one\n"
+        "                     2 without a free vertex\n"
+        "                     1,000 that the search did not improve\n");
+  limit = {};
+  limit.n_bad = 1;
+  limit.bad[4] = 1;
+  CHECK(format_limit(limit) ==
+        "limit                no bad tet is known to be forced by the surface\n"
+        "bad tets left        1 that the search did not improve\n");
+}
+
+TEST_CASE("a bound that is not known is null in JSON, and bad tets are listed by hindrance") {
+  SurfaceLimit limit;
+  limit.n_bad = 14;
+  limit.n_forced = 12;
+  limit.theta_min = 10.5;
+  limit.bad = {0, 12, 0, 1, 1};
+  const nlohmann::json json = nlohmann::json::parse(to_json(limit).dump());
+  CHECK(json.at("n_bad") == 14);
+  CHECK(json.at("n_forced") == 12);
+  CHECK(json.at("theta_min") == 10.5);
+  CHECK(json.at("theta_max").is_null());
+  CHECK(json.at("q_worst").is_null());
+  CHECK(json.at("bad").size() == kHindranceCount);
+  CHECK(json.at("bad").at("surface") == 12);
+  CHECK(json.at("bad").at("search") == 1);
+  CHECK(json.size() == 6);
+}

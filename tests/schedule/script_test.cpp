@@ -11,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/integrity.h"
+#include "kernel/surface_limit.h"
 #include "schedule/reference.h"
 #include "schedule/schedule.h"
 #include "schedule/words.h"
@@ -107,6 +108,13 @@ TEST_CASE("words do what the passes in C++ do") {
   same("insert_points{relax = true, on = {below = 0.25, at_least = 10}}", [](Run& r) {
     insert_points(r, {.on = {.below = 0.25f, .at_least = 10}, .settings = {{"relax", 1}}});
   });
+  same("apply(sequence{'edge_split', 'edge_removal', 'smoothing', desperate = 0.3})", [](Run& r) {
+    Composition parts{.kind = Composition::Kind::sequence, .desperate = 0.3};
+    for (const char* name : {"edge_split", "edge_removal", "smoothing"}) {
+      parts.parts.push_back(Composition{.operator_name = name});
+    }
+    apply(r, {.what = parts});
+  });
   same("apply(first_of{{'edge_split', order = 'longest', steps = 3}, 'smoothing'}, {on = 'all'})",
        [](Run& r) {
          Composition split{.operator_name = "edge_split",
@@ -170,12 +178,15 @@ TEST_CASE(
       {"local_reconnection{edges = 'edge_removal', max_level = 3}",
        "local_reconnection has no parameter 'max_level'; valid: on, edges, faces, sweeps"},
       {"apply('magic')", "unknown operator 'magic'"},
-      {"apply(3)", "apply must be an operator, first_of{...} or all_of{...}, is 3"},
+      {"apply(3)", "apply must be an operator, first_of{...}, all_of{...} or sequence{...}, is 3"},
       {"apply({'edge_split', relaxed = true})",
        "edge_split has no parameter 'relaxed'; valid: order, least_gain"},
       {"apply({'edge_split', order = 'best'})",
        "edge_split: order has no value 'best'; valid: sine, longest, shortest"},
       {"apply(first_of{})", "apply: nothing to try"},
+      {"apply(sequence{'smoothing'})", "apply: a sequence is an operator and what follows it"},
+      {"apply(sequence{'smoothing', 'flip_2_3', desperate = 2})",
+       "apply: desperate = 2 is outside"},
       {"apply('smoothing', {sweep = 3})", "apply has no parameter 'sweep'; valid: on, sweeps"},
       {"apply(function() end)", "a function is of no use here"},
       {"is_progress(quality(), 3)", "is_progress: now needs what quality() returns"},
@@ -188,7 +199,9 @@ TEST_CASE(
       {"smoth{}", "unknown name 'smoth'; valid: all_of, apply"},
       {"io.open('/etc/passwd')", "unknown name 'io'"},
   };
-  for (const auto& [script, message] : cases) {
+  for (const auto& entry : cases) {
+    const auto& script = entry.first;
+    const auto& message = entry.second;
     CAPTURE(script);
     std::string second_line = "\n";
     second_line += script;
@@ -273,6 +286,28 @@ TEST_CASE("a time limit stops a pass in its middle, and the mesh is sound and no
   CHECK(run.records.size() < 100);
   CHECK(check_integrity(mesh).empty());
   CHECK(quality_indicators(mesh).q_worst >= q_worst);
+}
+
+TEST_CASE("a script learns what the surface allows, and what holds its bad tets") {
+  CHECK(note("limit().n_forced") == "0");
+  CHECK(note("limit().n_bad") == "nil");
+  const std::string sum =
+      "(function(l) return l.surface + l.constraint + l.no_free_vertex + l.search end)(limit())";
+  CHECK(note(sum + " == quality().n_bad and quality().n_bad > 0") == "true");
+
+  MeshData flat = one_tet();
+  for (Point& p : flat.points) p.z() *= 0.1;
+  TetMesh mesh(flat);
+  const SurfaceLimit limit = compute_surface_limit(mesh);
+  Run run(mesh, kRegistry);
+  improve(run, Schedule("test.lua",
+                        "local l = limit() log(l.n_forced, l.surface, l.frozen) "
+                        "log(l.q_worst) log(l.theta_min) log(l.theta_max)"));
+  REQUIRE(run.notes.size() == 4);
+  CHECK(run.notes[0] == "1 1 0");
+  CHECK(std::stod(run.notes[1]) == doctest::Approx(limit.q_worst.value()));
+  CHECK(std::stod(run.notes[2]) == doctest::Approx(limit.theta_min.value()));
+  CHECK(std::stod(run.notes[3]) == doctest::Approx(limit.theta_max.value()));
 }
 
 TEST_CASE("scripts see the operators that are registered") {
