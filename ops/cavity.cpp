@@ -39,7 +39,7 @@ std::size_t count_vertices(const TetMesh& mesh, std::span<const HalfFace> faces)
 
 }  // namespace
 
-void Cavity::begin(TetHandle target, double least, const Limits& limits) {
+void VertexCavity::begin(TetHandle target, double least, const Limits& limits) {
   target_ = target;
   limits_ = limits;
   worst_ = least;
@@ -47,7 +47,7 @@ void Cavity::begin(TetHandle target, double least, const Limits& limits) {
   faces_.clear();
 }
 
-Verdict Cavity::offer(const TetMesh& mesh, Workspace& workspace, const Point& point) {
+Verdict VertexCavity::offer(const TetMesh& mesh, Workspace& workspace, const Point& point) {
   const auto is_worse = [](const Face& a, const Face& b) { return a.quality > b.quality; };
   taken_.clear();
   inside_.clear();
@@ -80,7 +80,7 @@ Verdict Cavity::offer(const TetMesh& mesh, Workspace& workspace, const Point& po
 }
 
 /// Adds a tet, and to the front those of its faces that do not lead back inside.
-void Cavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
+void VertexCavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
   const auto is_worse = [](const Face& a, const Face& b) { return a.quality > b.quality; };
   taken_.push_back(t);
   inside_.insert(t.index());
@@ -97,7 +97,7 @@ void Cavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
 }
 
 /// The first `count` tets taken are the best cavity so far.
-void Cavity::keep(const TetMesh& mesh, std::size_t count, const Point& point, double worst) {
+void VertexCavity::keep(const TetMesh& mesh, std::size_t count, const Point& point, double worst) {
   move(point, worst);
   tets_.assign(taken_.begin(), taken_.begin() + static_cast<std::ptrdiff_t>(count));
   if (count < taken_.size()) {

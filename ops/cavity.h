@@ -22,7 +22,7 @@ namespace tetmend {
 /// graph: as long as a state is part of the best cavity and has a worse face than that, the tet
 /// behind the face is part of it too. Faces that the vertex does not see make tets of negative
 /// quality and are left behind in the same way.
-class Cavity {
+class VertexCavity {
  public:
   struct Limits {
     std::size_t max_tets = 64;  ///< a cavity holds no more

@@ -31,7 +31,7 @@ class CavityInsertion final : public Operator {
 
   Verdict evaluate(OperatorContext& context, Target target) const override {
     const TetMesh& mesh = context.mesh;
-    Cavity& cavity = context.scratch.cavity;
+    VertexCavity& cavity = context.scratch.cavity;
     auto& places = context.scratch.places;
     places.clear();
     const double least = least_promise(mesh, target);
@@ -57,9 +57,9 @@ class CavityInsertion final : public Operator {
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction&) const override {
-    Cavity& cavity = context.scratch.cavity;
+    VertexCavity& cavity = context.scratch.cavity;
     Verdict verdict = Verdict::no_improvement;
-    for (const Cavity::Place& place : context.scratch.places) {
+    for (const VertexCavity::Place& place : context.scratch.places) {
       cavity.begin(target.tet(), 0, growth_);
       verdict = cavity.offer(context.mesh, context.workspace, place.point);
       if (verdict == Verdict::accepted) {
@@ -98,7 +98,7 @@ class CavityInsertion final : public Operator {
   /// Moves the vertex to the best place in its cavity, and looks for a better cavity there.
   Verdict settle(OperatorContext& context) const {
     Scratch& scratch = context.scratch;
-    Cavity& cavity = scratch.cavity;
+    VertexCavity& cavity = scratch.cavity;
     load_ball(context.mesh, cavity.faces(), scratch.ball);
     Point point = cavity.point();
     const double worst = scratch.ball.optimise(point, limits_);
@@ -109,7 +109,7 @@ class CavityInsertion final : public Operator {
   /// Makes the cavity and the vertex real. `accepted` if that was worth it.
   Verdict insert(OperatorContext& context, Transaction& transaction) const {
     Scratch& scratch = context.scratch;
-    const Cavity& cavity = scratch.cavity;
+    const VertexCavity& cavity = scratch.cavity;
     if (context.workspace.mesh_may_overlap() && !is_sphere(context.mesh, cavity.faces())) {
       return Verdict::inverted;
     }
@@ -145,7 +145,7 @@ class CavityInsertion final : public Operator {
   bool relax_;
   Quality desperate_;
   double exponent_;
-  Cavity::Limits growth_;
+  VertexCavity::Limits growth_;
   BallOptimiser::Limits limits_;
 };
 

@@ -20,8 +20,8 @@ struct Scratch {
   BallOptimiser ball;
   Polyhedron polyhedron;
   PolyhedronSearch polyhedron_search;
-  Cavity cavity;
-  std::vector<Cavity::Place> places;
+  VertexCavity cavity;
+  std::vector<VertexCavity::Place> places;
   PatchOptimiser patch;
   Shell shell;
   // What evaluate() proposes to apply(): tets to replace, and by what.

@@ -57,7 +57,7 @@ struct Surroundings {
   std::array<std::array<Mask, 4>, kMostTets> behind{};
 };
 
-Mask mask_of(const Cavity& cavity) {
+Mask mask_of(const VertexCavity& cavity) {
   Mask mask = 0;
   for (const TetHandle t : cavity.tets()) mask |= Mask{1} << t.index();
   return mask;
@@ -88,7 +88,7 @@ TEST_CASE("no set of tets has a better worst new tet than the cavity that was gr
       const Point point = random.in_ball(0.7);
       const Surroundings around(mesh, point);
       const double best = around.best_worst(target);
-      Cavity cavity;
+      VertexCavity cavity;
       cavity.begin(TetHandle(target), 0, {});
       CAPTURE(seed);
       CAPTURE(round);

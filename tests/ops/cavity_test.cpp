@@ -18,7 +18,7 @@ namespace {
 
 /// Cavities of the tet 0 1 2 3.
 struct Site {
-  explicit Site(const MeshData& data, const Cavity::Limits& limits = {}, double least = 0)
+  explicit Site(const MeshData& data, const VertexCavity::Limits& limits = {}, double least = 0)
       : worker(data) {
     target = worker.tet({0, 1, 2, 3}).tet();
     cavity.begin(target, least, limits);
@@ -29,7 +29,7 @@ struct Site {
 
   LoneWorker worker;
   TetHandle target;
-  Cavity cavity;
+  VertexCavity cavity;
 };
 
 std::vector<HalfFace> boundary(const TetMesh& mesh) {
