@@ -7,9 +7,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
-#include "kernel/error.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -106,7 +104,7 @@ void Interface::build(Session& session) {
     status_line(session);
   }
   if (session.document.show_keys) keys_page(session);
-  file_dialog(session);
+  browser_.draw(session, scale_);
   ImGui::Render();
 }
 
@@ -116,7 +114,7 @@ void Interface::draw() const {
 
 void Interface::menu(Session& session) const {
   if (!ImGui::BeginMainMenuBar()) return;
-  for (const char* title : {"File", "View", "Show", "Select"}) {
+  for (const char* title : {"File", "View", "Show", "Select", "Run"}) {
     if (!ImGui::BeginMenu(title)) continue;
     for (const Command& command : commands()) {
       if (command.menu == title && ImGui::MenuItem(c_text(command.help), c_text(command.keys))) {
@@ -139,7 +137,10 @@ void Interface::sides(Session& session) const {
     ImGui::Begin(side == Side::left ? "##left" : "##right", nullptr, kFixed);
     for (const Panel& panel : panels()) {
       if (panel.side != side || !session.document.has_mesh()) continue;
-      if (!ImGui::CollapsingHeader(panel.title, ImGuiTreeNodeFlags_DefaultOpen)) continue;
+      if (panel.is_needed == nullptr || panel.is_needed(session.document)) {
+        ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+      }
+      if (!ImGui::CollapsingHeader(panel.title)) continue;
       ImGui::PushID(panel.title);
       panel.draw(session);
       ImGui::PopID();
@@ -192,34 +193,6 @@ void Interface::keys_page(Session& session) const {
     ImGui::EndTable();
   }
   ImGui::End();
-}
-
-void Interface::file_dialog(Session& session) {
-  constexpr const char* kTitle = "Open a mesh";
-  if (session.document.ask_for_file) {
-    session.document.ask_for_file = false;
-    ImGui::OpenPopup(kTitle);
-  }
-  ImGui::SetNextWindowSize({560 * scale_, 0});
-  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_NoResize)) return;
-  ImGui::TextUnformatted("File (or drop it on the window):");
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  const bool is_done =
-      ImGui::InputText("##file", &typed_file_, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (ImGui::Button("Open") || is_done) {
-    try {
-      session.document.open(typed_file_);
-    } catch (const Error& error) {
-      session.document.message = {error.what(), true};
-    }
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
 }
 
 }  // namespace tetmend::viewer::ui

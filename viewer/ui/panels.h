@@ -14,6 +14,8 @@ struct Panel {
   const char* title;
   Side side;
   void (*draw)(Session& session);
+  /// Opens by itself once this is so; null: is open from the beginning.
+  bool (*is_needed)(const Document& document) = nullptr;
 };
 
 /// All panels, from top to bottom. Drawn only when there is a mesh.
@@ -25,5 +27,6 @@ void draw_cuts_panel(Session& session);
 void draw_worst_panel(Session& session);
 void draw_statistics_panel(Session& session);
 void draw_selection_panel(Session& session);
+void draw_live_panel(Session& session);
 
 }  // namespace tetmend::viewer::ui
