@@ -115,6 +115,11 @@ void LiveJob::work() {
 
 void LiveJob::run_schedule() {
   mesh_.sort_spatially();  // as `tetmend improve` does
+  {
+    const QualityIndicators before = quality_indicators(mesh_);
+    const std::lock_guard lock(lock_);
+    shown_.before = before;
+  }
   begin_trace();
   register_builtin_operators(registry_);
   Run run(mesh_, registry_);

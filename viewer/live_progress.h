@@ -56,6 +56,7 @@ struct LiveProgress {
   double seconds = 0;        ///< without pauses
   std::size_t attempts = 0;  ///< in all, as LivePass counts them
   std::size_t accepted = 0;
+  QualityIndicators before;  ///< of the mesh that the run began with
   std::vector<LivePass> passes;
   std::vector<std::string> notes;  ///< of the schedule
   std::optional<LiveCall> last_accepted;

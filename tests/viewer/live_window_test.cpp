@@ -2,6 +2,7 @@
 // A run in the window, by keys.
 #include <doctest/doctest.h>
 
+#include "kernel/formats/mesh_io.h"
 #include "tests/viewer/window.h"
 
 using namespace tetmend;
@@ -31,4 +32,17 @@ TEST_CASE("the window serves keys while a run works, and closes on one that is p
   const nlohmann::json state = viewer.quit();
   CHECK((state["run"] == "paused" || state["run"] == "running"));
   CHECK(state["view"]["bad"] == false);
+}
+
+TEST_CASE("a mesh is saved by the dialog") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  const std::filesystem::path file = std::filesystem::current_path() / "better.mesh";
+  type("key ctrl+s sleep 1 type " + file.string());
+  // Dear ImGui looks at keys once a frame, and would miss a short one.
+  for (int i = 0; i < 60 && !std::filesystem::exists(file); ++i) {
+    type("keydown Return sleep 0.5 keyup Return sleep 0.5");
+  }
+  CHECK(read_mesh(file).tets.size() == 3327);
+  CHECK(viewer.quit()["message"] == "wrote " + file.string());
 }

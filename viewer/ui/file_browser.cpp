@@ -2,6 +2,7 @@
 #include "viewer/ui/file_browser.h"
 
 #include <system_error>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -31,6 +32,7 @@ std::vector<std::string_view> extensions_of(FileQuestion question) {
 
 void FileBrowser::begin(const Document& document) {
   question_ = document.question;
+  wants_focus_ = true;
   trouble_.clear();
   typed_.clear();
   if (folder_.empty()) {
@@ -80,6 +82,7 @@ void FileBrowser::list(float scale) {
 
 /// The dialog stays when that does not work.
 void FileBrowser::finish(Session& session) {
+  wants_focus_ = true;
   try {
     const std::filesystem::path file = chosen();
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
@@ -112,7 +115,7 @@ void FileBrowser::draw(Session& session, float scale) {
   ImGui::TextDisabled("%s", folder_.string().c_str());
   is_accepted_ = false;
   list(scale);
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(wants_focus_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   if (ImGui::InputTextWithHint("##name", "name, or a path", &typed_,
                                ImGuiInputTextFlags_EnterReturnsTrue)) {

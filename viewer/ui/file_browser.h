@@ -31,6 +31,7 @@ class FileBrowser {
   std::string typed_;  // a name in the folder, or a path
   std::string trouble_;
   bool is_accepted_ = false;
+  bool wants_focus_ = false;  // the field for the name
 };
 
 }  // namespace tetmend::viewer::ui

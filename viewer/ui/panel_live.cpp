@@ -106,7 +106,9 @@ void edit_parameters(Document& document) {
 
 /// Runs a command, as its key does.
 void button(Session& session, const char* text, std::string_view command) {
-  if (ImGui::Button(text)) run_from_window(find_command(command), session);
+  const Command& what = find_command(command);
+  if (ImGui::Button(text)) run_from_window(what, session);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s (%s)", what.help.data(), what.keys.data());
   ImGui::SameLine();
 }
 
@@ -134,8 +136,8 @@ void buttons(Session& session, LiveState state) {
 void tell_progress(const LiveProgress& run) {
   if (run.state == LiveState::idle) return;
   const std::string state(to_string(run.state));
-  ImGui::Text("%s, %.1f s, %zu of %zu calls accepted", state.c_str(), run.seconds, run.accepted,
-              run.attempts);
+  ImGui::TextWrapped("%s, %.1f s, %zu of %zu calls accepted", state.c_str(), run.seconds,
+                     run.accepted, run.attempts);
   const std::string phase = fmt::format("{} {}", run.round, run.phase);
   ImGui::ProgressBar(static_cast<float>(run.share), {-1, 0}, phase.c_str());
   if (run.state == LiveState::paused && run.last_accepted) {
@@ -148,27 +150,24 @@ void tell_progress(const LiveProgress& run) {
   if (!run.notes.empty()) ImGui::TextWrapped("%s", run.notes.back().c_str());
 }
 
-/// One value for each pass.
+/// One value at the beginning and one after each pass.
 template <class Value>
 void draw_curve(const char* name, const LiveProgress& run, const Value& value) {
-  std::vector<float> values;
-  for (const LivePass& pass : run.passes) values.push_back(static_cast<float>(value(pass)));
+  std::vector<float> values = {static_cast<float>(value(run.before))};
+  for (const LivePass& pass : run.passes) values.push_back(static_cast<float>(value(pass.after)));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  ImGui::PlotLines("##curve", values.data(), static_cast<int>(values.size()), 0, name, *least,
-                   *most, {ImGui::GetContentRegionAvail().x, 2.6F * ImGui::GetFontSize()});
+  ImGui::PlotLines(name, values.data(), static_cast<int>(values.size()), 0, nullptr, *least, *most,
+                   {ImGui::GetContentRegionAvail().x, 2 * ImGui::GetFontSize()});
 }
 
 void draw_curves(const LiveProgress& run) {
-  if (run.passes.size() < 2) return;
+  if (run.passes.empty()) return;
   const QualityIndicators& last = run.passes.back().after;
-  ImGui::PushID("bad");
-  draw_curve(fmt::format("bad tets, logarithmic: {}", last.n_bad).c_str(), run,
-             [](const auto& p) { return std::log1p(static_cast<double>(p.after.n_bad)); });
-  ImGui::PopID();
-  ImGui::PushID("worst");
-  draw_curve(fmt::format("q_worst: {:.4f}", last.q_worst).c_str(), run,
-             [](const auto& p) { return p.after.q_worst; });
-  ImGui::PopID();
+  ImGui::TextDisabled("bad tets, logarithmic: %zu, now %zu", run.before.n_bad, last.n_bad);
+  draw_curve("##bad", run,
+             [](const QualityIndicators& q) { return std::log1p(static_cast<double>(q.n_bad)); });
+  ImGui::TextDisabled("q_worst: %.4f, now %.4f", run.before.q_worst, last.q_worst);
+  draw_curve("##worst", run, [](const QualityIndicators& q) { return q.q_worst; });
 }
 
 /// The last pass first.

@@ -137,7 +137,9 @@ class Window : public Host {
     return ImGui::GetIO().WantCaptureMouse || at.x < 0 || at.y < 0 ||
            at.x >= document_.canvas.width || at.y >= document_.canvas.height;
   }
-  static bool panels_take_keys() { return ImGui::GetIO().WantTextInput; }
+  static bool panels_take_keys() {
+    return ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  }
 
   /// Units of the window system to pixels.
   glm::dvec2 to_pixels(double x, double y) const {
