@@ -60,6 +60,7 @@ void TetMesh::collect_garbage() {
     if (!is_deleted(TetHandle(t))) kept_tets.push_back(t);
   }
   reorder(kept_vertices, kept_tets);
+  // A copy made while workers were in territories has not got their counts.
   vertex_count_ = kept_vertices.size();
   tet_count_ = kept_tets.size();
 }

@@ -200,8 +200,7 @@ class TetMesh {
   /// Precondition: no transaction is open. Cost: linear.
   std::size_t freeze(const std::function<bool(TetHandle)>& is_frozen);
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
-  /// before become invalid. Counts anew: right also for a copy made while workers are in
-  /// territories, between their transactions.
+  /// before become invalid.
   void collect_garbage();
   /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are
   /// neighbours in memory. to_data() still lists the vertices of the file in their order. Handles
