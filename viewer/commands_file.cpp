@@ -59,7 +59,7 @@ json quit(Session& s, const json&) {
 constexpr std::string_view kFile = "File";
 
 constexpr std::array kCommands = {
-    Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh", &open},
+    Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh or a trace", &open},
     Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
     Command{"compare", "", "", "compare(\"FILE\")",
             "Show the statistics of another mesh beside: the state before", &compare},
