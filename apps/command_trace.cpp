@@ -114,9 +114,11 @@ void write_extract(const Options& options, const TraceFile& file) {
                          fmt::join(kit.target, ", ")));
   write_text(options.output / "README.txt",
              fmt::format("Repeats call {} of a run of {}\n\n"
-                         "  tetmend improve call.mesh -o out.mesh --schedule call.lua --trace "
+                         "  tetmend improve call.mesh -o out.mesh --schedule call.lua{} --trace "
                          "out.trace\n  tetmend trace out.trace --tree 0\n\nIn the run:\n\n{}",
-                         kit.call, file.header().program, call_tree_text(file, kit.call)));
+                         kit.call, file.header().program,
+                         kit.frozen ? fmt::format(" --protect label:{}", *kit.frozen) : "",
+                         call_tree_text(file, kit.call)));
 }
 
 int run_trace(const Options& options) {

@@ -38,6 +38,21 @@ bool touches(const SlotMesh& mesh, TetHandle t, const std::vector<std::uint8_t>&
   });
 }
 
+/// Gives frozen tets a label of their own, by which a run can be told to keep them.
+std::optional<Label> mark_frozen(std::span<const std::uint32_t> frozen,
+                                 std::span<const TetHandle> tets, MeshData& data) {
+  Label label = 0;
+  for (const MeshData::Tet& tet : data.tets) label = std::max(label, tet.label);
+  ++label;
+  bool found = false;
+  for (std::size_t k = 0; k < tets.size(); ++k) {
+    if (!std::ranges::binary_search(frozen, tets[k].index())) continue;
+    data.tets[k].label = label;
+    found = true;
+  }
+  return found ? std::optional(label) : std::nullopt;
+}
+
 }  // namespace
 
 CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t call) {
@@ -61,6 +76,7 @@ CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t ca
   result.call = call;
   std::vector<std::uint32_t> slots;
   result.mesh = mesh.extract(tets, &slots);
+  result.frozen = mark_frozen(mesh.frozen_tets(), tets, result.mesh);
   for (const VertexHandle v : file.calls()[call].target()) {
     const auto found = std::lower_bound(slots.begin(), slots.end(), v.index());
     result.target.push_back(static_cast<std::uint32_t>(found - slots.begin()));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -14,6 +15,7 @@ struct CallExtract {
   std::uint32_t call = 0;             ///< the outermost call around the one asked for
   MeshData mesh;                      ///< as the call found it
   std::vector<std::uint32_t> target;  ///< vertices of the target, by their numbers in `mesh`
+  std::optional<Label> frozen;        ///< label that tets have here which the run had to keep
 };
 
 /// All tets around the targets of the call and of those in it and around what these changed, and

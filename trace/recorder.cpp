@@ -58,8 +58,8 @@ std::string TraceFilter::describe() const {
 }
 
 TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TetMesh& mesh,
-                             TraceHeader header, TraceFilter filter)
-    : mesh_(mesh), filter_(std::move(filter)), file_(file) {
+                             TraceHeader header, TraceFilter filter, TraceClock clock)
+    : mesh_(mesh), filter_(std::move(filter)), clock_(clock), file_(file) {
   header.filter = filter_.describe();
   ByteWriter content;
   header.encode(content);
@@ -74,6 +74,8 @@ TraceRecorder::~TraceRecorder() {
 }
 
 std::uint64_t TraceRecorder::ticks() const {
+  constexpr std::uint64_t kTicksPerStep = 16;
+  if (clock_ == TraceClock::steps) return kTicksPerStep * events_;
   const std::chrono::nanoseconds now = std::chrono::steady_clock::now() - start_;
   return static_cast<std::uint64_t>(now.count()) / EventEncoder::kTickNanoseconds;
 }

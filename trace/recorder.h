@@ -49,6 +49,12 @@ struct TraceFilter {
   std::string describe() const;
 };
 
+/// Where the times of events come from.
+enum class TraceClock : std::uint8_t {
+  real,
+  steps  ///< about a microsecond for each event: equal runs give equal traces
+};
+
 /// How a trace ended.
 enum class TraceEnd : std::uint8_t { complete, limit_reached };
 
@@ -60,7 +66,7 @@ class TraceRecorder final : public TraceSink {
   /// @throws Error when the file cannot be written.
   /// Precondition: `mesh` is the one of the run, outlives the recorder, and no transaction is open.
   TraceRecorder(const std::filesystem::path& file, const TetMesh& mesh, TraceHeader header,
-                TraceFilter filter = {});
+                TraceFilter filter = {}, TraceClock clock = TraceClock::real);
   /// Without finish(): writes what it has, into FILE.part.
   ~TraceRecorder() override;
   TraceRecorder(const TraceRecorder&) = delete;
@@ -109,6 +115,7 @@ class TraceRecorder final : public TraceSink {
 
   const TetMesh& mesh_;
   TraceFilter filter_;
+  TraceClock clock_;
   FrameWriter file_;
   std::string trouble_;
   bool active_ = true;

@@ -10,26 +10,24 @@ namespace tetmend {
 
 namespace {
 
-/// A keyframe every so many events is close enough.
-constexpr std::uint64_t kLeastDistance = 1 << 15;
 /// A log of this many steps is dropped at the next chunk.
-constexpr std::size_t kLongLog = 1 << 17;
+constexpr std::uint64_t kLongLog = 1 << 17;
 
 constexpr TetVertices kNoTet = {};
 
 }  // namespace
 
-Replay::Replay(const TraceFile& file, std::size_t memory)
-    : file_(file), cursor_(file), mesh_(file.initial_mesh()) {
+Replay::Replay(const TraceFile& file, std::size_t memory, std::uint64_t distance)
+    : file_(file), distance_(distance), cursor_(file), mesh_(file.initial_mesh()) {
   take_keyframes(memory);
 }
 
 void Replay::take_keyframes(std::size_t memory) {
   keyframes_.push_back({0, mesh_});
   const std::uint64_t affordable = std::max<std::size_t>(1, memory / (mesh_.bytes() + 1));
-  const std::uint64_t distance = std::max(kLeastDistance, file_.event_count() / affordable);
+  distance_ = std::max(distance_, file_.event_count() / affordable);
   for (const std::uint64_t begin : file_.chunk_begins()) {
-    if (begin < keyframes_.back().position + distance) continue;
+    if (begin < keyframes_.back().position + distance_) continue;
     forward_to(begin);
     forget_log();
     keyframes_.push_back({position_, mesh_});
@@ -51,12 +49,13 @@ void Replay::forget_log() {
   log_.open.clear();
 }
 
+/// The event before `position` is played or stays in the log, so that cavity() can tell of it.
 void Replay::seek(std::uint64_t position) {
-  if (position < position_ && position >= log_.begin) return back_to(position);
-  const auto after =
-      std::upper_bound(keyframes_.begin(), keyframes_.end(), position,
-                       [](std::uint64_t p, const Keyframe& k) { return p < k.position; });
-  const Keyframe& keyframe = *(after - 1);
+  if (position < position_ && position > log_.begin) return back_to(position);
+  const auto not_before =
+      std::lower_bound(keyframes_.begin(), keyframes_.end(), position,
+                       [](const Keyframe& k, std::uint64_t p) { return k.position < p; });
+  const Keyframe& keyframe = not_before == keyframes_.begin() ? *not_before : *(not_before - 1);
   if (position < position_ || keyframe.position > position_) restore(keyframe);
   forward_to(position);
 }
@@ -67,7 +66,7 @@ void Replay::forward_to(std::uint64_t position) {
   const std::span<const std::uint64_t> begins = file_.chunk_begins();
   while (position_ < position) {
     // Nothing is undone across the border of a chunk.
-    if (log_.steps.size() > kLongLog &&
+    if (log_.steps.size() > std::min(kLongLog, 4 * distance_) &&
         std::binary_search(begins.begin(), begins.end(), position_)) {
       forget_log();
     }

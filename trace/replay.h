@@ -37,11 +37,13 @@ struct Cavity {
 class Replay {
  public:
   static constexpr std::size_t kDefaultMemory = std::size_t{256} << 20;
+  static constexpr std::uint64_t kDefaultDistance = 1 << 15;
 
   /// Plays the trace once and takes keyframes on the way: copies of the mesh, in about `memory`
-  /// bytes altogether, but no closer than is of use. At event 0 then.
+  /// bytes altogether, and at least `distance` events apart. At event 0 then.
   /// Precondition: `file` outlives this. Cost: about a microsecond an event.
-  explicit Replay(const TraceFile& file, std::size_t memory = kDefaultMemory);
+  explicit Replay(const TraceFile& file, std::size_t memory = kDefaultMemory,
+                  std::uint64_t distance = kDefaultDistance);
 
   /// How many events the mesh has seen: the mesh is as it was before event number position().
   std::uint64_t position() const { return position_; }
@@ -94,6 +96,7 @@ class Replay {
   void revert(const Step& step);
 
   const TraceFile& file_;
+  std::uint64_t distance_;  // of keyframes
   EventCursor cursor_;
   SlotMesh mesh_;
   std::uint64_t position_ = 0;

@@ -24,6 +24,22 @@ class Fingerprint {
   std::uint64_t state_ = 0x243F6A8885A308D3u;
 };
 
+void encode_slots(ByteWriter& out, std::span<const std::uint32_t> slots) {
+  out.put(slots.size());
+  std::uint32_t last = 0;
+  for (const std::uint32_t slot : slots) out.put_step(slot, last);
+}
+
+std::vector<std::uint32_t> decode_slots(ByteReader& in, std::size_t end) {
+  std::vector<std::uint32_t> slots(in.get_count());
+  std::uint32_t last = 0;
+  for (std::uint32_t& slot : slots) {
+    slot = in.get_step(last);
+    if (slot >= end) throw ByteReader::Damage();
+  }
+  return slots;
+}
+
 template <class Element>
 void encode_named(ByteWriter& out, std::span<const Element> elements) {
   out.put(elements.size());
@@ -56,8 +72,10 @@ SlotMesh::SlotMesh(const TetMesh& mesh) {
     live_.push_back(mesh.is_deleted(v) ? 0 : 1);
   }
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    tets_.push_back(mesh.vertices(TetHandle(i)));
-    labels_.push_back(mesh.label(TetHandle(i)));
+    const TetHandle t(i);
+    tets_.push_back(mesh.vertices(t));
+    labels_.push_back(mesh.label(t));
+    if (!mesh.is_deleted(t) && mesh.is_frozen(t)) frozen_tets_.push_back(i);
   }
   tet_count_ = mesh.tet_count();
   vertex_count_ = mesh.vertex_count();
@@ -164,9 +182,8 @@ void SlotMesh::encode(ByteWriter& out) const {
   }
   encode_named<MeshData::Triangle>(out, triangles_);
   encode_named<MeshData::Edge>(out, edges_);
-  out.put(required_vertices_.size());
-  std::uint32_t last = 0;
-  for (const std::uint32_t v : required_vertices_) out.put_step(v, last);
+  encode_slots(out, required_vertices_);
+  encode_slots(out, frozen_tets_);
 }
 
 SlotMesh SlotMesh::decode(ByteReader& in) {
@@ -193,12 +210,8 @@ SlotMesh SlotMesh::decode(ByteReader& in) {
   for (Label& next : mesh.labels_) next = static_cast<Label>(label += in.get_signed());
   decode_named(in, vertices, mesh.triangles_);
   decode_named(in, vertices, mesh.edges_);
-  mesh.required_vertices_.resize(in.get_count());
-  std::uint32_t last = 0;
-  for (std::uint32_t& v : mesh.required_vertices_) {
-    v = in.get_step(last);
-    if (v >= vertices) throw ByteReader::Damage();
-  }
+  mesh.required_vertices_ = decode_slots(in, vertices);
+  mesh.frozen_tets_ = decode_slots(in, mesh.tets_.size());
   mesh.vertex_count_ =
       vertices - static_cast<std::size_t>(std::ranges::count(mesh.live_, std::uint8_t{0}));
   return mesh;

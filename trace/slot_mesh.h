@@ -38,6 +38,8 @@ class SlotMesh {
   std::span<const MeshData::Triangle> triangles() const { return triangles_; }
   std::span<const MeshData::Edge> edges() const { return edges_; }
   std::span<const std::uint32_t> required_vertices() const { return required_vertices_; }
+  /// Tets that the user wants to stay as they are, by slot, ascending: these never change, either.
+  std::span<const std::uint32_t> frozen_tets() const { return frozen_tets_; }
 
   /// Live vertices and tets in the order of their slots, with what the file named.
   MeshData to_data() const;
@@ -69,6 +71,7 @@ class SlotMesh {
   std::vector<MeshData::Triangle> triangles_;
   std::vector<MeshData::Edge> edges_;
   std::vector<std::uint32_t> required_vertices_;
+  std::vector<std::uint32_t> frozen_tets_;
 };
 
 }  // namespace tetmend

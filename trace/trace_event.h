@@ -94,7 +94,8 @@ class EventEncoder {
 
   ByteWriter out_;
   std::uint64_t last_ticks_ = 0;
-  std::vector<std::string> names_;  // of this chunk
+  std::vector<std::string> names_;           // of this chunk
+  std::array<std::uint8_t, 256> guesses_{};  // numbers of names, by the place of their text
 };
 
 /// Reads the events of a chunk.

@@ -200,15 +200,19 @@ std::string_view TraceFile::reason(const Call& call) const {
                : "what the call was for is done";
   }
   const bool tried = call.candidate_found;
+  const auto number = static_cast<std::uint32_t>(&call - calls_.data());
+  const bool calls_others = call.subtree_end > number + 1;
   if (verdict == "not applicable") {
     return tried ? "the candidate does not fit into its cavity"
                  : "the target is gone or is not of the kind that the operator works on";
   }
   if (verdict == "constrained") {
+    if (calls_others) return "what is left to transform lies on the boundary or on a constraint";
     return tried ? "the candidate would remove a constrained face, edge or vertex"
                  : "the target lies on the boundary or on a constraint";
   }
   if (verdict == "no improvement") {
+    if (calls_others) return "what the calls in it reached is not enough";
     return tried ? "the quality vector with the candidate is not better"
                  : "no candidate is better than what is there";
   }

@@ -91,7 +91,7 @@ class TraceFile {
   std::string_view name(std::uint32_t name) const { return names_[name]; }
   /// The innermost call that `event` belongs to, its first and last event included; kNoCall.
   std::uint32_t call_at(std::uint64_t event) const;
-  /// Why a call ended as it did, in a sentence.
+  /// Why a call ended as it did, in a sentence. Precondition: `call` is one of calls().
   std::string_view reason(const Call& call) const;
 
   /// First events of the chunks that the file is made of; see EventCursor.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -17,8 +16,8 @@ namespace tetmend {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'T', 'E', 'T', 'T', 'R', 'A', 'C', '\n'};
-/// The run waits for it: level 1 takes twice the time and saves a quarter of the file.
-constexpr int kLevel = -3;
+/// The run waits for it: level -3 takes twice the time and saves a quarter of the file.
+constexpr int kLevel = -16;
 /// More than any frame that is written, far less than what a damaged length may ask for.
 constexpr std::uint64_t kMostContent = std::uint64_t{1} << 36;
 
@@ -94,36 +93,25 @@ void FrameWriter::finish() {
   if (::rename(part_.c_str(), file_.c_str()) != 0) fail();
 }
 
-FrameReader::FrameReader(const std::filesystem::path& file) : name_(file.string()) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const auto unreadable = [&] {
-    return Error(
-        fmt::format("{}: cannot be read: {}", name_, std::generic_category().message(errno)));
-  };
-  if (!in || std::filesystem::is_directory(file)) throw unreadable();
-  bytes_.resize(static_cast<std::size_t>(in.tellg()));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes_.data()), static_cast<std::streamsize>(bytes_.size()));
-  if (!in) throw unreadable();
-  std::uint32_t version = 0;
-  if (bytes_.size() < kTraceMagicSize ||
-      std::memcmp(bytes_.data(), kMagic.data(), kMagic.size()) != 0) {
-    throw Error(fmt::format("{}: is no trace of tetmend", name_));
+FrameReader::FrameReader(const std::filesystem::path& file) : file_(file) {
+  if (file_.size() < kTraceMagicSize || std::memcmp(at(0), kMagic.data(), kMagic.size()) != 0) {
+    throw Error(fmt::format("{}: is no trace of tetmend", file_.name()));
   }
-  std::memcpy(&version, bytes_.data() + kMagic.size(), sizeof version);
+  std::uint32_t version = 0;
+  std::memcpy(&version, at(kMagic.size()), sizeof version);
   if (version != kTraceVersion) {
-    throw Error(fmt::format("{}: is a trace of version {}; this tetmend knows version {}", name_,
-                            version, kTraceVersion));
+    throw Error(fmt::format("{}: is a trace of version {}; this tetmend knows version {}",
+                            file_.name(), version, kTraceVersion));
   }
 }
 
 bool FrameReader::next() {
-  if (next_ == bytes_.size()) return false;
+  if (next_ == file_.size()) return false;
   FrameHead head{};
-  const std::size_t left = bytes_.size() - next_;
-  if (left >= sizeof head) std::memcpy(&head, bytes_.data() + next_, sizeof head);
+  const std::size_t left = file_.size() - next_;
+  if (left >= sizeof head) std::memcpy(&head, at(next_), sizeof head);
   if (left < sizeof head || head.stored > left - sizeof head) {
-    damage_ = fmt::format("{}: byte {}: cut off or damaged", name_, next_);
+    damage_ = fmt::format("{}: byte {}: cut off or damaged", file_.name(), next_);
     return false;
   }
   offset_ = next_;
@@ -133,8 +121,8 @@ bool FrameReader::next() {
 
 void FrameReader::unpack(std::size_t offset, std::vector<std::byte>& content) const {
   FrameHead head{};
-  std::memcpy(&head, bytes_.data() + offset, sizeof head);
-  const std::byte* packed = bytes_.data() + offset + sizeof head;
+  std::memcpy(&head, at(offset), sizeof head);
+  const std::byte* packed = at(offset + sizeof head);
   const auto size = ZSTD_getFrameContentSize(packed, head.stored);
   if (head.content <= kMostContent && size == head.content) {
     content.resize(head.content);
@@ -142,7 +130,7 @@ void FrameReader::unpack(std::size_t offset, std::vector<std::byte>& content) co
       return;
     }
   }
-  throw Error(fmt::format("{}: byte {}: damaged", name_, offset));
+  throw Error(fmt::format("{}: byte {}: damaged", file_.name(), offset));
 }
 
 }  // namespace tetmend

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/error.h"
+#include "kernel/formats/input_file.h"
 
 namespace tetmend {
 
@@ -66,11 +67,14 @@ class FrameReader {
   /// The content of the frame at `offset`, which next() found.
   /// @throws Error when it is damaged.
   void unpack(std::size_t offset, std::vector<std::byte>& content) const;
-  std::size_t file_size() const { return bytes_.size(); }
+  std::size_t file_size() const { return file_.size(); }
 
  private:
-  std::string name_;
-  std::vector<std::byte> bytes_;
+  const std::byte* at(std::size_t offset) const {
+    return reinterpret_cast<const std::byte*>(file_.begin()) + offset;
+  }
+
+  formats::InputFile file_;
   std::size_t offset_ = 0;
   std::size_t next_ = kTraceMagicSize;
   std::string damage_;

@@ -69,7 +69,7 @@ json quit(Session& s, const json&) {
 constexpr std::string_view kFile = "File";
 
 constexpr std::array kCommands = {
-    Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh", &open},
+    Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh or a trace", &open},
     Command{"save", "Ctrl+S", kFile, "save(\"FILE\")", "Save the mesh as it is shown", &save},
     Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
     Command{"compare", "", "", "compare(\"FILE\")",

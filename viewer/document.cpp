@@ -7,6 +7,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
+#include "viewer/call_highlight.h"
 #include "viewer/tet_values.h"
 
 namespace tetmend::viewer {
@@ -50,10 +51,33 @@ void Document::resize(const Canvas& size) {
 }
 
 void Document::open(const std::filesystem::path& file) {
-  MeasuredMesh mesh(read_tet_mesh(file));
+  if (is_trace(file)) {
+    open_trace(file);
+  } else {
+    MeasuredMesh mesh(read_tet_mesh(file));
+    end_live();
+    set_mesh(std::move(mesh), file.string());
+  }
+}
+
+void Document::open_trace(const std::filesystem::path& file) {
+  auto debugger = std::make_unique<Debugger>(file);
+  end_live();
+  take_mesh(MeasuredMesh(debugger->mesh()), file.string());
+  debugger_ = std::move(debugger);
+  shown_mesh_ = debugger_->mesh_number();
+  shown_root_ = kNoCall;
+  show_trace();
+  const std::string& damage = debugger_->file().damage();
+  message = {damage.empty() ? fmt::format("{}: {} events, {} calls", file.filename().string(),
+                                          debugger_->end(), debugger_->file().calls().size())
+                            : damage,
+             !damage.empty()};
+}
+
+void Document::end_live() {
   live.forget();
   followed_ = LiveState::idle;
-  set_mesh(std::move(mesh), file.string());
 }
 
 void Document::save(const std::filesystem::path& file) {
@@ -66,6 +90,13 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 }
 
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
+  debugger_.reset();
+  marks_ = {};
+  near_.clear();
+  take_mesh(std::move(mesh), name);
+}
+
+void Document::take_mesh(MeasuredMesh mesh, const std::string& name) {
   const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);
   mesh_ = std::move(mesh.mesh);
   file_ = name;
@@ -73,16 +104,39 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   ball_ = mesh.ball;
   statistics_ = mesh.statistics;
   regions_ = std::move(mesh.regions);
-  values_.clear();
-  layers_.clear();
-  listed_measure_.clear();
-  drawn_.reset();
+  refresh();
   select({});
   if (!keep_view) go_home();
   message = {
       fmt::format("{}: {} tets, {} of them bad", std::filesystem::path(name).filename().string(),
                   statistics_.tets, statistics_.n_bad),
       false};
+}
+
+/// After a change of the mesh.
+void Document::refresh() {
+  values_.clear();
+  layers_.clear();
+  listed_measure_.clear();
+  drawn_.reset();
+}
+
+void Document::show_trace() {
+  const std::uint32_t call = debugger_->call();
+  if (debugger_->mesh_number() != shown_mesh_) {
+    mesh_ = debugger_->mesh();
+    shown_mesh_ = debugger_->mesh_number();
+    statistics_ = compute_statistics(mesh_);
+    refresh();
+  }
+  const CallStudy* study = debugger_->study();
+  marks_ = study != nullptr ? highlight_covering(*study, ball_.centre) : Highlight();
+  near_ = study != nullptr ? tets_of(mesh_, *study) : std::vector<std::uint8_t>();
+  if (view.scene.isolate) drawn_.reset();
+  select(call == kNoCall ? Selection() : target_in(mesh_, debugger_->file().calls()[call]));
+  const std::uint32_t root = call == kNoCall ? kNoCall : debugger_->stack().front();
+  if (root != shown_root_ && root != kNoCall && follow_trace) fit();
+  shown_root_ = root;
 }
 
 void Document::compare_with(const std::filesystem::path& file) {
@@ -125,8 +179,30 @@ void Document::go_home() {
   view.camera.fit(box_, canvas);
 }
 
+void Document::fit_first() {
+  if (call_in_view()) {
+    fit();
+  } else {
+    go_home();
+  }
+}
+
+/// Around the call at hand, unless something else is selected.
+std::optional<Ball> Document::call_in_view() {
+  const CallStudy* study = debugger_ ? debugger_->study() : nullptr;
+  if (study == nullptr) return std::nullopt;
+  const Selection target = target_in(mesh_, debugger_->file().calls()[study->call]);
+  if (selection_ != target && !std::holds_alternative<std::monostate>(selection_)) {
+    return std::nullopt;
+  }
+  return ball_around(*study);
+}
+
 void Document::fit() {
-  if (std::holds_alternative<std::monostate>(selection_)) {
+  constexpr double kSurroundings = 1.3;
+  if (const auto call = call_in_view()) {
+    view.camera.fit({call->centre, kSurroundings * call->radius}, canvas);
+  } else if (std::holds_alternative<std::monostate>(selection_)) {
     view.camera.fit(box_, canvas);
   } else {
     view.camera.fit(ball_around(mesh_, selection_), canvas);
@@ -173,7 +249,10 @@ unsigned Document::scene_revision() {
 }
 
 const Highlight& Document::highlighted() {
-  if (!highlight_) highlight_ = highlight(mesh_, selection_, ball_.centre);
+  if (!highlight_) {
+    highlight_ = highlight(mesh_, selection_, ball_.centre);
+    highlight_->lines.insert(highlight_->lines.end(), marks_.lines.begin(), marks_.lines.end());
+  }
   return *highlight_;
 }
 
@@ -200,7 +279,8 @@ void Document::update_lists() {
 void Document::update_scene() {
   if (drawn_ == view.scene) return;
   if (view.scene.peel > 0 && layers_.empty()) layers_ = boundary_layers(mesh_);
-  SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, ball_};
+  SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, {}, ball_};
+  if (view.scene.isolate) input.only = near_;
   if (view.scene.colour != "region") {
     input.colour_values = values_of(view.scene.colour);
     input.colour_range = display_range(find_quality_measure(view.scene.colour));

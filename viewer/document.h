@@ -6,12 +6,14 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/statistics.h"
 #include "kernel/tet_mesh.h"
+#include "viewer/debugger.h"
 #include "viewer/live_run.h"
 #include "viewer/measured_mesh.h"
 #include "viewer/scene.h"
@@ -51,9 +53,9 @@ class Document {
     return {x - canvas_corner.x, y - canvas_corner.y};
   }
 
-  /// Reads a mesh, and ends a run of the old one. The view stays if the new mesh is about as large
-  /// and in the same place as the old one; otherwise the camera goes home. @throws Error, and
-  /// nothing changes.
+  /// Reads a mesh, or opens a trace and shows the mesh at its beginning; ends a live run. The view
+  /// stays if the new mesh is about as large and in the same place as the old one; otherwise the
+  /// camera goes home. @throws Error, and nothing changes.
   void open(const std::filesystem::path& file);
   /// Takes over a mesh that is called `name`.
   void set_mesh(TetMesh mesh, const std::string& name);
@@ -61,6 +63,13 @@ class Document {
   /// Writes what is shown. The file appears only when it is complete. @throws Error as
   /// write_mesh().
   void save(const std::filesystem::path& file);
+  /// The trace that is open, or null. After a move in it call show_trace().
+  Debugger* debugger() { return debugger_.get(); }
+  const Debugger* debugger() const { return debugger_.get(); }
+  /// Makes the document show the place at which the debugger is.
+  void show_trace();
+  bool follow_trace = true;  ///< the camera goes to each outermost call
+
   /// Reads a mesh for its statistics only: the state before. @throws Error, and nothing changes.
   void compare_with(const std::filesystem::path& file);
 
@@ -89,7 +98,9 @@ class Document {
   void pick(double x, double y);
   /// The whole mesh from the home direction.
   void go_home();
-  /// The selection fills the picture, or the whole mesh without one.
+  /// What is to be seen first: the call at hand, or the whole mesh.
+  void fit_first();
+  /// The selection or the call at hand fills the picture, or the whole mesh without either.
   void fit();
 
   /// Of the measure of the view, by slot.
@@ -110,6 +121,11 @@ class Document {
 
  private:
   std::span<const float> values_of(const std::string& measure);
+  void open_trace(const std::filesystem::path& file);
+  void take_mesh(MeasuredMesh mesh, const std::string& name);
+  void end_live();
+  void refresh();
+  std::optional<Ball> call_in_view();
   void update_lists();
   void update_scene();
 
@@ -122,6 +138,12 @@ class Document {
   std::vector<Label> regions_;
   Selection selection_;
   LiveState followed_ = LiveState::idle;  // what the user was told
+
+  std::unique_ptr<Debugger> debugger_;
+  std::size_t shown_mesh_ = 0;          // see Debugger::mesh_number()
+  std::uint32_t shown_root_ = kNoCall;  // outermost call that the camera went to
+  Highlight marks_;                     // of the call at hand
+  std::vector<std::uint8_t> near_;      // tets of that call, by slot; empty: no call
 
   std::map<std::string, std::vector<float>> values_;
   std::vector<std::uint32_t> layers_;  // empty until something is peeled

@@ -38,6 +38,7 @@ class Builder {
 
   Scene build() {
     shown_ = chosen_tets(mesh_, settings_, in_.figures);
+    for (std::size_t i = 0; i < in_.only.size(); ++i) shown_[i] &= in_.only[i];
     if (settings_.bad) list_bad();
     hide_cut_and_peeled(mesh_, settings_, in_.figures, in_.ball, shown_);
     for (const std::uint8_t s : shown_) scene_.tets_shown += s;

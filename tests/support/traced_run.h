@@ -101,7 +101,8 @@ inline TetMesh asset_mesh(const std::string& name) {
 inline std::map<std::uint64_t, std::uint64_t> record(
     TetMesh& mesh, const std::filesystem::path& file, const TraceFilter& filter = {},
     const std::set<std::uint64_t>& wanted = {},
-    const Schedule& schedule = Schedule::builtin("shell"), bool finish = true) {
+    const Schedule& schedule = Schedule::builtin("shell"), bool finish = true,
+    TraceClock clock = TraceClock::real) {
   Registry registry;
   register_builtin_operators(registry);
   TraceRecorder recorder(file, mesh,
@@ -111,7 +112,7 @@ inline std::map<std::uint64_t, std::uint64_t> record(
                           .schedule_text = schedule.text(),
                           .settings = {},
                           .filter = {}},
-                         filter);
+                         filter, clock);
   Witness witness(recorder, mesh, wanted);
   Run run(mesh, registry);
   run.set_trace(&witness);

@@ -60,6 +60,20 @@ TEST_CASE("a trace does not depend on the number of threads, but for its times")
   CHECK(events(1) == events(3));
 }
 
+TEST_CASE("equal runs give equal files when steps are the clock") {
+  const TempFolder folder;
+  const auto bytes = [&](TraceClock clock) {
+    TetMesh mesh = asset_mesh("sheet.mesh");
+    record(mesh, folder / "trace", {}, {}, Schedule("brief", "local_reconnection{}"), true, clock);
+    return read_text(folder / "trace");
+  };
+  CHECK(bytes(TraceClock::steps) == bytes(TraceClock::steps));
+  CHECK(bytes(TraceClock::real) != bytes(TraceClock::real));
+  bytes(TraceClock::steps);
+  const TraceFile file(folder / "trace");
+  CHECK(file.calls()[1].events.begin_seconds > file.calls()[0].events.begin_seconds);
+}
+
 TEST_CASE("a filter by operator keeps its calls with all in them, and the way of the mesh") {
   const TempFolder folder;
   TetMesh mesh = asset_mesh("sheet.mesh");

@@ -2,6 +2,7 @@
 #include "trace/trace_file.h"
 
 #include <algorithm>
+#include <map>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -167,4 +168,31 @@ TEST_CASE("the tree of a call shows its calls, indented, and why they were refus
   const std::string dot = call_tree_dot(file, root);
   CHECK(dot.starts_with("digraph calls {\n"));
   CHECK(dot.find(fmt::format("c{} -> c{};", root, root + 1)) != std::string::npos);
+}
+
+TEST_CASE("the reason of a refusal tells a search without result from one whose result is no use") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("folded_sheet.mesh");
+  record(mesh, folder / "trace");
+  const TraceFile file(folder / "trace");
+  std::map<std::string_view, std::size_t> reasons;
+  std::size_t wrong = 0;
+  for (std::uint32_t c = 0; c < file.calls().size(); ++c) {
+    const Call& call = file.calls()[c];
+    const std::string_view reason = file.reason(call);
+    ++reasons[reason];
+    if (reason == file.name(call.verdict)) ++wrong;  // nothing is known of this verdict
+    const bool calls_others = call.subtree_end > c + 1;
+    if (calls_others && reason.find("candidate") != std::string_view::npos) ++wrong;
+  }
+  CHECK(wrong == 0);
+  for (const std::string_view reason :
+       {"the quality vector of all that changed is better", "what the call was for is done",
+        "no candidate is better than what is there",
+        "the quality vector with the candidate is not better",
+        "what the calls in it reached is not enough",
+        "the target lies on the boundary or on a constraint",
+        "nothing helped up to the deepest level allowed"}) {
+    CHECK_MESSAGE(reasons[reason] > 0, reason);
+  }
 }

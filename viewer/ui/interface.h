@@ -27,6 +27,8 @@ class Interface {
 
  private:
   void menu(Session& session) const;
+  void lessons_menu(Session& session) const;
+  void strip(Session& session) const;
   void sides(Session& session) const;
   void status_line(Session& session) const;
   void keys_page(Session& session) const;

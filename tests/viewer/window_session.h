@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The window of the viewer under a display in memory, with real keys and mouse events.
+// The window under a display in memory: keys, mouse, and what it looks like.
 #pragma once
 
-#include <chrono>
 #include <cstdlib>
-#include <optional>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -33,7 +32,7 @@ class Display {
       const auto out = fmt::format("{}", ends[1]);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDERR_FILENO);
-      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1000x700x24",
+      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24",
                static_cast<char*>(nullptr));
       ::_exit(127);
     }
@@ -78,37 +77,34 @@ inline viewer::Image take_picture(const std::filesystem::path& folder) {
   return read_png(folder / "tetmend-view.png");
 }
 
-/// False, and a message that CTest understands, when a program of the test is not installed.
-inline bool can_test_window() {
+/// True, and says so, when a program that the tests of the window need is missing.
+inline bool must_skip() {
   for (const char* name : {"Xvfb", "xdotool"}) {
     if (has_program(name)) continue;
     MESSAGE("tetmend: skipped, because " << name << " is not installed (see script/bootstrap)");
-    return false;
+    return true;
   }
-  return true;
+  return false;
 }
 
-/// The viewer with a mesh of assets/, in an empty current folder. One at a time.
-class Viewer {
+/// The program in a window, in a folder of its own; quit() gives the state that it leaves.
+class WindowSession {
  public:
-  explicit Viewer(const std::string& mesh) {
+  explicit WindowSession(std::vector<std::string> arguments) {
     std::filesystem::current_path(folder_ / ".");
-    err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
-    program_.emplace(
-        std::vector<std::string>{"--size", "1000x700", "--scale", "1", "--report", "report.json",
-                                 TETMEND_SOURCE_DIR "/assets/meshes/" + mesh},
-        "out", err_);
+    arguments.insert(arguments.begin(), {"--scale", "1", "--report", "report.json"});
+    error_ = ::open((folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0666);
+    program_ = std::make_unique<Program>(arguments, folder_ / "out", error_);
     type("search --sync --onlyvisible --name tetmend-view >/dev/null");
-    type("mousemove 500 350");
   }
-  ~Viewer() {
-    ::close(err_);
+  ~WindowSession() {
     std::filesystem::current_path(before_);
+    ::close(error_);
   }
-  Viewer(const Viewer&) = delete;
-  Viewer& operator=(const Viewer&) = delete;
+  WindowSession(const WindowSession&) = delete;
+  WindowSession& operator=(const WindowSession&) = delete;
 
-  /// Ends the program by its key; its last state.
+  viewer::Image picture() const { return take_picture("."); }
   nlohmann::json quit() {
     type("key ctrl+q");
     CHECK(program_->wait() == 0);
@@ -116,11 +112,11 @@ class Viewer {
   }
 
  private:
+  std::filesystem::path before_ = std::filesystem::current_path();
   Display display_;
   TempFolder folder_;
-  std::filesystem::path before_ = std::filesystem::current_path();
-  int err_ = -1;
-  std::optional<Program> program_;
+  int error_ = -1;
+  std::unique_ptr<Program> program_;
 };
 
 }  // namespace tetmend::test

@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: MIT
+// Makes the lessons of assets/lessons: small meshes, runs on them that are recorded, and texts that
+// lead through the traces. All numbers in the texts are read from the traces.
+//
+//   make_lessons OUTDIR
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/output_file.h"
+#include "ops/registry.h"
+#include "schedule/run.h"
+#include "schedule/schedule.h"
+#include "trace/lesson.h"
+#include "trace/recorder.h"
+#include "trace/replay.h"
+#include "trace/trace_file.h"
+
+namespace tetmend {
+namespace {
+
+using Tets = std::vector<std::array<std::uint32_t, 4>>;
+
+// --- meshes --------------------------------------------------------------------------------------
+
+/// Adds points, moved by (x, 0, 0), and tets that name them from 0.
+void add_piece(MeshData& mesh, double x, const std::vector<Point>& points, const Tets& tets) {
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  for (const Point& p : points) mesh.points.emplace_back(p.x() + x, p.y(), p.z());
+  for (auto tet : tets) {
+    for (std::uint32_t& v : tet) v += first;
+    mesh.tets.push_back({tet, 0});
+  }
+}
+
+//          a = 0, b = 1: six tets around the edge a b, the skirt polygon is 2 3 4 5 6 7. No
+//          covering without a b is better than the worst of the six; one that leaves four of the
+//          vertices without triangles is.
+MeshData shell_with_core() {
+  MeshData mesh;
+  add_piece(mesh, 0,
+            {{0.1, 0.2, -1.15},
+             {0.25, 0.3, 1.15},
+             {0.85, -0.25, 0.1},
+             {0.95, 1.25, 0.1},
+             {-0.4, 0.45, 0.05},
+             {-1.35, 0.1, -0.05},
+             {-0.35, -1.45, 0.05},
+             {0.35, -0.4, -0.05}},
+            {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 5, 6}, {0, 1, 6, 7}, {0, 1, 7, 2}});
+  return mesh;
+}
+
+/// [chen, Fig. 5]: a b with five tets around it, and the edge 1 5 with a tet of its own.
+MeshData two_shells() {
+  MeshData mesh;
+  add_piece(mesh, 0,
+            {{-0.05, 0.05, -0.9},
+             {-0.15, 0.1, 0.9},
+             {1.45, 0.05, 0.75},
+             {0.2, 0.45, 0.15},
+             {-0.6, 0.15, 0.55},
+             {-0.75, -0.6, -0.35},
+             {0.25, -0.55, 0.7}},
+            {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 5, 6}, {0, 1, 6, 2}, {1, 4, 5, 6}});
+  return mesh;
+}
+
+/// Side by side: a good shell of five (0 to 6); three tets whose edge passes beside the triangle of
+/// their ring (7 to 11); two shells that only the recursion can improve (12 to 18).
+MeshData pieces() {
+  MeshData mesh;
+  add_piece(mesh, 0,
+            {{0, 0, -1},
+             {0, 0, 1},
+             {1, 0, 0},
+             {0.31, 0.95, 0},
+             {-0.81, 0.59, 0},
+             {-0.81, -0.59, 0},
+             {0.31, -0.95, 0}},
+            {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 5, 6}, {0, 1, 6, 2}});
+  add_piece(mesh, 3, {{0, 0, -1}, {0, 0, 1}, {0.8, 0, 1.4}, {-0.4, 0.8, 1.4}, {-0.4, -0.8, 1.4}},
+            {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 2}});
+  add_piece(mesh, 6,
+            {{-0.52, -0.44, 0.73},
+             {0.52, 0.44, -0.73},
+             {-0.41, 1.14, 1.12},
+             {0.95, 0.51, 0.87},
+             {0.08, 1.55, -0.12},
+             {-1.02, -0.02, -0.21},
+             {-0.15, -0.65, -0.19}},
+            {{0, 2, 3, 1}, {0, 4, 2, 1}, {5, 4, 0, 1}, {5, 0, 4, 2}, {5, 0, 6, 1}, {0, 3, 6, 1}});
+  return mesh;
+}
+
+// --- telling -------------------------------------------------------------------------------------
+
+/// Collects the steps of a lesson while the trace is played.
+class Teller {
+ public:
+  explicit Teller(const TraceFile& file) : file_(file), replay_(file) {}
+
+  const std::vector<LessonStep>& steps() const { return steps_; }
+  const Call& call(std::uint32_t number) const { return file_.calls()[number]; }
+
+  void say(std::uint64_t at, std::string text) { steps_.push_back({at, std::move(text)}); }
+
+  std::string name(const Call& c) const { return std::string(file_.name(c.operator_name)); }
+  std::string verdict(const Call& c) const { return std::string(file_.name(c.verdict)); }
+  std::string reason(const Call& c) const { return std::string(file_.reason(c)); }
+
+  /// The first call from `from` on for which the condition holds.
+  /// @throws Error when there is none: the lesson does not fit to what tetmend does.
+  template <class Condition>
+  std::uint32_t find(std::uint32_t from, const Condition& holds) const {
+    for (std::uint32_t c = from; c < file_.calls().size(); ++c) {
+      if (holds(call(c))) return c;
+    }
+    throw Error("a call that a lesson tells of is not in its trace");
+  }
+  /// Just after the first event of a kind in a call.
+  std::uint64_t after(const Call& c, EventKind kind) const {
+    EventCursor cursor(file_);
+    cursor.move_to(c.events.begin);
+    while (cursor.position() < c.events.end) {
+      if (cursor.next().kind == kind) return cursor.position();
+    }
+    throw Error("an event that a lesson tells of is not in its trace");
+  }
+  /// Vertices across the supporting edge ab after so many events, in the order of their numbers:
+  /// those of the skirt polygon, or of its core. Empty when the edge is gone.
+  std::vector<std::uint32_t> around(std::uint64_t at, std::uint32_t a, std::uint32_t b) {
+    replay_.seek(at);
+    const SlotMesh& mesh = replay_.mesh();
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      if (mesh.is_deleted(TetHandle(i))) continue;
+      const TetVertices& tet = mesh.vertices(TetHandle(i));
+      if (std::ranges::count(tet, VertexHandle(a)) + std::ranges::count(tet, VertexHandle(b)) != 2)
+        continue;
+      for (const VertexHandle v : tet) {
+        if (v.index() != a && v.index() != b) vertices.push_back(v.index());
+      }
+    }
+    std::ranges::sort(vertices);
+    const auto [first, last] = std::ranges::unique(vertices);
+    vertices.erase(first, last);
+    return vertices;
+  }
+  Cavity cavity(std::uint64_t at) {
+    replay_.seek(at);
+    return replay_.cavity();
+  }
+  Quality worst(std::uint64_t at) {
+    replay_.seek(at);
+    Quality worst = 1;
+    for (std::uint32_t i = 0; i < replay_.mesh().tet_slots(); ++i) {
+      if (replay_.mesh().is_deleted(TetHandle(i))) continue;
+      worst = std::min(worst, replay_.mesh().quality(TetHandle(i)));
+    }
+    return worst;
+  }
+
+ private:
+  const TraceFile& file_;
+  Replay replay_;
+  std::vector<LessonStep> steps_;
+};
+
+std::string join(const std::vector<std::uint32_t>& numbers) {
+  return fmt::format("{}", fmt::join(numbers, " "));
+}
+
+/// What is in one list and not in the other; both ascending.
+std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all,
+                                   const std::vector<std::uint32_t>& some) {
+  std::vector<std::uint32_t> rest;
+  std::ranges::set_difference(all, some, std::back_inserter(rest));
+  return rest;
+}
+
+std::string qualities(const Call& c) {
+  return fmt::format("the worst quality among the tets that changed was {:.4f} and is {:.4f}",
+                     c.worst_before, c.worst_after);
+}
+
+void tell_core(Teller& teller) {
+  const Call& removal = teller.call(0);
+  const Call& transformation = teller.call(1);
+  const auto ring = teller.around(0, 0, 1);
+  const std::uint64_t found = teller.after(transformation, EventKind::candidate_found);
+  const std::uint64_t replaced = teller.after(transformation, EventKind::replace_cavity);
+  const auto core = teller.around(replaced, 0, 1);
+  const Cavity cavity = teller.cavity(replaced);
+  teller.say(0, fmt::format("{} tets share the edge 0 1: they are its shell, and it is their "
+                            "supporting edge. The vertices around it, {}, are the skirt polygon. "
+                            "Each of them makes a supporting face with the edge. The worst tet has "
+                            "quality {:.4f}.",
+                            ring.size(), join(ring), teller.worst(0)));
+  teller.say(removal.events.begin + 1,
+             "Edge removal is tried first. It fills the shell with tets that do not have the edge: "
+             "the whole skirt polygon is triangulated, and each triangle makes one tet with vertex "
+             "0 and one with vertex 1.");
+  teller.say(removal.events.end,
+             fmt::format("The answer is \"{}\": {}. Every triangulation of the whole skirt polygon "
+                         "has a tet that is no better than the worst of the shell.",
+                         teller.verdict(removal), teller.reason(removal)));
+  teller.say(transformation.events.begin + 1,
+             "Shell transformation has more to choose from: a part of the skirt polygon, the core, "
+             "may stay without triangles, and there the supporting edge stays.");
+  teller.say(found, fmt::format("The best covering is found. Triangles cut off the skirt vertices "
+                                "{}; the core polygon is {}.",
+                                join(without(ring, core)), join(core)));
+  teller.say(replaced, fmt::format("{} tets give way to {}. The supporting faces at {} are gone. "
+                                   "The edge is still there, with {} supporting faces instead of "
+                                   "{}: the shell is partially reduced.",
+                                   cavity.removed.size(), cavity.created.size(),
+                                   join(without(ring, core)), core.size(), ring.size()));
+  teller.say(transformation.events.end,
+             fmt::format("The quality vector is better, so the change is kept: {}. The recursion "
+                         "goes on from here: see the next lesson.",
+                         qualities(transformation)));
+}
+
+void tell_two_shells(Teller& teller) {
+  const auto is = [&](std::string_view name, unsigned level) {
+    return [&teller, name, level](const Call& c) {
+      return teller.name(c) == name && c.level == level && teller.verdict(c) == "accepted";
+    };
+  };
+  constexpr std::string_view kRecursive = "recursive_shell_transformation";
+  constexpr std::string_view kPlain = "shell_transformation";
+  const Call& root = teller.call(0);
+  const Call& first = teller.call(1);
+  const std::uint32_t inner_number = teller.find(2, is(kRecursive, 1));
+  const Call& inner = teller.call(inner_number);
+  const Call& second = teller.call(teller.find(inner_number, is(kPlain, 1)));
+  const Call& third = teller.call(teller.find(inner.subtree_end, is(kPlain, 0)));
+  const std::uint32_t a = inner.target()[0].index();
+  const std::uint32_t b = inner.target()[1].index();
+  const auto ring = teller.around(0, 0, 1);
+  const auto reduced = teller.around(first.events.end, 0, 1);
+  const auto last = teller.around(inner.events.end, 0, 1);
+
+  teller.say(0, fmt::format("Two shells that overlap, as in Figure 5 of the paper: that of the "
+                            "edge 0 1 with {} tets, and that of the edge {} {}. The edge 0 1 is to "
+                            "be removed: the worst tet has quality {:.4f}.",
+                            ring.size(), a, b, teller.worst(0)));
+  teller.say(root.events.begin + 1,
+             "The recursive shell transformation of the edge 0 1 begins, on level 0.");
+  teller.say(first.events.begin + 1, "First it transforms the shell of 0 1 by itself.");
+  teller.say(first.events.end,
+             fmt::format("That reduces the shell from {} tets to {}: the supporting face at {} is "
+                         "gone, the core {} stays, and so does the edge.",
+                         ring.size(), reduced.size(), join(without(ring, reduced)), join(reduced)));
+  teller.say(inner.events.begin + 1,
+             fmt::format("A supporting face goes when one of its link edges does. The face of 0 1 "
+                         "and {0} has the link edge {1} {0}, at which the shell is not convex. The "
+                         "procedure calls itself for that edge, on level 1.",
+                         b, a));
+  teller.say(second.events.begin + 1,
+             fmt::format("The shell of {} {} has {} tets. It is transformed in the same way.", a, b,
+                         teller.around(second.events.begin, a, b).size()));
+  teller.say(inner.events.end,
+             fmt::format("It is fully reduced: {0} {1} is gone, and with it the supporting face at "
+                         "{1}. The shell of 0 1 has {2} tets now: {3}.",
+                         a, b, last.size(), qualities(second)));
+  teller.say(third.events.begin + 1,
+             "Back on level 0, the shell of 0 1 is smaller than before and transformed again.");
+  teller.say(
+      third.events.end,
+      fmt::format("With {} tets around it the edge 0 1 gives way to {}: a 3-2 flip.", last.size(),
+                  teller.cavity(teller.after(third, EventKind::replace_cavity)).created.size()));
+  teller.say(root.events.end,
+             fmt::format("The quality vector of all that changed is compared once more for the "
+                         "whole recursion, and it is better: {}.",
+                         qualities(root)));
+}
+
+/// What there is to say about each reason to refuse.
+struct Refusal {
+  std::string_view verdict;
+  std::string_view before;  ///< at the target
+  std::string_view after;   ///< once it was refused
+};
+
+constexpr std::array<Refusal, 7> kRefusals = {{
+    {"not applicable", "Five tets share the edge.", "A 3-2 flip is for edges of three tets only."},
+    {"constrained", "The edge lies on the boundary.",
+     "The surface must stay as it is. Constrained faces and edges inside the mesh are kept in the "
+     "same way."},
+    {"no improvement", "The shell of the edge is good already.",
+     "All coverings of the shell were searched."},
+    {"inverted", "Three tets share the edge, but it passes beside the triangle of its ring.",
+     "One of the two new tets would be turned inside out."},
+    {"depth spent", "The operator may not call itself here: its parameter max_level is 0.",
+     "Its own shell alone cannot be improved, and the shells beside it are not tried."},
+    {"budget spent",
+     "The same edge. The operator may call itself, but has one shell transformation to spend: its "
+     "parameter budget is 1.",
+     "It was spent on its own shell, without result. For the link edges nothing was left."},
+    {"deferred",
+     "Threads share a mesh by its vertices, and here one vertex of the shell belongs to another.",
+     "This is no answer yet: the attempt is made again when the mesh is divided in another way."},
+}};
+
+void tell_refusals(Teller& teller) {
+  teller.say(0,
+             "Three small pieces, and one attempt for each reason to refuse. A refusal leaves no "
+             "trace in the mesh.");
+  for (const Refusal& refusal : kRefusals) {
+    const Call& call = teller.call(teller.find(
+        0, [&](const Call& c) { return c.depth == 0 && teller.verdict(c) == refusal.verdict; }));
+    teller.say(call.events.begin + 1,
+               fmt::format("{} at the edge {} {}. {}", teller.name(call), call.target()[0].index(),
+                           call.target()[1].index(), refusal.before));
+    teller.say(call.events.end, fmt::format("The answer is \"{}\": {}. {}", refusal.verdict,
+                                            teller.reason(call), refusal.after));
+  }
+}
+
+// --- runs ----------------------------------------------------------------------------------------
+
+struct Recipe {
+  std::string_view name;
+  std::string_view title;
+  MeshData mesh;
+  std::string_view schedule;
+  std::function<void(Run&)> after_schedule;
+  void (*tell)(Teller&);
+};
+
+/// An attempt by a worker that does not have the vertex `foreign`.
+void attempt_without(Run& run, std::uint32_t foreign) {
+  PassScope scope(run, "divided mesh");
+  std::vector<BlockId> blocks(run.mesh().vertex_slots(), 0);
+  blocks[foreign] = 1;
+  const auto flip = run.registry().make("flip_3_2", {});
+  Worker& worker = run.worker();
+  const auto edge = find_edge(run.mesh(), VertexHandle(7), VertexHandle(8), worker.workspace());
+  Workspace::FreeSlots slots;
+  worker.workspace().enter(Territory(blocks, 0), slots);
+  scope.expect(1);
+  worker.attempt(*flip, Target::of(*edge));
+  worker.workspace().leave(slots);
+  worker.workspace().settle(run.mesh());
+  scope.take_verdicts(worker);
+}
+
+std::vector<Recipe> recipes() {
+  return {
+      {"1-core",
+       "A shell transformation with a core",
+       shell_with_core(),
+       "attempt('edge_removal', {0, 1})\n"
+       "attempt('shell_transformation', {0, 1})\n",
+       {},
+       tell_core},
+      {"2-two-shells",
+       "The recursion over two shells",
+       two_shells(),
+       "attempt({'recursive_shell_transformation', max_level = 1}, {0, 1})\n",
+       {},
+       tell_two_shells},
+      {"3-refusals", "Refusals, one for each reason", pieces(),
+       "attempt('flip_3_2', {0, 1})\n"
+       "attempt('shell_transformation', {2, 3})\n"
+       "attempt('shell_transformation', {0, 1})\n"
+       "attempt('flip_3_2', {7, 8})\n"
+       "attempt({'recursive_shell_transformation', max_level = 0}, {12, 13})\n"
+       "attempt({'recursive_shell_transformation', budget = 1}, {12, 13})\n",
+       [](Run& run) { attempt_without(run, 9); }, tell_refusals},
+  };
+}
+
+void write_text(const std::filesystem::path& file, std::string_view text) {
+  OutputFile out(file);
+  out.put(text);
+  out.commit();
+}
+
+void record(const Recipe& recipe, const std::filesystem::path& mesh_file,
+            const std::filesystem::path& trace_file) {
+  Registry registry;
+  register_builtin_operators(registry);
+  TetMesh mesh(recipe.mesh);
+  const Schedule schedule(fmt::format("{}.lua", recipe.name), std::string(recipe.schedule));
+  TraceRecorder recorder(trace_file, mesh,
+                         {.program = "make_lessons",
+                          .input = mesh_file.filename().string(),
+                          .schedule = schedule.name(),
+                          .schedule_text = schedule.text(),
+                          .settings = {},
+                          .filter = {}},
+                         {}, TraceClock::steps);
+  Run run(mesh, registry);
+  run.set_trace(&recorder);
+  improve(run, schedule);
+  if (recipe.after_schedule) recipe.after_schedule(run);
+  recorder.finish();
+}
+
+void make_lesson(const Recipe& recipe, const std::filesystem::path& folder) {
+  const auto file = [&](std::string_view extension) {
+    return folder / fmt::format("{}.{}", recipe.name, extension);
+  };
+  write_mesh(file("mesh"), recipe.mesh);
+  record(recipe, file("mesh"), file("trace"));
+  const TraceFile trace(file("trace"));
+  Teller teller(trace);
+  recipe.tell(teller);
+  nlohmann::ordered_json json = {{"title", recipe.title},
+                                 {"mesh", file("mesh").filename().string()},
+                                 {"trace", file("trace").filename().string()},
+                                 {"steps", nlohmann::ordered_json::array()}};
+  for (const LessonStep& step : teller.steps()) {
+    json["steps"].push_back({{"at", step.at}, {"text", step.text}});
+  }
+  write_text(file("json"), json.dump(2) + "\n");
+}
+
+}  // namespace
+}  // namespace tetmend
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: make_lessons OUTDIR\n");
+    return 2;
+  }
+  try {
+    for (const tetmend::Recipe& recipe : tetmend::recipes()) tetmend::make_lesson(recipe, argv[1]);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "make_lessons: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "trace/lesson.h"
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+std::string with_steps(const std::string& steps) {
+  return R"({"title": "a", "mesh": "m.mesh", "trace": "t.trace", "steps": )" + steps + "}";
+}
+
+}  // namespace
+
+TEST_CASE("a lesson names its files from its own folder, and has its steps in order") {
+  const TempFolder folder;
+  write_text(folder / "a.json",
+             with_steps(R"([{"at": 0, "text": "one"}, {"at": 7, "text": "two"}])"));
+  const Lesson lesson = read_lesson(folder / "a.json");
+  CHECK(lesson.title == "a");
+  CHECK(lesson.mesh == folder / "m.mesh");
+  CHECK(lesson.trace == folder / "t.trace");
+  REQUIRE(lesson.steps.size() == 2);
+  CHECK(lesson.steps[1].at == 7);
+  CHECK(lesson.steps[1].text == "two");
+}
+
+TEST_CASE("what is no lesson is refused with the name of the file and the reason") {
+  const TempFolder folder;
+  const auto complaint = [&](const std::string& text) -> std::string {
+    write_text(folder / "a.json", text);
+    try {
+      read_lesson(folder / "a.json");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(complaint("no JSON").find("a.json: is no lesson: ") != std::string::npos);
+  CHECK(complaint("{}").find("'title'") != std::string::npos);
+  CHECK(complaint(with_steps("[]")).find("has no steps") != std::string::npos);
+  CHECK(complaint(with_steps(R"([{"at": 2, "text": ""}, {"at": 1, "text": ""}])"))
+            .find("a step goes back") != std::string::npos);
+  CHECK(complaint(with_steps(R"([{"at": -1, "text": ""}])")).find("no number of events") !=
+        std::string::npos);
+  CHECK_THROWS_WITH_AS(read_lesson(folder / "none.json"), doctest::Contains("No such file"), Error);
+}
+
+TEST_CASE("the lessons of a folder are its JSON files, by name") {
+  const TempFolder folder;
+  for (const char* name : {"b.json", "a.json", "a.trace"}) write_text(folder / name, "");
+  const auto lessons = list_lessons(folder / "");
+  REQUIRE(lessons.size() == 2);
+  CHECK(lessons[0].filename() == "a.json");
+  CHECK(lessons[1].filename() == "b.json");
+  CHECK(list_lessons(folder / "none").empty());
+}

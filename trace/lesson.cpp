@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "trace/lesson.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "kernel/error.h"
+#include "kernel/formats/input_file.h"
+
+namespace tetmend {
+
+namespace {
+
+Lesson from_json(const nlohmann::json& json, const std::filesystem::path& folder) {
+  Lesson lesson;
+  lesson.title = json.at("title").get<std::string>();
+  lesson.mesh = folder / json.at("mesh").get<std::string>();
+  lesson.trace = folder / json.at("trace").get<std::string>();
+  for (const nlohmann::json& step : json.at("steps")) {
+    const nlohmann::json& at = step.at("at");
+    if (!at.is_number_unsigned()) throw Error("'at' is no number of events");
+    lesson.steps.push_back({at.get<std::uint64_t>(), step.at("text").get<std::string>()});
+  }
+  if (lesson.steps.empty()) throw Error("has no steps");
+  if (!std::ranges::is_sorted(lesson.steps, {}, &LessonStep::at)) throw Error("a step goes back");
+  return lesson;
+}
+
+}  // namespace
+
+Lesson read_lesson(const std::filesystem::path& file) {
+  const formats::InputFile text(file);
+  try {
+    return from_json(nlohmann::json::parse(text.begin(), text.end()), file.parent_path());
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("{}: is no lesson: {}", file.string(), error.what()));
+  }
+}
+
+std::vector<std::filesystem::path> list_lessons(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace tetmend
