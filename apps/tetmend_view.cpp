@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -32,6 +33,7 @@ struct Options {
   float scale = 0;
   bool panels = false;
   bool keys = false;
+  std::optional<std::uint64_t> at;
 };
 
 Canvas read_size(const std::string& text) {
@@ -45,10 +47,21 @@ Canvas read_size(const std::string& text) {
   return size;
 }
 
+void go_to(Document& document, std::uint64_t event) {
+  Debugger* debugger = document.debugger();
+  if (debugger == nullptr) throw Error("--at is for traces: there is none");
+  if (event > debugger->end()) {
+    throw Error(fmt::format("--at {}: the trace has {} events", event, debugger->end()));
+  }
+  debugger->seek(event);
+  document.show_trace();
+}
+
 void prepare(const Options& options, Document& document) {
   if (!options.size.empty()) document.resize(read_size(options.size));
   if (!options.before.empty()) document.compare_with(options.before);
   if (!options.file.empty()) document.open(options.file);
+  if (options.at) go_to(document, *options.at);
   if (!options.view.empty()) apply_json_text(document.view, options.view);
 }
 
@@ -78,7 +91,7 @@ int run(const Options& options) {
     const auto host = make_headless_host(options.scale > 0 ? options.scale : 1);
     Session session{document, *host};
     host->arrange(document);
-    if (document.has_mesh() && !has_camera(options)) document.go_home();
+    if (document.has_mesh() && !has_camera(options)) document.fit_first();
     if (!options.script.empty()) run_script_file(session, options.script);
     if (!options.picture.empty()) write_png(options.picture, host->render(document));
   }
@@ -97,14 +110,17 @@ int complain(Status status, const std::string& message) {
 int main(int argc, char** argv) {
   using namespace tetmend::apps;
   Options options;
-  CLI::App app("tetmend-view shows a tetrahedral mesh and where it is bad.", "tetmend-view");
+  CLI::App app(
+      "tetmend-view shows a tetrahedral mesh and where it is bad, or a recorded run step by step.",
+      "tetmend-view");
   app.set_version_flag("--version", "tetmend " TETMEND_VERSION);
-  app.add_option("FILE", options.file, "Mesh to open");
+  app.add_option("FILE", options.file, "Mesh or trace to open");
   app.add_option("--before", options.before, "Mesh whose statistics are shown beside");
   app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display");
   app.add_option("--script", options.script, "Run a Lua script and exit; needs no display");
   app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT");
   app.add_option("--view", options.view, "Settings of the view as JSON: what Ctrl+C copies");
+  app.add_option("--at", options.at, "Of a trace: show the mesh after so many events");
   app.add_option("--scale", options.scale, "Size of text and panels; 1 is usual, 2 for 4K")
       ->check(CLI::Range(0.5, 4.0));
   app.add_option("--report", options.report, "Write the last state as JSON on leaving");

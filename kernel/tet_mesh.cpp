@@ -3,6 +3,7 @@
 #include "kernel/tet_mesh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <numeric>
 
@@ -60,6 +61,9 @@ void TetMesh::collect_garbage() {
     if (!is_deleted(TetHandle(t))) kept_tets.push_back(t);
   }
   reorder(kept_vertices, kept_tets);
+  // A copy made while workers were in territories has not got their counts.
+  vertex_count_ = kept_vertices.size();
+  tet_count_ = kept_tets.size();
 }
 
 void TetMesh::sort_spatially() {
@@ -120,6 +124,7 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
   vertex_properties_.gather(vertex_order);
 
   for (Cell& cell : cells_) {
+    if (!cell.vertices[0].is_valid()) continue;
     for (VertexHandle& v : cell.vertices) v = new_vertex[v.index()];
     for (HalfFace& f : cell.neighbours) {
       if (!f.is_outside()) f = HalfFace(new_tet[f.tet().index()], f.face());
@@ -164,6 +169,29 @@ void TetMesh::grow_vertices(std::size_t count) {
   grow(vertex_moved_, count, Date{0});
   grow(vertex_origin_, count, kNotFromFile);
   vertex_properties_.resize(points_.size());
+}
+
+namespace {
+
+/// Element i at slots[i], the elements from slots.size() on between them.
+std::vector<std::uint32_t> spread(std::span<const std::uint32_t> slots, std::size_t count) {
+  std::vector<std::uint32_t> order(count);
+  auto filler = static_cast<std::uint32_t>(slots.size());
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    order[i] = next < slots.size() && slots[next] == i ? next++ : filler++;
+  }
+  return order;
+}
+
+}  // namespace
+
+void TetMesh::scatter(std::span<const std::uint32_t> vertex_slots,
+                      std::span<const std::uint32_t> tet_slots) {
+  assert(vertex_slots.size() == points_.size() && tet_slots.size() == cells_.size());
+  if (!vertex_slots.empty()) grow_vertices(vertex_slots.back() + 1 - vertex_slots.size());
+  if (!tet_slots.empty()) grow_tets(tet_slots.back() + 1 - tet_slots.size());
+  reorder(spread(vertex_slots, points_.size()), spread(tet_slots, cells_.size()));
 }
 
 bool operator==(const TetMesh& a, const TetMesh& b) {

@@ -202,6 +202,11 @@ class TetMesh {
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
   /// before become invalid.
   void collect_garbage();
+  /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each
+  /// slot that there is); slots between them are deleted ones. So a rebuilt mesh gets the handle
+  /// numbers of the one it shows. Handles made before become invalid.
+  void scatter(std::span<const std::uint32_t> vertex_slots,
+               std::span<const std::uint32_t> tet_slots);
   /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are
   /// neighbours in memory. to_data() still lists the vertices of the file in their order. Handles
   /// made before become invalid. Removes deleted slots.

@@ -57,10 +57,18 @@ inline void need_mesh(const Document& document) {
   if (!document.has_mesh()) throw Error("there is no mesh yet: open one first");
 }
 
+/// @throws Error when no trace is open.
+inline Debugger& need_trace(Document& document) {
+  if (document.debugger() == nullptr) throw Error("there is no trace: open one first");
+  return *document.debugger();
+}
+
 std::span<const Command> file_commands();
 std::span<const Command> view_commands();
 std::span<const Command> show_commands();
 std::span<const Command> select_commands();
+std::span<const Command> trace_commands();
+std::span<const Command> live_commands();
 std::span<const Command> script_commands();
 
 }  // namespace tetmend::viewer

@@ -31,7 +31,7 @@ std::span<const Command> commands() {
   static const std::vector<Command> kAll = [] {
     std::vector<Command> list;
     for (const auto group : {file_commands(), view_commands(), show_commands(), select_commands(),
-                             script_commands()}) {
+                             trace_commands(), live_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;
@@ -51,9 +51,9 @@ const Command* command_for_keys(std::string_view keys) {
   return nullptr;
 }
 
-void run_from_window(const Command& command, Session& session) {
+void run_from_window(const Command& command, Session& session, const json& arguments) {
   try {
-    command.run(session, json::array());
+    command.run(session, arguments);
   } catch (const Error& error) {
     session.document.message = {error.what(), true};
   }

@@ -49,13 +49,18 @@ const Command& find_command(std::string_view name);
 const Command* command_for_keys(std::string_view keys);
 
 /// Runs it as a menu or key does: an error becomes the message of the document.
-void run_from_window(const Command& command, Session& session);
+void run_from_window(const Command& command, Session& session,
+                     const nlohmann::json& arguments = nlohmann::json::array());
 
 /// Two Markdown tables: keys and mouse; words of scripts. For the manual.
 std::string command_reference();
 
 /// What the mouse does: gesture and effect.
 std::span<const std::pair<std::string_view, std::string_view>> mouse_gestures();
+
+/// The place in a trace for scripts and tests: position, call, verdict, shell, code line.
+/// Precondition: a trace is open.
+nlohmann::json trace_state_of(Document& document);
 
 /// The state of the document for scripts and tests: counts, selection, view.
 nlohmann::json state_of(Document& document);

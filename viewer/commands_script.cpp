@@ -79,6 +79,8 @@ json state_of(Document& document) {
     selection = {{"kind", "vertex"}, {"vertex", v->index()}};
   }
   const Scene& scene = document.scene();
+  json trace;
+  if (document.debugger() != nullptr) trace = trace_state_of(document);
   return {{"file", document.file()},
           {"tets", mesh.tet_count()},
           {"vertices", mesh.vertex_count()},
@@ -89,8 +91,10 @@ json state_of(Document& document) {
           {"bad_shown", scene.bad_shown},
           {"triangles", scene.surface.size() / 3},
           {"note", scene.note},
+          {"run", to_string(document.live.state())},
           {"message", document.message.text},
           {"selection", selection},
+          {"trace", trace},
           {"view", to_json(document.view)}};
 }
 

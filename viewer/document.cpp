@@ -2,12 +2,12 @@
 #include "viewer/document.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
+#include "viewer/call_highlight.h"
 #include "viewer/tet_values.h"
 
 namespace tetmend::viewer {
@@ -25,40 +25,21 @@ TetMesh read_tet_mesh(const std::filesystem::path& file) {
   }
 }
 
-template <class Visit>
-void for_each_used_point(const TetMesh& mesh, Visit visit) {
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    const VertexHandle v(i);
-    if (!mesh.is_deleted(v) && mesh.tet_of(v).is_valid()) visit(to_glm(mesh.point(v)));
-  }
-}
-
-std::array<glm::dvec3, 8> box_corners(const TetMesh& mesh) {
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high = -low;
-  for_each_used_point(mesh, [&](const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  });
-  std::array<glm::dvec3, 8> corners;
-  for (unsigned i = 0; i < corners.size(); ++i) {
-    corners[i] = {(i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
-                  (i & 4U) != 0 ? high.z : low.z};
-  }
-  return corners;
-}
-
-Ball enclosing_ball(const TetMesh& mesh, const glm::dvec3& centre) {
-  double radius = 1e-12;
-  for_each_used_point(
-      mesh, [&](const glm::dvec3& p) { radius = std::max(radius, glm::distance(p, centre)); });
-  return {centre, radius};
-}
-
 bool is_alike(const Ball& a, const Ball& b) {
   constexpr double kShare = 0.02;
   return glm::distance(a.centre, b.centre) <= kShare * a.radius &&
          std::abs(a.radius - b.radius) <= kShare * a.radius;
+}
+
+Message message_of(const LiveProgress& run, const std::string& schedule) {
+  switch (run.state) {
+    case LiveState::failed:
+      return {run.error, true};
+    case LiveState::paused:
+      return {fmt::format("paused in {} after {} attempts", run.phase, run.attempts), false};
+    default:
+      return {fmt::format("{}: {}, {:.1f} s", schedule, to_string(run.state), run.seconds), false};
+  }
 }
 
 }  // namespace
@@ -70,23 +51,60 @@ void Document::resize(const Canvas& size) {
 }
 
 void Document::open(const std::filesystem::path& file) {
-  set_mesh(read_tet_mesh(file), file.string());
+  if (is_trace(file)) {
+    open_trace(file);
+  } else {
+    MeasuredMesh mesh(read_tet_mesh(file));
+    end_live();
+    set_mesh(std::move(mesh), file.string());
+  }
+}
+
+void Document::open_trace(const std::filesystem::path& file) {
+  auto debugger = std::make_unique<Debugger>(file);
+  end_live();
+  take_mesh(MeasuredMesh(debugger->mesh()), file.string());
+  debugger_ = std::move(debugger);
+  shown_mesh_ = debugger_->mesh_number();
+  shown_root_ = kNoCall;
+  show_trace();
+  const std::string& damage = debugger_->file().damage();
+  message = {damage.empty() ? fmt::format("{}: {} events, {} calls", file.filename().string(),
+                                          debugger_->end(), debugger_->file().calls().size())
+                            : damage,
+             !damage.empty()};
+}
+
+void Document::end_live() {
+  live.forget();
+  followed_ = LiveState::idle;
+}
+
+void Document::save(const std::filesystem::path& file) {
+  write_mesh(file, MeshView(mesh_));
+  message = {"wrote " + file.string(), false};
 }
 
 void Document::set_mesh(TetMesh mesh, const std::string& name) {
-  const bool is_first = !has_mesh();
-  mesh_ = std::move(mesh);
+  set_mesh(MeasuredMesh(std::move(mesh)), name);
+}
+
+void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
+  debugger_.reset();
+  marks_ = {};
+  near_.clear();
+  take_mesh(std::move(mesh), name);
+}
+
+void Document::take_mesh(MeasuredMesh mesh, const std::string& name) {
+  const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);
+  mesh_ = std::move(mesh.mesh);
   file_ = name;
-  box_ = box_corners(mesh_);
-  const Ball ball = enclosing_ball(mesh_, box_.front() / 2.0 + box_.back() / 2.0);
-  const bool keep_view = !is_first && is_alike(ball_, ball);
-  ball_ = ball;
-  statistics_ = compute_statistics(mesh_);
-  regions_ = region_labels(mesh_);
-  values_.clear();
-  layers_.clear();
-  listed_measure_.clear();
-  drawn_.reset();
+  box_ = mesh.box;
+  ball_ = mesh.ball;
+  statistics_ = mesh.statistics;
+  regions_ = std::move(mesh.regions);
+  refresh();
   select({});
   if (!keep_view) go_home();
   message = {
@@ -95,8 +113,53 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
       false};
 }
 
+/// After a change of the mesh.
+void Document::refresh() {
+  values_.clear();
+  layers_.clear();
+  listed_measure_.clear();
+  drawn_.reset();
+}
+
+void Document::show_trace() {
+  const std::uint32_t call = debugger_->call();
+  if (debugger_->mesh_number() != shown_mesh_) {
+    mesh_ = debugger_->mesh();
+    shown_mesh_ = debugger_->mesh_number();
+    statistics_ = compute_statistics(mesh_);
+    refresh();
+  }
+  const CallStudy* study = debugger_->study();
+  marks_ = study != nullptr ? highlight_covering(*study, ball_.centre) : Highlight();
+  near_ = study != nullptr ? tets_of(mesh_, *study) : std::vector<std::uint8_t>();
+  if (view.scene.isolate) drawn_.reset();
+  select(call == kNoCall ? Selection() : target_in(mesh_, debugger_->file().calls()[call]));
+  const std::uint32_t root = call == kNoCall ? kNoCall : debugger_->stack().front();
+  if (root != shown_root_ && root != kNoCall && follow_trace) fit();
+  shown_root_ = root;
+}
+
 void Document::compare_with(const std::filesystem::path& file) {
   before_ = compute_statistics(read_tet_mesh(file));
+}
+
+void Document::run_live(LiveRun::From from) {
+  live.start({mesh_, statistics_}, from, file_);
+  followed_ = LiveState::idle;
+  before_ = from == LiveRun::From::file ? live.input()->statistics : statistics_;
+}
+
+void Document::follow_live() {
+  const LiveState now = live.state();  // before the last snapshot is taken, lest it be missed
+  if (auto snapshot = live.take_snapshot()) set_mesh(std::move(*snapshot), file_);
+  if (now == followed_) return;
+  followed_ = now;
+  message = message_of(live.progress(), live.schedule_name());
+}
+
+bool Document::awaits_live() const {
+  const LiveState now = live.state();
+  return now == LiveState::running || now == LiveState::stopping || now != followed_;
 }
 
 void Document::select(const Selection& selection) {
@@ -116,8 +179,30 @@ void Document::go_home() {
   view.camera.fit(box_, canvas);
 }
 
+void Document::fit_first() {
+  if (call_in_view()) {
+    fit();
+  } else {
+    go_home();
+  }
+}
+
+/// Around the call at hand, unless something else is selected.
+std::optional<Ball> Document::call_in_view() {
+  const CallStudy* study = debugger_ ? debugger_->study() : nullptr;
+  if (study == nullptr) return std::nullopt;
+  const Selection target = target_in(mesh_, debugger_->file().calls()[study->call]);
+  if (selection_ != target && !std::holds_alternative<std::monostate>(selection_)) {
+    return std::nullopt;
+  }
+  return ball_around(*study);
+}
+
 void Document::fit() {
-  if (std::holds_alternative<std::monostate>(selection_)) {
+  constexpr double kSurroundings = 1.3;
+  if (const auto call = call_in_view()) {
+    view.camera.fit({call->centre, kSurroundings * call->radius}, canvas);
+  } else if (std::holds_alternative<std::monostate>(selection_)) {
     view.camera.fit(box_, canvas);
   } else {
     view.camera.fit(ball_around(mesh_, selection_), canvas);
@@ -164,7 +249,10 @@ unsigned Document::scene_revision() {
 }
 
 const Highlight& Document::highlighted() {
-  if (!highlight_) highlight_ = highlight(mesh_, selection_, ball_.centre);
+  if (!highlight_) {
+    highlight_ = highlight(mesh_, selection_, ball_.centre);
+    highlight_->lines.insert(highlight_->lines.end(), marks_.lines.begin(), marks_.lines.end());
+  }
   return *highlight_;
 }
 
@@ -191,7 +279,8 @@ void Document::update_lists() {
 void Document::update_scene() {
   if (drawn_ == view.scene) return;
   if (view.scene.peel > 0 && layers_.empty()) layers_ = boundary_layers(mesh_);
-  SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, ball_};
+  SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, {}, ball_};
+  if (view.scene.isolate) input.only = near_;
   if (view.scene.colour != "region") {
     input.colour_values = values_of(view.scene.colour);
     input.colour_range = display_range(find_quality_measure(view.scene.colour));

@@ -54,6 +54,7 @@ struct SceneInput {
   TetFigures figures;                    ///< of settings.measure
   std::span<const float> colour_values;  ///< of settings.colour; empty for "region"
   Range colour_range;                    ///< ends of the colour map
+  std::span<const std::uint8_t> only;    ///< by slot: the tets to show, if not empty
   Ball ball;                             ///< encloses the mesh
 };
 

@@ -177,8 +177,11 @@ void visit(Visitor& v, View& view) {
   v("shrink", s.shrink, {0, 0.9});
   v("ghosts", s.ghosts, {0, 1});
   v("constraints", s.constraints);
+  v("isolate", s.isolate);
   v("hidden_regions", s.hidden_regions);
   v("edges", view.edges);
+  v("blended", view.blended);
+  v("blend", view.blend, {0, 1});
   v("theme", view.theme);
 }
 

@@ -40,6 +40,7 @@ struct SceneSettings {
   double shrink = 0;  ///< of each tet towards its centre, 0 to 0.9
   double ghosts = 0;  ///< opacity of the boundary of hidden tets, 0 to 1
   bool constraints = false;
+  bool isolate = false;  ///< of a trace: only the tets of the call at hand
   std::vector<Label> hidden_regions;
   friend bool operator==(const SceneSettings&, const SceneSettings&) = default;
 };
@@ -48,6 +49,8 @@ struct ViewSettings {
   Camera camera;
   SceneSettings scene;
   bool edges = true;
+  bool blended = false;         ///< of a trace: the shell before and after in one picture
+  double blend = 0.5;           ///< share of the shell after the call in it
   std::string theme = "light";  ///< or "dark"
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };

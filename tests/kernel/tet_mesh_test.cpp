@@ -365,6 +365,27 @@ TEST_CASE("garbage collection and sorting keep content, soundness and properties
   }
 }
 
+TEST_CASE("scattering a compact mesh gives it the slots that it had, holes included") {
+  TetMesh mesh(rich_ball());
+  make_holes(mesh);
+  const TetMesh before = mesh;
+  std::vector<std::uint32_t> tets;
+  std::vector<std::uint32_t> vertices;
+  for (const TetHandle t : live_tets(mesh)) tets.push_back(t.index());
+  for (const VertexHandle v : live_vertices(mesh)) vertices.push_back(v.index());
+  REQUIRE(tets.size() < mesh.tet_slots());
+  REQUIRE(vertices.size() < mesh.vertex_slots());
+  mesh.collect_garbage();
+  mesh.scatter(vertices, tets);
+  CHECK(to_string(check_integrity(mesh)) == "");
+  CHECK(live_tets(mesh) == live_tets(before));
+  for (const TetHandle t : live_tets(before)) {
+    CHECK(mesh.vertices(t) == before.vertices(t));
+    CHECK(mesh.quality(t) == before.quality(t));
+  }
+  for (const VertexHandle v : live_vertices(before)) CHECK(mesh.point(v) == before.point(v));
+}
+
 namespace {
 
 /// Larger than some chunks, in no order, with all that a file can name.

@@ -7,10 +7,10 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
-#include "kernel/error.h"
+#include "viewer/lesson.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/timeline_strip.h"
 
 namespace tetmend::viewer::ui {
 
@@ -18,6 +18,7 @@ namespace {
 
 constexpr float kFontSize = 16;  // pixels at scale 1
 constexpr float kSideWidth = 290;
+constexpr float kTraceSideWidth = 400;
 constexpr float kMenuHeight = 24;
 constexpr float kStatusHeight = 26;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -37,6 +38,26 @@ void load_font(float scale) {
     config.SizePixels = size;
     fonts->AddFontDefault(&config);
   }
+}
+
+float side_width(const Document& document) {
+  return document.debugger() != nullptr ? kTraceSideWidth : kSideWidth;
+}
+
+float strip_height(const Document& document) {
+  return document.debugger() != nullptr ? kStripHeight : 0;
+}
+
+bool is_shown(const Panel& panel, const Document& document) {
+  switch (panel.subject) {
+    case Subject::mesh:
+      return document.has_mesh();
+    case Subject::trace:
+      return document.debugger() != nullptr;
+    case Subject::lesson:
+      return document.debugger() != nullptr && document.debugger()->lesson().has_value();
+  }
+  return false;
 }
 
 /// Text for the name of a key, as menus print it.
@@ -88,10 +109,11 @@ void Interface::arrange(Document& document) const {
   const Canvas window = document.window;
   document.resize(window);
   if (!document.show_panels) return;
-  const int side = static_cast<int>(kSideWidth * scale_);
+  const int side = static_cast<int>(side_width(document) * scale_);
   const int top = static_cast<int>(kMenuHeight * scale_);
-  const int bottom = static_cast<int>(kStatusHeight * scale_);
-  if (window.width < 3 * side || window.height < 6 * top) return;  // no room: panels cover the mesh
+  const int bottom = static_cast<int>((kStatusHeight + strip_height(document)) * scale_);
+  if (2 * window.width < 5 * side || window.height < 6 * top + bottom)
+    return;  // no room: panels cover the mesh
   document.canvas_corner = {side, top};
   document.canvas = {window.width - 2 * side, window.height - top - bottom};
 }
@@ -103,10 +125,11 @@ void Interface::build(Session& session) {
   if (session.document.show_panels) {
     menu(session);
     sides(session);
+    if (session.document.debugger() != nullptr) strip(session);
     status_line(session);
   }
   if (session.document.show_keys) keys_page(session);
-  file_dialog(session);
+  browser_.draw(session, scale_);
   ImGui::Render();
 }
 
@@ -116,7 +139,7 @@ void Interface::draw() const {
 
 void Interface::menu(Session& session) const {
   if (!ImGui::BeginMainMenuBar()) return;
-  for (const char* title : {"File", "View", "Show", "Select"}) {
+  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
     if (!ImGui::BeginMenu(title)) continue;
     for (const Command& command : commands()) {
       if (command.menu == title && ImGui::MenuItem(c_text(command.help), c_text(command.keys))) {
@@ -125,12 +148,38 @@ void Interface::menu(Session& session) const {
     }
     ImGui::EndMenu();
   }
+  lessons_menu(session);
   ImGui::EndMainMenuBar();
+}
+
+void Interface::lessons_menu(Session& session) const {
+  if (!ImGui::BeginMenu("Lessons")) return;
+  const auto lessons = list_lessons();
+  if (lessons.empty()) ImGui::TextDisabled("there are none here");
+  for (const auto& trace : lessons) {
+    if (ImGui::MenuItem(trace.stem().c_str())) {
+      run_from_window(find_command("open"), session, {trace.string()});
+    }
+  }
+  ImGui::EndMenu();
+}
+
+void Interface::strip(Session& session) const {
+  const Document& document = session.document;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float side = side_width(document) * scale_;
+  const float height = strip_height(document) * scale_;
+  ImGui::SetNextWindowPos({side, window.y - kStatusHeight * scale_ - height});
+  ImGui::SetNextWindowSize({window.x - 2 * side, height});
+  ImGui::Begin("##strip", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
+  draw_timeline_strip(session);
+  ImGui::End();
 }
 
 void Interface::sides(Session& session) const {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float width = kSideWidth * scale_;
+  const bool has_trace = session.document.debugger() != nullptr;
+  const float width = side_width(session.document) * scale_;
   const float top = kMenuHeight * scale_;
   const float height = window.y - top - kStatusHeight * scale_;
   for (const Side side : {Side::left, Side::right}) {
@@ -138,8 +187,17 @@ void Interface::sides(Session& session) const {
     ImGui::SetNextWindowSize({width, height});
     ImGui::Begin(side == Side::left ? "##left" : "##right", nullptr, kFixed);
     for (const Panel& panel : panels()) {
-      if (panel.side != side || !session.document.has_mesh()) continue;
-      if (!ImGui::CollapsingHeader(panel.title, ImGuiTreeNodeFlags_DefaultOpen)) continue;
+      if (panel.side != side || !is_shown(panel, session.document)) continue;
+      ImGui::PushID(has_trace ? "trace" : "mesh");
+      const bool is_main = !has_trace || panel.subject != Subject::mesh;
+      const bool opens = is_main && panel.is_needed == nullptr;
+      if (panel.is_needed != nullptr && panel.is_needed(session.document)) {
+        ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+      }
+      const bool is_open = ImGui::CollapsingHeader(
+          panel.title, opens ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+      ImGui::PopID();
+      if (!is_open) continue;
       ImGui::PushID(panel.title);
       panel.draw(session);
       ImGui::PopID();
@@ -192,34 +250,6 @@ void Interface::keys_page(Session& session) const {
     ImGui::EndTable();
   }
   ImGui::End();
-}
-
-void Interface::file_dialog(Session& session) {
-  constexpr const char* kTitle = "Open a mesh";
-  if (session.document.ask_for_file) {
-    session.document.ask_for_file = false;
-    ImGui::OpenPopup(kTitle);
-  }
-  ImGui::SetNextWindowSize({560 * scale_, 0});
-  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_NoResize)) return;
-  ImGui::TextUnformatted("File (or drop it on the window):");
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  const bool is_done =
-      ImGui::InputText("##file", &typed_file_, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (ImGui::Button("Open") || is_done) {
-    try {
-      session.document.open(typed_file_);
-    } catch (const Error& error) {
-      session.document.message = {error.what(), true};
-    }
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
 }
 
 }  // namespace tetmend::viewer::ui

@@ -6,15 +6,12 @@
 #include <imgui.h>
 
 #include "kernel/quality.h"
+#include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
 
 namespace {
-
-ImU32 to_imgui(const Colour& c) {
-  return IM_COL32(c.red, c.green, c.blue, c.alpha);
-}
 
 void choose_measure(SceneSettings& scene) {
   ImGui::SetNextItemWidth(-1);

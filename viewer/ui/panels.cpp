@@ -6,13 +6,23 @@
 namespace tetmend::viewer::ui {
 
 std::span<const Panel> panels() {
-  static constexpr std::array<Panel, 6> kPanels = {
-      {{"Histogram", Side::left, &draw_histogram_panel},
-       {"Display", Side::left, &draw_display_panel},
-       {"Cuts", Side::left, &draw_cuts_panel},
-       {"Statistics", Side::right, &draw_statistics_panel},
-       {"Selection", Side::right, &draw_selection_panel},
-       {"Worst tets", Side::right, &draw_worst_panel}}};
+  using enum Side;
+  using enum Subject;
+  static constexpr std::array<Panel, 13> kPanels = {
+      {{"Calls", left, trace, &draw_calls_panel},
+       {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
+       {"Histogram", left, mesh, &draw_histogram_panel},
+       {"Display", left, mesh, &draw_display_panel},
+       {"Cuts", left, mesh, &draw_cuts_panel},
+       {"Lesson", right, lesson, &draw_lesson_panel},
+       {"Step", right, trace, &draw_step_panel},
+       {"Shell", right, trace, &draw_shell_panel},
+       {"Algorithm", right, trace, &draw_algorithm_panel},
+       {"Statistics", right, mesh, &draw_statistics_panel},
+       {"Run", right, mesh, &draw_live_panel,
+        [](const Document& d) { return d.live.state() != LiveState::idle; }},
+       {"Selection", right, mesh, &draw_selection_panel},
+       {"Worst tets", right, mesh, &draw_worst_panel}}};
   return kPanels;
 }
 

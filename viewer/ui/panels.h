@@ -9,11 +9,16 @@
 namespace tetmend::viewer::ui {
 
 enum class Side { left, right };
+/// Which documents a panel is for. While a trace is open, those for meshes are folded at first.
+enum class Subject { mesh, trace, lesson };
 
 struct Panel {
   const char* title;
   Side side;
+  Subject subject;
   void (*draw)(Session& session);
+  /// Opens by itself once this is so; null: is open from the beginning.
+  bool (*is_needed)(const Document& document) = nullptr;
 };
 
 /// All panels, from top to bottom. Drawn only when there is a mesh.
@@ -25,5 +30,13 @@ void draw_cuts_panel(Session& session);
 void draw_worst_panel(Session& session);
 void draw_statistics_panel(Session& session);
 void draw_selection_panel(Session& session);
+void draw_live_panel(Session& session);
+// With a trace; the last one with a lesson.
+void draw_calls_panel(Session& session);
+void draw_breakpoints_panel(Session& session);
+void draw_step_panel(Session& session);
+void draw_algorithm_panel(Session& session);
+void draw_shell_panel(Session& session);
+void draw_lesson_panel(Session& session);
 
 }  // namespace tetmend::viewer::ui

@@ -2,6 +2,7 @@
 #include "viewer/ui/window.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <memory>
 #include <string>
@@ -77,16 +78,18 @@ class Window : public Host {
   Window& operator=(const Window&) = delete;
 
   /// Draws only after events: a few times, because panels take their sizes from the last frame.
+  /// While a run is at work it draws now and then.
   void run(bool fit) {
     constexpr int kFrames = 3;
     fit_first_ = fit && document_.has_mesh();
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !document_.quit) {
-      for (int i = 0; i < kFrames && !document_.quit; ++i) {
+      const int frames = document_.awaits_live() ? 1 : kFrames;
+      for (int i = 0; i < frames && !document_.quit; ++i) {
         frame();
         glfwSwapBuffers(window_);
         glfwPollEvents();
       }
-      if (!document_.quit) glfwWaitEvents();
+      if (!document_.quit) wait();
     }
   }
 
@@ -105,7 +108,22 @@ class Window : public Host {
   }
 
  private:
+  /// For events, or, while a trace plays, for its next step; not for long while a run is at work.
+  void wait() {
+    Debugger* debugger = document_.debugger();
+    constexpr double kLongest = 0.1;  // seconds
+    if (debugger == nullptr || !debugger->playing) {
+      played_ = glfwGetTime();
+      return document_.awaits_live() ? glfwWaitEventsTimeout(kLongest) : glfwWaitEvents();
+    }
+    glfwWaitEventsTimeout(std::min(1 / debugger->speed, kLongest));
+    const double now = glfwGetTime();
+    if (debugger->advance(now - played_)) document_.show_trace();
+    played_ = now;
+  }
+
   void frame() {
+    document_.follow_live();
     glfwGetFramebufferSize(window_, &document_.window.width, &document_.window.height);
     document_.window.width = std::max(document_.window.width, 1);
     document_.window.height = std::max(document_.window.height, 1);
@@ -128,7 +146,9 @@ class Window : public Host {
     return ImGui::GetIO().WantCaptureMouse || at.x < 0 || at.y < 0 ||
            at.x >= document_.canvas.width || at.y >= document_.canvas.height;
   }
-  static bool panels_take_keys() { return ImGui::GetIO().WantTextInput; }
+  static bool panels_take_keys() {
+    return ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  }
 
   /// Units of the window system to pixels.
   glm::dvec2 to_pixels(double x, double y) const {
@@ -155,7 +175,22 @@ class Window : public Host {
   void on_key(int key, int code, int action, int mods) {
     if (action == GLFW_RELEASE || panels_take_keys()) return;
     if (key == GLFW_KEY_ESCAPE) return controller_.key("Escape");
-    if (key == GLFW_KEY_TAB) return controller_.key("Tab");
+    constexpr std::array<std::pair<int, const char*>, 12> kNamed = {
+        {{GLFW_KEY_TAB, "Tab"},
+         {GLFW_KEY_RIGHT, "Right"},
+         {GLFW_KEY_LEFT, "Left"},
+         {GLFW_KEY_DOWN, "Down"},
+         {GLFW_KEY_UP, "Up"},
+         {GLFW_KEY_PAGE_DOWN, "PageDown"},
+         {GLFW_KEY_PAGE_UP, "PageUp"},
+         {GLFW_KEY_HOME, "Home"},
+         {GLFW_KEY_END, "End"},
+         {GLFW_KEY_ENTER, "Enter"},
+         {GLFW_KEY_KP_ENTER, "Enter"},
+         {GLFW_KEY_BACKSPACE, "Backspace"}}};
+    for (const auto& named : kNamed) {
+      if (key == named.first) return controller_.key(named.second);
+    }
     if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
       return controller_.key(fmt::format("F{}", key - GLFW_KEY_F1 + 1));
     }
@@ -168,6 +203,7 @@ class Window : public Host {
     constexpr unsigned kAscii = 127;
     if (code >= kAscii || panels_take_keys()) return;
     const auto c = static_cast<int>(code);
+    if (c == ' ') return controller_.key("Space");
     controller_.key(fmt::format("{}{:c}", std::isupper(c) != 0 ? "Shift+" : "", std::toupper(c)));
   }
 
@@ -197,6 +233,7 @@ class Window : public Host {
   Controller controller_;
   glm::dvec2 mouse_{0};  // where it was at the event at hand; GLFW tells only where it is now
   bool fit_first_ = false;
+  double played_ = 0;  // when a trace was played up to where it is
   GLFWwindow* window_ = nullptr;
   std::unique_ptr<gl::Renderer> renderer_;
   std::unique_ptr<ui::Interface> interface_;

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// The window under a display in memory: keys, mouse, and what it looks like.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+#include "tests/viewer/png.h"
+
+namespace tetmend::test {
+
+inline bool has_program(const std::string& name) {
+  return std::system(("command -v " + name + " >/dev/null").c_str()) == 0;
+}
+
+/// An X server without a screen, while it lives.
+class Display {
+ public:
+  Display() {
+    int ends[2];
+    if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      const auto out = fmt::format("{}", ends[1]);
+      const int nowhere = ::open("/dev/null", O_WRONLY);
+      ::dup2(nowhere, STDERR_FILENO);
+      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24",
+               static_cast<char*>(nullptr));
+      ::_exit(127);
+    }
+    ::close(ends[1]);
+    std::string number;
+    char c = 0;
+    while (::read(ends[0], &c, 1) == 1 && c != '\n') number += c;
+    ::close(ends[0]);
+    if (number.empty()) throw std::runtime_error("Xvfb does not start");
+    number.insert(0, 1, ':');
+    ::setenv("DISPLAY", number.c_str(), 1);
+  }
+  ~Display() {
+    ::kill(pid_, SIGTERM);
+    ::waitpid(pid_, nullptr, 0);
+    ::unsetenv("DISPLAY");
+  }
+  Display(const Display&) = delete;
+  Display& operator=(const Display&) = delete;
+
+ private:
+  pid_t pid_ = -1;
+};
+
+inline void type(const std::string& events) {
+  REQUIRE(std::system(("xdotool " + events).c_str()) == 0);
+}
+
+/// Waits until a file is complete.
+inline void wait_for(const std::filesystem::path& file) {
+  for (int i = 0; i < 600 && !std::filesystem::exists(file); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  REQUIRE(std::filesystem::exists(file));
+}
+
+/// The picture of the whole window: key P writes it into the current folder.
+inline viewer::Image take_picture(const std::filesystem::path& folder) {
+  std::filesystem::remove(folder / "tetmend-view.png");
+  type("key p");
+  wait_for(folder / "tetmend-view.png");
+  return read_png(folder / "tetmend-view.png");
+}
+
+/// True, and says so, when a program that the tests of the window need is missing.
+inline bool must_skip() {
+  for (const char* name : {"Xvfb", "xdotool"}) {
+    if (has_program(name)) continue;
+    MESSAGE("tetmend: skipped, because " << name << " is not installed (see script/bootstrap)");
+    return true;
+  }
+  return false;
+}
+
+/// The program in a window, in a folder of its own; quit() gives the state that it leaves.
+class WindowSession {
+ public:
+  explicit WindowSession(std::vector<std::string> arguments) {
+    std::filesystem::current_path(folder_ / ".");
+    arguments.insert(arguments.begin(), {"--scale", "1", "--report", "report.json"});
+    error_ = ::open((folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0666);
+    program_ = std::make_unique<Program>(arguments, folder_ / "out", error_);
+    type("search --sync --onlyvisible --name tetmend-view >/dev/null");
+  }
+  ~WindowSession() {
+    std::filesystem::current_path(before_);
+    ::close(error_);
+  }
+  WindowSession(const WindowSession&) = delete;
+  WindowSession& operator=(const WindowSession&) = delete;
+
+  viewer::Image picture() const { return take_picture("."); }
+  nlohmann::json quit() {
+    type("key ctrl+q");
+    CHECK(program_->wait() == 0);
+    return nlohmann::json::parse(read_text("report.json"));
+  }
+
+ private:
+  std::filesystem::path before_ = std::filesystem::current_path();
+  Display display_;
+  TempFolder folder_;
+  int error_ = -1;
+  std::unique_ptr<Program> program_;
+};
+
+}  // namespace tetmend::test

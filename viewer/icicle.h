@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Calls as bars under each other, as wide as the events in them: a flame graph upside down.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "trace/trace_file.h"
+
+namespace tetmend::viewer {
+
+struct IcicleBar {
+  double left = 0, right = 0;    ///< shares of the width
+  unsigned row = 0;              ///< calls around it, counted from the outermost in the window
+  std::uint32_t call = kNoCall;  ///< of a bar of many calls: the first of them
+  std::uint32_t count = 1;       ///< more than 1: neighbours that are too thin to be drawn alone
+};
+
+/// A part of a trace: the calls of an outermost call, of a pass, or all.
+struct CallWindow {
+  std::uint64_t begin = 0, end = 0;             ///< events
+  std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
+};
+CallWindow whole_trace(const TraceFile& file);
+/// The pass at that position, or all where none is.
+CallWindow pass_around(const TraceFile& file, std::uint64_t position);
+/// Precondition: there is such a call.
+CallWindow call_window(const TraceFile& file, std::uint32_t call);
+
+/// Bars of at least `thinnest` of the width; what is thinner is joined with its neighbours, and
+/// what is in it left out. In the order of calls. Cost: linear in the calls that are not left out.
+std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& window,
+                                      double thinnest);
+
+/// The bar at a place; null where there is none.
+const IcicleBar* bar_at(const std::vector<IcicleBar>& bars, double x, unsigned row);
+
+}  // namespace tetmend::viewer

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/ui/flat_canvas.h"
+
+#include <cmath>
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+class Pen {
+ public:
+  Pen(ImVec2 corner, float side)
+      : middle_(corner.x + side / 2, corner.y + side / 2), half_(side / 2) {}
+
+  void draw(const FlatDrawing& drawing) const {
+    for (const auto& area : drawing.areas) fill(area);
+    for (const auto& stroke : drawing.strokes) line(stroke);
+    for (const auto& label : drawing.labels) write(label);
+  }
+
+  /// The stroke that the mouse is on.
+  const FlatDrawing::Stroke* under_mouse(const FlatDrawing& drawing) const {
+    constexpr float kReach = 5;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    for (const auto& stroke : drawing.strokes) {
+      if (stroke.tip.empty()) continue;
+      const ImVec2 a = to_pixel(stroke.from);
+      const ImVec2 b = to_pixel(stroke.to);
+      const float dx = b.x - a.x;
+      const float dy = b.y - a.y;
+      const float length2 = std::max(dx * dx + dy * dy, 1.0F);
+      const float t = ((mouse.x - a.x) * dx + (mouse.y - a.y) * dy) / length2;
+      const float away = std::abs((mouse.x - a.x) * dy - (mouse.y - a.y) * dx) / std::sqrt(length2);
+      if (t > 0.05F && t < 0.95F && away < kReach) return &stroke;
+    }
+    return nullptr;
+  }
+
+ private:
+  ImVec2 to_pixel(const glm::dvec2& p) const {
+    return {middle_.x + half_ * static_cast<float>(p.x),
+            middle_.y - half_ * static_cast<float>(p.y)};
+  }
+
+  void fill(const FlatDrawing::Area& area) const {
+    std::vector<ImVec2> corners;
+    for (const glm::dvec2& p : area.corners) corners.push_back(to_pixel(p));
+    list_->AddConvexPolyFilled(corners.data(), static_cast<int>(corners.size()),
+                               to_imgui(area.colour));
+  }
+
+  void line(const FlatDrawing::Stroke& stroke) const {
+    const ImVec2 a = to_pixel(stroke.from);
+    const ImVec2 b = to_pixel(stroke.to);
+    const float width = static_cast<float>(stroke.width) * ImGui::GetFontSize() / 16;
+    if (!stroke.dashed) return list_->AddLine(a, b, to_imgui(stroke.colour), width);
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    const float dash = 0.4F * ImGui::GetFontSize();
+    for (float at = 0; at < length; at += 2 * dash) {
+      const float s = at / length;
+      const float t = std::min(at + dash, length) / length;
+      list_->AddLine({a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)},
+                     {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}, to_imgui(stroke.colour),
+                     width);
+    }
+  }
+
+  /// On a patch of the background, so that it can be read on any colour.
+  void write(const FlatDrawing::Label& label) const {
+    const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
+    const ImVec2 at = to_pixel(label.at);
+    const ImVec2 corner = {at.x - size.x / 2, at.y - size.y / 2};
+    ImVec4 patch = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+    patch.w = label.strong ? 0.0F : 0.75F;
+    list_->AddRectFilled({corner.x - 2, corner.y}, {corner.x + size.x + 2, corner.y + size.y},
+                         ImGui::GetColorU32(patch), 3);
+    list_->AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), label.text.c_str());
+  }
+
+  ImVec2 middle_;
+  float half_;
+  ImDrawList* list_ = ImGui::GetWindowDrawList();
+};
+
+}  // namespace
+
+void show_flat(const char* id, std::span<const FlatDrawing> drawings, float side) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton(id, {side, side});
+  const bool is_hovered = ImGui::IsItemHovered();
+  ImGui::GetWindowDrawList()->PushClipRect(corner, {corner.x + side, corner.y + side}, true);
+  const Pen pen(corner, side);
+  for (const FlatDrawing& drawing : drawings) {
+    pen.draw(drawing);
+    const auto* stroke = is_hovered ? pen.under_mouse(drawing) : nullptr;
+    if (stroke != nullptr) ImGui::SetTooltip("%s", stroke->tip.c_str());
+  }
+  ImGui::GetWindowDrawList()->PopClipRect();
+}
+
+void show_flat(const char* id, const FlatDrawing& drawing, float side) {
+  show_flat(id, {&drawing, 1}, side);
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The algorithm of the paper that the call at hand follows, with its line.
+#include <imgui.h>
+
+#include "viewer/paper_lines.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+void show_code(const Pseudocode& code, unsigned line) {
+  ImGui::TextWrapped("%s", code.title.data());
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  for (unsigned i = 1; i <= code.lines.size(); ++i) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (i == line) {
+      list->AddRectFilled(
+          {at.x - 2, at.y - 1},
+          {at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetTextLineHeight() + 1},
+          ImGui::GetColorU32(ImGuiCol_Header), 3);
+    }
+    ImGui::TextDisabled("%2u", i);
+    ImGui::SameLine(2.2F * ImGui::GetFontSize());
+    ImGui::TextUnformatted(code.lines[i - 1].data());  // literals
+  }
+}
+
+}  // namespace
+
+void draw_algorithm_panel(Session& session) {
+  const Debugger& debugger = *session.document.debugger();
+  const auto& stack = debugger.stack();
+  const auto place_of = [&](std::size_t i) {
+    return code_place(debugger.file(), stack, i, debugger.position());
+  };
+  const CodePlace here = stack.empty() ? CodePlace() : place_of(stack.size() - 1);
+  if (here.code == nullptr) {
+    ImGui::TextDisabled(stack.empty() ? "no call here"
+                                      : "not an operator of the paper's algorithms");
+    return;
+  }
+  show_code(*here.code, here.line);
+  if (stack.size() < 2) return;
+  const CodePlace caller = place_of(stack.size() - 2);
+  if (caller.code == nullptr) return;
+  ImGui::TextDisabled("called from line %u of Algorithm 4:", caller.line);
+  ImGui::TextWrapped("%s", caller.code->lines[caller.line - 1].data());
+}
+
+}  // namespace tetmend::viewer::ui

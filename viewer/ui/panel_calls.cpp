@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// The tree of calls: level, target, degree, quality, and how each ended, as a colour.
+#include <fmt/format.h>
+
+#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+std::string quality_text(const Call& call, const CallFacts& facts) {
+  if (call.worst_before != 0) {
+    return fmt::format("{:.3f} -> {:.3f}", call.worst_before, call.worst_after);
+  }
+  if (facts.degree_after == 0) return fmt::format("{:.3f} -> gone", facts.quality_before);
+  if (facts.quality_before == facts.quality_after) {
+    return fmt::format("{:.3f}", facts.quality_before);
+  }
+  return fmt::format("{:.3f} -> {:.3f}", facts.quality_before, facts.quality_after);
+}
+
+std::string degree_text(const CallFacts& facts) {
+  if (facts.degree_before == facts.degree_after) return fmt::format("{}", facts.degree_before);
+  return fmt::format("{} -> {}", facts.degree_before, facts.degree_after);
+}
+
+/// A dot in the colour of the outcome; hollow while the call is under way.
+void outcome_dot(const Debugger& debugger, const Call& call) {
+  const bool is_done = debugger.position() >= call.events.end;
+  const ImU32 colour = to_imgui(outcome_colour(outcome_of(debugger.file(), call)));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float size = ImGui::GetFontSize();
+  const ImVec2 middle = {at.x + size / 2, at.y + size / 2};
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  if (is_done) {
+    list->AddCircleFilled(middle, 0.32F * size, colour);
+  } else {
+    list->AddCircle(middle, 0.32F * size, colour, 0, 0.12F * size);
+  }
+  ImGui::Dummy({size, size});
+}
+
+void draw_row(Session& session, const CallRow& row) {
+  Debugger& debugger = *session.document.debugger();
+  const Call& call = debugger.file().calls()[row.call];
+  ImGui::PushID(static_cast<int>(row.call));
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const float step = 0.7F * ImGui::GetFontSize();
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + step * static_cast<float>(row.indent));
+  if (row.has_children) {
+    if (ImGui::SmallButton(row.is_open ? "-" : "+")) debugger.fold(row.call);
+    ImGui::SameLine(0, 0.3F * ImGui::GetFontSize());
+  }
+  outcome_dot(debugger, call);
+  ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
+  const std::string name =
+      fmt::format("{} {} {}", call.level, short_name(debugger.file().name(call.operator_name)),
+                  format_target(call));
+  if (ImGui::Selectable(
+          name.c_str(), debugger.call() == row.call,
+          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
+    run_from_window(find_command("enter"), session, {row.call});
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("call %u, %s", row.call,
+                      outcome_text(debugger.file(), call, debugger.end()).c_str());
+  }
+  const CallFacts& facts = debugger.facts(row.call);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(degree_text(facts).c_str());
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(quality_text(call, facts).c_str());
+  ImGui::PopID();
+}
+
+/// Keeps the row of the call at hand in view after a step.
+void scroll_to(const std::vector<CallRow>& rows, const Debugger& debugger) {
+  const auto here = static_cast<int>(debugger.position());
+  int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("##shown"), -1);
+  if (*shown == here) return;
+  *shown = here;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].call != debugger.call()) continue;
+    const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float top = height * static_cast<float>(i);
+    if (top < ImGui::GetScrollY() ||
+        top > ImGui::GetScrollY() + ImGui::GetWindowHeight() - 3 * height) {
+      ImGui::SetScrollY(top - ImGui::GetWindowHeight() / 3);
+    }
+  }
+}
+
+}  // namespace
+
+void draw_calls_panel(Session& session) {
+  Debugger& debugger = *session.document.debugger();
+  const std::vector<CallRow>& rows = debugger.rows();
+  constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+  const float height = 26 * ImGui::GetTextLineHeightWithSpacing();
+  if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
+  const float font = ImGui::GetFontSize();
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("level, operator, target", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("degree", ImGuiTableColumnFlags_WidthFixed, 3.6F * font);
+  ImGui::TableSetupColumn("worst q", ImGuiTableColumnFlags_WidthFixed, 7.2F * font);
+  ImGui::TableHeadersRow();
+  scroll_to(rows, debugger);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(rows.size()));
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      draw_row(session, rows[static_cast<std::size_t>(i)]);
+    }
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace tetmend::viewer::ui

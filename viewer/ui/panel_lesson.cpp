@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The text of a lesson beside its trace.
+#include <imgui.h>
+
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+void draw_lesson_panel(Session& session) {
+  const Debugger& debugger = *session.document.debugger();
+  const Lesson& lesson = *debugger.lesson();
+  const auto step = lesson.step_at(debugger.position());
+  ImGui::TextWrapped("%s", lesson.title.c_str());
+  if (ImGui::Button("back")) run_from_window(find_command("last_lesson_step"), session);
+  ImGui::SameLine();
+  if (ImGui::Button("next")) run_from_window(find_command("next_lesson_step"), session);
+  ImGui::SameLine();
+  ImGui::TextDisabled("step %zu of %zu", step ? *step + 1 : 0, lesson.steps.size());
+  if (step) ImGui::TextWrapped("%s", lesson.steps[*step].text.c_str());
+}
+
+}  // namespace tetmend::viewer::ui

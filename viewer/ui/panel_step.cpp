@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Where the trace is: the stack as a breadcrumb, what happened last, why, and the way on.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+void command_button(Session& session, const char* label, const char* command, bool same_line) {
+  if (same_line) ImGui::SameLine();
+  const Command& c = find_command(command);
+  if (ImGui::Button(label)) run_from_window(c, session);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s (%s)", c.help.data(), c.keys.data());  // both are literals
+  }
+}
+
+void show_buttons(Session& session) {
+  const Debugger& debugger = *session.document.debugger();
+  constexpr const char* kBack[] = {"back_into", "back_over", "back_out", "run_back"};
+  constexpr const char* kOn[] = {"step_into", "step_over", "step_out", "run"};
+  constexpr const char* kNames[] = {"into", "over", "out", "run"};
+  const float column = 3.2F * ImGui::GetFontSize();
+  const auto row = [&](const char* title, const char* const* commands) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", title);
+    ImGui::PushID(title);
+    for (int i = 0; i < 4; ++i) {
+      ImGui::SameLine(column + static_cast<float>(i) * column);
+      command_button(session, kNames[i], commands[i], false);
+    }
+    ImGui::PopID();
+  };
+  row("on", kOn);
+  row("back", kBack);
+  command_button(session, debugger.playing ? "stop" : "play", "play", false);
+  command_button(session, "slower", "slower", true);
+  command_button(session, "faster", "faster", true);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%g events a second", debugger.speed);
+}
+
+/// Wraps like text; a click goes to the beginning of the call.
+void show_breadcrumb(Session& session) {
+  const Debugger& debugger = *session.document.debugger();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x;
+  const std::vector<std::uint32_t> stack = debugger.stack();  // a click changes it
+  if (stack.empty()) ImGui::TextDisabled("outside of all calls");
+  for (std::size_t i = 0; i < stack.size(); ++i) {
+    const Call& call = debugger.file().calls()[stack[i]];
+    const std::string name =
+        fmt::format("{}{} {}", i == 0 ? "" : "> ",
+                    short_name(debugger.file().name(call.operator_name)), format_target(call));
+    const float width = ImGui::CalcTextSize(name.c_str()).x;
+    if (i > 0 && ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width < right) {
+      ImGui::SameLine();
+    }
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable(name.c_str(), i + 1 == stack.size(), 0, {width, 0})) {
+      run_from_window(find_command("enter"), session, {stack[i]});
+    }
+    ImGui::PopID();
+  }
+}
+
+void show_end(Debugger& debugger) {
+  const CallStudy* study = debugger.study();
+  if (study == nullptr) return;
+  const Call& call = debugger.file().calls()[study->call];
+  const std::string verdict = outcome_text(debugger.file(), call, debugger.position());
+  const Colour colour =
+      outcome_colour(debugger.position() < call.events.end ? Outcome::unfinished
+                                                           : outcome_of(debugger.file(), call));
+  ImGui::ColorButton("##verdict", ImGui::ColorConvertU32ToFloat4(to_imgui(colour)),
+                     ImGuiColorEditFlags_NoTooltip,
+                     {ImGui::GetFontSize(), 0.8F * ImGui::GetFontSize()});
+  ImGui::SameLine();
+  ImGui::TextUnformatted(verdict.c_str());
+  if (debugger.position() < call.events.end) return;
+  ImGui::TextWrapped("%s", explain_end(debugger.file(), *study).c_str());
+}
+
+}  // namespace
+
+void draw_step_panel(Session& session) {
+  show_buttons(session);
+  ImGui::Separator();
+  show_breadcrumb(session);
+  Debugger& debugger = *session.document.debugger();
+  ImGui::Text("%s", debugger.last_event().c_str());
+  show_end(debugger);
+}
+
+}  // namespace tetmend::viewer::ui

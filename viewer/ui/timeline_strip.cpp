@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/ui/timeline_strip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "viewer/icicle.h"
+#include "viewer/ui/flat_canvas.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+constexpr Colour kWorstColour{20, 120, 220, 255};
+
+/// A rectangle of the strip, with events from left to right.
+struct Band {
+  ImVec2 corner;
+  ImVec2 size;
+  double begin = 0, end = 1;
+
+  float x(std::uint64_t position) const {
+    const double share = (static_cast<double>(position) - begin) / std::max(end - begin, 1.0);
+    return corner.x + size.x * static_cast<float>(std::clamp(share, 0.0, 1.0));
+  }
+  float y(double share) const {
+    return corner.y + size.y * static_cast<float>(1 - std::clamp(share, 0.0, 1.0));
+  }
+  std::uint64_t position(float at) const {
+    const double share = std::clamp((at - corner.x) / std::max(size.x, 1.0F), 0.0F, 1.0F);
+    return static_cast<std::uint64_t>(std::llround(begin + share * (end - begin)));
+  }
+};
+
+void frame(const Band& band) {
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      band.corner, {band.corner.x + band.size.x, band.corner.y + band.size.y},
+      ImGui::GetColorU32(ImGuiCol_FrameBg));
+}
+
+void cursor_line(const Band& band, std::uint64_t position) {
+  const float x = band.x(position);
+  ImGui::GetWindowDrawList()->AddLine({x, band.corner.y}, {x, band.corner.y + band.size.y},
+                                      ImGui::GetColorU32(ImGuiCol_Text), 2);
+}
+
+/// Text only where there is room for it.
+void write_inside(float left, float right, float y, const std::string& text, ImU32 colour) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  if (size.x + 6 < right - left) {
+    ImGui::GetWindowDrawList()->AddText({left + 3, y}, colour, text.c_str());
+  }
+}
+
+void draw_passes(const Band& band, const TraceFile& file) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  bool is_odd = false;
+  for (const TracedPass& pass : file.passes()) {
+    const float left = band.x(pass.events.begin);
+    const float right = band.x(pass.events.end);
+    if (is_odd) {
+      list->AddRectFilled({left, band.corner.y}, {right, band.corner.y + band.size.y},
+                          ImGui::GetColorU32(ImGuiCol_Text, 0.06F));
+    }
+    is_odd = !is_odd;
+    list->AddLine({left, band.corner.y}, {left, band.corner.y + band.size.y},
+                  ImGui::GetColorU32(ImGuiCol_Text, 0.25F));
+    write_inside(left, right, band.corner.y + 1,
+                 fmt::format("{} {}", file.name(pass.name), pass.round),
+                 ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  }
+}
+
+void draw_curves(const Band& band, const Timeline& timeline) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  std::size_t most = 1;
+  double best = 1e-9;
+  for (const auto& s : timeline.samples) {
+    most = std::max(most, s.n_bad);
+    best = std::max(best, s.q_worst);
+  }
+  // Room above for the names of the passes.
+  constexpr double kUsed = 0.8;
+  std::vector<ImVec2> bad;
+  std::vector<ImVec2> worst;
+  for (const auto& s : timeline.samples) {
+    const float x = band.x(s.position);
+    bad.emplace_back(x, band.y(kUsed * static_cast<double>(s.n_bad) / static_cast<double>(most)));
+    worst.emplace_back(x, band.y(kUsed * std::max(s.q_worst, 0.0) / best));
+  }
+  const float width = ImGui::GetFontSize() / 9;
+  list->AddPolyline(bad.data(), static_cast<int>(bad.size()), to_imgui(kBadColour), 0, width);
+  list->AddPolyline(worst.data(), static_cast<int>(worst.size()), to_imgui(kWorstColour), 0, width);
+}
+
+void draw_marks(const Band& band, const Debugger& debugger) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const float size = 0.35F * ImGui::GetFontSize();
+  for (const auto& mark : debugger.bookmarks) {
+    const float x = band.x(mark.first);
+    const float y = band.corner.y + band.size.y;
+    list->AddTriangleFilled({x, y - 1.6F * size}, {x - size, y}, {x + size, y},
+                            to_imgui(kConstraintColour));
+  }
+}
+
+/// Dragging goes there.
+void seek_by_mouse(Session& session, const char* id, const Band& band) {
+  ImGui::SetCursorScreenPos(band.corner);
+  ImGui::InvisibleButton(id, band.size);
+  if (!ImGui::IsItemActive()) return;
+  const std::uint64_t to = band.position(ImGui::GetIO().MousePos.x);
+  if (to != session.document.debugger()->position()) {
+    run_from_window(find_command("seek"), session, {to});
+  }
+}
+
+void draw_timeline(Session& session, const Band& band) {
+  const Debugger& debugger = *session.document.debugger();
+  frame(band);
+  draw_passes(band, debugger.file());
+  draw_curves(band, debugger.timeline());
+  draw_marks(band, debugger);
+  cursor_line(band, debugger.position());
+  seek_by_mouse(session, "##timeline", band);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+    const auto& s = debugger.timeline().at(band.position(ImGui::GetIO().MousePos.x));
+    ImGui::SetTooltip("event %llu: %zu bad tets, q_worst %.4f",
+                      static_cast<unsigned long long>(s.position), s.n_bad, s.q_worst);
+  }
+}
+
+/// The window of the icicles: the outermost call at hand, or the pass.
+CallWindow window_of(const Debugger& debugger) {
+  if (debugger.stack().empty()) return pass_around(debugger.file(), debugger.position());
+  return call_window(debugger.file(), debugger.stack().front());
+}
+
+void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, float height) {
+  const Call& call = debugger.file().calls()[bar.call];
+  const float left = band.corner.x + band.size.x * static_cast<float>(bar.left);
+  const float right = band.corner.x + band.size.x * static_cast<float>(bar.right);
+  const float top = band.corner.y + height * static_cast<float>(bar.row);
+  Colour colour = outcome_colour(outcome_of(debugger.file(), call));
+  if (bar.count > 1) colour.alpha = 120;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddRectFilled({left, top}, {std::max(right - 1, left + 1), top + height - 1},
+                      to_imgui(colour), 2);
+  if (debugger.call() == bar.call && bar.count == 1) {
+    list->AddRect({left, top}, {right - 1, top + height - 1}, ImGui::GetColorU32(ImGuiCol_Text), 2,
+                  0, 2);
+  }
+  if (bar.count > 1) return;
+  write_inside(left, right, top,
+               fmt::format("{} {}", short_name(debugger.file().name(call.operator_name)),
+                           format_target(call)),
+               IM_COL32_WHITE);
+}
+
+void draw_icicles(Session& session, const Band& band, const CallWindow& window) {
+  const Debugger& debugger = *session.document.debugger();
+  frame(band);
+  const float height = 1.15F * ImGui::GetFontSize();
+  const auto bars = lay_out_icicle(debugger.file(), window,
+                                   2.0 / static_cast<double>(std::max(band.size.x, 1.0F)));
+  ImGui::GetWindowDrawList()->PushClipRect(
+      band.corner, {band.corner.x + band.size.x, band.corner.y + band.size.y}, true);
+  for (const IcicleBar& bar : bars) draw_bar(debugger, band, bar, height);
+  cursor_line(band, debugger.position());
+  ImGui::GetWindowDrawList()->PopClipRect();
+  ImGui::SetCursorScreenPos(band.corner);
+  ImGui::InvisibleButton("##icicles", band.size);
+  if (!ImGui::IsItemHovered()) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const IcicleBar* bar =
+      bar_at(bars, (mouse.x - band.corner.x) / band.size.x,
+             static_cast<unsigned>(std::max(0.0F, (mouse.y - band.corner.y) / height)));
+  if (bar == nullptr) return;
+  const Call& call = debugger.file().calls()[bar->call];
+  ImGui::SetTooltip("call %u: %s %s, level %u, %s%s", bar->call,
+                    short_name(debugger.file().name(call.operator_name)).c_str(),
+                    format_target(call).c_str(), call.level,
+                    outcome_text(debugger.file(), call, debugger.end()).c_str(),
+                    bar->count > 1 ? fmt::format(", and {} more", bar->count - 1).c_str() : "");
+  if (ImGui::IsItemClicked()) run_from_window(find_command("enter"), session, {bar->call});
+}
+
+void draw_legend(const Debugger& debugger) {
+  const auto& s = debugger.timeline().at(debugger.position());
+  ImGui::Text("event %llu of %llu", static_cast<unsigned long long>(debugger.position()),
+              static_cast<unsigned long long>(debugger.end()));
+  ImGui::SameLine();
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kBadColour)), "  n_bad %zu", s.n_bad);
+  ImGui::SameLine();
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kWorstColour)), "  q_worst %.4f",
+                     s.q_worst);
+}
+
+}  // namespace
+
+void draw_timeline_strip(Session& session) {
+  const Debugger& debugger = *session.document.debugger();
+  draw_legend(debugger);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float gap = ImGui::GetStyle().ItemSpacing.y;
+  const float upper = 0.42F * (room.y - gap);
+  draw_timeline(session, {at, {room.x, upper}, 0, static_cast<double>(debugger.end())});
+  const CallWindow window = window_of(debugger);
+  draw_icicles(session,
+               {{at.x, at.y + upper + gap},
+                {room.x, room.y - upper - gap},
+                static_cast<double>(window.begin),
+                static_cast<double>(window.end)},
+               window);
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// The strip under the picture of a trace: passes, curves of quality, and the calls as icicles.
+#pragma once
+
+#include "viewer/commands.h"
+
+namespace tetmend::viewer::ui {
+
+/// Height in units of the scale.
+inline constexpr float kStripHeight = 190;
+
+/// Fills the current window. Precondition: a trace is open.
+void draw_timeline_strip(Session& session);
+
+}  // namespace tetmend::viewer::ui
