@@ -246,3 +246,32 @@ TEST_CASE("no more rounds are done than allowed") {
   improve(run, Schedule::builtin("shell"), {{"max_rounds", "1"}});
   CHECK(run.round == 1);
 }
+
+TEST_CASE("thorough leaves a better mesh than the default where the default leaves bad tets") {
+  const MeshData folded = asset("folded_sheet.mesh");
+  TetMesh mesh(folded);
+  TetMesh plain(folded);
+  const auto surface_before = surface(mesh);
+  Run plain_run(plain, kRegistry);
+  improve(plain_run);
+  Run run(mesh, kRegistry);
+  improve(run, Schedule::builtin("thorough"));
+  CHECK(to_string(check_integrity(mesh)) == "");
+  CHECK(count_not_positive(mesh) == 0);
+  CHECK(surface(mesh) == surface_before);
+  const MeshStatistics of_plain = compute_statistics(plain);
+  const MeshStatistics now = compute_statistics(mesh);
+  CHECK(now.n_bad < of_plain.n_bad);
+  CHECK(now.q_worst >= of_plain.q_worst);
+}
+
+TEST_CASE("thorough ends at its goal") {
+  const auto rounds_to = [](const std::string& goal) {
+    TetMesh mesh(asset("folded_sheet.mesh"));
+    Run run(mesh, kRegistry);
+    improve(run, Schedule::builtin("thorough"), {{"min_dihedral", goal}});
+    return run.round;
+  };
+  CHECK(rounds_to("8") == 1);
+  CHECK(rounds_to("30") > 1);  // 30 degrees cannot be reached beside the folded sheet
+}
