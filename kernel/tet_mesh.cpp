@@ -61,6 +61,8 @@ void TetMesh::collect_garbage() {
     if (!is_deleted(TetHandle(t))) kept_tets.push_back(t);
   }
   reorder(kept_vertices, kept_tets);
+  vertex_count_ = kept_vertices.size();
+  tet_count_ = kept_tets.size();
 }
 
 void TetMesh::sort_spatially() {

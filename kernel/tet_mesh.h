@@ -200,7 +200,8 @@ class TetMesh {
   /// Precondition: no transaction is open. Cost: linear.
   std::size_t freeze(const std::function<bool(TetHandle)>& is_frozen);
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
-  /// before become invalid.
+  /// before become invalid. Counts anew: right also for a copy made while workers are in
+  /// territories, between their transactions.
   void collect_garbage();
   /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each
   /// slot that there is); slots between them are deleted ones. So a rebuilt mesh gets the handle

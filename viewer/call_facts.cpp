@@ -120,7 +120,7 @@ std::string format_target(const Call& call) {
 }
 
 std::string short_name(std::string_view operator_name) {
-  if (operator_name == "recursive_shell_transformation") return "recursive shell";
+  if (operator_name == "recursive_shell_transformation") return "recursion";
   if (operator_name == "shell_transformation") return "shell";
   std::string name(operator_name);
   std::replace(name.begin(), name.end(), '_', ' ');

@@ -68,6 +68,7 @@ std::span<const Command> view_commands();
 std::span<const Command> show_commands();
 std::span<const Command> select_commands();
 std::span<const Command> trace_commands();
+std::span<const Command> live_commands();
 std::span<const Command> script_commands();
 
 }  // namespace tetmend::viewer

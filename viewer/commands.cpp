@@ -31,7 +31,7 @@ std::span<const Command> commands() {
   static const std::vector<Command> kAll = [] {
     std::vector<Command> list;
     for (const auto group : {file_commands(), view_commands(), show_commands(), select_commands(),
-                             trace_commands(), script_commands()}) {
+                             trace_commands(), live_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;

@@ -14,9 +14,19 @@ namespace {
 
 json open(Session& s, const json& a) {
   if (a.empty()) {
-    s.document.ask_for_file = true;
+    s.document.question = FileQuestion::open;
   } else {
     s.document.open(Arguments("open", a).text(0));
+  }
+  return nullptr;
+}
+
+json save(Session& s, const json& a) {
+  need_mesh(s.document);
+  if (a.empty()) {
+    s.document.question = FileQuestion::save;
+  } else {
+    s.document.save(Arguments("save", a).text(0));
   }
   return nullptr;
 }
@@ -60,6 +70,7 @@ constexpr std::string_view kFile = "File";
 
 constexpr std::array kCommands = {
     Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh or a trace", &open},
+    Command{"save", "Ctrl+S", kFile, "save(\"FILE\")", "Save the mesh as it is shown", &save},
     Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
     Command{"compare", "", "", "compare(\"FILE\")",
             "Show the statistics of another mesh beside: the state before", &compare},

@@ -91,6 +91,7 @@ json state_of(Document& document) {
           {"bad_shown", scene.bad_shown},
           {"triangles", scene.surface.size() / 3},
           {"note", scene.note},
+          {"run", to_string(document.live.state())},
           {"message", document.message.text},
           {"selection", selection},
           {"trace", trace},

@@ -2,7 +2,6 @@
 #include "viewer/document.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -26,40 +25,21 @@ TetMesh read_tet_mesh(const std::filesystem::path& file) {
   }
 }
 
-template <class Visit>
-void for_each_used_point(const TetMesh& mesh, Visit visit) {
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    const VertexHandle v(i);
-    if (!mesh.is_deleted(v) && mesh.tet_of(v).is_valid()) visit(to_glm(mesh.point(v)));
-  }
-}
-
-std::array<glm::dvec3, 8> box_corners(const TetMesh& mesh) {
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high = -low;
-  for_each_used_point(mesh, [&](const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  });
-  std::array<glm::dvec3, 8> corners;
-  for (unsigned i = 0; i < corners.size(); ++i) {
-    corners[i] = {(i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
-                  (i & 4U) != 0 ? high.z : low.z};
-  }
-  return corners;
-}
-
-Ball enclosing_ball(const TetMesh& mesh, const glm::dvec3& centre) {
-  double radius = 1e-12;
-  for_each_used_point(
-      mesh, [&](const glm::dvec3& p) { radius = std::max(radius, glm::distance(p, centre)); });
-  return {centre, radius};
-}
-
 bool is_alike(const Ball& a, const Ball& b) {
   constexpr double kShare = 0.02;
   return glm::distance(a.centre, b.centre) <= kShare * a.radius &&
          std::abs(a.radius - b.radius) <= kShare * a.radius;
+}
+
+Message message_of(const LiveProgress& run, const std::string& schedule) {
+  switch (run.state) {
+    case LiveState::failed:
+      return {run.error, true};
+    case LiveState::paused:
+      return {fmt::format("paused in {} after {} attempts", run.phase, run.attempts), false};
+    default:
+      return {fmt::format("{}: {}, {:.1f} s", schedule, to_string(run.state), run.seconds), false};
+  }
 }
 
 }  // namespace
@@ -71,16 +51,19 @@ void Document::resize(const Canvas& size) {
 }
 
 void Document::open(const std::filesystem::path& file) {
-  if (is_trace(file)) {
-    open_trace(file);
-  } else {
-    set_mesh(read_tet_mesh(file), file.string());
-  }
+  if (is_trace(file)) return open_trace(file);
+  MeasuredMesh mesh(read_tet_mesh(file));
+  live.forget();
+  followed_ = LiveState::idle;
+  set_mesh(std::move(mesh), file.string());
 }
 
 void Document::open_trace(const std::filesystem::path& file) {
   auto debugger = std::make_unique<Debugger>(file);
-  take_mesh(debugger->mesh(), file.string());
+  if (debugger_ == nullptr) view.scene.isolate = true;  // else nothing of a call inside is seen
+  live.forget();
+  followed_ = LiveState::idle;
+  set_mesh(MeasuredMesh(debugger->mesh()), file.string());
   debugger_ = std::move(debugger);
   shown_mesh_ = debugger_->mesh_number();
   shown_root_ = kNoCall;
@@ -92,23 +75,27 @@ void Document::open_trace(const std::filesystem::path& file) {
              !damage.empty()};
 }
 
+void Document::save(const std::filesystem::path& file) {
+  write_mesh(file, MeshView(mesh_));
+  message = {"wrote " + file.string(), false};
+}
+
 void Document::set_mesh(TetMesh mesh, const std::string& name) {
+  set_mesh(MeasuredMesh(std::move(mesh)), name);
+}
+
+void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   debugger_.reset();
   marks_ = {};
   near_.clear();
-  take_mesh(std::move(mesh), name);
-}
-
-void Document::take_mesh(TetMesh mesh, const std::string& name) {
-  const bool is_first = !has_mesh();
-  mesh_ = std::move(mesh);
+  const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);
+  mesh_ = std::move(mesh.mesh);
   file_ = name;
-  box_ = box_corners(mesh_);
-  const Ball ball = enclosing_ball(mesh_, box_.front() / 2.0 + box_.back() / 2.0);
-  const bool keep_view = !is_first && is_alike(ball_, ball);
-  ball_ = ball;
-  regions_ = region_labels(mesh_);
-  refresh();
+  box_ = mesh.box;
+  ball_ = mesh.ball;
+  statistics_ = mesh.statistics;
+  regions_ = std::move(mesh.regions);
+  forget_derived();
   select({});
   if (!keep_view) go_home();
   message = {
@@ -118,8 +105,7 @@ void Document::take_mesh(TetMesh mesh, const std::string& name) {
 }
 
 /// After a change of the mesh.
-void Document::refresh() {
-  statistics_ = compute_statistics(mesh_);
+void Document::forget_derived() {
   values_.clear();
   layers_.clear();
   listed_measure_.clear();
@@ -131,7 +117,8 @@ void Document::show_trace() {
   if (debugger_->mesh_number() != shown_mesh_) {
     mesh_ = debugger_->mesh();
     shown_mesh_ = debugger_->mesh_number();
-    refresh();
+    statistics_ = compute_statistics(mesh_);
+    forget_derived();
   }
   const CallStudy* study = debugger_->study();
   marks_ = study != nullptr ? highlight_covering(*study, ball_.centre) : Highlight();
@@ -145,6 +132,25 @@ void Document::show_trace() {
 
 void Document::compare_with(const std::filesystem::path& file) {
   before_ = compute_statistics(read_tet_mesh(file));
+}
+
+void Document::run_live(LiveRun::From from) {
+  live.start({mesh_, statistics_}, from, file_);
+  followed_ = LiveState::idle;
+  before_ = from == LiveRun::From::file ? live.input()->statistics : statistics_;
+}
+
+void Document::follow_live() {
+  const LiveState now = live.state();  // before the last snapshot is taken, lest it be missed
+  if (auto snapshot = live.take_snapshot()) set_mesh(std::move(*snapshot), file_);
+  if (now == followed_) return;
+  followed_ = now;
+  message = message_of(live.progress(), live.schedule_name());
+}
+
+bool Document::awaits_live() const {
+  const LiveState now = live.state();
+  return now == LiveState::running || now == LiveState::stopping || now != followed_;
 }
 
 void Document::select(const Selection& selection) {

@@ -14,6 +14,8 @@
 #include "kernel/statistics.h"
 #include "kernel/tet_mesh.h"
 #include "viewer/debugger.h"
+#include "viewer/live_run.h"
+#include "viewer/measured_mesh.h"
 #include "viewer/scene.h"
 #include "viewer/selection.h"
 #include "viewer/view_settings.h"
@@ -26,6 +28,9 @@ struct Message {
   bool is_error = false;
 };
 
+/// What the window is to ask the user for a file for.
+enum class FileQuestion : std::uint8_t { none, open, save, schedule };
+
 /// Change `view`, `canvas` and the like freely; all that follows from them is computed when it is
 /// asked for, and kept until something it depends on has changed.
 class Document {
@@ -36,9 +41,9 @@ class Document {
   glm::ivec2 canvas_corner{0};  ///< upper left, in pixels of the window
   PickKind pick_kind = PickKind::nearest;
   Message message;
-  bool show_keys = false;     ///< the page of F1
-  bool show_panels = true;    ///< beside the picture
-  bool ask_for_file = false;  ///< the window asks for a name
+  bool show_keys = false;   ///< the page of F1
+  bool show_panels = true;  ///< beside the picture
+  FileQuestion question = FileQuestion::none;
   bool quit = false;
 
   /// The mesh takes the whole window.
@@ -48,12 +53,17 @@ class Document {
     return {x - canvas_corner.x, y - canvas_corner.y};
   }
 
-  /// Reads a mesh, or opens a trace and shows the mesh at its beginning. The view stays if the new
-  /// mesh is about as large and in the same place as the old one; otherwise the camera goes home.
-  /// @throws Error, and nothing changes.
+  /// Reads a mesh, or opens a trace and shows the mesh at its beginning; ends a run of the old
+  /// mesh. The view stays if the new mesh is about as large and in the same place as the old one;
+  /// otherwise the camera goes home. @throws Error, and nothing changes.
   void open(const std::filesystem::path& file);
-  /// Takes over a mesh that is called `name`.
+  /// Takes over a mesh that is called `name`. A trace that is open is closed.
   void set_mesh(TetMesh mesh, const std::string& name);
+  void set_mesh(MeasuredMesh mesh, const std::string& name);
+  /// Writes what is shown. The file appears only when it is complete. @throws Error as
+  /// write_mesh().
+  void save(const std::filesystem::path& file);
+
   /// The trace that is open, or null. After a move in it call show_trace().
   Debugger* debugger() { return debugger_.get(); }
   const Debugger* debugger() const { return debugger_.get(); }
@@ -63,6 +73,16 @@ class Document {
 
   /// Reads a mesh for its statistics only: the state before. @throws Error, and nothing changes.
   void compare_with(const std::filesystem::path& file);
+
+  LiveRun live;
+  /// Begins a run over the mesh. Its statistics become those of the state before.
+  /// @throws Error as LiveRun::start().
+  void run_live(LiveRun::From from);
+  /// Shows the latest mesh of the run, and says so when it has paused or ended. To be called now
+  /// and then.
+  void follow_live();
+  /// There may be something new for follow_live() soon.
+  bool awaits_live() const;
 
   bool has_mesh() const { return mesh_.tet_count() > 0; }
   const TetMesh& mesh() const { return mesh_; }
@@ -103,8 +123,7 @@ class Document {
  private:
   std::span<const float> values_of(const std::string& measure);
   void open_trace(const std::filesystem::path& file);
-  void take_mesh(TetMesh mesh, const std::string& name);
-  void refresh();
+  void forget_derived();
   std::optional<Ball> call_in_view();
   void update_lists();
   void update_scene();
@@ -117,6 +136,7 @@ class Document {
   std::optional<MeshStatistics> before_;
   std::vector<Label> regions_;
   Selection selection_;
+  LiveState followed_ = LiveState::idle;  // what the user was told
 
   std::unique_ptr<Debugger> debugger_;
   std::size_t shown_mesh_ = 0;          // see Debugger::mesh_number()

@@ -39,6 +39,7 @@ class Builder {
   Scene build() {
     shown_ = chosen_tets(mesh_, settings_, in_.figures);
     for (std::size_t i = 0; i < in_.only.size(); ++i) shown_[i] &= in_.only[i];
+    if (settings_.bad) list_bad();
     hide_cut_and_peeled(mesh_, settings_, in_.figures, in_.ball, shown_);
     for (const std::uint8_t s : shown_) scene_.tets_shown += s;
     if (settings_.shrink > 0) {
@@ -47,7 +48,7 @@ class Builder {
       add_visible_faces();
     }
     add_sections();
-    if (settings_.bad) add_bad();
+    add_bad();
     if (settings_.constraints) add_constraints();
     if (settings_.ghosts > 0) add_ghosts();
     return std::move(scene_);
@@ -129,7 +130,7 @@ class Builder {
         add_surface(to_polygon(corner), normal_of(corner), t, exact_.size());
       }
     });
-    if (!all) scene_.note = "many tets: only the outer two layers are drawn shrunk";
+    if (!all) note("many tets: only the outer two layers are drawn shrunk");
   }
 
   void add_sections() {
@@ -141,37 +142,35 @@ class Builder {
     }
   }
 
-  bool is_cut_away(TetHandle t) const {
-    const auto c = corners(mesh_, t);
-    const glm::dvec3 centre = (c[0] + c[1] + c[2] + c[3]) / 4.0;
-    return std::any_of(exact_.begin(), exact_.end(),
-                       [&](const Plane& plane) { return plane.height(centre) > 0; });
-  }
+  void note(const std::string& text) { scene_.note += (scene_.note.empty() ? "" : "; ") + text; }
 
-  void add_bad() {
+  /// Before anything is cut or peeled away: bad tets are seen all the same.
+  void list_bad() {
     std::vector<float> quality(shown_.size(), std::nanf(""));
     std::size_t count = 0;
     for_each_shown([&](TetHandle t) {
-      if (!is_bad(t) || is_cut_away(t)) return;
+      if (!is_bad(t)) return;
       quality[t.index()] = mesh_.quality(t);
       ++count;
     });
-    const std::vector<TetHandle> bad = worst_tets(quality, kMostBadTets);
+    bad_ = worst_tets(quality, kMostBadTets);
+    scene_.bad_shown = bad_.size();
+    if (count > bad_.size()) {
+      note(fmt::format("{} bad tets: the worst {} are seen through the rest", count, bad_.size()));
+    }
+  }
+
+  void add_bad() {
     std::vector<std::uint8_t> taken(shown_.size());
-    for (const TetHandle t : bad) taken[t.index()] = 1;
-    for (const TetHandle t : bad) {
+    for (const TetHandle t : bad_) taken[t.index()] = 1;
+    for (const TetHandle t : bad_) {
       Colour colour = kBadColour;
-      colour.alpha = alpha_of(quality[t.index()]);
+      colour.alpha = alpha_of(mesh_.quality(t));
       for (unsigned f = 0; f < 4; ++f) {
         const HalfFace twin = mesh_.twin(HalfFace(t, f));
         if (!twin.is_outside() && taken[twin.tet().index()] != 0) continue;  // inside the red
         add_triangle(scene_.through, corners(mesh_, HalfFace(t, f)), colour, scene_.origin);
       }
-    }
-    scene_.bad_shown = bad.size();
-    if (count > bad.size()) {
-      scene_.note =
-          fmt::format("{} bad tets: the worst {} are seen through the rest", count, bad.size());
     }
   }
 
@@ -215,6 +214,7 @@ class Builder {
   const ColourMap& map_;
   std::vector<Plane> exact_;
   std::vector<std::uint8_t> shown_;
+  std::vector<TetHandle> bad_;  // what is seen through the rest
   Scene scene_;
 };
 

@@ -39,3 +39,16 @@ open("demo-out/improved.mesh")
 compare("assets/meshes/bracket.meshb")
 home()
 screenshot("docs/figures/viewer-after.png")
+
+-- A run that is paused after the first call of its third pass that changes the mesh.
+open("assets/meshes/bracket.meshb")
+show_all()
+cut(1, {position = 0.12})
+ghosts(0.12)
+home()
+live_run()
+for _ = 1, 2 do live_step_pass() live_wait() end
+live_step()
+live_wait()
+screenshot("docs/figures/viewer-live.png")
+live_stop()

@@ -24,6 +24,17 @@ double area(const std::vector<SurfaceVertex>& triangles) {
   return sum;
 }
 
+/// Of what a closed surface encloses.
+double volume_under(const Scene& scene) {
+  double sum = 0;
+  for (std::size_t i = 0; i < scene.surface.size(); i += 3) {
+    const glm::dvec3 a(scene.surface[i].position);
+    const glm::dvec3 b(scene.surface[i + 1].position);
+    sum += glm::dot(a, glm::cross(b, glm::dvec3(scene.surface[i + 2].position))) / 6;
+  }
+  return sum;
+}
+
 bool has_colour(const std::vector<SurfaceVertex>& triangles, const Colour& c) {
   return std::any_of(triangles.begin(), triangles.end(), [&](const SurfaceVertex& v) {
     return v.colour.red == c.red && v.colour.green == c.green && v.colour.blue == c.blue;
@@ -109,6 +120,26 @@ TEST_CASE("bad tets are red and seen through the rest, unless that is off or the
   s.run("bad");
   CHECK(s.document.scene().through.empty());
   CHECK_FALSE(has_colour(s.document.scene().surface, kBadColour));
+}
+
+TEST_CASE("bad tets are seen where a cut or peeling hides them, but not where a filter does") {
+  for (const bool exact : {false, true}) {
+    CAPTURE(exact);
+    TestSession s(test::delaunay_ball(300, 3));
+    const auto bad = static_cast<std::size_t>(state_of(s.document)["bad"]);
+    REQUIRE(s.document.scene().bad_shown == bad);
+    const auto triangles = s.document.scene().through.size();
+    const double whole = volume_under(s.document.scene());
+    s.run("cut", {1, {{"exact", exact}, {"position", -0.5}}});
+    CHECK(volume_under(s.document.scene()) < 0.5 * whole);
+    CHECK(s.document.scene().bad_shown == bad);
+    CHECK(s.document.scene().through.size() == triangles);
+    s.run("show_all");
+    s.run("peel", {1});
+    CHECK(s.document.scene().bad_shown == bad);
+    s.run("filter", {0.5, 1});
+    CHECK(s.document.scene().bad_shown == 0);
+  }
 }
 
 TEST_CASE("constraint faces inside the volume are drawn from both sides") {

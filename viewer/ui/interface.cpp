@@ -7,10 +7,9 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include "kernel/error.h"
-#include "viewer/lesson.h"
+#include "viewer/lesson_guide.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 
@@ -20,7 +19,7 @@ namespace {
 
 constexpr float kFontSize = 16;  // pixels at scale 1
 constexpr float kSideWidth = 290;
-constexpr float kTraceSideWidth = 400;
+constexpr float kTraceSideWidth = 450;
 constexpr float kMenuHeight = 24;
 constexpr float kStatusHeight = 26;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -131,7 +130,7 @@ void Interface::build(Session& session) {
     status_line(session);
   }
   if (session.document.show_keys) keys_page(session);
-  file_dialog(session);
+  browser_.draw(session, scale_);
   ImGui::Render();
 }
 
@@ -141,7 +140,7 @@ void Interface::draw() const {
 
 void Interface::menu(Session& session) const {
   if (!ImGui::BeginMainMenuBar()) return;
-  for (const char* title : {"File", "View", "Show", "Select", "Trace"}) {
+  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
     if (!ImGui::BeginMenu(title)) continue;
     for (const Command& command : commands()) {
       if (command.menu == title && ImGui::MenuItem(c_text(command.help), c_text(command.keys))) {
@@ -156,11 +155,16 @@ void Interface::menu(Session& session) const {
 
 void Interface::lessons_menu(Session& session) const {
   if (!ImGui::BeginMenu("Lessons")) return;
-  const auto lessons = list_lessons();
+  const auto lessons = find_lessons();
   if (lessons.empty()) ImGui::TextDisabled("there are none here");
-  for (const auto& trace : lessons) {
-    if (ImGui::MenuItem(trace.stem().c_str())) {
-      run_from_window(find_command("open"), session, {trace.string()});
+  for (const auto& file : lessons) {
+    try {
+      const Lesson lesson = read_lesson(file);
+      if (ImGui::MenuItem(lesson.title.c_str())) {
+        run_from_window(find_command("open"), session, {lesson.trace.string()});
+      }
+    } catch (const Error& error) {
+      ImGui::TextDisabled("%s", error.what());
     }
   }
   ImGui::EndMenu();
@@ -192,8 +196,10 @@ void Interface::sides(Session& session) const {
       if (panel.side != side || !is_shown(panel, session.document)) continue;
       ImGui::PushID(has_trace ? "trace" : "mesh");
       const bool is_main = !has_trace || panel.subject != Subject::mesh;
-      const bool is_open = ImGui::CollapsingHeader(
-          panel.title, is_main ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+      if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
+        ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+      }
+      const bool is_open = ImGui::CollapsingHeader(panel.title);
       ImGui::PopID();
       if (!is_open) continue;
       ImGui::PushID(panel.title);
@@ -248,34 +254,6 @@ void Interface::keys_page(Session& session) const {
     ImGui::EndTable();
   }
   ImGui::End();
-}
-
-void Interface::file_dialog(Session& session) {
-  constexpr const char* kTitle = "Open a mesh or a trace";
-  if (session.document.ask_for_file) {
-    session.document.ask_for_file = false;
-    ImGui::OpenPopup(kTitle);
-  }
-  ImGui::SetNextWindowSize({560 * scale_, 0});
-  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_NoResize)) return;
-  ImGui::TextUnformatted("File (or drop it on the window):");
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  const bool is_done =
-      ImGui::InputText("##file", &typed_file_, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (ImGui::Button("Open") || is_done) {
-    try {
-      session.document.open(typed_file_);
-    } catch (const Error& error) {
-      session.document.message = {error.what(), true};
-    }
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
 }
 
 }  // namespace tetmend::viewer::ui

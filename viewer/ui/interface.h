@@ -5,6 +5,7 @@
 #include <string>
 
 #include "viewer/commands.h"
+#include "viewer/ui/file_browser.h"
 
 namespace tetmend::viewer::ui {
 
@@ -31,12 +32,11 @@ class Interface {
   void sides(Session& session) const;
   void status_line(Session& session) const;
   void keys_page(Session& session) const;
-  void file_dialog(Session& session);
   void apply_theme(const std::string& theme);
 
   float scale_;
   std::string theme_;
-  std::string typed_file_;
+  FileBrowser browser_;
 };
 
 }  // namespace tetmend::viewer::ui

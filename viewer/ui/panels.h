@@ -17,6 +17,8 @@ struct Panel {
   Side side;
   Subject subject;
   void (*draw)(Session& session);
+  /// Opens by itself once this is so; null: is open from the beginning.
+  bool (*is_needed)(const Document& document) = nullptr;
 };
 
 /// All panels, from top to bottom. Drawn only when there is a mesh.
@@ -28,6 +30,7 @@ void draw_cuts_panel(Session& session);
 void draw_worst_panel(Session& session);
 void draw_statistics_panel(Session& session);
 void draw_selection_panel(Session& session);
+void draw_live_panel(Session& session);
 // With a trace; the last one with a lesson.
 void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);

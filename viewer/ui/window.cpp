@@ -78,11 +78,13 @@ class Window : public Host {
   Window& operator=(const Window&) = delete;
 
   /// Draws only after events: a few times, because panels take their sizes from the last frame.
+  /// While a run is at work it draws now and then.
   void run(bool fit) {
     constexpr int kFrames = 3;
     fit_first_ = fit && document_.has_mesh();
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !document_.quit) {
-      for (int i = 0; i < kFrames && !document_.quit; ++i) {
+      const int frames = document_.awaits_live() ? 1 : kFrames;
+      for (int i = 0; i < frames && !document_.quit; ++i) {
         frame();
         glfwSwapBuffers(window_);
         glfwPollEvents();
@@ -108,10 +110,11 @@ class Window : public Host {
  private:
   /// For events, or, while a trace plays, for its next step.
   void wait() {
+    constexpr double kLook = 0.1;  // seconds
     Debugger* debugger = document_.debugger();
     if (debugger == nullptr || !debugger->playing) {
       played_ = glfwGetTime();
-      return glfwWaitEvents();
+      return document_.awaits_live() ? glfwWaitEventsTimeout(kLook) : glfwWaitEvents();
     }
     constexpr double kLongest = 0.1;
     glfwWaitEventsTimeout(std::min(1 / debugger->speed, kLongest));
@@ -121,6 +124,7 @@ class Window : public Host {
   }
 
   void frame() {
+    document_.follow_live();
     glfwGetFramebufferSize(window_, &document_.window.width, &document_.window.height);
     document_.window.width = std::max(document_.window.width, 1);
     document_.window.height = std::max(document_.window.height, 1);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// A run in the window, by keys.
+#include <doctest/doctest.h>
+
+#include "tests/viewer/window.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+TEST_CASE("in the window a run takes the red away") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  const std::size_t before = viewer::count_red(take_picture("."), 500, 350, 150);
+  REQUIRE(before > 100);
+  type("key F6");
+  std::size_t now = before;
+  for (int i = 0; i < 300 && now > before / 10; ++i) {
+    now = viewer::count_red(take_picture("."), 500, 350, 150);
+  }
+  CHECK(now <= before / 10);
+  CHECK(viewer.quit()["run"] != "idle");
+}
+
+TEST_CASE("the window serves keys while a run works, and closes on one that is paused") {
+  if (!can_test_window()) return;
+  Viewer viewer("bracket.meshb");
+  const auto whole = take_picture(".");
+  type("key F6 key F7 sleep 0.5 key F9 sleep 0.5 key F10 sleep 0.5");
+  type("key b sleep 0.5");
+  CHECK(take_picture(".").pixels != whole.pixels);
+  const nlohmann::json state = viewer.quit();
+  CHECK((state["run"] == "paused" || state["run"] == "running"));
+  CHECK(state["view"]["bad"] == false);
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// How far a live run has come: plain data for panels and scripts.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "kernel/geometry.h"
+#include "kernel/statistics.h"
+
+namespace tetmend::viewer {
+
+enum class LiveState : std::uint8_t {
+  idle,      ///< nothing has run yet
+  running,   ///< at work
+  paused,    ///< held between two calls
+  stopping,  ///< about to end, as it was told to
+  stopped,   ///< ended because it was told to
+  finished,  ///< the schedule came to its end
+  failed     ///< a mistake in the schedule, or trouble with memory or the trace
+};
+std::string_view to_string(LiveState state);
+
+/// A pass that is over.
+struct LivePass {
+  std::string name;
+  unsigned round = 0;
+  std::size_t attempts = 0;  ///< by the schedule: calls by operators are not counted
+  std::size_t accepted = 0;
+  double seconds = 0;  ///< without pauses
+  QualityIndicators after;
+
+  /// Degrees between the worst dihedral angle and 0 or 180, whichever is nearer.
+  double theta() const;
+};
+
+/// An attempt by the schedule that was accepted.
+struct LiveCall {
+  std::string operator_name;
+  Point place = Point::Zero();  ///< middle of what it aimed at
+  Quality before = 0;           ///< worst tet of those that it replaced
+  Quality after = 0;            ///< worst of those that it made
+};
+
+struct LiveProgress {
+  LiveState state = LiveState::idle;
+  std::string error;         ///< of a run that failed: "NAME:LINE: reason"
+  std::string phase;         ///< pass at work
+  unsigned round = 0;        ///< of the schedule
+  double share = 0;          ///< of the pass that is done, 0 to 1
+  double seconds = 0;        ///< without pauses
+  std::size_t attempts = 0;  ///< in all, as LivePass counts them
+  std::size_t accepted = 0;
+  std::vector<LivePass> passes;
+  std::vector<std::string> notes;  ///< of the schedule
+  std::optional<LiveCall> last_accepted;
+  std::string trace;  ///< file of the trace, once it is complete
+};
+
+nlohmann::json to_json(const LiveProgress& progress);
+
+}  // namespace tetmend::viewer

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Live mode: schedule, parameters, buttons, and how far the run has come.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "kernel/error.h"
+#include "viewer/ui/panels.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+constexpr const char* kTrace = "tetmend-live.trace";
+
+/// Runs `work`; an error becomes the message of the document.
+template <class Work>
+void carefully(Document& document, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    document.message = {error.what(), true};
+  }
+}
+
+void choose_schedule(Document& document) {
+  LiveRun& live = document.live;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("##schedule", live.schedule_name().c_str())) return;
+  for (const std::string_view name : builtin_schedule_names()) {
+    if (ImGui::Selectable(name.data(), live.schedule_name() == name)) {
+      carefully(document, [&] { live.choose_schedule(std::string(name)); });
+    }
+  }
+  if (ImGui::Selectable("a file ...")) document.question = FileQuestion::schedule;
+  ImGui::EndCombo();
+}
+
+/// The new value, or nothing.
+std::string edit_number(const ScheduleParameter& parameter, const std::string& text) {
+  constexpr double kWide = 100;  // no slider for ranges beyond that
+  const char* name = parameter.name.c_str();
+  double value = std::stod(text);
+  bool changed = false;
+  if (parameter.kind == ScheduleParameter::Kind::integer) {
+    auto whole = static_cast<std::int64_t>(value);
+    const auto low = static_cast<std::int64_t>(parameter.low);
+    const auto high = static_cast<std::int64_t>(parameter.high);
+    constexpr std::int64_t kStep = 1;
+    changed = parameter.high - parameter.low > kWide
+                  ? ImGui::InputScalar(name, ImGuiDataType_S64, &whole, &kStep)
+                  : ImGui::SliderScalar(name, ImGuiDataType_S64, &whole, &low, &high, "%lld",
+                                        ImGuiSliderFlags_AlwaysClamp);
+    value = static_cast<double>(whole);
+  } else {
+    changed = parameter.high - parameter.low > kWide
+                  ? ImGui::InputDouble(name, &value)
+                  : ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &parameter.low,
+                                        &parameter.high, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+  }
+  if (!changed) return {};
+  return fmt::format("{}", std::clamp(value, parameter.low, parameter.high));
+}
+
+std::string edit_flag(const ScheduleParameter& parameter, const std::string& text) {
+  bool on = text == "true";
+  if (!ImGui::Checkbox(parameter.name.c_str(), &on)) return {};
+  return on ? "true" : "false";
+}
+
+std::string edit_choice(const ScheduleParameter& parameter, const std::string& text) {
+  std::string chosen;
+  if (!ImGui::BeginCombo(parameter.name.c_str(), text.c_str())) return chosen;
+  for (const std::string& choice : parameter.choices) {
+    if (ImGui::Selectable(choice.c_str(), choice == text)) chosen = choice;
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+void edit_parameter(Document& document, const ScheduleParameter& parameter) {
+  using Kind = ScheduleParameter::Kind;
+  const std::string text = document.live.value_of(parameter);
+  const std::string value = parameter.kind == Kind::flag     ? edit_flag(parameter, text)
+                            : parameter.kind == Kind::choice ? edit_choice(parameter, text)
+                                                             : edit_number(parameter, text);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s\n%s; default %s", parameter.help.c_str(), parameter.range().c_str(),
+                      parameter.initial_text().c_str());
+  }
+  if (!value.empty()) carefully(document, [&] { document.live.set(parameter.name, value); });
+}
+
+void edit_parameters(Document& document) {
+  ImGui::PushItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
+  for (const ScheduleParameter& parameter : document.live.info().parameters) {
+    edit_parameter(document, parameter);
+  }
+  ImGui::PopItemWidth();
+  bool record = !document.live.trace.empty();
+  if (ImGui::Checkbox("record", &record)) document.live.trace = record ? kTrace : "";
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next run, into the file %s", kTrace);
+}
+
+/// Runs a command, as its key does.
+void button(Session& session, const char* text, std::string_view command) {
+  if (ImGui::Button(text)) run_from_window(find_command(command), session);
+  ImGui::SameLine();
+}
+
+void buttons(Session& session, LiveState state) {
+  const bool is_held = state == LiveState::paused;
+  if (is_held || state == LiveState::running || state == LiveState::stopping) {
+    if (is_held) {
+      button(session, "Go on", "live_continue");
+    } else {
+      button(session, "Pause", "live_pause");
+    }
+    button(session, "Call", "live_step");
+    button(session, "Pass", "live_step_pass");
+    button(session, "Stop", "live_stop");
+  } else {
+    button(session, "Run", "live_run");
+    if (session.document.live.input() != nullptr && ImGui::Button("Run on")) {
+      carefully(session.document, [&] { session.document.run_live(LiveRun::From::shown); });
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("from the mesh that is shown");
+  }
+  ImGui::NewLine();
+}
+
+void tell_progress(const LiveProgress& run) {
+  if (run.state == LiveState::idle) return;
+  const std::string state(to_string(run.state));
+  ImGui::Text("%s, %.1f s, %zu of %zu calls accepted", state.c_str(), run.seconds, run.accepted,
+              run.attempts);
+  const std::string phase = fmt::format("{} {}", run.round, run.phase);
+  ImGui::ProgressBar(static_cast<float>(run.share), {-1, 0}, phase.c_str());
+  if (run.state == LiveState::paused && run.last_accepted) {
+    const LiveCall& call = *run.last_accepted;
+    ImGui::TextWrapped("%s: worst %.4f, now %.4f, at %.4g %.4g %.4g", call.operator_name.c_str(),
+                       static_cast<double>(call.before), static_cast<double>(call.after),
+                       call.place.x(), call.place.y(), call.place.z());
+  }
+  if (!run.error.empty()) ImGui::TextWrapped("%s", run.error.c_str());
+  if (!run.notes.empty()) ImGui::TextWrapped("%s", run.notes.back().c_str());
+}
+
+/// One value for each pass.
+template <class Value>
+void draw_curve(const char* name, const LiveProgress& run, const Value& value) {
+  std::vector<float> values;
+  for (const LivePass& pass : run.passes) values.push_back(static_cast<float>(value(pass)));
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  ImGui::PlotLines("##curve", values.data(), static_cast<int>(values.size()), 0, name, *least,
+                   *most, {ImGui::GetContentRegionAvail().x, 2.6F * ImGui::GetFontSize()});
+}
+
+void draw_curves(const LiveProgress& run) {
+  if (run.passes.size() < 2) return;
+  const QualityIndicators& last = run.passes.back().after;
+  ImGui::PushID("bad");
+  draw_curve(fmt::format("bad tets, logarithmic: {}", last.n_bad).c_str(), run,
+             [](const auto& p) { return std::log1p(static_cast<double>(p.after.n_bad)); });
+  ImGui::PopID();
+  ImGui::PushID("worst");
+  draw_curve(fmt::format("q_worst: {:.4f}", last.q_worst).c_str(), run,
+             [](const auto& p) { return p.after.q_worst; });
+  ImGui::PopID();
+}
+
+/// The last pass first.
+void list_passes(const LiveProgress& run) {
+  constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+  if (run.passes.empty()) return;
+  const float height = 8 * ImGui::GetTextLineHeightWithSpacing();
+  if (!ImGui::BeginTable("##passes", 4, kLooks, {0, height})) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("bad", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("theta", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("s", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableHeadersRow();
+  for (auto pass = run.passes.rbegin(); pass != run.passes.rend(); ++pass) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::Text("%u %s", pass->round, pass->name.c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("round %u, %s\n%zu of %zu calls accepted\nq_worst %.4f", pass->round,
+                        pass->name.c_str(), pass->accepted, pass->attempts, pass->after.q_worst);
+    }
+    ImGui::TableNextColumn();
+    ImGui::Text("%zu", pass->after.n_bad);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f°", pass->theta());
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f", pass->seconds);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void draw_live_panel(Session& session) {
+  choose_schedule(session.document);
+  edit_parameters(session.document);
+  const LiveProgress run = session.document.live.progress();
+  buttons(session, run.state);
+  tell_progress(run);
+  draw_curves(run);
+  list_passes(run);
+}
+
+}  // namespace tetmend::viewer::ui
