@@ -54,13 +54,6 @@ json run(Session& s, const json& a) {
   return nullptr;
 }
 
-json debug(Session& s, const json&) {
-  const std::string trace = s.document.live.progress().trace;
-  if (trace.empty()) throw Error("live_debug: there is no trace; record a run first, to its end");
-  s.document.open(trace);
-  return nullptr;
-}
-
 template <Demand What>
 json ask(Session& s, const json&) {
   s.document.live.ask(What);
@@ -98,8 +91,6 @@ constexpr std::array kCommands = {
             &ask<Demand::to_next_accepted>},
     Command{"live_step_pass", "F10", kRun, "live_step_pass()",
             "Let the run go on to the end of the pass", &ask<Demand::to_next_pass>},
-    Command{"live_debug", "F11", kRun, "live_debug()",
-            "Open the trace of the last run, in the debugger", &debug},
     Command{"live_stop", "F12", kRun, "live_stop()", "End the run; the mesh stays as it is then",
             &ask<Demand::stop>},
     Command{"live_wait", "", "", "live_wait(SECONDS)",

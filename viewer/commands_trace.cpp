@@ -157,16 +157,16 @@ json to_lesson_step(Session& s, const json&) {
   Debugger& debugger = need_trace(s.document);
   if (!debugger.lesson()) throw Error("no lesson lies beside this trace");
   const auto& steps = debugger.lesson()->steps;
-  const auto now = debugger.lesson()->step_at(debugger.position());
+  const auto now = step_at(*debugger.lesson(), debugger.position());
   std::size_t next = now ? *now + 1 : 0;
   if (Where == Direction::back) {
     if (!now) throw Error("this is the beginning of the lesson");
-    const bool is_on_it = steps[*now].position == debugger.position();
+    const bool is_on_it = steps[*now].at == debugger.position();
     if (is_on_it && *now == 0) throw Error("this is the beginning of the lesson");
     next = is_on_it ? *now - 1 : *now;
   }
   if (next >= steps.size()) throw Error("this is the end of the lesson");
-  debugger.seek(steps[next].position);
+  debugger.seek(steps[next].at);
   return arrive(s);
 }
 

@@ -14,7 +14,7 @@ Debugger::Debugger(const std::filesystem::path& file)
     : file_(file),
       replay_(file_),
       timeline_(make_timeline(file_, replay_)),
-      lesson_(read_lesson(file, file_.event_count())) {}
+      lesson_(lesson_of(file, file_.event_count())) {}
 
 std::string Debugger::last_event() const {
   if (position() == 0) return "the trace begins";

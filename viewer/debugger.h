@@ -14,7 +14,7 @@
 #include "viewer/call_list.h"
 #include "viewer/call_study.h"
 #include "viewer/condition.h"
-#include "viewer/lesson.h"
+#include "viewer/lesson_guide.h"
 #include "viewer/stepper.h"
 #include "viewer/timeline.h"
 

@@ -51,19 +51,19 @@ void Document::resize(const Canvas& size) {
 }
 
 void Document::open(const std::filesystem::path& file) {
-  if (is_trace(file)) {
-    open_trace(file);
-  } else {
-    MeasuredMesh mesh(read_tet_mesh(file));
-    end_live();
-    set_mesh(std::move(mesh), file.string());
-  }
+  if (is_trace(file)) return open_trace(file);
+  MeasuredMesh mesh(read_tet_mesh(file));
+  live.forget();
+  followed_ = LiveState::idle;
+  set_mesh(std::move(mesh), file.string());
 }
 
 void Document::open_trace(const std::filesystem::path& file) {
   auto debugger = std::make_unique<Debugger>(file);
-  end_live();
-  take_mesh(MeasuredMesh(debugger->mesh()), file.string());
+  if (debugger_ == nullptr) view.scene.isolate = true;  // else nothing of a call inside is seen
+  live.forget();
+  followed_ = LiveState::idle;
+  set_mesh(MeasuredMesh(debugger->mesh()), file.string());
   debugger_ = std::move(debugger);
   shown_mesh_ = debugger_->mesh_number();
   shown_root_ = kNoCall;
@@ -73,11 +73,6 @@ void Document::open_trace(const std::filesystem::path& file) {
                                           debugger_->end(), debugger_->file().calls().size())
                             : damage,
              !damage.empty()};
-}
-
-void Document::end_live() {
-  live.forget();
-  followed_ = LiveState::idle;
 }
 
 void Document::save(const std::filesystem::path& file) {
@@ -93,10 +88,6 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   debugger_.reset();
   marks_ = {};
   near_.clear();
-  take_mesh(std::move(mesh), name);
-}
-
-void Document::take_mesh(MeasuredMesh mesh, const std::string& name) {
   const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);
   mesh_ = std::move(mesh.mesh);
   file_ = name;
@@ -104,7 +95,7 @@ void Document::take_mesh(MeasuredMesh mesh, const std::string& name) {
   ball_ = mesh.ball;
   statistics_ = mesh.statistics;
   regions_ = std::move(mesh.regions);
-  refresh();
+  forget_derived();
   select({});
   if (!keep_view) go_home();
   message = {
@@ -114,7 +105,7 @@ void Document::take_mesh(MeasuredMesh mesh, const std::string& name) {
 }
 
 /// After a change of the mesh.
-void Document::refresh() {
+void Document::forget_derived() {
   values_.clear();
   layers_.clear();
   listed_measure_.clear();
@@ -127,7 +118,7 @@ void Document::show_trace() {
     mesh_ = debugger_->mesh();
     shown_mesh_ = debugger_->mesh_number();
     statistics_ = compute_statistics(mesh_);
-    refresh();
+    forget_derived();
   }
   const CallStudy* study = debugger_->study();
   marks_ = study != nullptr ? highlight_covering(*study, ball_.centre) : Highlight();

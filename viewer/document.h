@@ -53,16 +53,17 @@ class Document {
     return {x - canvas_corner.x, y - canvas_corner.y};
   }
 
-  /// Reads a mesh, or opens a trace and shows the mesh at its beginning; ends a live run. The view
-  /// stays if the new mesh is about as large and in the same place as the old one; otherwise the
-  /// camera goes home. @throws Error, and nothing changes.
+  /// Reads a mesh, or opens a trace and shows the mesh at its beginning; ends a run of the old
+  /// mesh. The view stays if the new mesh is about as large and in the same place as the old one;
+  /// otherwise the camera goes home. @throws Error, and nothing changes.
   void open(const std::filesystem::path& file);
-  /// Takes over a mesh that is called `name`.
+  /// Takes over a mesh that is called `name`. A trace that is open is closed.
   void set_mesh(TetMesh mesh, const std::string& name);
   void set_mesh(MeasuredMesh mesh, const std::string& name);
   /// Writes what is shown. The file appears only when it is complete. @throws Error as
   /// write_mesh().
   void save(const std::filesystem::path& file);
+
   /// The trace that is open, or null. After a move in it call show_trace().
   Debugger* debugger() { return debugger_.get(); }
   const Debugger* debugger() const { return debugger_.get(); }
@@ -122,9 +123,7 @@ class Document {
  private:
   std::span<const float> values_of(const std::string& measure);
   void open_trace(const std::filesystem::path& file);
-  void take_mesh(MeasuredMesh mesh, const std::string& name);
-  void end_live();
-  void refresh();
+  void forget_derived();
   std::optional<Ball> call_in_view();
   void update_lists();
   void update_scene();

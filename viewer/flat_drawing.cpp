@@ -14,7 +14,8 @@ namespace tetmend::viewer {
 
 namespace {
 
-constexpr double kRadius = 0.78;  // of the polygon; its names are outside
+constexpr double kRadius = 0.76;  // of the polygon
+constexpr double kNames = 0.9;    // of the circle on which the names of its corners are
 
 Colour colour_of(Quality quality, const ColourMap& map) {
   return quality < kBadThreshold ? kBadColour : map.at(static_cast<double>(quality));
@@ -39,7 +40,7 @@ class PolygonDrawer {
       const std::size_t j = (i + 1) % size_;
       drawing_.strokes.push_back({place(i), place(j), kSkirtColour, 3, false, {}});
       drawing_.labels.push_back(
-          {shell_.place(i) * 0.93, fmt::format("{}", shell_.ring[i].index()), true});
+          {kNames * shell_.place(i), fmt::format("{}", shell_.ring[i].index()), true});
     }
   }
 
@@ -123,6 +124,7 @@ FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool re
   PolygonDrawer drawer(study, map);
   const ShellPicture& shell = *study.picture;
   std::string caption;
+  drawer.outline();
   if (study.covering && position >= study.first_edit) {
     const FlatCovering& made = *study.covering;
     drawer.covering(made, false);
@@ -137,10 +139,9 @@ FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool re
   } else {
     drawer.covering(shell.before, false);
     drawer.chords();
-    caption = fmt::format("before: degree {}, worst {:.4f}; chords that may be used",
+    caption = fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
                           shell.ring.size(), shell.floor);
   }
-  drawer.outline();
   return drawer.take(std::move(caption));
 }
 

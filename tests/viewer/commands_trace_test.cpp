@@ -51,7 +51,9 @@ TEST_CASE("isolating shows the tets of the call and no others") {
   const test::TracedBall trace;
   TraceSession s(trace.path());
   s.run("run_to", {"operator shell_transformation"});
+  s.run("isolate");  // it is on at first
   const std::size_t all = s.document.scene().tets_shown;
+  CHECK(all == s.document.mesh().tet_count());
   s.run("isolate");
   const auto& call = *s.document.debugger()->study();
   CHECK(s.document.scene().tets_shown == call.before.size());

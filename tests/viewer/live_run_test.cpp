@@ -293,26 +293,6 @@ TEST_CASE("the document shows a run, and opening another mesh ends it") {
   CHECK_THROWS_WITH_AS(s.run("live_run", {"here"}), doctest::Contains("file, shown"), Error);
 }
 
-TEST_CASE(
-    "the trace of a live run opens in the debugger, and the run can be made again from there") {
-  TestSession s(test::delaunay_ball(100, 1));
-  const test::TempFolder folder;
-  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record a run"), Error);
-  s.run("live_record", {(folder / "run.trace").string()});
-  s.run("live_run");
-  const nlohmann::json run = s.run("live_wait");
-  REQUIRE(run["state"] == "finished");
-  s.run("live_debug");
-  REQUIRE(s.document.debugger() != nullptr);
-  s.run("to_end");
-  CHECK(s.document.statistics().n_bad == run["passes"].back()["n_bad"]);
-  s.run("to_begin");
-  s.run("live_record");
-  s.run("live_run");
-  CHECK(s.run("live_wait")["passes"].back()["n_bad"] == run["passes"].back()["n_bad"]);
-  CHECK(s.document.debugger() == nullptr);
-}
-
 TEST_CASE("a run that fails says so in the status line") {
   TestSession s(test::delaunay_ball(100, 1));
   const test::TempFolder folder;

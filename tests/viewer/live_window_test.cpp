@@ -3,43 +3,40 @@
 #include <doctest/doctest.h>
 
 #include "kernel/formats/mesh_io.h"
-#include "tests/viewer/window_session.h"
+#include "tests/viewer/window.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 TEST_CASE("in the window a run takes the red away") {
-  if (must_skip()) return;
-  WindowSession window({"--size", "1000x700", TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh"});
-  type("mousemove 500 350");
-  const std::size_t before = viewer::count_red(window.picture(), 500, 350, 150);
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  const std::size_t before = viewer::count_red(take_picture("."), 500, 350, 150);
   REQUIRE(before > 100);
   type("key F6");
   std::size_t now = before;
   for (int i = 0; i < 300 && now > before / 10; ++i) {
-    now = viewer::count_red(window.picture(), 500, 350, 150);
+    now = viewer::count_red(take_picture("."), 500, 350, 150);
   }
   CHECK(now <= before / 10);
-  CHECK(window.quit()["run"] != "idle");
+  CHECK(viewer.quit()["run"] != "idle");
 }
 
 TEST_CASE("the window serves keys while a run works, and closes on one that is paused") {
-  if (must_skip()) return;
-  WindowSession window({"--size", "1000x700", TETMEND_SOURCE_DIR "/assets/meshes/bracket.meshb"});
-  type("mousemove 500 350");
-  const auto whole = window.picture();
+  if (!can_test_window()) return;
+  Viewer viewer("bracket.meshb");
+  const auto whole = take_picture(".");
   type("key F6 key F7 sleep 0.5 key F9 sleep 0.5 key F10 sleep 0.5");
   type("key b sleep 0.5");
-  CHECK(window.picture().pixels != whole.pixels);
-  const nlohmann::json state = window.quit();
+  CHECK(take_picture(".").pixels != whole.pixels);
+  const nlohmann::json state = viewer.quit();
   CHECK((state["run"] == "paused" || state["run"] == "running"));
   CHECK(state["view"]["bad"] == false);
 }
 
 TEST_CASE("a mesh is saved by the dialog") {
-  if (must_skip()) return;
-  WindowSession window({"--size", "1000x700", TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh"});
-  type("mousemove 500 350");
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
   const std::filesystem::path file = std::filesystem::current_path() / "better.mesh";
   type("key ctrl+s sleep 1 type " + file.string());
   // Dear ImGui looks at keys once a frame, and would miss a short one.
@@ -47,5 +44,5 @@ TEST_CASE("a mesh is saved by the dialog") {
     type("keydown Return sleep 0.5 keyup Return sleep 0.5");
   }
   CHECK(read_mesh(file).tets.size() == 3327);
-  CHECK(window.quit()["message"] == "wrote " + file.string());
+  CHECK(viewer.quit()["message"] == "wrote " + file.string());
 }

@@ -52,7 +52,7 @@ TEST_CASE("the picture is red where the bad tet is, and not after the step that 
                                      fmt::format(R"lua(
     size(300, 240)
     enter({})
-    isolate()
+    expect(view().isolate, "isolated")
     fit()
     deselect()
     expect(red_pixels() > 100, "red before")
@@ -104,7 +104,7 @@ TEST_CASE("panels of a trace are drawn in both themes: tree, polygon, timeline")
     panels()
     enter({})
     -- The curve of bad tets in the strip: red on the background of the panels.
-    expect(red_pixels(450, 690, 60) > 10, "curve")
+    expect(red_pixels(520, 640, 60) > 10, "curve")
     theme("dark")
     expect(pixel(20, 840).red < 80, "dark")
     blend(0.5)

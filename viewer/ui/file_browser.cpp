@@ -18,14 +18,13 @@ constexpr const char* kPopup = "##file";
 
 const char* title_of(FileQuestion question) {
   if (question == FileQuestion::save) return "Save the mesh as";
-  return question == FileQuestion::schedule ? "Choose a schedule" : "Open a mesh or a trace";
+  return question == FileQuestion::schedule ? "Choose a schedule" : "Open a mesh";
 }
 
 std::vector<std::string_view> extensions_of(FileQuestion question) {
   if (question == FileQuestion::schedule) return {".lua"};
   std::vector<std::string_view> extensions;
   for (const MeshFormat& format : mesh_formats()) extensions.push_back(format.extension);
-  if (question == FileQuestion::open) extensions.push_back(".trace");
   return extensions;
 }
 

@@ -88,14 +88,12 @@ void show_flat(const char* id, std::span<const FlatDrawing> drawings, float side
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(id, {side, side});
   const bool is_hovered = ImGui::IsItemHovered();
-  ImGui::GetWindowDrawList()->PushClipRect(corner, {corner.x + side, corner.y + side}, true);
   const Pen pen(corner, side);
   for (const FlatDrawing& drawing : drawings) {
     pen.draw(drawing);
     const auto* stroke = is_hovered ? pen.under_mouse(drawing) : nullptr;
     if (stroke != nullptr) ImGui::SetTooltip("%s", stroke->tip.c_str());
   }
-  ImGui::GetWindowDrawList()->PopClipRect();
 }
 
 void show_flat(const char* id, const FlatDrawing& drawing, float side) {

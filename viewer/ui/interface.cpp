@@ -8,7 +8,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include "viewer/lesson.h"
+#include "kernel/error.h"
+#include "viewer/lesson_guide.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr float kFontSize = 16;  // pixels at scale 1
 constexpr float kSideWidth = 290;
-constexpr float kTraceSideWidth = 400;
+constexpr float kTraceSideWidth = 450;
 constexpr float kMenuHeight = 24;
 constexpr float kStatusHeight = 26;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -154,11 +155,16 @@ void Interface::menu(Session& session) const {
 
 void Interface::lessons_menu(Session& session) const {
   if (!ImGui::BeginMenu("Lessons")) return;
-  const auto lessons = list_lessons();
+  const auto lessons = find_lessons();
   if (lessons.empty()) ImGui::TextDisabled("there are none here");
-  for (const auto& trace : lessons) {
-    if (ImGui::MenuItem(trace.stem().c_str())) {
-      run_from_window(find_command("open"), session, {trace.string()});
+  for (const auto& file : lessons) {
+    try {
+      const Lesson lesson = read_lesson(file);
+      if (ImGui::MenuItem(lesson.title.c_str())) {
+        run_from_window(find_command("open"), session, {lesson.trace.string()});
+      }
+    } catch (const Error& error) {
+      ImGui::TextDisabled("%s", error.what());
     }
   }
   ImGui::EndMenu();
@@ -190,12 +196,10 @@ void Interface::sides(Session& session) const {
       if (panel.side != side || !is_shown(panel, session.document)) continue;
       ImGui::PushID(has_trace ? "trace" : "mesh");
       const bool is_main = !has_trace || panel.subject != Subject::mesh;
-      const bool opens = is_main && panel.is_needed == nullptr;
-      if (panel.is_needed != nullptr && panel.is_needed(session.document)) {
+      if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
         ImGui::SetNextItemOpen(true, ImGuiCond_Once);
       }
-      const bool is_open = ImGui::CollapsingHeader(
-          panel.title, opens ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+      const bool is_open = ImGui::CollapsingHeader(panel.title);
       ImGui::PopID();
       if (!is_open) continue;
       ImGui::PushID(panel.title);

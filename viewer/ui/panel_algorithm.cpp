@@ -12,6 +12,7 @@ namespace {
 void show_code(const Pseudocode& code, unsigned line) {
   ImGui::TextWrapped("%s", code.title.data());
   ImDrawList* list = ImGui::GetWindowDrawList();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 1});
   for (unsigned i = 1; i <= code.lines.size(); ++i) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (i == line) {
@@ -24,6 +25,7 @@ void show_code(const Pseudocode& code, unsigned line) {
     ImGui::SameLine(2.2F * ImGui::GetFontSize());
     ImGui::TextUnformatted(code.lines[i - 1].data());  // literals
   }
+  ImGui::PopStyleVar();
 }
 
 }  // namespace

@@ -20,6 +20,15 @@ std::string quality_text(const Call& call, const CallFacts& facts) {
   return fmt::format("{:.3f} -> {:.3f}", facts.quality_before, facts.quality_after);
 }
 
+/// The target without its kind, which follows from the operator.
+std::string numbers_of(const Call& call) {
+  std::string text;
+  for (const VertexHandle v : call.target()) {
+    text += fmt::format("{}{}", text.empty() ? "" : "-", v.index());
+  }
+  return text;
+}
+
 std::string degree_text(const CallFacts& facts) {
   if (facts.degree_before == facts.degree_after) return fmt::format("{}", facts.degree_before);
   return fmt::format("{} -> {}", facts.degree_before, facts.degree_after);
@@ -47,7 +56,7 @@ void draw_row(Session& session, const CallRow& row) {
   ImGui::PushID(static_cast<int>(row.call));
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const float step = 0.7F * ImGui::GetFontSize();
+  const float step = 0.5F * ImGui::GetFontSize();
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + step * static_cast<float>(row.indent));
   if (row.has_children) {
     if (ImGui::SmallButton(row.is_open ? "-" : "+")) debugger.fold(row.call);
@@ -57,7 +66,7 @@ void draw_row(Session& session, const CallRow& row) {
   ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
   const std::string name =
       fmt::format("{} {} {}", call.level, short_name(debugger.file().name(call.operator_name)),
-                  format_target(call));
+                  numbers_of(call));
   if (ImGui::Selectable(
           name.c_str(), debugger.call() == row.call,
           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
@@ -98,12 +107,12 @@ void draw_calls_panel(Session& session) {
   Debugger& debugger = *session.document.debugger();
   const std::vector<CallRow>& rows = debugger.rows();
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  const float height = 26 * ImGui::GetTextLineHeightWithSpacing();
+  const float height = 24 * ImGui::GetTextLineHeightWithSpacing();
   if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
   const float font = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("level, operator, target", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("degree", ImGuiTableColumnFlags_WidthFixed, 3.6F * font);
+  ImGui::TableSetupColumn("degree", ImGuiTableColumnFlags_WidthFixed, 3.4F * font);
   ImGui::TableSetupColumn("worst q", ImGuiTableColumnFlags_WidthFixed, 7.2F * font);
   ImGui::TableHeadersRow();
   scroll_to(rows, debugger);

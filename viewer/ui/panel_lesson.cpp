@@ -9,7 +9,7 @@ namespace tetmend::viewer::ui {
 void draw_lesson_panel(Session& session) {
   const Debugger& debugger = *session.document.debugger();
   const Lesson& lesson = *debugger.lesson();
-  const auto step = lesson.step_at(debugger.position());
+  const auto step = step_at(lesson, debugger.position());
   ImGui::TextWrapped("%s", lesson.title.c_str());
   if (ImGui::Button("back")) run_from_window(find_command("last_lesson_step"), session);
   ImGui::SameLine();

@@ -112,7 +112,7 @@ void button(Session& session, const char* text, std::string_view command) {
   ImGui::SameLine();
 }
 
-void buttons(Session& session, LiveState state, bool has_trace) {
+void buttons(Session& session, LiveState state) {
   const bool is_held = state == LiveState::paused;
   if (is_held || state == LiveState::running || state == LiveState::stopping) {
     if (is_held) {
@@ -125,13 +125,10 @@ void buttons(Session& session, LiveState state, bool has_trace) {
     button(session, "Stop", "live_stop");
   } else {
     button(session, "Run", "live_run");
-    if (session.document.live.input() == nullptr) return ImGui::NewLine();
-    if (ImGui::Button("Run on")) {
+    if (session.document.live.input() != nullptr && ImGui::Button("Run on")) {
       carefully(session.document, [&] { session.document.run_live(LiveRun::From::shown); });
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("from the mesh that is shown");
-    ImGui::SameLine();
-    if (has_trace) button(session, "Debug", "live_debug");
   }
   ImGui::NewLine();
 }
@@ -209,7 +206,7 @@ void draw_live_panel(Session& session) {
   choose_schedule(session.document);
   edit_parameters(session.document);
   const LiveProgress run = session.document.live.progress();
-  buttons(session, run.state, !run.trace.empty());
+  buttons(session, run.state);
   tell_progress(run);
   draw_curves(run);
   list_passes(run);

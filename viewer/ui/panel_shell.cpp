@@ -14,53 +14,39 @@ bool is_refused(const Debugger& debugger) {
   return !call.accepted && debugger.position() >= call.events.end;
 }
 
-void show_polygon(const Document& document, const CallStudy& study, float side) {
-  const Debugger& debugger = *document.debugger();
-  const ColourMap& map = find_colour_map(document.view.scene.map);
-  const FlatDrawing drawing = draw_polygon(study, debugger.position(), is_refused(debugger), map);
-  ImGui::TextWrapped("%s", drawing.caption.c_str());
-  const float indent = (ImGui::GetContentRegionAvail().x - side) / 2;
-  if (indent > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
-  show_flat("##polygon", drawing, side);
+void show_blended(ViewSettings& view, std::span<const FlatDrawing> drawings, float side) {
+  constexpr double kLow = 0;
+  constexpr double kHigh = 1;
+  show_flat("##blended", drawings, side);
+  ImGui::SetNextItemWidth(side);
+  ImGui::SliderScalar("##blend", ImGuiDataType_Double, &view.blend, &kLow, &kHigh, "after %.2f");
 }
 
-/// Both in the same ball, so that one can be laid over the other.
-void show_tets(Document& document, const CallStudy& study) {
+/// All in the same ball, so that one can be laid over the other; seen as in the large picture.
+void show_tets(Document& document, const CallStudy& study, float side) {
   const auto ball = ball_around(study);
   if (!ball) return;
   ViewSettings& view = document.view;
   const ColourMap& map = find_colour_map(view.scene.map);
-  const float width = ImGui::GetContentRegionAvail().x;
-  const float side =
-      std::min(width / 2 - ImGui::GetStyle().ItemSpacing.x, 11 * ImGui::GetFontSize());
   const auto draw = [&](const std::vector<LocalTet>& tets, double opacity) {
     return draw_tets(tets, view.camera, *ball, map, opacity);
   };
-  ImGui::Checkbox("blended", &view.blended);
+  constexpr double kOpacity = 0.9;
+  const char* name = study.undone ? "tried" : "after";
   if (view.blended) {
-    ImGui::SameLine();
-    const double low = 0;
-    const double high = 1;
-    ImGui::SetNextItemWidth(-1);
-    ImGui::SliderScalar("##blend", ImGuiDataType_Double, &view.blend, &low, &high, "after: %.2f");
-    const std::array drawings = {draw(study.before, 1 - view.blend), draw(study.after, view.blend)};
-    return show_flat("##blended", drawings, side);
+    ImGui::Text("%zu tets, %s %zu", study.before.size(), name, study.after.size());
+    const std::array drawings = {draw(study.before, kOpacity * (1 - view.blend)),
+                                 draw(study.after, kOpacity * view.blend)};
+    return show_blended(view, drawings, side);
   }
-  ImGui::SameLine();
-  ImGui::TextDisabled("seen as in the picture");
-  ImGui::BeginGroup();
   ImGui::Text("before: %zu tets", study.before.size());
-  show_flat("##before", draw(study.before, 0.9), side);
-  ImGui::EndGroup();
-  ImGui::SameLine(width / 2);
-  ImGui::BeginGroup();
+  show_flat("##before", draw(study.before, kOpacity), side);
   if (study.after.empty()) {
     ImGui::TextDisabled("nothing was tried");
   } else {
-    ImGui::Text("%s: %zu tets", study.undone ? "tried" : "after", study.after.size());
-    show_flat("##after", draw(study.after, 0.9), side);
+    ImGui::Text("%s: %zu tets", name, study.after.size());
+    show_flat("##after", draw(study.after, kOpacity), side);
   }
-  ImGui::EndGroup();
 }
 
 }  // namespace
@@ -72,9 +58,22 @@ void draw_shell_panel(Session& session) {
     ImGui::TextDisabled("no call here");
     return;
   }
-  const float side = std::min(ImGui::GetContentRegionAvail().x, 19 * ImGui::GetFontSize());
-  if (study->picture && study->picture->ring.size() >= 3) show_polygon(document, *study, side);
-  show_tets(document, *study);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const bool has_polygon = study->picture && study->picture->ring.size() >= 3;
+  if (has_polygon) {
+    const Debugger& debugger = *document.debugger();
+    const FlatDrawing drawing = draw_polygon(*study, debugger.position(), is_refused(debugger),
+                                             find_colour_map(document.view.scene.map));
+    ImGui::TextWrapped("%s", drawing.caption.c_str());
+    ImGui::BeginGroup();
+    show_flat("##polygon", drawing, 0.6F * width);
+    ImGui::Checkbox("blended", &document.view.blended);
+    ImGui::EndGroup();
+    ImGui::SameLine(0.64F * width);
+  }
+  ImGui::BeginGroup();
+  show_tets(document, *study, 0.35F * width);
+  ImGui::EndGroup();
 }
 
 }  // namespace tetmend::viewer::ui

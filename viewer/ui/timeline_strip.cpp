@@ -82,7 +82,7 @@ void draw_curves(const Band& band, const Timeline& timeline) {
     best = std::max(best, s.q_worst);
   }
   // Room above for the names of the passes.
-  constexpr double kUsed = 0.8;
+  constexpr double kUsed = 0.66;
   std::vector<ImVec2> bad;
   std::vector<ImVec2> worst;
   for (const auto& s : timeline.samples) {
@@ -206,7 +206,7 @@ void draw_timeline_strip(Session& session) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = ImGui::GetStyle().ItemSpacing.y;
-  const float upper = 0.42F * (room.y - gap);
+  const float upper = 0.36F * (room.y - gap);
   draw_timeline(session, {at, {room.x, upper}, 0, static_cast<double>(debugger.end())});
   const CallWindow window = window_of(debugger);
   draw_icicles(session,

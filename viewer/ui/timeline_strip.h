@@ -7,7 +7,7 @@
 namespace tetmend::viewer::ui {
 
 /// Height in units of the scale.
-inline constexpr float kStripHeight = 190;
+inline constexpr float kStripHeight = 230;
 
 /// Fills the current window. Precondition: a trace is open.
 void draw_timeline_strip(Session& session);

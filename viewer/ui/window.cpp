@@ -108,14 +108,15 @@ class Window : public Host {
   }
 
  private:
-  /// For events, or, while a trace plays, for its next step; not for long while a run is at work.
+  /// For events, or, while a trace plays, for its next step.
   void wait() {
+    constexpr double kLook = 0.1;  // seconds
     Debugger* debugger = document_.debugger();
-    constexpr double kLongest = 0.1;  // seconds
     if (debugger == nullptr || !debugger->playing) {
       played_ = glfwGetTime();
-      return document_.awaits_live() ? glfwWaitEventsTimeout(kLongest) : glfwWaitEvents();
+      return document_.awaits_live() ? glfwWaitEventsTimeout(kLook) : glfwWaitEvents();
     }
+    constexpr double kLongest = 0.1;
     glfwWaitEventsTimeout(std::min(1 / debugger->speed, kLongest));
     const double now = glfwGetTime();
     if (debugger->advance(now - played_)) document_.show_trace();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The window under a display in memory: keys, mouse, and what it looks like.
+// The window of the viewer under a display in memory, with real keys and mouse events.
 #pragma once
 
+#include <chrono>
 #include <cstdlib>
-#include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -77,34 +78,38 @@ inline viewer::Image take_picture(const std::filesystem::path& folder) {
   return read_png(folder / "tetmend-view.png");
 }
 
-/// True, and says so, when a program that the tests of the window need is missing.
-inline bool must_skip() {
+/// False, and a message that CTest understands, when a program of the test is not installed.
+inline bool can_test_window() {
   for (const char* name : {"Xvfb", "xdotool"}) {
     if (has_program(name)) continue;
     MESSAGE("tetmend: skipped, because " << name << " is not installed (see script/bootstrap)");
-    return true;
+    return false;
   }
-  return false;
+  return true;
 }
 
-/// The program in a window, in a folder of its own; quit() gives the state that it leaves.
-class WindowSession {
+/// The viewer with a mesh of assets/, or another file by its whole path, in an empty current
+/// folder. One at a time.
+class Viewer {
  public:
-  explicit WindowSession(std::vector<std::string> arguments) {
+  explicit Viewer(const std::filesystem::path& file, const std::string& size = "1000x700") {
+    const std::filesystem::path meshes = TETMEND_SOURCE_DIR "/assets/meshes";
     std::filesystem::current_path(folder_ / ".");
-    arguments.insert(arguments.begin(), {"--scale", "1", "--report", "report.json"});
-    error_ = ::open((folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0666);
-    program_ = std::make_unique<Program>(arguments, folder_ / "out", error_);
+    err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
+    program_.emplace(std::vector<std::string>{"--size", size, "--scale", "1", "--report",
+                                              "report.json", (meshes / file).string()},
+                     "out", err_);
     type("search --sync --onlyvisible --name tetmend-view >/dev/null");
+    type("mousemove 500 350");
   }
-  ~WindowSession() {
+  ~Viewer() {
+    ::close(err_);
     std::filesystem::current_path(before_);
-    ::close(error_);
   }
-  WindowSession(const WindowSession&) = delete;
-  WindowSession& operator=(const WindowSession&) = delete;
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
 
-  viewer::Image picture() const { return take_picture("."); }
+  /// Ends the program by its key; its last state.
   nlohmann::json quit() {
     type("key ctrl+q");
     CHECK(program_->wait() == 0);
@@ -112,11 +117,11 @@ class WindowSession {
   }
 
  private:
-  std::filesystem::path before_ = std::filesystem::current_path();
   Display display_;
   TempFolder folder_;
-  int error_ = -1;
-  std::unique_ptr<Program> program_;
+  std::filesystem::path before_ = std::filesystem::current_path();
+  int err_ = -1;
+  std::optional<Program> program_;
 };
 
 }  // namespace tetmend::test
