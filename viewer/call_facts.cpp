@@ -122,6 +122,7 @@ std::string format_target(const Call& call) {
 std::string short_name(std::string_view operator_name) {
   if (operator_name == "recursive_shell_transformation") return "recursion";
   if (operator_name == "shell_transformation") return "shell";
+  if (operator_name == "multi_face_removal") return "face removal";
   std::string name(operator_name);
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

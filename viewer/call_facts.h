@@ -36,7 +36,7 @@ std::uint32_t root_of(const TraceFile& file, std::uint32_t call);
 
 /// "edge 3 17"
 std::string format_target(const Call& call);
-/// Names of operators, shortened for narrow columns: "recursion", "multi face removal".
+/// Names of operators, shortened for narrow columns: "recursion", "face removal".
 std::string short_name(std::string_view operator_name);
 
 /// How a call ended, as colours tell it.

@@ -124,6 +124,7 @@ FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool re
   PolygonDrawer drawer(study, map);
   const ShellPicture& shell = *study.picture;
   std::string caption;
+  drawer.outline();
   if (study.covering && position >= study.first_edit) {
     const FlatCovering& made = *study.covering;
     drawer.covering(made, false);
@@ -141,7 +142,6 @@ FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool re
     caption = fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
                           shell.ring.size(), shell.floor);
   }
-  drawer.outline();
   return drawer.take(std::move(caption));
 }
 

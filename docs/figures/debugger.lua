@@ -13,13 +13,10 @@ open(trace)
 deepest()
 screenshot("docs/figures/debugger-tree.png")
 
--- A call whose candidate was made and undone.
+-- A transformation that leaves a core.
 theme("dark")
-to_begin()
-while next_refused() do
-  local s = state().trace
-  if s.undone and s.shell and s.shell.covering and #s.shell.ring > 4 then break end
-end
+open("assets/lessons/1-core.trace")
+next_accepted()
 screenshot("docs/figures/debugger-shell.png")
 
 theme("light")

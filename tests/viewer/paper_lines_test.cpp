@@ -46,10 +46,13 @@ TEST_CASE("an accepted transformation ends on the line that replaces the tets") 
   const test::TracedBall trace;
   const TraceFile file(trace.path());
   unsigned seen = 0;
-  for (const Call& call : file.calls()) {
+  for (std::size_t k = 0; k < file.calls().size() && seen < 5; ++k) {
+    const Call& call = file.calls()[k];
+    const bool is_made = file.name(call.operator_name) == "shell_transformation" && call.accepted;
+    if (!is_made && k % 50 != 0) continue;
     const auto stack = call_stack(file, call.events.end);
     const CodePlace place = code_place(file, stack, stack.size() - 1, call.events.end);
-    if (file.name(call.operator_name) == "shell_transformation" && call.accepted) {
+    if (is_made) {
       CHECK(place.line == 8);
       ++seen;
     }
