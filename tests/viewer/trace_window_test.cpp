@@ -25,20 +25,14 @@ TEST_CASE("keys step into, over and out of the calls of a trace, and back") {
   CHECK(state["trace"]["call"]["verdict"] == "no improvement");
 }
 
-TEST_CASE("the mouse goes to a place on the timeline, and keys lead back to the beginning") {
+TEST_CASE("the mouse goes to a place on the timeline") {
   if (!can_test_window()) return;
   const TracedBall trace;
   const auto end = static_cast<double>(TraceFile(trace.path()).event_count());
   Viewer viewer(trace.path(), "1300x850");
   // The strip lies between the side panels, above the status line.
-  type("mousemove 650 640 sleep 0.3 mousedown 1 sleep 0.3 mousemove 652 640 sleep 0.3 mouseup 1");
-  type("mousemove 650 300 sleep 0.3");
-  const tetmend::viewer::Image there = take_picture(".");
-  type("key Home");
-  const tetmend::viewer::Image begin = take_picture(".");
-  CHECK(tetmend::viewer::count_red(there, 650, 340, 200) <
-        tetmend::viewer::count_red(begin, 650, 340, 200));
-  type("mousemove 650 640 sleep 0.3 mousedown 1 sleep 0.3 mousemove 652 640 sleep 0.3 mouseup 1");
+  type("mousemove 640 640 sleep 0.5 mousemove 650 640 sleep 0.5 mousedown 1 sleep 0.5");
+  type("mousemove 652 640 sleep 0.5 mouseup 1 sleep 0.5");
   const auto state = viewer.quit();
   const auto position = state["trace"]["position"].get<double>();
   CHECK(position / end == doctest::Approx(0.5).epsilon(0.05));
