@@ -55,7 +55,8 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   if (verdict == Verdict::accepted) verdict = apply(context, target, transaction);
   if (verdict != Verdict::accepted) return verdict;
   const bool better = is_better(transaction, context.scratch);
-  if (!better && !context.opening) return Verdict::no_improvement;
+  const bool may_stay = better || (context.opening && !transaction.empty());
+  if (!may_stay) return Verdict::no_improvement;
   transaction.keep();
   return Verdict::accepted;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Quasi-Newton descent of what the sines of a patch lack.
 //
-//   for p = 4, 16, 64:
+//   for p = 16, 64:
 //     repeat: gradient of the p-norm -> direction from the last steps -> step, halved until the
 //             norm falls and no tet turns over; stop when it falls by little
 //   keep the best of start and ends

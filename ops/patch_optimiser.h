@@ -18,16 +18,16 @@ namespace tetmend {
 ///
 ///   |u|_p = (sum u^p)^(1/p),  u = max(0, enough - sine),
 ///
-/// by a quasi-Newton method of limited memory ([liu_nocedal]), for p = 4, 16 and 64: at first all
-/// bad tets count, in the end only the worst. No tet that was positive ceases to be so.
+/// by a quasi-Newton method of limited memory ([liu_nocedal]), for p = 16 and 64: at first
+/// several bad tets count, in the end only the worst. No tet that was positive ceases to be so.
 class PatchOptimiser {
  public:
   struct Limits {
-    int mildest = 2;           ///< p = 2^mildest at first
+    int mildest = 4;           ///< p = 2^mildest at first
     int sharpest = 6;          ///< and 4 times as much each time, up to 2^sharpest
     int steps = 20;            ///< directions for each p
     double enough = 0.6;       ///< sines above this need nothing
-    double least_gain = 1e-4;  ///< a norm is left when a step lowers it by less
+    double least_gain = 1e-3;  ///< a norm is left when a step lowers it by less
   };
 
   void clear();

@@ -77,6 +77,10 @@ constexpr unsigned targets_of_a_tet(TargetKind kind) {
 
 constexpr unsigned kMostAttempts = 64;
 
+/// What follows in a sequence works on tets that are at most this much better than the worst tet
+/// that the sequence began with: the others do not decide.
+constexpr Quality kReach = 0.2f;
+
 constexpr std::string_view to_string(Composition::Kind kind) {
   switch (kind) {
     case Composition::Kind::first_of:
@@ -258,9 +262,12 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target) co
   opening.opening = true;
   const Verdict verdict = node.leaf.op->attempt(opening, target);
   if (verdict != Verdict::accepted) return verdict;
-  bool all_tried = true;
-  for (const Node& part : node.parts) all_tried = follow_up(part, worker, sequence) && all_tried;
   Scratch& scratch = context.scratch;
+  bool all_tried = true;
+  for (const Node& part : node.parts) {
+    sequence.compare(scratch.before, scratch.now);
+    all_tried = follow_up(part, worker, sequence, scratch.before[0] + kReach) && all_tried;
+  }
   sequence.compare(scratch.before, scratch.now);
   if (improves(scratch.now, scratch.before) &&
       (scratch.before[0] < node.desperate || lowers_deficit(scratch.now, scratch.before))) {
@@ -270,14 +277,18 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target) co
   return all_tried ? Verdict::no_improvement : Verdict::deferred;
 }
 
-/// False if attempts were deferred.
-bool TetAttempts::follow_up(const Node& part, Worker& worker, const Transaction& sequence) const {
+/// Tries a part on the tets below `limit` among those that the sequence has changed. False if
+/// attempts were deferred.
+bool TetAttempts::follow_up(const Node& part, Worker& worker, const Transaction& sequence,
+                            Quality limit) const {
   const TetMesh& mesh = worker.mesh();
   std::vector<TetHandle> changed;
   sequence.list_changed(changed);
   std::vector<QueuedTet> bad;
   for (const TetHandle t : changed) {
-    if (mesh.quality(t) < kBadThreshold) bad.push_back({mesh.quality(t), t, mesh.vertices(t)});
+    if (mesh.quality(t) < std::min(limit, kBadThreshold)) {
+      bad.push_back({mesh.quality(t), t, mesh.vertices(t)});
+    }
   }
   std::sort(bad.begin(), bad.end());
   forget(part, worker);

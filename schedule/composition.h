@@ -78,7 +78,8 @@ class TetAttempts {
   bool try_once(const Node& node, Progress& progress, Target target, unsigned bit,
                 std::array<VertexHandle, 2> key) const;
   Verdict attempt(const Node& node, Worker& worker, Target target) const;
-  bool follow_up(const Node& part, Worker& worker, const Transaction& sequence) const;
+  bool follow_up(const Node& part, Worker& worker, const Transaction& sequence,
+                 Quality limit) const;
   static void forget(const Node& node, Worker& worker);
 
   std::size_t leaves_ = 0;
