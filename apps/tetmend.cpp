@@ -101,19 +101,20 @@ int run(int argc, char** argv) {
   return invocation.action();
 }
 
+constexpr const char* kNoOutput = "cannot write to standard output";
+
 int run_and_catch(int argc, char** argv) {
   try {
     const int status = run(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return complain(kFailed, "cannot write to standard output");
-    }
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain(kFailed, kNoOutput);
     return status;
   } catch (const UsageError& error) {
     return complain(kWrongUsage, error.what());
   } catch (const std::bad_alloc&) {
     return complain(kFailed, "out of memory");
   } catch (const std::exception& error) {
-    return complain(kFailed, error.what());
+    // A long text fills the buffer, and fails before the end.
+    return complain(kFailed, std::ferror(stdout) != 0 ? kNoOutput : error.what());
   } catch (...) {
     return complain(kFailed, "unexpected failure");
   }

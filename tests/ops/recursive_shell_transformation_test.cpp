@@ -121,7 +121,6 @@ TEST_CASE("in target mode the tet goes where no shell gets better on the way, or
   const ParameterSettings target_mode = {{"target_mode", 1}};
   Worker worker(delaunay_ball(200, 4));
   const auto attempt = [&](TetHandle t, unsigned e, const ParameterSettings& settings) {
-    const auto [a, b] = worker.mesh.vertices(TetEdge(t, e));
     const TetVertices corners = worker.mesh.vertices(t);
     Registry registry;
     register_builtin_operators(registry);
