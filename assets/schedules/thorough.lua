@@ -101,7 +101,7 @@ for i = 1, max_rounds do
   smooth{}
   if numbers_fall and not is_enough() then
     all_bad_tets()
-    numbers_fall = quality().n_bad < 0.93 * before.n_bad
+    numbers_fall = quality().n_bad < 0.95 * before.n_bad
   end
   failed = is_progress(before, quality()) and 0 or failed + 1
 end
