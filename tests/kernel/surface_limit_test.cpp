@@ -199,9 +199,9 @@ TEST_CASE("no improvement breaks the bounds, and bounds do not depend on the tet
     meshes.push_back(
         {name, read_mesh(std::string(TETMEND_SOURCE_DIR "/assets/meshes/") + name + ".mesh")});
   }
-  for (const auto& [name, data] : meshes) {
-    CAPTURE(name);
-    TetMesh mesh(data);
+  for (const NamedMesh& named : meshes) {
+    CAPTURE(named.name);
+    TetMesh mesh(named.data);
     if (count_not_positive(mesh) > 0) continue;
     const SurfaceLimit before = compute_surface_limit(mesh);
     improve_in_place(mesh);

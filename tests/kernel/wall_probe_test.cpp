@@ -53,9 +53,9 @@ std::size_t count_denied(const TetMesh& mesh) {
 TEST_CASE("walls allow the angles of every mesh between them, before and after improvement") {
   Registry registry;
   register_builtin_operators(registry);
-  for (const auto& [name, data] : zoo()) {
-    CAPTURE(name);
-    TetMesh mesh(data);
+  for (const NamedMesh& named : zoo()) {
+    CAPTURE(named.name);
+    TetMesh mesh(named.data);
     if (count_not_positive(mesh) > 0) continue;  // such tets have no place between walls
     CHECK(count_denied(mesh) == 0);
     Run run(mesh, registry);

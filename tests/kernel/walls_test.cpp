@@ -50,9 +50,9 @@ TEST_CASE("the sectors of a cube are right angles at its edges and flat elsewher
 }
 
 TEST_CASE("a sector is the same from both of its walls") {
-  for (const auto& [name, data] : zoo()) {
-    CAPTURE(name);
-    const TetMesh mesh(data);
+  for (const NamedMesh& named : zoo()) {
+    CAPTURE(named.name);
+    const TetMesh mesh(named.data);
     for (const HalfFace wall : all_walls(mesh)) {
       for (unsigned i = 0; i < 3; ++i) {
         const Sector sector = find_sector(mesh, wall, i);
