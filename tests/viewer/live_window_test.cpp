@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/formats/mesh_io.h"
+#include "tests/support/zoo.h"
 #include "tests/viewer/window.h"
 
 using namespace tetmend;
@@ -24,7 +25,9 @@ TEST_CASE("in the window a run takes the red away") {
 
 TEST_CASE("the window serves keys while a run works, and closes on one that is paused") {
   if (!can_test_window()) return;
-  Viewer viewer("bracket.meshb");
+  const TempFolder folder;
+  write_mesh(folder / "large.meshb", kuhn_cube(32, 0.3, 1));  // a run of seconds: F7 comes in time
+  Viewer viewer(folder / "large.meshb");
   const auto whole = take_picture(".");
   type("key F6 key F7 sleep 0.5 key F9 sleep 0.5 key F10 sleep 0.5");
   type("key b sleep 0.5");
