@@ -110,10 +110,13 @@ TEST_CASE("an edge that is picked shows its shell") {
 
 TEST_CASE("a live run takes the red away") {
   const TempFolder folder;
+  // A run of a second, so that the script is in time to hold it.
+  write_mesh(folder / "large.meshb", test::kuhn_cube(32, 0.3, 1));
   const Outcome outcome = run_script(folder, R"lua(
     size(1000, 600)
     panels()
-    open()lua" + in_quotes(kSheet) + R"lua()
+    open()lua" + in_quotes(folder / "large.meshb") +
+                                                 R"lua()
     theme("dark")
     local before = state()
     local red = red_pixels()
