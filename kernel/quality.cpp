@@ -131,6 +131,14 @@ const QualityMeasure& find_quality_measure(std::string_view name) {
   throw Error("unknown quality measure '" + std::string(name) + "'; valid: " + valid);
 }
 
+bool pays_for_bad(std::span<const Quality> now, std::span<const Quality> before, double desperate) {
+  if (before.empty() || before[0] >= desperate) return false;
+  // Tiny gains, one after the other, would fill the neighbourhood with bad tets.
+  constexpr double kPrice = 0.001;
+  const double gain = now.empty() ? 1 : now[0] - before[0];
+  return gain >= kPrice * static_cast<double>(count_bad(now) - count_bad(before));
+}
+
 bool improves(std::span<const Quality> now, std::span<const Quality> before) {
   const std::size_t common = std::min(now.size(), before.size());
   for (std::size_t i = 0; i < common; ++i) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -112,8 +113,23 @@ inline bool lowers_deficit(std::span<const Quality> now, std::span<const Quality
   return total(now) < total(before);
 }
 
-/// An operator that finds a worst quality below this does not ask what its gain costs the tets
-/// around.
+/// Where the worst tet is desperate, that is below this quality, more bad tets may come of a gain.
 inline constexpr double kDesperate = 0.2;
+
+/// True if the worst tet was below `desperate` and gained at least 0.001 for each tet by which the
+/// number of bad ones has grown. Both ascending.
+bool pays_for_bad(std::span<const Quality> now, std::span<const Quality> before, double desperate);
+
+/// True if a better worst tet is worth what it costs the others: they lack less in sum, or it pays
+/// for them.
+inline bool is_worth_it(std::span<const Quality> now, std::span<const Quality> before,
+                        double desperate) {
+  return pays_for_bad(now, before, desperate) || lowers_deficit(now, before);
+}
+
+/// Number of bad tets. Ascending.
+inline std::ptrdiff_t count_bad(std::span<const Quality> qualities) {
+  return std::lower_bound(qualities.begin(), qualities.end(), kBadThreshold) - qualities.begin();
+}
 
 }  // namespace tetmend

@@ -126,9 +126,9 @@ class CavityInsertion final : public Operator {
     if (!is_better(transaction, scratch)) return Verdict::no_improvement;
     // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others;
     // how many are too many is for the exponent to say.
-    const Quality worst = *std::min_element(scratch.before.begin(), scratch.before.end());
-    const bool worth_it =
-        worst < desperate_ || total_deficit(scratch.now) < total_deficit(scratch.before);
+    transaction.compare(scratch.before, scratch.now);
+    const bool worth_it = pays_for_bad(scratch.now, scratch.before, desperate_) ||
+                          total_deficit(scratch.now) < total_deficit(scratch.before);
     return worth_it ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -156,7 +156,7 @@ constexpr std::array<ParameterSpec, 6> kParameters = {{
     {"relax", ParameterSpec::Kind::flag, 0, 1, 1,
      "smooth and reconnect around the new vertex before judging"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "below this worst quality, new bad tets are no reason to refuse"},
+     "below this worst quality, a gain of 0.001 pays for one more bad tet"},
     {"exponent", ParameterSpec::Kind::real, 1, 64, 4,
      "the sum of (0.5 - q)^exponent over the bad tets must fall; large: mild ones hardly count"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 8,

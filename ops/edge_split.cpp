@@ -73,8 +73,7 @@ class EdgeSplit final : public Operator {
     transaction.compare(scratch.before, scratch.now);
     // DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
     // - q)^4 over the bad tets must fall, unless the worst tet is desperate.
-    const bool worth_it = context.opening || scratch.before[0] < desperate_ ||
-                          lowers_deficit(scratch.now, scratch.before);
+    const bool worth_it = context.opening || is_worth_it(scratch.now, scratch.before, desperate_);
     return worth_it ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -90,7 +89,7 @@ constexpr std::array<ParameterSpec, 5> kParameters = {{
     {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4,
      "least gain of the worst quality of the shell"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "below this worst quality, new bad tets are no reason to refuse"},
+     "below this worst quality, a gain of 0.001 pays for one more bad tet"},
     {"relax", ParameterSpec::Kind::flag, 0, 1, 0,
      "smooth and reconnect around the new vertex before judging"},
     {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12,

@@ -21,10 +21,6 @@ Point mean(const TetMesh& mesh, std::span<const VertexHandle> vertices) {
   return sum / static_cast<double>(vertices.size());
 }
 
-std::ptrdiff_t count_bad(const std::vector<Quality>& ascending) {
-  return std::lower_bound(ascending.begin(), ascending.end(), kBadThreshold) - ascending.begin();
-}
-
 class PolyhedronReconnection final : public Operator {
  public:
   explicit PolyhedronReconnection(const ParameterValues& values)
@@ -145,7 +141,7 @@ class PolyhedronReconnection final : public Operator {
   bool is_worth_it(const Transaction& transaction, Scratch& scratch) const {
     if (!is_better(transaction, scratch)) return false;
     transaction.compare(scratch.before, scratch.now);
-    if (scratch.before[0] < desperate_) return true;
+    if (pays_for_bad(scratch.now, scratch.before, desperate_)) return true;
     return count_bad(scratch.now) <= count_bad(scratch.before) &&
            !lowers_deficit(scratch.before, scratch.now);
   }
@@ -179,7 +175,7 @@ constexpr std::array<ParameterSpec, 9> kParameters = {{
     {"max_nodes", ParameterSpec::Kind::integer, 1, 100000, 100,
      "most tets that each search places on its way"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "below this worst quality, new bad tets are no reason to refuse"},
+     "below this worst quality, a gain of 0.001 pays for one more bad tet"},
 }};
 
 }  // namespace

@@ -14,11 +14,11 @@ namespace tetmend {
 /// with `insert` there is one vertex more, and the search finds the best cavity for it; with
 /// `remove`, those inside may vanish.
 ///
-/// A change is kept if the quality vector is better and, unless the old worst tet is desperate,
-/// there are no more bad tets and they lack no more in sum. Refuses as `no_improvement` when no
-/// size brings that; as `budget_spent` when the search of the largest was cut short; as
-/// `not_applicable` where tets overlap. Cost: a search for each size, see PolyhedronSearch, and
-/// with `relax` the smoothing of its vertices.
+/// A change is kept if the quality vector is better and, unless the old worst tet is desperate
+/// and gains 0.001 for each new bad one, there are no more bad tets and they lack no more in sum.
+/// Refuses as `no_improvement` when no size brings that; as `budget_spent` when the search of the
+/// largest was cut short; as `not_applicable` where tets overlap. Cost: a search for each size, see
+/// PolyhedronSearch, and with `relax` the smoothing of its vertices.
 const OperatorInfo& polyhedron_reconnection_info();
 
 }  // namespace tetmend

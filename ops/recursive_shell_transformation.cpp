@@ -293,8 +293,7 @@ class RecursiveShellTransformation final : public Operator {
       return verdict == Verdict::accepted ? Verdict::no_improvement : verdict;
     }
     transaction.compare(scratch.before, scratch.now);
-    const bool worth_it =
-        scratch.before[0] < desperate_ || lowers_deficit(scratch.now, scratch.before);
+    const bool worth_it = is_worth_it(scratch.now, scratch.before, desperate_);
     return worth_it ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -316,7 +315,7 @@ constexpr std::array<ParameterSpec, 7> kParameters = {{
     {"floor", ParameterSpec::Kind::real, 0, 1, 0.35,
      "in target mode, no shell gets worse than this"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "in target mode, below this worst quality new bad tets are no reason to refuse"},
+     "in target mode, below this worst quality a gain of 0.001 pays for one more bad tet"},
 }};
 
 }  // namespace

@@ -141,7 +141,7 @@ std::span<const ParameterSpec> VertexInsertion::parameters() {
        "most tets that give way; 1: only the one that holds the vertex"},
       {"smooth", ParameterSpec::Kind::flag, 0, 1, 1, "move the vertex before judging"},
       {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-       "below this worst quality, new bad tets are no reason to refuse"},
+       "below this worst quality, a gain of 0.001 pays for one more bad tet"},
   }};
   return kParameters;
 }
@@ -185,8 +185,7 @@ Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& tr
       to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
   if (verdict != Verdict::accepted) return verdict;
   transaction.compare(scratch.before, scratch.now);
-  const bool worth_it = context.opening || scratch.before[0] < desperate_ ||
-                        lowers_deficit(scratch.now, scratch.before);
+  const bool worth_it = context.opening || is_worth_it(scratch.now, scratch.before, desperate_);
   return worth_it ? Verdict::accepted : Verdict::no_improvement;
 }
 

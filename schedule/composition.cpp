@@ -273,7 +273,7 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target) co
   }
   sequence.compare(scratch.before, scratch.now);
   if (improves(scratch.now, scratch.before) &&
-      (scratch.before[0] < node.desperate || lowers_deficit(scratch.now, scratch.before))) {
+      is_worth_it(scratch.now, scratch.before, node.desperate)) {
     sequence.keep();
     return Verdict::accepted;
   }

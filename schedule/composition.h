@@ -34,8 +34,8 @@ struct Composition {
   std::string operator_name = {};  ///< of Kind::one
   ParameterSettings settings = {};
   EdgeOrder order = EdgeOrder::sine;
-  double desperate = kDesperate;  ///< of a sequence: below this worst quality, new bad tets are no
-                                  ///< reason to refuse
+  double desperate = kDesperate;  ///< of a sequence: below this worst quality, a gain of 0.001
+                                  ///< pays for one more bad tet
   std::vector<Composition> parts = {};  ///< of the other kinds
 
   /// As a script writes it, settings left out: first_of(edge_removal, flip_2_3).

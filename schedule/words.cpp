@@ -75,8 +75,9 @@ constexpr std::array<WordInfo, 18> kWords = {{
     {"sequence", "sequence{operator, what, ..., desperate = 0.2}",
      "for apply: one attempt of several parts. The operator may make things worse; the others then "
      "work on the bad tets among all that has changed. What came of it stays only if it is better "
-     "as a whole, and if it does not leave more bad tets behind, unless its worst tet was below "
-     "`desperate`"},
+     "as a whole, and if the bad tets lack less in sum, unless its worst tet was below "
+     "`desperate`: "
+     "then a gain of 0.001 pays for one more bad tet"},
     {"quality", "quality()",
      "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
      "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "

@@ -11,6 +11,7 @@ local time_limit   = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                                help = "seconds after which no further pass begins; 0: none"}
 
 local worst = {below = 0.5, worst = 100}
+local few   = {below = 0.5, worst = 16}
 local dire  = {below = 0.25, at_least = 100}
 local hard  = {below = 0.35}
 
@@ -46,33 +47,58 @@ local function insertion_round()
   smooth{}
 end
 
--- A small polyhedron without the tet, smoothed: with a new vertex, else without.
+-- A small polyhedron without the tet but with a new vertex, smoothed.
 local function refill(max_vertices, desperate)
-  local function form(insert)
-    return {"polyhedron_reconnection", insert = insert, remove = true, relax = true,
-            max_vertices = max_vertices, max_nodes = 50, desperate = desperate}
-  end
-  return first_of{form(true), form(false)}
+  return {"polyhedron_reconnection", insert = true, remove = true, relax = true,
+          max_vertices = max_vertices, max_nodes = 50, desperate = desperate}
 end
 
--- All that may help the worst, each round in another form.
-local sizes = {16, 20, 24}
+-- Makes things worse at first, then mends them.
+local function open_by(operator, desperate)
+  return sequence{operator, "recursive_shell_transformation", "smoothing", "joint_smoothing",
+                  desperate = desperate}
+end
+
+-- All that may help the worst, every other round with less regard for mild ones.
 local function worst_tets(i)
-  local size = sizes[(i - 1) % #sizes + 1]
-  local steep = i % 2 == 0
+  local exponent, desperate = 4, 0.2
+  if i % 2 == 0 then exponent, desperate = 12, 0.35 end
   smooth{on = worst, desperate = 0.35, steps = 30}
   apply({"joint_smoothing", desperate = 0.35}, {on = worst})
   local_reconnection{on = worst, reflex_only = false}
-  apply({"cavity_insertion", exponent = steep and 12 or 4, desperate = steep and 0.35 or 0.2}, {on = worst})
-  apply(refill(size, 0.35), {on = worst})
-  apply(refill(size, 0.45), {on = {below = 0.5, worst = 32}})
+  apply({"cavity_insertion", exponent = exponent, desperate = desperate}, {on = worst})
+  apply(refill(18, 0.35), {on = worst})
+  apply(open_by("edge_split", 0.35), {on = worst})
 end
 
--- Fewer bad tets, never for a worse one: with the exponent 1 the many mild ones count.
+-- Fewer bad tets, never for a worse one: with the exponent 1 the many mild ones count. Returns
+-- whether that was worth the time.
 local function all_bad_tets()
+  local n_bad = quality().n_bad
   apply("joint_smoothing")
   apply({"cavity_insertion", exponent = 1, desperate = 0, tries = 4})
   apply(refill(20, 0), {on = hard})
+  return quality().n_bad < 0.95 * n_bad
+end
+
+-- Every form of every operator for the few that decide about the angles; returns how often it helped.
+local openings = {"edge_split", "edge_removal", "flip_2_3", "edge_contraction"}
+local function very_worst_tets()
+  local accepted = 0
+  for i, opening in ipairs(openings) do
+    accepted = accepted
+             + apply({"cavity_insertion", exponent = i % 2 == 0 and 4 or 12, desperate = 0.5}, {on = few})
+             + apply(refill(12 + 4 * i, 0.5), {on = few})
+             + apply(open_by(opening, 0.5), {on = few})
+             + apply({"joint_smoothing", rings = i % 2, desperate = 0.5}, {on = few})
+  end
+  return accepted
+end
+
+local function mend()
+  clean_up()
+  local_reconnection{}
+  smooth{}
 end
 
 local before = quality()
@@ -90,24 +116,28 @@ while not is_enough() do
   if stuck then break end
 end
 
-local failed, numbers_fall = 0, true
-for i = 1, max_rounds do
-  if is_enough() or failed == max_failed then break end
+local rounds, failed, numbers_fall = 0, 0, true
+while rounds < max_rounds and failed < max_failed and not is_enough() do
   before = quality()
+  rounds = rounds + 1
   begin_round()
-  worst_tets(i)
-  clean_up()
-  local_reconnection{}
-  smooth{}
-  if numbers_fall and not is_enough() then
-    all_bad_tets()
-    numbers_fall = quality().n_bad < 0.95 * before.n_bad
-  end
+  worst_tets(rounds)
+  mend()
+  if numbers_fall and not is_enough() then numbers_fall = all_bad_tets() end
   failed = is_progress(before, quality()) and 0 or failed + 1
 end
 
+while rounds < max_rounds and not is_enough() do
+  before = quality()
+  rounds = rounds + 1
+  begin_round()
+  if very_worst_tets() == 0 then break end
+  mend()
+  if not is_progress(before, quality()) then break end
+end
+
 -- Smoothing of mild tets trades a few against each other; the last word is with the dear operators.
-if not is_enough() and max_rounds > 0 then
+if max_rounds > 0 and not is_enough() then
   worst_tets(1)
-  all_bad_tets()
+  while all_bad_tets() and not is_enough() do end
 end
