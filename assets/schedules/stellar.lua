@@ -34,7 +34,7 @@ for _ = 1, max_rounds do
     if failed == 0 then
       insert_points{on = mild}
     else
-      insert_points{on = {below = 1, share = desperate}, relax = true}
+      apply({"cavity_insertion", tries = 1, desperate = 1}, {on = {below = 1, share = desperate}})
     end
     smooth{on = "all", cycles = 1}
     reconnect()
