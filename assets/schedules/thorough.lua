@@ -37,13 +37,9 @@ local function plain_round()
   smooth{}
 end
 
--- A steep exponent: a new mild bad tet hardly counts against a worse one that goes.
-local function insertion_round()
-  begin_round()
-  local_reconnection{}
-  local_reconnection{on = dire, reflex_only = false}
+local function mend()
   clean_up()
-  apply({"cavity_insertion", exponent = 16}, {on = {below = 0.5, worst = 1000}})
+  local_reconnection{}
   smooth{}
 end
 
@@ -57,6 +53,15 @@ end
 local function open_by(operator, desperate)
   return sequence{operator, "recursive_shell_transformation", "smoothing", "joint_smoothing",
                   desperate = desperate}
+end
+
+-- A steep exponent: a new mild bad tet hardly counts against a worse one that goes.
+local function insertion_round()
+  begin_round()
+  local_reconnection{on = dire, reflex_only = false}
+  apply({"cavity_insertion", exponent = 16}, {on = {below = 0.5, worst = 1000}})
+  apply(open_by("edge_split", 0.35), {on = few})
+  mend()
 end
 
 -- All that may help the worst, every other round with less regard for mild ones.
@@ -95,18 +100,12 @@ local function very_worst_tets()
   return accepted
 end
 
-local function mend()
-  clean_up()
-  local_reconnection{}
-  smooth{}
-end
-
 local before = quality()
 repeat
   local last = before
   plain_round()
   before = quality()
-until before.n_bad > 0.9 * last.n_bad or is_enough()
+until before.n_bad > 0.75 * last.n_bad or is_enough()
 
 while not is_enough() do
   insertion_round()

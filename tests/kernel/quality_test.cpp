@@ -421,6 +421,30 @@ TEST_CASE("a gain within the tolerance decides nothing, a loss within it forbids
   CHECK_FALSE(improves(Values{0.25f - little}, Values{0.25f, 0.4f}));
 }
 
+TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for each 0.001") {
+  using Values = std::vector<Quality>;
+  const Values before = {0.1f, 0.45f, 0.8f};
+  constexpr double kLimit = 0.2;
+  CHECK(pays_for_bad(Values{0.1015f, 0.3f, 0.3f, 0.9f}, before, kLimit));
+  CHECK_FALSE(pays_for_bad(Values{0.1015f, 0.3f, 0.3f, 0.3f, 0.9f}, before, kLimit));
+  CHECK(pays_for_bad(Values{0.1025f, 0.3f, 0.3f, 0.3f, 0.9f}, before, kLimit));
+  CHECK(pays_for_bad(Values{0.1001f, 0.11f, 0.9f}, before, kLimit));  // none is new
+  CHECK(pays_for_bad(Values{}, before, kLimit));
+  CHECK_FALSE(pays_for_bad(Values{0.3f, 0.45f}, before, 0.1));
+  CHECK_FALSE(pays_for_bad(Values{0.3f}, Values{}, kLimit));
+}
+
+TEST_CASE(
+    "a better worst tet is worth it if the bad ones lack less in sum, or if it pays for them") {
+  using Values = std::vector<Quality>;
+  const Values before = {0.3f, 0.4f};
+  const Values many(100, 0.35f);
+  CHECK(is_worth_it(Values{0.31f, 0.4f}, before, 0));
+  CHECK_FALSE(is_worth_it(many, before, 0));
+  CHECK_FALSE(is_worth_it(many, before, 0.35));  // 0.05 pays for 49, not for 98
+  CHECK(is_worth_it(std::span(many).first(50), before, 0.35));
+}
+
 TEST_CASE("improves is a strict order and never contradicts the exact lexicographic one") {
   const auto vectors = sample_vectors(120);
   std::size_t better = 0;
