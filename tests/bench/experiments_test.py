@@ -51,6 +51,14 @@ class Experiments(unittest.TestCase):
         self.assertGreaterEqual(self.curves("figure12a-folded_sheet.svg"), 2)
         self.assertEqual(self.curves("figure12b.svg"), 3)
 
+    def test_what_an_ablation_leaves_out_is_missed(self) -> None:
+        [rows] = self.run_experiment("ablation", "folded_sheet")
+        whole = rows.pop("nothing")["after"]
+        self.assertEqual(len(rows), 8)
+        for name in ("local_reconnection", "smooth", "insert_points", "cavity_insertion"):
+            self.assertNotEqual(rows[name]["after"], whole, name)
+        self.assertGreater(rows["local_reconnection"]["after"]["n_bad"], whole["n_bad"])
+
     def test_all_schedules_that_are_listed_are_compared(self) -> None:
         [rows] = self.run_experiment("schedules", "sheet")
         listing = subprocess.run([BUILD / "bin" / "tetmend", "schedules"], check=True,

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""The thorough schedule with one operator or form left out at a time."""
+
+import common
+import compare
+import report
+
+SCHEDULE = compare.ROOT / "assets" / "schedules" / "thorough.lua"
+LEFT_OUT = ["local_reconnection", "smooth", "suppress_points", "insert_points", "cavity_insertion",
+            "polyhedron_reconnection", "joint_smoothing", "sequence"]
+
+# The words of a script are globals, so locals of the same name take their place.
+PRELUDE = """
+local left_out = "{left_out}"
+local function is_left_out(what)
+  if type(what) == "string" then return what == left_out end
+  return what.how == left_out or is_left_out(what[1])
+end
+local function unless_left_out(name, word)
+  return function(...) return name == left_out and 0 or word(...) end
+end
+local all_apply = apply
+local function apply(what, options)
+  return is_left_out(what) and 0 or all_apply(what, options)
+end
+local local_reconnection = unless_left_out("local_reconnection", local_reconnection)
+local smooth = unless_left_out("smooth", smooth)
+local suppress_points = unless_left_out("suppress_points", suppress_points)
+local insert_points = unless_left_out("insert_points", insert_points)
+"""
+
+
+def write_script(left_out: str, options) -> str:
+    script = options.output / f"thorough-without-{left_out}.lua"
+    script.write_text(PRELUDE.format(left_out=left_out) + SCHEDULE.read_text())
+    return str(script)
+
+
+def main() -> None:
+    options = common.parse("ablation", __doc__)
+    table = [["mesh", "left out", "tets", *report.QUALITY, "seconds"]]
+    results = []
+    for mesh in common.meshes(options):
+        rows = {"nothing": common.improve(mesh, options, "--schedule", "thorough")}
+        for name in LEFT_OUT:
+            rows[name] = common.improve(mesh, options, "--schedule", write_script(name, options))
+        for name, row in rows.items():
+            table.append([mesh.stem, name, *common.cells(row["after"], row["seconds"])])
+        results.append({"mesh": mesh.stem, "rows": rows})
+    common.save("ablation", options, {"meshes": results}, table)
+
+
+if __name__ == "__main__":
+    main()
