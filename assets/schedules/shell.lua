@@ -4,14 +4,16 @@ description "Algorithm 6 of the paper: rounds of reconnection, suppression and i
 local max_rounds     = parameter{"max_rounds", default = 30, low = 0, high = 10000, help = "rounds in all"}
 local least_progress = parameter{"least_progress", default = 0.25, low = 0, high = 1,
                                  help = "least share of the bad tets that a plain round must remove"}
-local last_rounds    = parameter{"last_rounds", default = 2, low = 0, high = 1000,
-                                 help = "most rounds for the worst tets at the end"}
+local last_sweeps    = parameter{"last_sweeps", default = 3, low = 0, high = 1000,
+                                 help = "most sweeps of dearer operators over the worst tets in the last round"}
 
 local dire  = {below = 0.25, at_least = 100}
 local worst = {below = 0, at_least = 32}
 
 local function clean_up()
-  return smooth{} + suppress_points{} + smooth{}
+  smooth{}
+  suppress_points{}
+  smooth{}
 end
 
 -- DEVIATION: Algorithm 6 smooths before the first reconnection (docs/deviations.md).
@@ -24,13 +26,22 @@ local function plain_round()
 end
 
 -- DEVIATION: of the paper is only the recursion. For so few tets a new mild bad one is no reason to refuse.
-local function last_round()
-  begin_round()
+local function sweep_worst()
   return local_reconnection{on = dire, reflex_only = false}
        + apply({"cavity_insertion", exponent = 16}, {on = dire})
        + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 14, max_nodes = 50, desperate = 0.35}, {on = worst})
-       + clean_up() + local_reconnection{} + smooth{}
+       + smooth{on = dire}
+end
+
+local function last_round()
+  begin_round()
+  for _ = 1, last_sweeps do
+    if sweep_worst() == 0 then break end
+  end
+  clean_up()
+  local_reconnection{}
+  smooth{}
 end
 
 local rounds, before, now = 0, nil, quality()
@@ -44,6 +55,4 @@ repeat
   now = quality()
 until now.n_bad > (1 - least_progress) * before.n_bad
 
-for _ = 1, math.min(last_rounds, max_rounds - rounds) do
-  if quality().n_bad == 0 or last_round() == 0 then break end
-end
+if rounds < max_rounds and last_sweeps > 0 and now.n_bad > 0 then last_round() end
