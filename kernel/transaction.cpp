@@ -280,8 +280,7 @@ void Transaction::clear_slot(VertexHandle v) {
   mesh_.points_[i] = Point::Zero();
   mesh_.vertex_tet_[i] = TetHandle();
   mesh_.vertex_flags_[i] = TetMesh::kVertexDeleted;
-  mesh_.vertex_date_[i] = 0;
-  mesh_.vertex_moved_[i] = 0;
+  mesh_.vertex_dates_[i] = {};
   mesh_.vertex_origin_[i] = TetMesh::kNotFromFile;
   mesh_.vertex_properties_.reset(v);
 }
@@ -363,8 +362,8 @@ void Transaction::remove_isolated(const Edit& replaced) {
     edit.vertex = v;
     edit.point = mesh_.points_[v.index()];
     journal.removed_vertices.push_back(
-        {mesh_.vertex_date_[v.index()], mesh_.vertex_moved_[v.index()],
-         mesh_.vertex_origin_[v.index()], mesh_.vertex_flags_[v.index()]});
+        {mesh_.changed(v), mesh_.moved(v), mesh_.vertex_origin_[v.index()],
+         mesh_.vertex_flags_[v.index()]});
     if (!mesh_.vertex_properties_.empty()) {
       journal.property_values.push_back(mesh_.vertex_properties_.save(v));
     }
@@ -554,8 +553,7 @@ void Transaction::undo_add(const Edit& edit) {
   mesh_.points_.pop_back();
   mesh_.vertex_tet_.pop_back();
   mesh_.vertex_flags_.pop_back();
-  mesh_.vertex_date_.pop_back();
-  mesh_.vertex_moved_.pop_back();
+  mesh_.vertex_dates_.pop_back();
   mesh_.vertex_origin_.pop_back();
   mesh_.vertex_properties_.resize(mesh_.points_.size());
 }
@@ -566,8 +564,7 @@ void Transaction::undo_remove(const Edit& edit) {
   const Journal::RemovedVertex saved = journal.removed_vertices.back();
   journal.removed_vertices.pop_back();
   mesh_.points_[i] = edit.point;
-  mesh_.vertex_date_[i] = saved.date;
-  mesh_.vertex_moved_[i] = saved.moved;
+  mesh_.vertex_dates_[i] = {saved.date, saved.moved};
   mesh_.vertex_origin_[i] = saved.origin;
   mesh_.vertex_flags_[i] = saved.flags;
   if (!mesh_.vertex_properties_.empty()) {
@@ -649,9 +646,9 @@ void Transaction::commit() {
     for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) {
       const TetHandle t = journal.created[k];
       if (mesh_.is_deleted(t)) continue;
-      for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_date_[v.index()] = date;
+      for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_dates_[v.index()].changed = date;
     }
-    if (edit.kind == Edit::Kind::move_vertex) mesh_.vertex_moved_[edit.vertex.index()] = date;
+    if (edit.kind == Edit::Kind::move_vertex) mesh_.vertex_dates_[edit.vertex.index()].moved = date;
     if (edit.kind == Edit::Kind::add_vertex) workspace_.added_vertices_.push_back(edit.vertex);
     // The star of the moved vertex did not change but for the move: it keeps its date.
     for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
@@ -659,7 +656,7 @@ void Transaction::commit() {
       if (mesh_.is_deleted(t)) continue;
       mesh_.tet_flags_[t.index()] |= TetMesh::kTetTouched;
       for (const VertexHandle v : mesh_.vertices(t)) {
-        if (v != edit.vertex) mesh_.vertex_date_[v.index()] = date;
+        if (v != edit.vertex) mesh_.vertex_dates_[v.index()].changed = date;
       }
     }
   }
