@@ -20,6 +20,10 @@ std::uint32_t size32(const std::vector<T>& values) {
   return static_cast<std::uint32_t>(values.size());
 }
 
+void add_to_batch(const TetMesh& mesh, const TetVertices& tet, TetBatch& batch) {
+  batch.add(mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]), mesh.point(tet[3]));
+}
+
 }  // namespace
 
 Transaction::Transaction(TetMesh& mesh, Workspace& workspace)
@@ -117,10 +121,12 @@ EditResult Transaction::check_vertices(std::span<const TetHandle> old,
 }
 
 EditResult Transaction::evaluate(std::span<const TetVertices> created) {
-  workspace_.created_quality_.clear();
-  for (const TetVertices& tet : created) {
-    if (!mesh_.is_certified_positive(tet)) return EditResult::inverted;
-    workspace_.created_quality_.push_back(mesh_.evaluate(tet));
+  TetBatch& batch = workspace_.batch_;
+  batch.clear();
+  for (const TetVertices& tet : created) add_to_batch(mesh_, tet, batch);
+  batch.evaluate();
+  for (std::size_t k = 0; k < created.size(); ++k) {
+    if (!batch.is_certified_positive(k)) return EditResult::inverted;
   }
   return EditResult::made;
 }
@@ -314,7 +320,7 @@ void Transaction::fill_slots(std::span<const TetVertices> created, Label label, 
     const std::uint32_t i = slots[k].index();
     TetMesh::Cell& cell = mesh_.cells_[i];
     cell.vertices = created[k];
-    mesh_.quality_[i] = workspace_.created_quality_[k];
+    mesh_.quality_[i] = workspace_.batch_.quality(k);
     mesh_.label_[i] = label;
     mesh_.tet_flags_[i] = workspace_.created_flags_[k];
     mesh_.tet_properties_.reset(slots[k]);
@@ -361,9 +367,9 @@ void Transaction::remove_isolated(const Edit& replaced) {
     edit.kind = Edit::Kind::remove_vertex;
     edit.vertex = v;
     edit.point = mesh_.points_[v.index()];
-    journal.removed_vertices.push_back(
-        {mesh_.changed(v), mesh_.moved(v), mesh_.vertex_origin_[v.index()],
-         mesh_.vertex_flags_[v.index()]});
+    journal.removed_vertices.push_back({mesh_.changed(v), mesh_.moved(v),
+                                        mesh_.vertex_origin_[v.index()],
+                                        mesh_.vertex_flags_[v.index()]});
     if (!mesh_.vertex_properties_.empty()) {
       journal.property_values.push_back(mesh_.vertex_properties_.save(v));
     }
@@ -418,39 +424,57 @@ EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
     before.push_back(stored);
     stored = move.point;
   }
+  evaluate(moves);
   if (turns_over(moves)) {
     for (std::size_t i = 0; i < moves.size(); ++i) {
       mesh_.points_[moves[i].vertex.index()] = before[i];
     }
     return EditResult::inverted;
   }
-  for (std::size_t i = 0; i < moves.size(); ++i) note_move(moves[i], before[i]);
+  std::size_t evaluated = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    note_move(moves[i], before[i], evaluated);
+    evaluated += moves[i].link.size();
+  }
   return EditResult::made;
+}
+
+/// The tets of each link in turn, with the vertices in their new places.
+void Transaction::evaluate(std::span<const VertexMove> moves) {
+  TetBatch& batch = workspace_.batch_;
+  batch.clear();
+  for (const VertexMove& move : moves) {
+    for (const HalfFace f : move.link) add_to_batch(mesh_, mesh_.vertices(f.tet()), batch);
+  }
+  batch.evaluate();
 }
 
 /// A tet that was positive is not certified so with the vertices in their new places.
 bool Transaction::turns_over(std::span<const VertexMove> moves) const {
+  std::size_t k = 0;
   for (const VertexMove& move : moves) {
     for (const HalfFace f : move.link) {
-      const TetHandle t = f.tet();
-      if (mesh_.quality(t) > 0 && !mesh_.is_certified_positive(mesh_.vertices(t))) return true;
+      const bool is_positive = workspace_.batch_.is_certified_positive(k++);
+      if (!is_positive && mesh_.quality(f.tet()) > 0) return true;
     }
   }
   return false;
 }
 
 /// Brings the qualities around a vertex that was moved up to date and keeps the old ones.
-void Transaction::note_move(const VertexMove& move, const Point& before) {
+void Transaction::note_move(const VertexMove& move, const Point& before,
+                            std::size_t first_of_batch) {
   Journal& journal = workspace_.journal_;
   Edit edit;
   edit.kind = Edit::Kind::move_vertex;
   edit.vertex = move.vertex;
   edit.point = before;
   edit.qualities_begin = size32(journal.qualities);
+  std::size_t k = first_of_batch;
   for (const HalfFace f : move.link) {
     Quality& quality = mesh_.quality_[f.tet().index()];
     journal.qualities.push_back({f.tet(), quality});
-    quality = mesh_.evaluate(mesh_.vertices(f.tet()));
+    quality = workspace_.batch_.quality(k++);
   }
   edit.qualities_end = size32(journal.qualities);
   note(edit);
