@@ -24,6 +24,9 @@ struct FilteredVolume {
   double error;
 };
 
+inline constexpr double kFilterShare = 7.7715611723761027e-16;
+inline constexpr double kFilterUnderflow = 1e-300;
+
 inline FilteredVolume filtered_volume6(const Point& a, const Point& b, const Point& c,
                                        const Point& d) {
   const Point u = b - a;
@@ -42,7 +45,7 @@ inline FilteredVolume filtered_volume6(const Point& a, const Point& b, const Poi
   const double permanent = u1 * (std::abs(v2w3) + std::abs(v3w2)) +
                            u2 * (std::abs(v3w1) + std::abs(v1w3)) +
                            u3 * (std::abs(v1w2) + std::abs(v2w1));
-  return {det, 7.7715611723761027e-16 * permanent + 1e-300 * (1 + u1 + u2 + u3)};
+  return {det, kFilterShare * permanent + kFilterUnderflow * (1 + u1 + u2 + u3)};
 }
 
 /// True only if the exact volume of the tet with the given (double) coordinates is positive: the

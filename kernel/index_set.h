@@ -25,14 +25,21 @@ class IndexSet {
   }
   /// True if the index was not yet in the set.
   bool insert(std::uint32_t index) {
-    std::uint64_t& slot = probe(index);
-    if (slot == entry(index)) return false;
-    slot = entry(index);
-    if (++size_ * 2 > slots_.size()) grow();
-    return true;
+    const std::uint64_t wanted = entry(index);
+    std::size_t i = home(index);
+    for (; slots_[i] != wanted; i = (i + 1) & mask_) {
+      if (is_used(slots_[i])) continue;
+      slots_[i] = wanted;
+      if (++size_ * 2 > mask_) grow();
+      return true;
+    }
+    return false;
   }
   bool contains(std::uint32_t index) const {
-    return const_cast<IndexSet*>(this)->probe(index) == entry(index);
+    const std::uint64_t wanted = entry(index);
+    std::size_t i = home(index);
+    while (slots_[i] != wanted && is_used(slots_[i])) i = (i + 1) & mask_;
+    return slots_[i] == wanted;
   }
   std::size_t size() const { return size_; }
 
@@ -40,22 +47,23 @@ class IndexSet {
   std::uint64_t entry(std::uint32_t index) const {
     return (static_cast<std::uint64_t>(stamp_) << 32) | index;
   }
-  /// The slot that holds the index, or the free slot where it belongs.
-  std::uint64_t& probe(std::uint32_t index) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t i = (index * 0x9E3779B97F4A7C15ull >> 40) & mask;
-    while (slots_[i] >> 32 == stamp_ && slots_[i] != entry(index)) i = (i + 1) & mask;
-    return slots_[i];
+  bool is_used(std::uint64_t slot) const { return slot >> 32 == stamp_; }
+  /// Where the search for an index begins.
+  std::size_t home(std::uint32_t index) const {
+    return (index * 0x9E3779B97F4A7C15ull >> 40) & mask_;
   }
   void grow() {
-    const std::vector<std::uint64_t> old = slots_;
-    slots_.assign(old.size() * 2, 0);
+    const std::vector<std::uint64_t> old =
+        std::exchange(slots_, std::vector<std::uint64_t>(slots_.size() * 2, 0));
+    mask_ = slots_.size() - 1;
+    size_ = 0;
     for (const std::uint64_t slot : old) {
-      if (slot >> 32 == stamp_) probe(static_cast<std::uint32_t>(slot)) = slot;
+      if (is_used(slot)) insert(static_cast<std::uint32_t>(slot));
     }
   }
 
-  std::vector<std::uint64_t> slots_;  // stamp << 32 | index
+  std::vector<std::uint64_t> slots_;  // stamp << 32 | index; at least every other is free
+  std::size_t mask_ = slots_.size() - 1;
   std::uint32_t stamp_ = 1;
   std::size_t size_ = 0;
 };

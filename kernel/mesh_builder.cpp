@@ -191,8 +191,7 @@ void MeshBuilder::place_vertices(bool sorted) {
   }
   resize_with_room(mesh_.vertex_tet_, n);
   resize_with_room(mesh_.vertex_flags_, n);
-  resize_with_room(mesh_.vertex_date_, n);
-  resize_with_room(mesh_.vertex_moved_, n);
+  resize_with_room(mesh_.vertex_dates_, n);
   mesh_.vertex_count_ = n;
   mesh_.vertex_properties_.resize(n);
   mesh_.point_labels_ = std::move(data_.point_labels);

@@ -9,6 +9,13 @@ namespace tetmend {
 
 namespace {
 
+/// The walk comes to the neighbours soon: memory is asked for their cells at once.
+void prefetch_neighbours(const TetMesh& mesh, TetHandle t) {
+  for (const HalfFace twin : mesh.neighbours(t)) {
+    if (!twin.is_outside()) mesh.prefetch(twin.tet());
+  }
+}
+
 /// Calls visit(half-face opposite v) for each tet of the star until it returns true. False if the
 /// walk ends at the border of the territory.
 template <class Visit>
@@ -31,6 +38,7 @@ bool walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
       if (f == opposite.face() || twin.is_outside() || !seen.insert(twin.tet().index())) continue;
       if (!workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return false;
       queue.push_back(HalfFace(twin.tet(), mesh.local_index(twin.tet(), v)));
+      prefetch_neighbours(mesh, twin.tet());
       if (visit(queue.back())) return true;
     }
   }

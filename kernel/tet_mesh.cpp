@@ -117,8 +117,7 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
   gather(points_, vertex_order);
   gather(vertex_tet_, vertex_order);
   gather(vertex_flags_, vertex_order);
-  gather(vertex_date_, vertex_order);
-  gather(vertex_moved_, vertex_order);
+  gather(vertex_dates_, vertex_order);
   gather(vertex_origin_, vertex_order);
   tet_properties_.gather(tet_order);
   vertex_properties_.gather(vertex_order);
@@ -165,8 +164,7 @@ void TetMesh::grow_vertices(std::size_t count) {
   grow(points_, count, Point(Point::Zero()));
   grow(vertex_tet_, count, {});
   grow(vertex_flags_, count, kVertexDeleted);
-  grow(vertex_date_, count, Date{0});
-  grow(vertex_moved_, count, Date{0});
+  grow(vertex_dates_, count, {});
   grow(vertex_origin_, count, kNotFromFile);
   vertex_properties_.resize(points_.size());
 }
@@ -197,9 +195,8 @@ void TetMesh::scatter(std::span<const std::uint32_t> vertex_slots,
 bool operator==(const TetMesh& a, const TetMesh& b) {
   return a.cells_ == b.cells_ && a.quality_ == b.quality_ && a.label_ == b.label_ &&
          a.tet_flags_ == b.tet_flags_ && a.points_ == b.points_ && a.vertex_tet_ == b.vertex_tet_ &&
-         a.vertex_flags_ == b.vertex_flags_ && a.vertex_date_ == b.vertex_date_ &&
-         a.vertex_moved_ == b.vertex_moved_ && a.tet_count_ == b.tet_count_ &&
-         a.vertex_count_ == b.vertex_count_;
+         a.vertex_flags_ == b.vertex_flags_ && a.vertex_dates_ == b.vertex_dates_ &&
+         a.tet_count_ == b.tet_count_ && a.vertex_count_ == b.vertex_count_;
 }
 
 }  // namespace tetmend

@@ -20,6 +20,10 @@ std::uint32_t size32(const std::vector<T>& values) {
   return static_cast<std::uint32_t>(values.size());
 }
 
+void add_to_batch(const TetMesh& mesh, const TetVertices& tet, TetBatch& batch) {
+  batch.add(mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]), mesh.point(tet[3]));
+}
+
 }  // namespace
 
 Transaction::Transaction(TetMesh& mesh, Workspace& workspace)
@@ -117,10 +121,12 @@ EditResult Transaction::check_vertices(std::span<const TetHandle> old,
 }
 
 EditResult Transaction::evaluate(std::span<const TetVertices> created) {
-  workspace_.created_quality_.clear();
-  for (const TetVertices& tet : created) {
-    if (!mesh_.is_certified_positive(tet)) return EditResult::inverted;
-    workspace_.created_quality_.push_back(mesh_.evaluate(tet));
+  TetBatch& batch = workspace_.batch_;
+  batch.clear();
+  for (const TetVertices& tet : created) add_to_batch(mesh_, tet, batch);
+  batch.evaluate();
+  for (std::size_t k = 0; k < created.size(); ++k) {
+    if (!batch.is_certified_positive(k)) return EditResult::inverted;
   }
   return EditResult::made;
 }
@@ -280,8 +286,7 @@ void Transaction::clear_slot(VertexHandle v) {
   mesh_.points_[i] = Point::Zero();
   mesh_.vertex_tet_[i] = TetHandle();
   mesh_.vertex_flags_[i] = TetMesh::kVertexDeleted;
-  mesh_.vertex_date_[i] = 0;
-  mesh_.vertex_moved_[i] = 0;
+  mesh_.vertex_dates_[i] = {};
   mesh_.vertex_origin_[i] = TetMesh::kNotFromFile;
   mesh_.vertex_properties_.reset(v);
 }
@@ -315,7 +320,7 @@ void Transaction::fill_slots(std::span<const TetVertices> created, Label label, 
     const std::uint32_t i = slots[k].index();
     TetMesh::Cell& cell = mesh_.cells_[i];
     cell.vertices = created[k];
-    mesh_.quality_[i] = workspace_.created_quality_[k];
+    mesh_.quality_[i] = workspace_.batch_.quality(k);
     mesh_.label_[i] = label;
     mesh_.tet_flags_[i] = workspace_.created_flags_[k];
     mesh_.tet_properties_.reset(slots[k]);
@@ -362,9 +367,9 @@ void Transaction::remove_isolated(const Edit& replaced) {
     edit.kind = Edit::Kind::remove_vertex;
     edit.vertex = v;
     edit.point = mesh_.points_[v.index()];
-    journal.removed_vertices.push_back(
-        {mesh_.vertex_date_[v.index()], mesh_.vertex_moved_[v.index()],
-         mesh_.vertex_origin_[v.index()], mesh_.vertex_flags_[v.index()]});
+    journal.removed_vertices.push_back({mesh_.changed(v), mesh_.moved(v),
+                                        mesh_.vertex_origin_[v.index()],
+                                        mesh_.vertex_flags_[v.index()]});
     if (!mesh_.vertex_properties_.empty()) {
       journal.property_values.push_back(mesh_.vertex_properties_.save(v));
     }
@@ -419,39 +424,57 @@ EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
     before.push_back(stored);
     stored = move.point;
   }
+  evaluate(moves);
   if (turns_over(moves)) {
     for (std::size_t i = 0; i < moves.size(); ++i) {
       mesh_.points_[moves[i].vertex.index()] = before[i];
     }
     return EditResult::inverted;
   }
-  for (std::size_t i = 0; i < moves.size(); ++i) note_move(moves[i], before[i]);
+  std::size_t evaluated = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    note_move(moves[i], before[i], evaluated);
+    evaluated += moves[i].link.size();
+  }
   return EditResult::made;
+}
+
+/// The tets of each link in turn, with the vertices in their new places.
+void Transaction::evaluate(std::span<const VertexMove> moves) {
+  TetBatch& batch = workspace_.batch_;
+  batch.clear();
+  for (const VertexMove& move : moves) {
+    for (const HalfFace f : move.link) add_to_batch(mesh_, mesh_.vertices(f.tet()), batch);
+  }
+  batch.evaluate();
 }
 
 /// A tet that was positive is not certified so with the vertices in their new places.
 bool Transaction::turns_over(std::span<const VertexMove> moves) const {
+  std::size_t k = 0;
   for (const VertexMove& move : moves) {
     for (const HalfFace f : move.link) {
-      const TetHandle t = f.tet();
-      if (mesh_.quality(t) > 0 && !mesh_.is_certified_positive(mesh_.vertices(t))) return true;
+      const bool is_positive = workspace_.batch_.is_certified_positive(k++);
+      if (!is_positive && mesh_.quality(f.tet()) > 0) return true;
     }
   }
   return false;
 }
 
 /// Brings the qualities around a vertex that was moved up to date and keeps the old ones.
-void Transaction::note_move(const VertexMove& move, const Point& before) {
+void Transaction::note_move(const VertexMove& move, const Point& before,
+                            std::size_t first_of_batch) {
   Journal& journal = workspace_.journal_;
   Edit edit;
   edit.kind = Edit::Kind::move_vertex;
   edit.vertex = move.vertex;
   edit.point = before;
   edit.qualities_begin = size32(journal.qualities);
+  std::size_t k = first_of_batch;
   for (const HalfFace f : move.link) {
     Quality& quality = mesh_.quality_[f.tet().index()];
     journal.qualities.push_back({f.tet(), quality});
-    quality = mesh_.evaluate(mesh_.vertices(f.tet()));
+    quality = workspace_.batch_.quality(k++);
   }
   edit.qualities_end = size32(journal.qualities);
   note(edit);
@@ -554,8 +577,7 @@ void Transaction::undo_add(const Edit& edit) {
   mesh_.points_.pop_back();
   mesh_.vertex_tet_.pop_back();
   mesh_.vertex_flags_.pop_back();
-  mesh_.vertex_date_.pop_back();
-  mesh_.vertex_moved_.pop_back();
+  mesh_.vertex_dates_.pop_back();
   mesh_.vertex_origin_.pop_back();
   mesh_.vertex_properties_.resize(mesh_.points_.size());
 }
@@ -566,8 +588,7 @@ void Transaction::undo_remove(const Edit& edit) {
   const Journal::RemovedVertex saved = journal.removed_vertices.back();
   journal.removed_vertices.pop_back();
   mesh_.points_[i] = edit.point;
-  mesh_.vertex_date_[i] = saved.date;
-  mesh_.vertex_moved_[i] = saved.moved;
+  mesh_.vertex_dates_[i] = {saved.date, saved.moved};
   mesh_.vertex_origin_[i] = saved.origin;
   mesh_.vertex_flags_[i] = saved.flags;
   if (!mesh_.vertex_properties_.empty()) {
@@ -649,9 +670,9 @@ void Transaction::commit() {
     for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) {
       const TetHandle t = journal.created[k];
       if (mesh_.is_deleted(t)) continue;
-      for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_date_[v.index()] = date;
+      for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_dates_[v.index()].changed = date;
     }
-    if (edit.kind == Edit::Kind::move_vertex) mesh_.vertex_moved_[edit.vertex.index()] = date;
+    if (edit.kind == Edit::Kind::move_vertex) mesh_.vertex_dates_[edit.vertex.index()].moved = date;
     if (edit.kind == Edit::Kind::add_vertex) workspace_.added_vertices_.push_back(edit.vertex);
     // The star of the moved vertex did not change but for the move: it keeps its date.
     for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
@@ -659,7 +680,7 @@ void Transaction::commit() {
       if (mesh_.is_deleted(t)) continue;
       mesh_.tet_flags_[t.index()] |= TetMesh::kTetTouched;
       for (const VertexHandle v : mesh_.vertices(t)) {
-        if (v != edit.vertex) mesh_.vertex_date_[v.index()] = date;
+        if (v != edit.vertex) mesh_.vertex_dates_[v.index()].changed = date;
       }
     }
   }

@@ -92,8 +92,9 @@ class Transaction {
   void link_vertices(std::span<const TetVertices> created, Edit& edit);
   void remove_isolated(const Edit& edit);
   void note(const Edit& edit);
+  void evaluate(std::span<const VertexMove> moves);
   bool turns_over(std::span<const VertexMove> moves) const;
-  void note_move(const VertexMove& move, const Point& before);
+  void note_move(const VertexMove& move, const Point& before, std::size_t first_of_batch);
   TetHandle append_tet();
   void clear_slot(TetHandle t);
   void clear_slot(VertexHandle v);

@@ -9,6 +9,7 @@
 #include "kernel/face_table.h"
 #include "kernel/index_set.h"
 #include "kernel/territory.h"
+#include "kernel/tet_batch.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -124,7 +125,7 @@ class Workspace {
     bool constrained;
   };
   std::vector<Gluing> gluing_;
-  std::vector<Quality> created_quality_;
+  TetBatch batch_;  // the tets that an edit makes or moves
   std::vector<std::uint16_t> created_flags_;
   std::vector<std::array<VertexHandle, 2>> constrained_edges_;
   std::vector<Point> moved_points_;

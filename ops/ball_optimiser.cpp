@@ -15,33 +15,23 @@ namespace tetmend {
 
 namespace {
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// Several tets at once on processors that can; the same operations in the same order everywhere.
-#define TETMEND_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define TETMEND_WIDE
-#endif
-
 /// Squares, with the signs, of the minimum sines of four tets with a common vertex p.
 using Lanes = BallOptimiser::Lanes;
 using Values = BallOptimiser::Values;
-
-// A vector of the compiler: one register or several, as the processor has them.
-using Vector = double __attribute__((vector_size(sizeof(Values))));
 
 /// Computes what depends on the corners alone.
 TETMEND_WIDE
 void complete_triangles(Lanes* lanes, std::size_t count) {
   using B = BallOptimiser;
   for (std::size_t n = 0; n < count; ++n) {
-    auto* ball = reinterpret_cast<Vector*>(&lanes[n]);
-    const Vector ux = ball[B::bx] - ball[B::ax], vx = ball[B::cx] - ball[B::ax];
-    const Vector uy = ball[B::by] - ball[B::ay], vy = ball[B::cy] - ball[B::ay];
-    const Vector uz = ball[B::bz] - ball[B::az], vz = ball[B::cz] - ball[B::az];
-    const Vector wx = ball[B::cx] - ball[B::bx];
-    const Vector wy = ball[B::cy] - ball[B::by];
-    const Vector wz = ball[B::cz] - ball[B::bz];
-    const Vector nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    auto* ball = lanes[n].vectors();
+    const WideVector ux = ball[B::bx] - ball[B::ax], vx = ball[B::cx] - ball[B::ax];
+    const WideVector uy = ball[B::by] - ball[B::ay], vy = ball[B::cy] - ball[B::ay];
+    const WideVector uz = ball[B::bz] - ball[B::az], vz = ball[B::cz] - ball[B::az];
+    const WideVector wx = ball[B::cx] - ball[B::bx];
+    const WideVector wy = ball[B::cy] - ball[B::by];
+    const WideVector wz = ball[B::cz] - ball[B::bz];
+    const WideVector nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
     ball[B::nx] = nx;
     ball[B::ny] = ny;
     ball[B::nz] = nz;
@@ -52,47 +42,56 @@ void complete_triangles(Lanes* lanes, std::size_t count) {
   }
 }
 
-/// Returns the smallest.
+/// Returns the smallest, or some value below `least_square` as soon as there is one.
 TETMEND_WIDE
 double evaluate_ball(const Lanes* lanes, std::size_t count, double px, double py, double pz,
-                     Values* squares) {
+                     Values* squares, double least_square) {
   using B = BallOptimiser;
-  const Vector zero = {};
-  Vector smallest = zero + std::numeric_limits<double>::infinity();
+  const WideVector zero = {};
+  WideVector smallest = zero + std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < count; ++n) {
-    const auto* ball = reinterpret_cast<const Vector*>(&lanes[n]);
-    const Vector ux = ball[B::ax] - px, uy = ball[B::ay] - py, uz = ball[B::az] - pz;
-    const Vector vx = ball[B::bx] - px, vy = ball[B::by] - py, vz = ball[B::bz] - pz;
-    const Vector wx = ball[B::cx] - px, wy = ball[B::cy] - py, wz = ball[B::cz] - pz;
-    const Vector lx = vy * wz - vz * wy, ly = vz * wx - vx * wz, lz = vx * wy - vy * wx;
-    const Vector mx = wy * uz - wz * uy, my = wz * ux - wx * uz, mz = wx * uy - wy * ux;
-    const Vector kx = uy * vz - uz * vy, ky = uz * vx - ux * vz, kz = ux * vy - uy * vx;
-    const Vector na = lx * lx + ly * ly + lz * lz;  // face opposite a
-    const Vector nb = mx * mx + my * my + mz * mz;
-    const Vector nc = kx * kx + ky * ky + kz * kz;
-    const Vector np = ball[B::n2];
-    const Vector at_a = (ux * ux + uy * uy + uz * uz) * na;
-    const Vector at_b = (vx * vx + vy * vy + vz * vz) * nb;
-    const Vector at_c = (wx * wx + wy * wy + wz * wz) * nc;
-    const Vector v6 = ball[B::nx] * ux + ball[B::ny] * uy + ball[B::nz] * uz;
-    const Vector ab = ball[B::ab2] * (na * nb);
-    const Vector bc = ball[B::bc2] * (nb * nc);
-    const Vector ca = ball[B::ca2] * (nc * na);
-    Vector at_p = at_a < at_b ? at_a : at_b;
+    const auto* ball = lanes[n].vectors();
+    const WideVector ux = ball[B::ax] - px, uy = ball[B::ay] - py, uz = ball[B::az] - pz;
+    const WideVector vx = ball[B::bx] - px, vy = ball[B::by] - py, vz = ball[B::bz] - pz;
+    const WideVector wx = ball[B::cx] - px, wy = ball[B::cy] - py, wz = ball[B::cz] - pz;
+    const WideVector lx = vy * wz - vz * wy, ly = vz * wx - vx * wz, lz = vx * wy - vy * wx;
+    const WideVector mx = wy * uz - wz * uy, my = wz * ux - wx * uz, mz = wx * uy - wy * ux;
+    const WideVector kx = uy * vz - uz * vy, ky = uz * vx - ux * vz, kz = ux * vy - uy * vx;
+    const WideVector na = lx * lx + ly * ly + lz * lz;  // face opposite a
+    const WideVector nb = mx * mx + my * my + mz * mz;
+    const WideVector nc = kx * kx + ky * ky + kz * kz;
+    const WideVector np = ball[B::n2];
+    const WideVector at_a = (ux * ux + uy * uy + uz * uz) * na;
+    const WideVector at_b = (vx * vx + vy * vy + vz * vz) * nb;
+    const WideVector at_c = (wx * wx + wy * wy + wz * wz) * nc;
+    const WideVector v6 = ball[B::nx] * ux + ball[B::ny] * uy + ball[B::nz] * uz;
+    const WideVector ab = ball[B::ab2] * (na * nb);
+    const WideVector bc = ball[B::bc2] * (nb * nc);
+    const WideVector ca = ball[B::ca2] * (nc * na);
+    WideVector at_p = at_a < at_b ? at_a : at_b;
     at_p = (at_p < at_c ? at_p : at_c) * np;
-    Vector least = ab < bc ? ab : bc;
+    WideVector least = ab < bc ? ab : bc;
     least = least < ca ? least : ca;
     least = least < at_p ? least : at_p;
-    const Vector product = (np * na) * (nb * nc);
-    const Vector ratio = least / (product > zero ? product : zero + 1.0);
-    const Vector size = v6 < zero ? -v6 : v6;
-    const Vector square = product > zero ? v6 * size * ratio : zero;
-    *reinterpret_cast<Vector*>(&squares[n]) = square;
+    const WideVector product = (np * na) * (nb * nc);
+    const WideVector ratio = least / (product > zero ? product : zero + 1.0);
+    const WideVector size = v6 < zero ? -v6 : v6;
+    const WideVector square = product > zero ? v6 * size * ratio : zero;
+    *squares[n].vectors() = square;
     smallest = square < smallest ? square : smallest;
+    const auto below = square < least_square;
+    if ((below[0] | below[1] | below[2] | below[3]) != 0) break;
   }
   double worst = smallest[0];
   for (std::size_t i = 1; i < B::kLanes; ++i) worst = smallest[i] < worst ? smallest[i] : worst;
   return worst;
+}
+
+/// Signed squares below this have roots that do not exceed `value`, whatever the rounding.
+double square_below(double value) {
+  constexpr double kRounding = 1e-12;
+  const double less = value - kRounding * std::abs(value);
+  return less * std::abs(less);
 }
 
 double signed_root(double square) {
@@ -121,26 +120,33 @@ void BallOptimiser::add(const Point& a, const Point& b, const Point& c) {
   complete_ = false;
 }
 
-double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares) {
+double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares,
+                                   double least_square) {
   const std::size_t count = (size_ + kLanes - 1) / kLanes;
   if (!complete_) complete_triangles(lanes_.data(), count);
   complete_ = true;
   if (squares.size() < count) squares.resize(lanes_.size());
-  return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data());
+  return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data(), least_square);
 }
 
 double BallOptimiser::worst(const Point& p) {
-  return signed_root(worst_square(p, square_));
+  return signed_root(worst_square(p, square_, -std::numeric_limits<double>::infinity()));
+}
+
+double BallOptimiser::worst_above(const Point& p, double least) {
+  const double reached = signed_root(worst_square(p, trial_, square_below(least)));
+  if (reached > least) std::swap(square_, trial_);
+  return reached;
 }
 
 double BallOptimiser::quality(std::size_t i) const {
-  return signed_root(square_[i / kLanes].of[i % kLanes]);
+  return signed_root(square_[i / kLanes].of[0][i % kLanes]);
 }
 
 double BallOptimiser::total_deficit() const {
   double sum = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    if (square_[i / kLanes].of[i % kLanes] < kBadThreshold * kBadThreshold) {
+    if (square_[i / kLanes].of[0][i % kLanes] < kBadThreshold * kBadThreshold) {
       sum += deficit(quality(i));
     }
   }
@@ -191,7 +197,7 @@ unsigned BallOptimiser::find_active(const Point& p, double worst, double width) 
   const double band_square = band * std::abs(band);
   unsigned count = 0;
   for (std::size_t i = 0; i < size_ && count < kMaxActive; ++i) {
-    if (square_[i / kLanes].of[i % kLanes] <= band_square) add_gradients(i, p, band, count);
+    if (square_[i / kLanes].of[0][i % kLanes] <= band_square) add_gradients(i, p, band, count);
   }
   return count;
 }
@@ -218,7 +224,8 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
   double gain = 0;
   double taken = 0;
   for (step = std::min(2 * step, 0.5 * length); step > least_step * length; step *= 0.5) {
-    const double reached = signed_root(worst_square(p + step * unit, trial_));
+    const double reached =
+        signed_root(worst_square(p + step * unit, trial_, square_below(start + gain)));
     const double rise = reached - start;
     if (gain > 0 && rise <= gain) break;
     if (rise > gain) {
@@ -236,10 +243,10 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
   return gain;
 }
 
-double BallOptimiser::optimise(Point& p, const Limits& limits) {
+double BallOptimiser::optimise_from(Point& p, double reached, const Limits& limits) {
   // A narrow band sees the slope at hand, a wide one the ridge ahead.
   constexpr std::array<double, 2> kWidths = {0.03, 0.15};
-  double best = worst(p);
+  double best = reached;
   const double length = local_length(p);
   double step = 0.25 * length;
   std::size_t width = 0;
@@ -257,6 +264,35 @@ double BallOptimiser::optimise(Point& p, const Limits& limits) {
 
 namespace {
 
+// Whether the point of a line, plane or space nearest to the origin lies inside the segment,
+// triangle or tet with the given corners; writes the point. Most do not, and few need all tests.
+
+bool nearest_inside(const Point& p, const Point& q, Point& nearest) {
+  const Point along = q - p;
+  const double t = -p.dot(along) / along.squaredNorm();
+  nearest = p + t * along;
+  return t > 0 && t < 1;
+}
+
+bool nearest_inside(const Point& p, const Point& q, const Point& r, Point& nearest) {
+  const Point normal = (q - p).cross(r - p);
+  const double square = normal.squaredNorm();
+  if (!(square > 0)) return false;
+  const Point x = normal * (p.dot(normal) / square);
+  nearest = x;
+  return (q - x).cross(r - x).dot(normal) > 0 && (r - x).cross(p - x).dot(normal) > 0 &&
+         (p - x).cross(q - x).dot(normal) > 0;
+}
+
+bool nearest_inside(const Point& p, const Point& q, const Point& r, const Point& s,
+                    Point& nearest) {
+  const double whole = (q - p).dot((r - p).cross(s - p));
+  const Point rs = r.cross(s);
+  nearest = Point::Zero();
+  return q.dot(rs) / whole > 0 && -p.dot(rs) / whole > 0 && p.dot(q.cross(s)) / whole > 0 &&
+         -p.dot(q.cross(r)) / whole > 0;
+}
+
 /// Shortest vector in the hull of a simplex of up to four points, whose last is new: the face that
 /// carries the vector has it as a corner. Drops the other points.
 Point reduce_simplex(std::array<Point, 4>& s, unsigned& count) {
@@ -267,36 +303,16 @@ Point reduce_simplex(std::array<Point, 4>& s, unsigned& count) {
   double best_square = best.squaredNorm();
   unsigned best_mask = 0;
   for (unsigned mask = 1; mask < (1u << last); ++mask) {
-    std::array<Point, 4> q;
+    std::array<unsigned, 3> i{};
     unsigned n = 0;
-    for (unsigned i = 0; i < last; ++i) {
-      if (mask >> i & 1u) q[n++] = s[i];
+    for (unsigned k = 0; k < last; ++k) {
+      if (mask >> k & 1u) i[n++] = k;
     }
-    q[n++] = s[last];
     Point x;
-    if (n == 2) {
-      const Point d = q[1] - q[0];
-      const double t = -q[0].dot(d) / d.squaredNorm();
-      if (!(t > 0 && t < 1)) continue;
-      x = q[0] + t * d;
-    } else if (n == 3) {
-      const Point normal = (q[1] - q[0]).cross(q[2] - q[0]);
-      const double square = normal.squaredNorm();
-      if (!(square > 0)) continue;
-      x = normal * (q[0].dot(normal) / square);
-      const double u = (q[1] - x).cross(q[2] - x).dot(normal);
-      const double v = (q[2] - x).cross(q[0] - x).dot(normal);
-      const double w = (q[0] - x).cross(q[1] - x).dot(normal);
-      if (!(u > 0 && v > 0 && w > 0)) continue;
-    } else {
-      const double whole = (q[1] - q[0]).dot((q[2] - q[0]).cross(q[3] - q[0]));
-      const double d0 = q[1].dot(q[2].cross(q[3])) / whole;
-      const double d1 = -q[0].dot(q[2].cross(q[3])) / whole;
-      const double d2 = q[0].dot(q[1].cross(q[3])) / whole;
-      const double d3 = -q[0].dot(q[1].cross(q[2])) / whole;
-      if (!(d0 > 0 && d1 > 0 && d2 > 0 && d3 > 0)) continue;
-      x = Point::Zero();
-    }
+    const bool inside = n == 1   ? nearest_inside(s[i[0]], s[last], x)
+                        : n == 2 ? nearest_inside(s[i[0]], s[i[1]], s[last], x)
+                                 : nearest_inside(s[i[0]], s[i[1]], s[i[2]], s[last], x);
+    if (!inside) continue;
     const double square = x.squaredNorm();
     if (square < best_square) {
       best = x;

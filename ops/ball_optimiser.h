@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernel/quality.h"
+#include "kernel/wide.h"
 
 namespace tetmend {
 
@@ -32,29 +33,31 @@ class BallOptimiser {
   /// Smallest minimum sine of the ball with its vertex at p. Keeps the values of the single tets,
   /// see quality(). Cost: linear.
   double worst(const Point& p);
-  /// Minimum sine of the i-th tet added, at the last call of worst().
+  /// As worst(), if that exceeds `least`; otherwise some value that does not, and the values of the
+  /// single tets stay as they are. Ends at the first tets that are not better.
+  double worst_above(const Point& p, double least);
+  /// Minimum sine of the i-th tet added, with the vertex where worst(), worst_above() or optimise()
+  /// last left it.
   double quality(std::size_t i) const;
-  /// Sum of deficit() over the tets at the last call of worst().
+  /// Sum of deficit() over the tets, likewise.
   double total_deficit() const;
 
   /// Ascends from p; returns the best quality and moves p there. At least worst(p) of the start.
-  double optimise(Point& p, const Limits& limits);
+  double optimise(Point& p, const Limits& limits) { return optimise_from(p, worst(p), limits); }
+  /// The same where `reached` is known to be worst(p). Precondition: quality() is for p.
+  double optimise_from(Point& p, double reached, const Limits& limits);
 
   // Four tets side by side; a lane that is not in use repeats another.
-  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t kLanes = kWideLanes;
   // Corners; from these: normal of the triangle, squared normal, squared edges.
   enum Field { ax, ay, az, bx, by, bz, cx, cy, cz, nx, ny, nz, n2, ab2, bc2, ca2, kFields };
-  struct alignas(sizeof(double) * kLanes) Lanes {
-    std::array<std::array<double, kLanes>, kFields> of;
-  };
-  struct alignas(sizeof(double) * kLanes) Values {
-    std::array<double, kLanes> of;
-  };
+  using Lanes = WideRows<kFields>;
+  using Values = WideRows<1>;
 
  private:
   static constexpr unsigned kMaxActive = 16;
 
-  double worst_square(const Point& p, std::vector<Values>& squares);
+  double worst_square(const Point& p, std::vector<Values>& squares, double least_square);
   unsigned find_active(const Point& p, double worst, double width);
   double ascend(Point& p, double& best, double width, double length, double& step,
                 double least_step);

@@ -52,30 +52,33 @@ void BasicCoveringSearch<Worst>::Values::add(const Values& other) {
 }
 
 template <unsigned Worst>
-void BasicCoveringSearch<Worst>::measure_pairs(const CoveringProblem& problem) {
+void BasicCoveringSearch<Worst>::begin(const CoveringProblem& problem) {
   size_ = static_cast<unsigned>(problem.ring.size());
   floor_ = problem.floor;
   evaluations_ = 0;
   a_ = problem.a;
   b_ = problem.b;
-  std::array<Point, kMaxSearchRing> from_a;
-  std::array<Point, kMaxSearchRing> from_b;
   for (unsigned i = 0; i < size_; ++i) {
     p_[i] = problem.ring[i];
-    from_a[i] = p_[i] - a_;
-    from_b[i] = p_[i] - b_;
-    a2_[i] = from_a[i].squaredNorm();
-    b2_[i] = from_b[i].squaredNorm();
+    from_a_[i] = p_[i] - a_;
+    from_b_[i] = p_[i] - b_;
+    a2_[i] = from_a_[i].squaredNorm();
+    b2_[i] = from_b_[i].squaredNorm();
   }
-  for (unsigned j = 1; j < size_; ++j) {
-    for (unsigned i = 0; i < j; ++i) {
-      pair2_[i][j] = (p_[j] - p_[i]).squaredNorm();
-      normal_a_[i][j] = from_a[i].cross(from_a[j]).squaredNorm();
-      normal_b_[i][j] = from_b[i].cross(from_b[j]).squaredNorm();
-    }
+  if (++run_ != 0) return;
+  run_ = 1;  // the numbers are used up
+  triangles_.fill({});
+  for (auto& row : pairs_) row.fill({});
+}
+
+template <unsigned Worst>
+auto BasicCoveringSearch<Worst>::pair(unsigned low, unsigned high) -> const Pair& {
+  Pair& pair = pairs_[low][high];
+  if (pair.run != run_) {
+    pair = {(p_[high] - p_[low]).squaredNorm(), from_a_[low].cross(from_a_[high]).squaredNorm(),
+            from_b_[low].cross(from_b_[high]).squaredNorm(), run_};
   }
-  const unsigned triples = size_ * (size_ - 1) * (size_ - 2) / 6;
-  for (unsigned t = 0; t < triples; ++t) triangles_[t].state = Triangle::unknown;
+  return pair;
 }
 
 /// Qualities of the two tets over a triangle; indices in any rotation of the ring order.
@@ -94,35 +97,44 @@ auto BasicCoveringSearch<Worst>::triangle(unsigned i, unsigned k, unsigned j) ->
   }
   // Combinatorial number of i < k < j.
   Triangle& t = triangles_[j * (j - 1) * (j - 2) / 6 + k * (k - 1) / 2 + i];
-  if (t.state == Triangle::unknown) evaluate(t, i, k, j);
+  if (t.run != run_) evaluate(t, i, k, j);
   return t;
 }
 
 template <unsigned Worst>
 void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, unsigned j) {
   ++evaluations_;
-  t.state = Triangle::invalid;
+  t.run = run_;
+  t.valid = false;
   const Point normal = (p_[k] - p_[i]).cross(p_[j] - p_[i]);
-  const double upper_v6 = normal.dot(p_[i] - a_);
-  const double lower_v6 = normal.dot(b_ - p_[i]);
+  const double upper_v6 = normal.dot(from_a_[i]);
+  const double lower_v6 = -normal.dot(from_b_[i]);
   if (!(upper_v6 > 0) || !(lower_v6 > 0)) return;
   const double nn = normal.squaredNorm();
-  const double ik = pair2_[i][k];
-  const double kj = pair2_[k][j];
-  const double ij = pair2_[i][j];
-  const auto quality = [&](double v6, const auto& x2, const auto& n) {
-    const double nik = n[i][k];
-    const double nkj = n[k][j];
-    const double nij = n[i][j];
-    const double smallest = std::min(nn * min3(x2[i] * nkj, x2[k] * nij, x2[j] * nik),
-                                     min3(ik * nkj * nij, kj * nij * nik, ij * nkj * nik));
+  // The angles at one side of the triangle refuse most triangles, and cost little.
+  constexpr double kRounding = 1e-12;
+  const double r = std::max(floor_, Quality{0});
+  const double least = r * r * nn * (1 - kRounding);
+  const auto is_sharp = [&](const Pair& side) {
+    return upper_v6 * upper_v6 * side.length2 < least * side.normal_a ||
+           lower_v6 * lower_v6 * side.length2 < least * side.normal_b;
+  };
+  const Pair& ik = pair(i, k);
+  if (is_sharp(ik)) return;
+  const Pair& kj = pair(k, j);
+  if (is_sharp(kj)) return;
+  const Pair& ij = pair(i, j);
+  if (is_sharp(ij)) return;
+  const auto quality = [&](double v6, const auto& x2, double nik, double nkj, double nij) {
+    const double smallest =
+        std::min(nn * min3(x2[i] * nkj, x2[k] * nij, x2[j] * nik),
+                 min3(ik.length2 * nkj * nij, kj.length2 * nij * nik, ij.length2 * nkj * nik));
     return sine_above(v6, smallest, nn * nkj * (nij * nik), floor_);
   };
-  t.upper = quality(upper_v6, a2_, normal_a_);
+  t.upper = quality(upper_v6, a2_, ik.normal_a, kj.normal_a, ij.normal_a);
   if (t.upper <= 0) return;
-  t.lower = quality(lower_v6, b2_, normal_b_);
-  if (t.lower <= 0) return;
-  t.state = Triangle::valid;
+  t.lower = quality(lower_v6, b2_, ik.normal_b, kj.normal_b, ij.normal_b);
+  t.valid = t.lower > 0;
 }
 
 /// Quality of the core tet (a, b, p_i, p_j); 0 if not above the floor. Precondition: ab2_ and
@@ -132,12 +144,11 @@ Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
   ++evaluations_;
   const double v6 = volume6(a_, b_, p_[i], p_[j]);
   if (!(v6 > 0)) return 0;
-  const unsigned low = std::min(i, j);
-  const unsigned high = std::max(i, j);
-  const double na = normal_a_[low][high];
-  const double nb = normal_b_[low][high];
+  const Pair& chord = pair(std::min(i, j), std::max(i, j));
+  const double na = chord.normal_a;
+  const double nb = chord.normal_b;
   const double smallest =
-      min3(std::min(ab2_ * nb * na, pair2_[low][high] * normal_ab_[i] * normal_ab_[j]),
+      min3(std::min(ab2_ * nb * na, chord.length2 * normal_ab_[i] * normal_ab_[j]),
            nb * std::min(a2_[i] * normal_ab_[j], a2_[j] * normal_ab_[i]),
            na * std::min(b2_[i] * normal_ab_[j], b2_[j] * normal_ab_[i]));
   return sine_above(v6, smallest, na * nb * (normal_ab_[i] * normal_ab_[j]), floor_);
@@ -160,7 +171,7 @@ void BasicCoveringSearch<Worst>::fill_pocket(const CoveringProblem& problem, uns
     const Pocket& right = pockets_[apex][d - k];
     if (!left.valid || !right.valid) continue;
     const Triangle& t = triangle(i, apex, j);
-    if (t.state != Triangle::valid) continue;
+    if (!t.valid) continue;
     Values values = left.values;
     values.add(right.values);
     values.add(t.upper);
@@ -170,9 +181,10 @@ void BasicCoveringSearch<Worst>::fill_pocket(const CoveringProblem& problem, uns
   }
 }
 
-/// False if no ear is possible: then no pocket is.
+/// False if no ear of a real shell is possible: then no pocket is, and most searches end here.
 template <unsigned Worst>
 bool BasicCoveringSearch<Worst>::fill_pockets(const CoveringProblem& problem) {
+  const bool is_virtual = problem.old_sides.empty();
   for (unsigned i = 0; i < size_; ++i) {
     pockets_[i][1] = {Values::best(), 0, ((problem.locked_edges >> i) & 1u) == 0};
   }
@@ -182,11 +194,7 @@ bool BasicCoveringSearch<Worst>::fill_pockets(const CoveringProblem& problem) {
       fill_pocket(problem, i, d);
       any = any || pockets_[i][d].valid;
     }
-    if (d > 2 || any) continue;
-    for (unsigned i = 0; i < size_; ++i) {
-      for (unsigned longer = 3; longer < size_; ++longer) pockets_[i][longer].valid = false;
-    }
-    return false;
+    if (d == 2 && !any && !is_virtual) return false;
   }
   fill_pocket(problem, 0, size_ - 1);
   return true;
@@ -199,7 +207,7 @@ bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Value
                                            Covering& covering) {
   const bool is_virtual = problem.old_sides.empty();
   ab2_ = (b_ - a_).squaredNorm();
-  for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = (p_[i] - a_).cross(p_[i] - b_).squaredNorm();
+  for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = from_a_[i].cross(from_b_[i]).squaredNorm();
   std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing>
       side_quality;  // [i][d], 0 = no arc
   unsigned longest = is_virtual ? 1 : 0;
@@ -274,9 +282,9 @@ void BasicCoveringSearch<Worst>::add_triangles(unsigned i, unsigned d, Covering&
 
 template <unsigned Worst>
 bool BasicCoveringSearch<Worst>::run(const CoveringProblem& problem, Covering& best) {
-  measure_pairs(problem);
+  begin(problem);
   const bool is_virtual = problem.old_sides.empty();
-  if (!fill_pockets(problem) && !is_virtual) return false;
+  if (!fill_pockets(problem)) return false;
   const Pocket& full = pockets_[0][size_ - 1];
   const bool full_found = full.valid;
   Values values = Values::best();

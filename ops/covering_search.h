@@ -85,13 +85,23 @@ class BasicCoveringSearch {
     std::uint8_t apex;
     bool valid;
   };
+  // What most searches never ask for is computed when first asked for; it counts for the run whose
+  // number it carries.
   struct Triangle {
     Quality upper;
     Quality lower;
-    enum State : std::uint8_t { unknown, valid, invalid } state;
+    bool valid;
+    std::uint32_t run = 0;
+  };
+  struct Pair {  // of ring vertices
+    double length2;
+    double normal_a;  // squared norm of the normal of the face with a
+    double normal_b;
+    std::uint32_t run = 0;
   };
 
-  void measure_pairs(const CoveringProblem& problem);
+  void begin(const CoveringProblem& problem);
+  const Pair& pair(unsigned low, unsigned high);
   const Triangle& triangle(unsigned i, unsigned k, unsigned j);
   Quality side(unsigned i, unsigned j);
   void evaluate(Triangle& t, unsigned i, unsigned k, unsigned j);
@@ -107,11 +117,12 @@ class BasicCoveringSearch {
   Point a_;
   Point b_;
   std::array<Point, kMaxSearchRing> p_;
-  // Squared lengths and squared norms of face normals: to a and b from each ring vertex, and for
-  // each pair of them.
+  std::array<Point, kMaxSearchRing> from_a_, from_b_;
+  // Squared lengths, and squared norms of face normals.
   double ab2_ = 0;
   std::array<double, kMaxSearchRing> a2_, b2_, normal_ab_;
-  std::array<std::array<double, kMaxSearchRing>, kMaxSearchRing> pair2_, normal_a_, normal_b_;
+  std::uint32_t run_ = 0;
+  std::array<std::array<Pair, kMaxSearchRing>, kMaxSearchRing> pairs_;      // [low][high]
   std::array<std::array<Pocket, kMaxSearchRing>, kMaxSearchRing> pockets_;  // [i][d]
   std::array<Triangle, kMaxSearchRing*(kMaxSearchRing - 1) * (kMaxSearchRing - 2) / 6> triangles_;
 };

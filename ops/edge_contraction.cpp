@@ -2,6 +2,7 @@
 #include "ops/edge_contraction.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "kernel/star.h"
 #include "ops/smoothing.h"
@@ -67,9 +68,10 @@ class EdgeContraction final : public Operator {
 
     if (!collect_link(mesh, w, context.workspace, scratch.link)) return Verdict::deferred;
     load_ball(mesh, scratch.link, scratch.ball);
-    const double start = scratch.ball.worst(mesh.point(w));
     scratch.point = mesh.point(w);
-    if (start < limits_.enough && scratch.ball.optimise(scratch.point, limits_) > start) {
+    const double start = scratch.ball.worst(scratch.point);
+    if (start < limits_.enough &&
+        scratch.ball.optimise_from(scratch.point, start, limits_) > start) {
       // A refused move leaves the contraction as it is; the check of the attempt decides.
       transaction.move_vertex(w, scratch.point, scratch.link);
     }
@@ -90,7 +92,9 @@ class EdgeContraction final : public Operator {
   /// Qualities (ascending) of the ball re-coned from w, into scratch.qualities. False as soon as
   /// one is not above `least`.
   static bool contract(const TetMesh& mesh, VertexHandle w, double least, Scratch& scratch) {
-    scratch.ball.worst(mesh.point(w));
+    // The tets at the edge that goes have quality 0; one below refuses.
+    constexpr double kLessThanZero = -std::numeric_limits<double>::min();
+    if (scratch.ball.worst_above(mesh.point(w), kLessThanZero) <= kLessThanZero) return false;
     scratch.qualities.clear();
     for (std::size_t i = 0; i < scratch.link.size(); ++i) {
       const auto [a, b, c] = mesh.vertices(scratch.link[i]);

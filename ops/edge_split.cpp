@@ -2,6 +2,7 @@
 #include "ops/edge_split.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ops/relaxation.h"
 #include "ops/shell_search.h"
@@ -34,24 +35,27 @@ class EdgeSplit final : public Operator {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
     const Shell& shell = scratch.shell;
-    const Point& a = mesh.point(shell.a);
-    const Point& b = mesh.point(shell.b);
-    scratch.ball.clear();
     Quality floor = mesh.quality(shell.tets[0]);
-    for (unsigned i = 0; i < shell.degree; ++i) {
-      const Point& p = mesh.point(shell.ring[i]);
-      const Point& q = mesh.point(shell.next(i));
-      scratch.ball.add(a, q, p);
-      scratch.ball.add(b, p, q);
+    for (unsigned i = 1; i < shell.degree; ++i) {
       floor = std::min(floor, mesh.quality(shell.tets[i]));
     }
-    scratch.point = 0.5 * (a + b);
-    const double reached = scratch.ball.optimise(scratch.point, limits_);
     // What is left to be gained by smoothing the neighbours is limited.
     constexpr double kRelaxedShare = 0.2;
     const double least = relax_            ? kRelaxedShare * std::max(floor, 0.0f)
                          : context.opening ? required_quality(context, floor)
                                            : floor + least_gain_;
+    if (floor > 0 && is_hopeless(mesh, shell, least)) return Verdict::no_improvement;
+    const Point& a = mesh.point(shell.a);
+    const Point& b = mesh.point(shell.b);
+    scratch.ball.clear();
+    for (unsigned i = 0; i < shell.degree; ++i) {
+      const Point& p = mesh.point(shell.ring[i]);
+      const Point& q = mesh.point(shell.next(i));
+      scratch.ball.add(a, q, p);
+      scratch.ball.add(b, p, q);
+    }
+    scratch.point = 0.5 * (a + b);
+    const double reached = scratch.ball.optimise(scratch.point, limits_);
     return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -78,6 +82,25 @@ class EdgeSplit final : public Operator {
   }
 
  private:
+  /// Wherever the new vertex goes, the two tets at a ring edge share the angle that the old tet,
+  /// which is positive, has there: one of them has half of it at most.
+  static bool is_hopeless(const TetMesh& mesh, const Shell& shell, double least) {
+    constexpr double kRounding = 1e-6;  // far more than there is
+    const Point& a = mesh.point(shell.a);
+    const Point& b = mesh.point(shell.b);
+    // Largest cosine of an angle whose half has a sine of more than `least`.
+    const double cosine = 1 - 2 * least * least * (1 - kRounding);
+    for (unsigned i = 0; i < shell.degree; ++i) {
+      const Point& p = mesh.point(shell.ring[i]);
+      const Point along = mesh.point(shell.next(i)) - p;
+      const Point towards_a = along.cross(a - p);
+      const Point towards_b = along.cross(b - p);
+      const double scale = std::sqrt(towards_a.squaredNorm() * towards_b.squaredNorm());
+      if (towards_a.dot(towards_b) > cosine * scale) return true;
+    }
+    return false;
+  }
+
   double least_gain_;
   Quality desperate_;
   bool relax_;

@@ -34,26 +34,25 @@ class Smoothing final : public Operator {
     const VertexHandle v = target.vertex();
     if (!collect_link(mesh, v, context.workspace, scratch.link)) return Verdict::deferred;
     load_ball(mesh, scratch.link, scratch.ball);
-    const double start = scratch.ball.worst(mesh.point(v));
-    const double start_deficit = scratch.ball.total_deficit();
     scratch.point = mesh.point(v);
+    const double start = scratch.ball.worst(scratch.point);
+    const double start_deficit = scratch.ball.total_deficit();
     double reached = start;
     if (laplacian_) {
       const Point mean = mean_of_neighbours(mesh, scratch);
-      const double value = scratch.ball.worst(mean);
-      if (value > 0 && value > start) {
+      const double least = std::max(start, 0.0);
+      const double value = scratch.ball.worst_above(mean, least);
+      if (value > least) {
         scratch.point = mean;
         reached = value;
       }
     }
     if (optimise_ && reached < kBadThreshold)
-      reached = scratch.ball.optimise(scratch.point, limits_);
+      reached = scratch.ball.optimise_from(scratch.point, reached, limits_);
     if (!(reached > start + least_gain_)) return Verdict::no_improvement;
     // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others.
-    if (start >= desperate_) {
-      scratch.ball.worst(scratch.point);
-      if (!(scratch.ball.total_deficit() < start_deficit)) return Verdict::no_improvement;
-    }
+    if (start >= desperate_ && !(scratch.ball.total_deficit() < start_deficit))
+      return Verdict::no_improvement;
     return Verdict::accepted;
   }
 
@@ -112,7 +111,7 @@ void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
   load_ball(mesh, scratch.link, scratch.ball);
   Point point = mesh.point(v);
   const double start = scratch.ball.worst(point);
-  if (start >= limits.enough || scratch.ball.optimise(point, limits) <= start) return;
+  if (start >= limits.enough || scratch.ball.optimise_from(point, start, limits) <= start) return;
   transaction.move_vertex(v, point, scratch.link);
 }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Four numbers side by side: arithmetic that processors with wide registers do at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace tetmend {
+
+inline constexpr std::size_t kWideLanes = 4;
+
+/// A vector of the compiler: one register or several, as the processor has them.
+using WideVector = double __attribute__((vector_size(sizeof(double) * kWideLanes)));
+
+/// `Fields` rows of numbers, each of which can be read as a WideVector.
+template <std::size_t Fields>
+struct alignas(sizeof(WideVector)) WideRows {
+  std::array<std::array<double, kWideLanes>, Fields> of;
+
+  WideVector* vectors() { return reinterpret_cast<WideVector*>(this); }
+  const WideVector* vectors() const { return reinterpret_cast<const WideVector*>(this); }
+};
+
+}  // namespace tetmend
+
+// For functions on WideVectors: a version for processors that have wide registers, chosen at run
+// time; the same operations in the same order everywhere.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define TETMEND_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define TETMEND_WIDE
+#endif
