@@ -28,7 +28,7 @@ end
 -- DEVIATION: of the paper is only the recursion. For so few tets a new mild bad one is no reason to refuse.
 local function sweep_worst()
   return local_reconnection{on = dire, reflex_only = false}
-       + apply({"cavity_insertion", exponent = 16}, {on = dire})
+       + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = dire})
        + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 14, max_nodes = 50, desperate = 0.35}, {on = worst})
        + smooth{on = dire}

@@ -55,6 +55,18 @@ local function open_by(operator, desperate)
                   desperate = desperate}
 end
 
+-- The last round of the default schedule.
+local function first_dear_round()
+  begin_round()
+  for _ = 1, 3 do
+    local_reconnection{on = dire, reflex_only = false}
+    apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = dire})
+    apply(refill(14, 0.35), {on = {below = 0, at_least = 32}})
+    smooth{on = dire}
+  end
+  mend()
+end
+
 -- A steep exponent: a new mild bad tet hardly counts against a worse one that goes.
 local function insertion_round()
   begin_round()
@@ -106,6 +118,7 @@ repeat
   plain_round()
   before = quality()
 until before.n_bad > 0.75 * last.n_bad or is_enough()
+if not is_enough() then first_dear_round() end
 
 while not is_enough() do
   insertion_round()
