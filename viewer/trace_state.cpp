@@ -62,6 +62,8 @@ json trace_state_of(Document& document) {
   for (const std::uint32_t call : debugger.stack()) stack.push_back(call_state(document, call));
   json breakpoints = json::array();
   for (const Breakpoint& b : debugger.breakpoints) breakpoints.push_back(to_text(b.condition));
+  json bookmarks = json::array();
+  for (const auto& mark : debugger.bookmarks) bookmarks.push_back(mark.first);
   json result = {{"position", debugger.position()},
                  {"events", debugger.end()},
                  {"calls", debugger.file().calls().size()},
@@ -69,7 +71,7 @@ json trace_state_of(Document& document) {
                  {"stack", stack},
                  {"call", stack.empty() ? json() : stack.back()},
                  {"breakpoints", breakpoints},
-                 {"bookmarks", debugger.bookmarks.size()},
+                 {"bookmarks", bookmarks},
                  {"bad", sample.n_bad},
                  {"q_worst", sample.q_worst}};
   const CallStudy* study = debugger.study();

@@ -66,6 +66,48 @@ const char* c_text(std::string_view literal) {
   return literal.data();  // all of them are literals
 }
 
+/// Of a menu. Runs when the layout is complete: it may take a picture.
+struct Choice {
+  const Command* command = nullptr;  // nothing was chosen
+  nlohmann::json arguments = nlohmann::json::array();
+};
+
+Choice lessons_menu() {
+  Choice choice;
+  if (!ImGui::BeginMenu("Lessons")) return choice;
+  const auto lessons = find_lessons();
+  if (lessons.empty()) ImGui::TextDisabled("there are none here");
+  for (const auto& file : lessons) {
+    try {
+      const Lesson lesson = read_lesson(file);
+      if (ImGui::MenuItem(lesson.title.c_str())) {
+        choice = {&find_command("open"), {lesson.trace.string()}};
+      }
+    } catch (const Error& error) {
+      ImGui::TextDisabled("%s", error.what());
+    }
+  }
+  ImGui::EndMenu();
+  return choice;
+}
+
+Choice menu() {
+  Choice choice;
+  if (!ImGui::BeginMainMenuBar()) return choice;
+  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
+    if (!ImGui::BeginMenu(title)) continue;
+    for (const Command& command : commands()) {
+      if (command.menu != title) continue;
+      if (ImGui::MenuItem(c_text(command.help), c_text(command.keys))) choice.command = &command;
+    }
+    ImGui::EndMenu();
+  }
+  Choice lesson = lessons_menu();
+  if (lesson.command != nullptr) choice = std::move(lesson);
+  ImGui::EndMainMenuBar();
+  return choice;
+}
+
 }  // namespace
 
 Interface::Interface(float scale) : scale_(scale) {
@@ -123,8 +165,9 @@ void Interface::build(Session& session) {
   apply_theme(session.document.view.theme);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
+  Choice choice;
   if (session.document.show_panels) {
-    menu(session);
+    choice = menu();
     sides(session);
     if (session.document.debugger() != nullptr) strip(session);
     status_line(session);
@@ -132,42 +175,11 @@ void Interface::build(Session& session) {
   if (session.document.show_keys) keys_page(session);
   browser_.draw(session, scale_);
   ImGui::Render();
+  if (choice.command != nullptr) run_from_window(*choice.command, session, choice.arguments);
 }
 
 void Interface::draw() const {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-void Interface::menu(Session& session) const {
-  if (!ImGui::BeginMainMenuBar()) return;
-  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
-    if (!ImGui::BeginMenu(title)) continue;
-    for (const Command& command : commands()) {
-      if (command.menu == title && ImGui::MenuItem(c_text(command.help), c_text(command.keys))) {
-        run_from_window(command, session);
-      }
-    }
-    ImGui::EndMenu();
-  }
-  lessons_menu(session);
-  ImGui::EndMainMenuBar();
-}
-
-void Interface::lessons_menu(Session& session) const {
-  if (!ImGui::BeginMenu("Lessons")) return;
-  const auto lessons = find_lessons();
-  if (lessons.empty()) ImGui::TextDisabled("there are none here");
-  for (const auto& file : lessons) {
-    try {
-      const Lesson lesson = read_lesson(file);
-      if (ImGui::MenuItem(lesson.title.c_str())) {
-        run_from_window(find_command("open"), session, {lesson.trace.string()});
-      }
-    } catch (const Error& error) {
-      ImGui::TextDisabled("%s", error.what());
-    }
-  }
-  ImGui::EndMenu();
 }
 
 void Interface::strip(Session& session) const {
