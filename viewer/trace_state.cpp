@@ -28,6 +28,14 @@ json shell_state(const CallStudy& study) {
   json ring = json::array();
   for (const VertexHandle v : s.ring) ring.push_back(v.index());
   json result = {{"a", s.a.index()}, {"b", s.b.index()}, {"ring", ring}, {"floor", s.floor}};
+  json chords = json::array();
+  for (const Chord& chord : chords_of(s)) {
+    chords.push_back({{"from", s.ring[chord.from].index()},
+                      {"to", s.ring[chord.to].index()},
+                      {"on", chord.on},
+                      {"back", chord.back}});
+  }
+  result["chords"] = chords;
   if (study.covering) result["covering"] = covering_state(*study.covering);
   return result;
 }

@@ -72,22 +72,42 @@ struct Choice {
   nlohmann::json arguments = nlohmann::json::array();
 };
 
-Choice lessons_menu() {
+/// An entry for each lesson; `entry` draws it and tells whether it was clicked.
+Choice list_lessons(bool (*entry)(const char* title)) {
   Choice choice;
-  if (!ImGui::BeginMenu("Lessons")) return choice;
   const auto lessons = find_lessons();
   if (lessons.empty()) ImGui::TextDisabled("there are none here");
   for (const auto& file : lessons) {
     try {
       const Lesson lesson = read_lesson(file);
-      if (ImGui::MenuItem(lesson.title.c_str())) {
-        choice = {&find_command("open"), {lesson.trace.string()}};
-      }
+      if (entry(lesson.title.c_str())) choice = {&find_command("open"), {lesson.trace.string()}};
     } catch (const Error& error) {
       ImGui::TextDisabled("%s", error.what());
     }
   }
+  return choice;
+}
+
+Choice lessons_menu() {
+  if (!ImGui::BeginMenu("Lessons")) return {};
+  Choice choice = list_lessons([](const char* title) { return ImGui::MenuItem(title); });
   ImGui::EndMenu();
+  return choice;
+}
+
+/// While nothing is open.
+Choice start_page() {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::Begin("##start", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextDisabled("drop a mesh or a trace here, or");
+  Choice choice;
+  if (ImGui::Button("Open a file ...")) choice.command = &find_command("open");
+  ImGui::Spacing();
+  ImGui::TextDisabled("lessons: traces with a text that leads through them");
+  Choice lesson = list_lessons([](const char* title) { return ImGui::Button(title); });
+  if (lesson.command != nullptr) choice = std::move(lesson);
+  ImGui::End();
   return choice;
 }
 
@@ -168,6 +188,10 @@ void Interface::build(Session& session) {
   Choice choice;
   if (session.document.show_panels) {
     choice = menu();
+    if (!session.document.has_mesh()) {
+      Choice at_start = start_page();
+      if (at_start.command != nullptr) choice = std::move(at_start);
+    }
     sides(session);
     if (session.document.debugger() != nullptr) strip(session);
     status_line(session);
