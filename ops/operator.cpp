@@ -9,8 +9,21 @@
 
 namespace tetmend {
 
+namespace {
+
+/// What ends without a comparison has none to tell of.
+void forget_comparison(Scratch& scratch) {
+  scratch.before.clear();
+  scratch.now.clear();
+}
+
+}  // namespace
+
 bool is_better(const Transaction& transaction, Scratch& scratch) {
-  if (transaction.empty()) return false;
+  if (transaction.empty()) {
+    forget_comparison(scratch);
+    return false;
+  }
   transaction.list_qualities(scratch.before, scratch.now);
   // The worst tets decide nearly always; then nothing needs to be sorted.
   if (!scratch.before.empty() && !scratch.now.empty()) {
@@ -52,10 +65,14 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   Verdict verdict = precondition(context, target);
   if (verdict == Verdict::accepted) verdict = evaluate(context, target);
   if (!transaction.empty()) throw Error("it edits the mesh before apply()");
-  if (verdict != Verdict::accepted) return verdict;
-  if (context.trace != nullptr) context.trace->candidate_found();
-  verdict = apply(context, target, transaction);
-  if (verdict != Verdict::accepted) return verdict;
+  if (verdict == Verdict::accepted) {
+    if (context.trace != nullptr) context.trace->candidate_found();
+    verdict = apply(context, target, transaction);
+  }
+  if (verdict != Verdict::accepted) {
+    forget_comparison(context.scratch);
+    return verdict;
+  }
   const bool better = is_better(transaction, context.scratch);
   const bool may_stay = better || (context.opening && !transaction.empty());
   if (!may_stay) return Verdict::no_improvement;
@@ -65,7 +82,7 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
 
 void report_end(OperatorContext& context, Verdict verdict) {
   Scratch& scratch = context.scratch;
-  if (verdict == Verdict::accepted) {
+  if (verdict == Verdict::accepted || verdict == Verdict::no_improvement) {
     std::sort(scratch.before.begin(), scratch.before.end());
     std::sort(scratch.now.begin(), scratch.now.end());
     context.trace->attempt_ends(to_string(verdict), scratch.before, scratch.now);

@@ -143,7 +143,7 @@ inline double required_quality(const OperatorContext& context, double worst) {
 bool is_better(const Transaction& transaction, Scratch& scratch);
 
 /// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last
-/// comparison if it was accepted.
+/// comparison if that decided: the scratch is empty when none was made.
 void report_end(OperatorContext& context, Verdict verdict);
 
 }  // namespace tetmend

@@ -148,6 +148,8 @@ Verdict Recursion::try_transform(const Shell& shell, int level) {
   --budget_;
   Verdict verdict =
       propose_covering(context_, shell, locks(shell, level), true, target_floor(shell));
+  context_.scratch.before.clear();  // nothing is compared yet
+  context_.scratch.now.clear();
   if (verdict != Verdict::accepted) return verdict;
   if (context_.trace != nullptr) context_.trace->candidate_found();
   Transaction step(context_.mesh, context_.workspace);

@@ -74,7 +74,8 @@ std::string call_tree_text(const TraceFile& file, std::uint32_t call) {
     fmt::format_to(out, "{:>9}  {:{}}{} -> {}", k, "", 2 * (c.depth - root.depth),
                    describe_call(file, k), format_verdict(file, c));
     if (has_vectors(c)) {
-      fmt::format_to(out, ", worst {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
+      fmt::format_to(out, ", {}worst {:.4f} -> {:.4f}", c.accepted ? "" : "tried: ", c.worst_before,
+                     c.worst_after);
     }
     if (c.edits > 0) fmt::format_to(out, ", {} edit{}", c.edits, c.edits == 1 ? "" : "s");
     if (!c.accepted) fmt::format_to(out, ": {}", file.reason(c));
@@ -90,7 +91,10 @@ std::string call_tree_dot(const TraceFile& file, std::uint32_t call) {
   for (std::uint32_t k = call; k < file.calls()[call].subtree_end; ++k) {
     const Call& c = file.calls()[k];
     std::string quality;
-    if (has_vectors(c)) quality = fmt::format("\\n{:.4f} to {:.4f}", c.worst_before, c.worst_after);
+    if (has_vectors(c)) {
+      quality = fmt::format("\\n{}{:.4f} to {:.4f}", c.accepted ? "" : "tried: ", c.worst_before,
+                            c.worst_after);
+    }
     std::string label = in_quotes(fmt::format("{}: {}", k, describe_call(file, k)));
     label.pop_back();
     fmt::format_to(out, "  c{} [label={}\\n{}{}\", fillcolor=\"{}\"];\n", k, label,

@@ -53,7 +53,7 @@ struct TraceEvent {
   std::vector<VertexHandle> vertices;  ///< of the target, of the visited tet, or of a vertex edit
   Quality quality = 0;                 ///< of the visited tet
   QualityIndicators now;               ///< after a pass
-  std::vector<Quality> before, after;  ///< quality vectors of an accepted attempt, ascending
+  std::vector<Quality> before, after;  ///< quality vectors that were compared, ascending
   Point point = Point::Zero();         ///< of an added or moved vertex, after
   /// Slots that a cavity takes away; of a move, the star of the vertex.
   std::vector<TetHandle> removed;

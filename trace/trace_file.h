@@ -44,7 +44,7 @@ struct Call {
   bool candidate_found = false;  ///< it knew what to do
   bool accepted = false;
   std::array<VertexHandle, 4> target_vertices;
-  Quality worst_before = 0, worst_after = 0;  ///< of an accepted call with quality vectors, else 0
+  Quality worst_before = 0, worst_after = 0;  ///< of the vectors; refused: of what was tried
 
   std::span<const VertexHandle> target() const { return {target_vertices.data(), target_size}; }
 };

@@ -222,8 +222,10 @@ std::string explain_end(const TraceFile& file, const CallStudy& study) {
     text +=
         fmt::format(" Worst quality {:.4f}, before {:.4f}.", call.worst_after, call.worst_before);
   } else if (study.undone) {
+    const bool has_vectors = call.worst_before != 0;
     text += fmt::format(" Tried: worst quality {:.4f}, as against {:.4f}. Undone.",
-                        worst_of(study.after), worst_of(study.before));
+                        has_vectors ? call.worst_after : worst_of(study.after),
+                        has_vectors ? call.worst_before : worst_of(study.before));
   } else if (!call.accepted && !call.candidate_found && study.picture &&
              file.name(call.verdict) == "no improvement") {
     const ShellPicture& s = *study.picture;

@@ -54,6 +54,18 @@ json run(Session& s, const json& a) {
   return nullptr;
 }
 
+/// Recorded runs only: to record all would cost each of them time and a file.
+json debug(Session& s, const json&) {
+  const LiveRun& live = s.document.live;
+  if (live.is_active()) throw Error("live_debug: the run is still at work");
+  const std::string trace = live.progress().trace;
+  if (trace.empty()) {
+    throw Error("live_debug: no recorded run is over; choose 'record' and run again");
+  }
+  s.document.open(trace);
+  return nullptr;
+}
+
 template <Demand What>
 json ask(Session& s, const json&) {
   s.document.live.ask(What);
@@ -91,6 +103,8 @@ constexpr std::array kCommands = {
             &ask<Demand::to_next_accepted>},
     Command{"live_step_pass", "F10", kRun, "live_step_pass()",
             "Let the run go on to the end of the pass", &ask<Demand::to_next_pass>},
+    Command{"live_debug", "F11", kRun, "live_debug()",
+            "Open the trace of the last run, if it was recorded, in the debugger", &debug},
     Command{"live_stop", "F12", kRun, "live_stop()", "End the run; the mesh stays as it is then",
             &ask<Demand::stop>},
     Command{"live_wait", "", "", "live_wait(SECONDS)",

@@ -46,21 +46,15 @@ class PolygonDrawer {
 
   /// Chords whose pockets the search may use, as far as quality goes.
   void chords() {
-    for (std::size_t i = 0; i < size_; ++i) {
-      for (std::size_t j = i + 2; j < size_; ++j) {
-        if (i == 0 && j + 1 == size_) continue;
-        const double on = shell_.pocket(i, j);
-        const double back = shell_.pocket(j, i);
-        const double best = std::max(on, back);
-        if (best <= 0) continue;
-        const bool usable = best > static_cast<double>(shell_.floor);
-        const std::string tip =
-            fmt::format("chord {} - {}: worst quality of its pockets {:.4f} and {:.4f}{}",
-                        shell_.ring[i].index(), shell_.ring[j].index(), on, back,
-                        usable ? "" : "; not better than the old tets");
-        drawing_.strokes.push_back(
-            {place(i), place(j), faint(kChordColour, usable ? 0.9 : 0.35), 1.5, !usable, tip});
-      }
+    const std::vector<Chord> chords = chords_of(shell_);
+    for (auto chord = chords.rbegin(); chord != chords.rend(); ++chord) {  // the best on top
+      const bool usable = chord->best() > static_cast<double>(shell_.floor);
+      const std::string tip =
+          fmt::format("chord {} - {}: worst quality of its pockets {:.4f} and {:.4f}{}",
+                      shell_.ring[chord->from].index(), shell_.ring[chord->to].index(), chord->on,
+                      chord->back, usable ? "" : "; not better than the old tets");
+      drawing_.strokes.push_back({place(chord->from), place(chord->to),
+                                  faint(kChordColour, usable ? 0.9 : 0.35), 1.5, !usable, tip});
     }
   }
 

@@ -85,6 +85,21 @@ glm::dvec2 ShellPicture::place(std::size_t i) const {
   return {-std::sin(angle), std::cos(angle)};
 }
 
+std::vector<Chord> chords_of(const ShellPicture& picture) {
+  std::vector<Chord> chords;
+  const auto m = static_cast<unsigned>(picture.ring.size());
+  for (unsigned i = 0; i < m; ++i) {
+    for (unsigned j = i + 2; j < m; ++j) {
+      if (i == 0 && j + 1 == m) continue;  // a side
+      const Chord chord{i, j, picture.pocket(i, j), picture.pocket(j, i)};
+      if (chord.best() > 0) chords.push_back(chord);
+    }
+  }
+  std::stable_sort(chords.begin(), chords.end(),
+                   [](const Chord& x, const Chord& y) { return x.best() > y.best(); });
+  return chords;
+}
+
 FlatCovering covering_of(const SlotMesh& mesh, const ShellPicture& picture,
                          std::span<const TetVertices> tets) {
   FlatCovering covering;

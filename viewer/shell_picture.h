@@ -2,6 +2,7 @@
 // The skirt polygon of a shell drawn flat: chords, pockets, core, and the quality of each.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -47,6 +48,17 @@ struct ShellPicture {
   /// In the unit circle, y upwards.
   glm::dvec2 place(std::size_t i) const;
 };
+
+/// A diagonal of the polygon, and the worst quality of the pockets at its two sides.
+struct Chord {
+  unsigned from = 0, to = 0;  ///< places in the ring, from < to
+  double on = 0;              ///< of the pocket from `from` on to `to`
+  double back = 0;            ///< of the one from `to` on to `from`
+
+  double best() const { return std::max(on, back); }
+};
+/// Those that have a pocket, best first.
+std::vector<Chord> chords_of(const ShellPicture& picture);
 
 /// Of a closed shell. Cost: cubic in the degree.
 /// Precondition: at least three in the ring, and at most kMostDrawn.

@@ -28,6 +28,14 @@ json shell_state(const CallStudy& study) {
   json ring = json::array();
   for (const VertexHandle v : s.ring) ring.push_back(v.index());
   json result = {{"a", s.a.index()}, {"b", s.b.index()}, {"ring", ring}, {"floor", s.floor}};
+  json chords = json::array();
+  for (const Chord& chord : chords_of(s)) {
+    chords.push_back({{"from", s.ring[chord.from].index()},
+                      {"to", s.ring[chord.to].index()},
+                      {"on", chord.on},
+                      {"back", chord.back}});
+  }
+  result["chords"] = chords;
   if (study.covering) result["covering"] = covering_state(*study.covering);
   return result;
 }
@@ -62,6 +70,8 @@ json trace_state_of(Document& document) {
   for (const std::uint32_t call : debugger.stack()) stack.push_back(call_state(document, call));
   json breakpoints = json::array();
   for (const Breakpoint& b : debugger.breakpoints) breakpoints.push_back(to_text(b.condition));
+  json bookmarks = json::array();
+  for (const auto& mark : debugger.bookmarks) bookmarks.push_back(mark.first);
   json result = {{"position", debugger.position()},
                  {"events", debugger.end()},
                  {"calls", debugger.file().calls().size()},
@@ -69,7 +79,7 @@ json trace_state_of(Document& document) {
                  {"stack", stack},
                  {"call", stack.empty() ? json() : stack.back()},
                  {"breakpoints", breakpoints},
-                 {"bookmarks", debugger.bookmarks.size()},
+                 {"bookmarks", bookmarks},
                  {"bad", sample.n_bad},
                  {"q_worst", sample.q_worst}};
   const CallStudy* study = debugger.study();

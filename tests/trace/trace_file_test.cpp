@@ -178,6 +178,38 @@ TEST_CASE("the tree of a call shows its calls, indented, and why they were refus
   CHECK(dot.find(fmt::format("c{} -> c{};", root, root + 1)) != std::string::npos);
 }
 
+TEST_CASE(
+    "a refusal by comparison has the vectors of what was tried, a refusal without a candidate "
+    "none") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("folded_sheet.mesh");
+  record(mesh, folder / "trace");
+  const TraceFile file(folder / "trace");
+  EventCursor cursor(file);
+  std::size_t compared = 0;
+  for (std::uint32_t k = 0; k < file.calls().size(); ++k) {
+    const Call& call = file.calls()[k];
+    if (call.accepted) continue;
+    cursor.move_to(call.events.end - 1);
+    const TraceEvent& event = cursor.next();
+    CHECK(event.before.empty() == event.after.empty());
+    const bool by_comparison = call.candidate_found && file.reason(call).starts_with("the quality");
+    if (!by_comparison) {
+      const bool from_below = call.subtree_end > k + 1;  // of the whole recursion
+      CHECK((event.before.empty() || (from_below && call.candidate_found)));
+      continue;
+    }
+    if (event.before.empty()) continue;  // an operator that compares for itself
+    ++compared;
+    CHECK(std::ranges::is_sorted(event.before));
+    CHECK(std::ranges::is_sorted(event.after));
+    CHECK_FALSE(improves(event.after, event.before));
+    CHECK(call.worst_before == event.before.front());
+    CHECK(call.worst_after == event.after.front());
+  }
+  CHECK(compared > 50);
+}
+
 TEST_CASE("the reason of a refusal tells a search without result from one whose result is no use") {
   const TempFolder folder;
   TetMesh mesh = asset_mesh("folded_sheet.mesh");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/geometry.h"
 #include "tests/viewer/traces.h"
@@ -107,6 +108,9 @@ TEST_CASE("a refusal is explained with the numbers of its shell") {
     if (text.find("Undone.") != std::string::npos) {
       undone = true;
       CHECK(study.undone);
+      CHECK(call.worst_after <= call.worst_before + kQualityTolerance);
+      CHECK(text.find(fmt::format("Tried: worst quality {:.4f}, as against {:.4f}.",
+                                  call.worst_after, call.worst_before)) != std::string::npos);
     }
   }
   CHECK(told);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/condition.h"
 
+#include <algorithm>
+#include <array>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "tests/viewer/traces.h"
@@ -52,6 +56,45 @@ TEST_CASE("a condition about calls holds where they begin or end") {
   CHECK(stop(file, "edge 0 1", 7, kBack) == 4);
   CHECK(stop(file, "face 0 1 2", 0) == std::nullopt);
   CHECK(stop(file, "vertex 2", 0) == 7);
+}
+
+TEST_CASE("a run finds accepted calls at their end, and faces only where a face is the target") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  std::vector<std::uint64_t> accepted;
+  const Call* face = nullptr;
+  for (const Call& call : file.calls()) {
+    if (call.accepted) accepted.push_back(call.events.end);
+    if (face == nullptr && call.target_size == 3) face = &call;
+  }
+  std::sort(accepted.begin(), accepted.end());
+  REQUIRE(accepted.size() > 2);
+  CHECK(stop(file, "accepted", 0) == accepted[0]);
+  CHECK(stop(file, "accepted", accepted[0]) == accepted[1]);
+  CHECK(stop(file, "accepted", accepted[1], kBack) == accepted[0]);
+  CHECK(stop(file, "accepted", accepted[0], kBack) == std::nullopt);
+
+  REQUIRE(face != nullptr);
+  const std::uint64_t begin = face->events.begin;
+  const auto v = face->target();
+  CHECK(stop(file, fmt::format("face {} {} {}", v[2].index(), v[0].index(), v[1].index()), begin) ==
+        begin + 1);
+  CHECK(stop(file, fmt::format("edge {} {}", v[0].index(), v[1].index()), begin) != begin + 1);
+}
+
+TEST_CASE("a call that was cut off is neither accepted nor refused") {
+  const test::TempFolder folder;
+  const TetMesh mesh(test::shell_mesh({.degree = 5}));
+  {
+    TraceRecorder recorder(folder / "cut.trace", mesh, {});
+    const std::array edge = {VertexHandle(0), VertexHandle(1)};
+    recorder.attempt_begins({"shell_transformation", edge, 0, ""});
+  }
+  const TraceFile file(folder / "cut.trace.part");
+  REQUIRE(file.calls().size() == 1);
+  CHECK(stop(file, "edge 0 1", 0) == 1);
+  CHECK(stop(file, "refused", 0) == std::nullopt);
+  CHECK(stop(file, "accepted", 0) == std::nullopt);
 }
 
 TEST_CASE("a tet and a vertex are found where an edit changes them, forwards and backwards") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/viewer/traces.h"
 
@@ -19,6 +20,17 @@ const ColourMap& map() {
 std::size_t dashed(const FlatDrawing& drawing) {
   return static_cast<std::size_t>(std::count_if(drawing.strokes.begin(), drawing.strokes.end(),
                                                 [](const auto& s) { return s.dashed; }));
+}
+
+bool has_number(const FlatDrawing& drawing, Quality quality) {
+  return std::any_of(drawing.labels.begin(), drawing.labels.end(),
+                     [&](const auto& l) { return l.text == fmt::format("{:.3f}", quality); });
+}
+
+EventKind kind_of_event(const TraceFile& file, std::uint64_t number) {
+  EventCursor cursor(file);
+  cursor.move_to(number);
+  return cursor.next().kind;
 }
 
 }  // namespace
@@ -41,6 +53,15 @@ TEST_CASE("the polygon has the old tets before the edit and the new covering aft
     const auto& made = *study.covering;
     CHECK(after.areas.size() == made.triangles.size() + made.core.size());
     CHECK(after.caption.starts_with("made"));
+    const auto at = [&](std::uint64_t position) {
+      return draw_polygon(study, position, false, map()).caption;
+    };
+    CHECK(at(study.first_edit) == after.caption);
+    CHECK(at(study.first_edit - 1) == before.caption);
+    CHECK(kind_of_event(file, study.first_edit - 1) == EventKind::replace_cavity);
+    for (const auto& t : made.triangles) CHECK(has_number(after, t.quality));
+    for (const auto& side : made.core) CHECK(has_number(after, side.quality));
+    for (const auto& side : study.picture->before.core) CHECK(has_number(before, side.quality));
     for (const FlatDrawing* drawing : {&before, &after}) {
       for (const auto& label : drawing->labels) CHECK(glm::length(label.at) <= 1);
       for (std::size_t i = 0; i < drawing->labels.size(); ++i) {
@@ -59,7 +80,12 @@ TEST_CASE("after a refusal without a candidate the best complete triangulation i
   study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
   const FlatDrawing drawing = draw_polygon(study, 9, true, map());
   CHECK(drawing.areas.size() == 3);
-  CHECK(dashed(drawing) >= 9);
+  std::size_t no_better = 0;
+  for (const Chord& chord : chords_of(*study.picture)) {
+    if (chord.best() <= static_cast<double>(study.picture->floor)) ++no_better;
+  }
+  CHECK(dashed(drawing) == 3 * 3 + no_better);
+  for (const auto& t : study.picture->full.triangles) CHECK(has_number(drawing, t.quality));
   CHECK(drawing.caption.starts_with("best complete"));
 }
 

@@ -297,6 +297,56 @@ TEST_CASE("the document shows a run, and opening another mesh ends it") {
   CHECK_THROWS_WITH_AS(s.run("live_run", {"here"}), doctest::Contains("file, shown"), Error);
 }
 
+TEST_CASE(
+    "the trace of a recorded run opens in the debugger, and the run can be made again there") {
+  TestSession s(test::delaunay_ball(100, 1));
+  const test::TempFolder folder;
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record"), Error);
+  s.run("live_run");
+  s.run("live_wait");
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record"), Error);
+  CHECK(s.document.debugger() == nullptr);
+
+  s.run("live_record", {(folder / "run.trace").string()});
+  const std::size_t bad_before = s.document.live.input()->statistics.n_bad;
+  s.run("live_run");
+  const nlohmann::json run = s.run("live_wait");
+  REQUIRE(run["state"] == "finished");
+  const TetMesh result = s.document.mesh();
+  s.run("live_debug");
+  REQUIRE(s.document.debugger() != nullptr);
+  CHECK(s.document.debugger()->position() == 0);
+  s.run("to_end");
+  CHECK(s.document.statistics().n_bad == run["passes"].back()["n_bad"]);
+  CHECK(s.document.statistics().tets == result.tet_count());
+  CHECK(s.document.statistics().q_worst == doctest::Approx(compute_statistics(result).q_worst));
+
+  s.run("to_begin");
+  s.run("live_run");  // into the file that is open here
+  const nlohmann::json again = s.run("live_wait");
+  CHECK(s.document.debugger() == nullptr);
+  // The same mesh with other numbers.
+  REQUIRE(s.document.statistics_before());
+  CHECK(s.document.statistics_before()->n_bad == bad_before);
+  CHECK(again["passes"].back()["n_bad"] < bad_before);
+  s.run("live_debug");
+  CHECK(s.document.debugger() != nullptr);
+}
+
+TEST_CASE("a run at work is not debugged") {
+  Endless endless;
+  endless.run.forget();
+  TestSession s(test::kuhn_cube(16, 0.3, 1));
+  s.run("live_schedule", {endless.file.string()});
+  s.run("live_record", {(endless.folder / "run.trace").string()});
+  s.run("live_run");
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("still at work"), Error);
+  s.run("live_stop");
+  REQUIRE(s.run("live_wait")["state"] == "stopped");
+  s.run("live_debug");
+  CHECK(s.document.debugger() != nullptr);
+}
+
 TEST_CASE("a run that fails says so in the status line") {
   TestSession s(test::delaunay_ball(100, 1));
   const test::TempFolder folder;

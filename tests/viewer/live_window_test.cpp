@@ -37,15 +37,29 @@ TEST_CASE("the window serves keys while a run works, and closes on one that is p
   CHECK(state["view"]["bad"] == false);
 }
 
+TEST_CASE("in the window a run is recorded, and opened in the debugger when it is over") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  click(800, 300);  // unfolds the panel
+  click(729, 462);  // record
+  click(737, 489);  // run
+  wait_for("tetmend-live.trace");
+  type("sleep 1");  // its last mesh is shown
+  click(890, 509);  // debug this run
+  type("mousemove 500 350 key Right Right Right");
+  const nlohmann::json state = viewer.quit();
+  REQUIRE(state.contains("trace"));
+  CHECK(state["trace"]["position"] == 3);
+  CHECK(state["trace"]["call"]["operator"] == "recursive_shell_transformation");
+}
+
 TEST_CASE("a mesh is saved by the dialog") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
   const std::filesystem::path file = std::filesystem::current_path() / "better.mesh";
-  type("key ctrl+s sleep 1 type " + file.string());
-  // Dear ImGui looks at keys once a frame, and would miss a short one.
-  for (int i = 0; i < 60 && !std::filesystem::exists(file); ++i) {
-    type("keydown Return sleep 0.5 keyup Return sleep 0.5");
-  }
+  type("key ctrl+s type " + file.string());
+  type("key Return");
+  wait_for(file);
   CHECK(read_mesh(file).tets.size() == 3327);
   CHECK(viewer.quit()["message"] == "wrote " + file.string());
 }

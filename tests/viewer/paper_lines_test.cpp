@@ -64,6 +64,34 @@ TEST_CASE("an accepted transformation ends on the line that replaces the tets") 
   CHECK(seen > 0);
 }
 
+TEST_CASE("a transformation that is undone goes from its covering back to the comparison") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  EventCursor cursor(file);
+  unsigned seen = 0;
+  for (const Call& call : file.calls()) {
+    if (file.name(call.operator_name) != "shell_transformation" || call.accepted) continue;
+    if (!call.candidate_found) {
+      const auto stack = call_stack(file, call.events.end);
+      const bool searched = file.name(call.verdict) == "no improvement";
+      CHECK(code_place(file, stack, stack.size() - 1, call.events.end).line == (searched ? 4 : 7));
+      continue;
+    }
+    ++seen;
+    cursor.move_to(call.events.begin);
+    while (cursor.position() < call.events.end) {
+      const EventKind kind = cursor.next().kind;
+      const auto stack = call_stack(file, cursor.position());
+      const unsigned line = code_place(file, stack, stack.size() - 1, cursor.position()).line;
+      if (kind == EventKind::attempt_begins) CHECK(line == 1);
+      if (kind == EventKind::candidate_found) CHECK(line == 6);
+      if (kind == EventKind::replace_cavity) CHECK(line == 8);
+      if (kind == EventKind::undo || kind == EventKind::attempt_ends) CHECK(line == 7);
+    }
+  }
+  CHECK(seen > 0);
+}
+
 TEST_CASE("the algorithms have as many lines as in the paper") {
   CHECK(shell_transformation_code().lines.size() == 8);
   CHECK(recursion_code().lines.size() == 15);

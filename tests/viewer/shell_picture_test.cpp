@@ -86,6 +86,21 @@ TEST_CASE("a pocket is never better than the pockets in it, and neighbours have 
   }
 }
 
+TEST_CASE(
+    "chords are the diagonals that have a pocket, best first, with the pockets at both sides") {
+  const ShellPicture s = picture({.degree = 6, .jitter = 0.1});
+  const std::vector<Chord> chords = chords_of(s);
+  CHECK(chords.size() == 6 * 3 / 2);
+  for (std::size_t k = 0; k < chords.size(); ++k) {
+    const Chord& c = chords[k];
+    CHECK(c.from + 1 < c.to);
+    CHECK_FALSE((c.from == 0 && c.to == 5));
+    CHECK(c.on == s.pocket(c.from, c.to));
+    CHECK(c.back == s.pocket(c.to, c.from));
+    if (k > 0) CHECK(c.best() <= chords[k - 1].best());
+  }
+}
+
 TEST_CASE("tets become triangles and sides of a core, and a foreign vertex makes no covering") {
   const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
   const ShellPicture s = picture_of_shell(mesh, find_slot_shell(mesh, kA, kB));

@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/prctl.h>
 
 #include "tests/apps/program.h"
 #include "tests/viewer/png.h"
@@ -30,10 +31,11 @@ class Display {
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
     pid_ = ::fork();
     if (pid_ == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // also when the test is killed
       const auto out = fmt::format("{}", ends[1]);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDERR_FILENO);
-      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24",
+      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24", "-noreset",
                static_cast<char*>(nullptr));
       ::_exit(127);
     }
@@ -58,13 +60,19 @@ class Display {
   pid_t pid_ = -1;
 };
 
+/// Fails instead of waiting for ever.
 inline void type(const std::string& events) {
-  REQUIRE(std::system(("xdotool " + events).c_str()) == 0);
+  REQUIRE(std::system(("timeout 60 xdotool " + events).c_str()) == 0);
 }
 
-/// Waits until a file is complete.
+/// Moves the mouse there and presses its left button.
+inline void click(int x, int y) {
+  type(fmt::format("mousemove {} {} click 1", x, y));
+}
+
+/// Waits until a file is there.
 inline void wait_for(const std::filesystem::path& file) {
-  for (int i = 0; i < 600 && !std::filesystem::exists(file); ++i) {
+  for (int i = 0; i < 1200 && !std::filesystem::exists(file); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   REQUIRE(std::filesystem::exists(file));
@@ -109,9 +117,11 @@ class Viewer {
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
-  /// Ends the program by its key; its last state.
+  /// Ends the program by its key; its last state. Keys are taken in order: so this waits for all
+  /// that was typed before.
   nlohmann::json quit() {
     type("key ctrl+q");
+    wait_for("report.json");
     CHECK(program_->wait() == 0);
     return nlohmann::json::parse(read_text("report.json"));
   }

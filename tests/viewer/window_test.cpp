@@ -9,6 +9,22 @@ using namespace tetmend::test;
 using viewer::count_red;
 using viewer::Image;
 
+TEST_CASE("a picture is written by the menu, without the menu") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  const Image by_key = take_picture(".");
+  std::filesystem::remove("tetmend-view.png");
+  click(24, 11);
+  click(120, 97);
+  wait_for("tetmend-view.png");
+  type("mousemove 500 350");
+  CHECK(viewer.quit()["message"] == "wrote tetmend-view.png");
+  const Image by_menu = read_png("tetmend-view.png");
+  const auto same = [](const viewer::Colour& x, const viewer::Colour& y) { return x == y; };
+  CHECK(std::equal(by_menu.pixels.begin() + 1000 * 200, by_menu.pixels.begin() + 1000 * 600,
+                   by_key.pixels.begin() + 1000 * 200, same));
+}
+
 TEST_CASE("keys and mouse work in the window") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
@@ -20,10 +36,10 @@ TEST_CASE("keys and mouse work in the window") {
   type("key b");  // no red any more
   CHECK(count_red(take_picture("."), 500, 350, 150) == 0);
   type("key b key x key bracketright");
-  type("mousemove 500 350 mousedown 1 mousemove 520 360 mousemove 560 380 mouseup 1 sleep 0.5");
+  type("mousemove 500 350 mousedown 1 mousemove 520 360 mousemove 560 380 mouseup 1");
   // The histogram: the upper left corner of the window.
-  type("mousemove 40 140 sleep 0.3 mousedown 1 sleep 0.3 mousemove 100 140 sleep 0.3");
-  type("mousemove 150 140 sleep 0.3 mouseup 1 sleep 0.3 mousemove 500 350");
+  type("mousemove 40 140 mousedown 1 mousemove 100 140");
+  type("mousemove 150 140 mouseup 1 mousemove 500 350");
   const Image last = take_picture(".");
   CHECK(last.pixels != whole.pixels);
   const nlohmann::json state = viewer.quit();

@@ -66,6 +66,68 @@ const char* c_text(std::string_view literal) {
   return literal.data();  // all of them are literals
 }
 
+/// Of a menu. Runs when the layout is complete: it may take a picture.
+struct Choice {
+  const Command* command = nullptr;  // nothing was chosen
+  nlohmann::json arguments = nlohmann::json::array();
+};
+
+/// An entry for each lesson; `entry` draws it and tells whether it was clicked.
+Choice list_lessons(bool (*entry)(const char* title)) {
+  Choice choice;
+  const auto lessons = find_lessons();
+  if (lessons.empty()) ImGui::TextDisabled("there are none here");
+  for (const auto& file : lessons) {
+    try {
+      const Lesson lesson = read_lesson(file);
+      if (entry(lesson.title.c_str())) choice = {&find_command("open"), {lesson.trace.string()}};
+    } catch (const Error& error) {
+      ImGui::TextDisabled("%s", error.what());
+    }
+  }
+  return choice;
+}
+
+Choice lessons_menu() {
+  if (!ImGui::BeginMenu("Lessons")) return {};
+  Choice choice = list_lessons([](const char* title) { return ImGui::MenuItem(title); });
+  ImGui::EndMenu();
+  return choice;
+}
+
+/// While nothing is open.
+Choice start_page() {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::Begin("##start", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::TextDisabled("drop a mesh or a trace here, or");
+  Choice choice;
+  if (ImGui::Button("Open a file ...")) choice.command = &find_command("open");
+  ImGui::Spacing();
+  ImGui::TextDisabled("lessons: traces with a text that leads through them");
+  Choice lesson = list_lessons([](const char* title) { return ImGui::Button(title); });
+  if (lesson.command != nullptr) choice = std::move(lesson);
+  ImGui::End();
+  return choice;
+}
+
+Choice menu() {
+  Choice choice;
+  if (!ImGui::BeginMainMenuBar()) return choice;
+  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
+    if (!ImGui::BeginMenu(title)) continue;
+    for (const Command& command : commands()) {
+      if (command.menu != title) continue;
+      if (ImGui::MenuItem(c_text(command.help), c_text(command.keys))) choice.command = &command;
+    }
+    ImGui::EndMenu();
+  }
+  Choice lesson = lessons_menu();
+  if (lesson.command != nullptr) choice = std::move(lesson);
+  ImGui::EndMainMenuBar();
+  return choice;
+}
+
 }  // namespace
 
 Interface::Interface(float scale) : scale_(scale) {
@@ -123,8 +185,13 @@ void Interface::build(Session& session) {
   apply_theme(session.document.view.theme);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
+  Choice choice;
   if (session.document.show_panels) {
-    menu(session);
+    choice = menu();
+    if (!session.document.has_mesh()) {
+      Choice at_start = start_page();
+      if (at_start.command != nullptr) choice = std::move(at_start);
+    }
     sides(session);
     if (session.document.debugger() != nullptr) strip(session);
     status_line(session);
@@ -132,42 +199,11 @@ void Interface::build(Session& session) {
   if (session.document.show_keys) keys_page(session);
   browser_.draw(session, scale_);
   ImGui::Render();
+  if (choice.command != nullptr) run_from_window(*choice.command, session, choice.arguments);
 }
 
 void Interface::draw() const {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-void Interface::menu(Session& session) const {
-  if (!ImGui::BeginMainMenuBar()) return;
-  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
-    if (!ImGui::BeginMenu(title)) continue;
-    for (const Command& command : commands()) {
-      if (command.menu == title && ImGui::MenuItem(c_text(command.help), c_text(command.keys))) {
-        run_from_window(command, session);
-      }
-    }
-    ImGui::EndMenu();
-  }
-  lessons_menu(session);
-  ImGui::EndMainMenuBar();
-}
-
-void Interface::lessons_menu(Session& session) const {
-  if (!ImGui::BeginMenu("Lessons")) return;
-  const auto lessons = find_lessons();
-  if (lessons.empty()) ImGui::TextDisabled("there are none here");
-  for (const auto& file : lessons) {
-    try {
-      const Lesson lesson = read_lesson(file);
-      if (ImGui::MenuItem(lesson.title.c_str())) {
-        run_from_window(find_command("open"), session, {lesson.trace.string()});
-      }
-    } catch (const Error& error) {
-      ImGui::TextDisabled("%s", error.what());
-    }
-  }
-  ImGui::EndMenu();
 }
 
 void Interface::strip(Session& session) const {

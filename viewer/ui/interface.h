@@ -26,8 +26,6 @@ class Interface {
   void draw() const;
 
  private:
-  void menu(Session& session) const;
-  void lessons_menu(Session& session) const;
   void strip(Session& session) const;
   void sides(Session& session) const;
   void status_line(Session& session) const;

@@ -10,7 +10,7 @@ namespace tetmend::viewer::ui {
 namespace {
 
 std::string quality_text(const Call& call, const CallFacts& facts) {
-  if (call.worst_before != 0) {
+  if (call.accepted && call.worst_before != 0) {
     return fmt::format("{:.3f} -> {:.3f}", call.worst_before, call.worst_after);
   }
   if (facts.degree_after == 0) return fmt::format("{:.3f} -> gone", facts.quality_before);
@@ -73,8 +73,12 @@ void draw_row(Session& session, const CallRow& row) {
     run_from_window(find_command("enter"), session, {row.call});
   }
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("call %u, %s", row.call,
-                      outcome_text(debugger.file(), call, debugger.end()).c_str());
+    const std::string tried =
+        call.accepted || call.worst_before == 0
+            ? ""
+            : fmt::format("\ntried: {:.4f} -> {:.4f}", call.worst_before, call.worst_after);
+    ImGui::SetTooltip("call %u, %s%s", row.call,
+                      outcome_text(debugger.file(), call, debugger.end()).c_str(), tried.c_str());
   }
   const CallFacts& facts = debugger.facts(row.call);
   ImGui::TableNextColumn();

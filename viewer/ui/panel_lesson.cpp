@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -16,7 +17,7 @@ void draw_lesson_panel(Session& session) {
   if (ImGui::Button("next")) run_from_window(find_command("next_lesson_step"), session);
   ImGui::SameLine();
   ImGui::TextDisabled("step %zu of %zu", step ? *step + 1 : 0, lesson.steps.size());
-  if (step) ImGui::TextWrapped("%s", lesson.steps[*step].text.c_str());
+  if (step) wrapped_text(lesson.steps[*step].text);
 }
 
 }  // namespace tetmend::viewer::ui

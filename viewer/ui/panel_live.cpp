@@ -112,6 +112,15 @@ void button(Session& session, const char* text, std::string_view command) {
   ImGui::SameLine();
 }
 
+void buttons_after_run(Session& session) {
+  if (ImGui::Button("Run on")) {
+    carefully(session.document, [&] { session.document.run_live(LiveRun::From::shown); });
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("from the mesh that is shown");
+  ImGui::SameLine();
+  button(session, "Debug this run", "live_debug");
+}
+
 void buttons(Session& session, LiveState state) {
   const bool is_held = state == LiveState::paused;
   if (is_held || state == LiveState::running || state == LiveState::stopping) {
@@ -125,10 +134,7 @@ void buttons(Session& session, LiveState state) {
     button(session, "Stop", "live_stop");
   } else {
     button(session, "Run", "live_run");
-    if (session.document.live.input() != nullptr && ImGui::Button("Run on")) {
-      carefully(session.document, [&] { session.document.run_live(LiveRun::From::shown); });
-    }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("from the mesh that is shown");
+    if (session.document.live.input() != nullptr) buttons_after_run(session);
   }
   ImGui::NewLine();
 }

@@ -4,6 +4,7 @@
 
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -20,6 +21,36 @@ void show_blended(ViewSettings& view, std::span<const FlatDrawing> drawings, flo
   show_flat("##blended", drawings, side);
   ImGui::SetNextItemWidth(side);
   ImGui::SliderScalar("##blend", ImGuiDataType_Double, &view.blend, &kLow, &kHigh, "after %.2f");
+}
+
+/// Chords of the polygon with their pockets, as they were before the edit; best first.
+void list_chords(const ShellPicture& shell) {
+  ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+  if (!ImGui::TreeNodeEx("chords and their pockets", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+  const std::vector<Chord> chords = chords_of(shell);
+  constexpr float kRows = 5.2F;  // with the head; more can be scrolled to
+  constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+  if (!ImGui::BeginTable("##chords", 3, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()}))
+    return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn(chords.empty() ? "no chord has a pocket" : "chord, best first");
+  ImGui::TableSetupColumn("worst q, one side");
+  ImGui::TableSetupColumn("other side");
+  ImGui::TableHeadersRow();
+  const auto quality = [&](double pocket) {
+    ImGui::TableNextColumn();
+    if (pocket <= 0) return ImGui::TextDisabled("none");
+    if (pocket > static_cast<double>(shell.floor)) return ImGui::Text("%.4f, better", pocket);
+    ImGui::TextDisabled("%.4f", pocket);
+  };
+  for (const Chord& chord : chords) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::Text("%u - %u", shell.ring[chord.from].index(), shell.ring[chord.to].index());
+    quality(chord.on);
+    quality(chord.back);
+  }
+  ImGui::EndTable();
 }
 
 /// All in the same ball, so that one can be laid over the other; seen as in the large picture.
@@ -64,7 +95,7 @@ void draw_shell_panel(Session& session) {
     const Debugger& debugger = *document.debugger();
     const FlatDrawing drawing = draw_polygon(*study, debugger.position(), is_refused(debugger),
                                              find_colour_map(document.view.scene.map));
-    ImGui::TextWrapped("%s", drawing.caption.c_str());
+    wrapped_text(drawing.caption);
     ImGui::BeginGroup();
     show_flat("##polygon", drawing, 0.6F * width);
     ImGui::Checkbox("blended", &document.view.blended);
@@ -74,6 +105,7 @@ void draw_shell_panel(Session& session) {
   ImGui::BeginGroup();
   show_tets(document, *study, 0.35F * width);
   ImGui::EndGroup();
+  if (has_polygon) list_chords(*study->picture);
 }
 
 }  // namespace tetmend::viewer::ui

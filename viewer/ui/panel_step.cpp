@@ -5,6 +5,7 @@
 
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -81,7 +82,7 @@ void show_end(Debugger& debugger) {
   ImGui::SameLine();
   ImGui::TextUnformatted(verdict.c_str());
   if (debugger.position() < call.events.end) return;
-  ImGui::TextWrapped("%s", explain_end(debugger.file(), *study).c_str());
+  wrapped_text(explain_end(debugger.file(), *study));
 }
 
 }  // namespace

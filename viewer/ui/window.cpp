@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <deque>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <epoxy/gl.h>
@@ -66,7 +69,8 @@ class Window : public Host {
     set_callbacks();
     renderer_ = std::make_unique<gl::Renderer>();
     interface_ = std::make_unique<ui::Interface>(scale > 0 ? scale : scale_of_screen(window_));
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks from above, too
+    constexpr bool kWithCallbacks = false;  // those of below call them
+    ImGui_ImplGlfw_InitForOpenGL(window_, kWithCallbacks);
   }
   ~Window() override {
     ImGui_ImplGlfw_Shutdown();
@@ -77,19 +81,15 @@ class Window : public Host {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Draws only after events: a few times, because panels take their sizes from the last frame.
-  /// While a run is at work it draws now and then.
+  /// Draws only after events. While a run is at work it draws now and then.
   void run(bool fit) {
-    constexpr int kFrames = 3;
     fit_first_ = fit && document_.has_mesh();
     while (glfwWindowShouldClose(window_) == GLFW_FALSE && !document_.quit) {
-      const int frames = document_.awaits_live() ? 1 : kFrames;
-      for (int i = 0; i < frames && !document_.quit; ++i) {
-        frame();
-        glfwSwapBuffers(window_);
-        glfwPollEvents();
-      }
-      if (!document_.quit) wait();
+      deliver_inputs();
+      if (document_.quit) break;
+      frame();
+      glfwSwapBuffers(window_);
+      if (inputs_.empty()) wait();
     }
   }
 
@@ -123,7 +123,21 @@ class Window : public Host {
     played_ = now;
   }
 
-  void frame() {
+  /// Drawing may take longer than a user takes to click and type. So what comes meanwhile waits,
+  /// and panels see one button and one key at a time: they decide by the last layout whose it is.
+  void deliver_inputs() {
+    while (!inputs_.empty() && !document_.quit) {
+      const Input input = std::move(inputs_.front());
+      inputs_.pop_front();
+      if (input.is_button) lay_out();  // for the place of the mouse
+      const bool is_for_panels = input.is_button || panels_take_keys();
+      input.deliver();
+      if (document_.question != FileQuestion::none) settle();
+      if (is_for_panels) lay_out();
+    }
+  }
+
+  void lay_out() {
     document_.follow_live();
     glfwGetFramebufferSize(window_, &document_.window.width, &document_.window.height);
     document_.window.width = std::max(document_.window.width, 1);
@@ -132,10 +146,29 @@ class Window : public Host {
     if (fit_first_) document_.fit();  // for the space that the panels leave
     fit_first_ = false;
     ImGui_ImplGlfw_NewFrame();
+    tell_mouse();
     interface_->build(session_);
     interface_->arrange(document_);
+  }
+
+  /// Panels take their sizes from the last layout, and dialogs the keys from the one before.
+  void settle() {
+    constexpr int kLayouts = 3;
+    for (int i = 0; i < kLayouts; ++i) lay_out();
+  }
+
+  void frame() {
+    settle();
     renderer_->draw(document_);
     interface_->draw();
+  }
+
+  /// As it was at the input at hand; the backend of ImGui tells how it is now.
+  void tell_mouse() const {
+    ImGuiIO& io = ImGui::GetIO();
+    std::copy(buttons_.begin(), buttons_.end(), std::begin(io.MouseDown));
+    const bool is_inside = ImGui::IsMousePosValid(&io.MousePos);
+    if (is_inside) io.MousePos = {static_cast<float>(pointer_.x), static_cast<float>(pointer_.y)};
   }
 
   static Window& self(GLFWwindow* window) {
@@ -143,7 +176,8 @@ class Window : public Host {
   }
   /// What ImGui wants is known from the last frame only; the mouse may have come here since.
   bool panels_take_mouse() const {
-    const glm::dvec2 at = document_.to_canvas(mouse_.x, mouse_.y);
+    const glm::dvec2 pixel = to_pixels(pointer_);
+    const glm::dvec2 at = document_.to_canvas(pixel.x, pixel.y);
     return ImGui::GetIO().WantCaptureMouse || at.x < 0 || at.y < 0 ||
            at.x >= document_.canvas.width || at.y >= document_.canvas.height;
   }
@@ -152,24 +186,39 @@ class Window : public Host {
   }
 
   /// Units of the window system to pixels.
-  glm::dvec2 to_pixels(double x, double y) const {
+  glm::dvec2 to_pixels(const glm::dvec2& at) const {
     int width = 1;
     int height = 1;
     glfwGetWindowSize(window_, &width, &height);
-    return {x * document_.window.width / std::max(width, 1),
-            y * document_.window.height / std::max(height, 1)};
+    return {at.x * document_.window.width / std::max(width, 1),
+            at.y * document_.window.height / std::max(height, 1)};
   }
 
-  void on_button(int button, int action, int mods) {
-    const glm::dvec2 at = mouse_;
+  void on_button(int button, int action, int mods, double time) {
+    const glm::dvec2 at = to_pixels(pointer_);
+    if (static_cast<std::size_t>(button) < buttons_.size()) {
+      buttons_[static_cast<std::size_t>(button)] = action == GLFW_PRESS;
+    }
     if (action == GLFW_RELEASE) {
-      controller_.release(at.x, at.y, glfwGetTime());
+      controller_.release(at.x, at.y, time);
     } else if (!panels_take_mouse()) {
       const Button which = button == GLFW_MOUSE_BUTTON_LEFT    ? Button::left
                            : button == GLFW_MOUSE_BUTTON_RIGHT ? Button::right
                                                                : Button::middle;
       controller_.press(which, at.x, at.y, (mods & GLFW_MOD_SHIFT) != 0);
     }
+  }
+
+  void on_move(const glm::dvec2& at) {
+    pointer_ = at;
+    const glm::dvec2 pixel = to_pixels(at);
+    controller_.move(pixel.x, pixel.y);
+  }
+
+  void on_scroll(double x, double y) {
+    const glm::dvec2 at = to_pixels(pointer_);
+    if (panels_take_mouse()) return ImGui_ImplGlfw_ScrollCallback(window_, x, y);
+    controller_.scroll(y, at.x, at.y);
   }
 
   /// Keys without a character, and those with Ctrl; the others come as characters.
@@ -202,37 +251,58 @@ class Window : public Host {
 
   void on_character(unsigned code) {
     constexpr unsigned kAscii = 127;
-    if (code >= kAscii || panels_take_keys()) return;
+    if (panels_take_keys()) return ImGui_ImplGlfw_CharCallback(window_, code);
+    if (code >= kAscii) return;
     const auto c = static_cast<int>(code);
     if (c == ' ') return controller_.key("Space");
     controller_.key(fmt::format("{}{:c}", std::isupper(c) != 0 ? "Shift+" : "", std::toupper(c)));
   }
 
+  template <class Deliver>
+  static void keep(GLFWwindow* window, bool is_button, const Deliver& deliver) {
+    self(window).inputs_.push_back({[window, deliver] { deliver(self(window)); }, is_button});
+  }
+
   void set_callbacks() {
+    glfwSetWindowFocusCallback(window_, ImGui_ImplGlfw_WindowFocusCallback);
+    glfwSetCursorEnterCallback(window_, ImGui_ImplGlfw_CursorEnterCallback);
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
-      self(w).on_button(button, action, mods);
+      const double now = glfwGetTime();
+      keep(w, true, [=](Window& s) { s.on_button(button, action, mods, now); });
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
-      self(w).mouse_ = self(w).to_pixels(x, y);
-      self(w).controller_.move(self(w).mouse_.x, self(w).mouse_.y);
+      keep(w, false, [=](Window& s) { s.on_move({x, y}); });
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double steps) {
-      const glm::dvec2 at = self(w).mouse_;
-      if (!self(w).panels_take_mouse()) self(w).controller_.scroll(steps, at.x, at.y);
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+      keep(w, false, [=](Window& s) { s.on_scroll(x, y); });
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int code, int action, int mods) {
-      self(w).on_key(key, code, action, mods);
+      keep(w, false, [=](Window& s) {
+        s.on_key(key, code, action, mods);
+        ImGui_ImplGlfw_KeyCallback(s.window_, key, code, action, mods);
+      });
     });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { self(w).on_character(code); });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) {
+      keep(w, false, [=](Window& s) { s.on_character(code); });
+    });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** files) {
-      for (int i = 0; i < count; ++i) self(w).controller_.drop(files[i]);
+      for (const std::string file : std::span(files, static_cast<std::size_t>(count))) {
+        keep(w, false, [=](Window& s) { s.controller_.drop(file); });
+      }
     });
   }
+
+  struct Input {
+    std::function<void()> deliver;
+    bool is_button;
+  };
 
   Document& document_;
   Session session_;
   Controller controller_;
-  glm::dvec2 mouse_{0};  // where it was at the event at hand; GLFW tells only where it is now
+  std::deque<Input> inputs_;
+  glm::dvec2 pointer_{0};             // where the mouse was at the input at hand, in units of GLFW
+  std::array<bool, 5> buttons_ = {};  // those of ImGui
   bool fit_first_ = false;
   double played_ = 0;  // when a trace was played up to where it is
   GLFWwindow* window_ = nullptr;
