@@ -86,6 +86,7 @@ local function worst_tets(i)
   apply({"cavity_insertion", exponent = exponent, desperate = desperate}, {on = worst})
   apply(refill(18, 0.35), {on = worst})
   apply(open_by("edge_split", 0.35), {on = worst})
+  apply(open_by("edge_removal", 0.35), {on = worst})
 end
 
 -- Fewer bad tets, never for a worse one: with the exponent 1 the many mild ones count. Returns
