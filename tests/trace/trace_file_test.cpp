@@ -207,7 +207,7 @@ TEST_CASE(
     CHECK(call.worst_before == event.before.front());
     CHECK(call.worst_after == event.after.front());
   }
-  CHECK(compared > 50);
+  CHECK(compared > 10);
 }
 
 TEST_CASE("the reason of a refusal tells a search without result from one whose result is no use") {
