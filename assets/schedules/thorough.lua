@@ -94,7 +94,7 @@ end
 local function all_bad_tets()
   local n_bad = quality().n_bad
   apply("joint_smoothing")
-  apply({"cavity_insertion", exponent = 1, desperate = 0, tries = 4})
+  apply({"cavity_insertion", exponent = 1, desperate = 0, tries = 2})
   apply(refill(20, 0), {on = hard})
   return quality().n_bad < 0.95 * n_bad
 end
