@@ -1,5 +1,5 @@
 -- The best mesh that the fixed surface allows, for the time it takes.
-description "The rounds of Algorithm 6, then insertion by cavity, small polyhedra and joint smoothing for the bad tets that remain, the worst first, until nothing helps"
+description "The rounds of Algorithm 6, then insertion by cavity, small polyhedra and several operators as one attempt for the bad tets that remain, the worst first, until nothing helps"
 
 local max_rounds   = parameter{"max_rounds", default = 12, low = 0, high = 10000,
                                help = "rounds of dear operators on the bad tets that remain"}
@@ -81,7 +81,6 @@ local function worst_tets(i)
   local exponent, desperate = 4, 0.2
   if i % 2 == 0 then exponent, desperate = 12, 0.35 end
   smooth{on = worst, desperate = 0.35, steps = 30}
-  apply({"joint_smoothing", desperate = 0.35}, {on = worst})
   local_reconnection{on = worst, reflex_only = false}
   apply({"cavity_insertion", exponent = exponent, desperate = desperate}, {on = worst})
   apply(refill(18, 0.35), {on = worst})
@@ -93,7 +92,6 @@ end
 -- whether that was worth the time.
 local function all_bad_tets()
   local n_bad = quality().n_bad
-  apply("joint_smoothing")
   apply({"cavity_insertion", exponent = 1, desperate = 0, tries = 2})
   apply(refill(20, 0), {on = hard})
   return quality().n_bad < 0.95 * n_bad
@@ -108,7 +106,6 @@ local function very_worst_tets()
              + apply({"cavity_insertion", exponent = i % 2 == 0 and 4 or 12, desperate = 0.5}, {on = few})
              + apply(refill(12 + 4 * i, 0.5), {on = few})
              + apply(open_by(opening, 0.5), {on = few})
-             + apply({"joint_smoothing", rings = i % 2, desperate = 0.5}, {on = few})
   end
   return accepted
 end

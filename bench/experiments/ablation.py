@@ -23,6 +23,14 @@ local all_apply = apply
 local function apply(what, options)
   return is_left_out(what) and 0 or all_apply(what, options)
 end
+local all_sequence = sequence
+local function sequence(parts)
+  local kept = {{parts[1], desperate = parts.desperate}}
+  for i = 2, #parts do
+    if parts[i] ~= left_out then kept[#kept + 1] = parts[i] end
+  end
+  return all_sequence(kept)
+end
 local local_reconnection = unless_left_out("local_reconnection", local_reconnection)
 local smooth = unless_left_out("smooth", smooth)
 local suppress_points = unless_left_out("suppress_points", suppress_points)
