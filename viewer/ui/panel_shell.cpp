@@ -28,12 +28,13 @@ void list_chords(const ShellPicture& shell) {
   ImGui::SetNextItemOpen(true, ImGuiCond_Once);
   if (!ImGui::TreeNodeEx("chords and their pockets", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
   const std::vector<Chord> chords = chords_of(shell);
+  if (chords.empty()) return ImGui::TextDisabled("no chord has a pocket");
   constexpr float kRows = 5.2F;  // with the head; more can be scrolled to
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
   if (!ImGui::BeginTable("##chords", 3, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()}))
     return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn(chords.empty() ? "no chord has a pocket" : "chord, best first");
+  ImGui::TableSetupColumn("chord, best first");
   ImGui::TableSetupColumn("worst q, one side");
   ImGui::TableSetupColumn("other side");
   ImGui::TableHeadersRow();
