@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -36,14 +38,35 @@ std::array<unsigned, 6> sorted_edges(Rank&& rank) {
   return edges;
 }
 
-/// Sine of the dihedral angle at each edge, up to a common factor, squared.
-std::array<unsigned, 6> edges_by_sine(const TetMesh& mesh, const TetVertices& tv) {
-  std::array<double, 4> normal2{};
+std::array<Point, 4> face_normals(const TetMesh& mesh, const TetVertices& tv) {
+  std::array<Point, 4> normals;
   for (unsigned f = 0; f < 4; ++f) {
     const auto& local = kFaceVertices[f];
     const Point& p = mesh.point(tv[local[0]]);
-    normal2[f] = (mesh.point(tv[local[1]]) - p).cross(mesh.point(tv[local[2]]) - p).squaredNorm();
+    normals[f] = (mesh.point(tv[local[1]]) - p).cross(mesh.point(tv[local[2]]) - p);
   }
+  return normals;
+}
+
+/// By the cosine of the dihedral angle, squared with its sign: no root is needed. At a face without
+/// area all angles count as right ones.
+std::array<unsigned, 6> edges_by_angle(const TetMesh& mesh, const TetVertices& tv) {
+  const std::array<Point, 4> normals = face_normals(mesh, tv);
+  std::array<double, 4> normal2{};
+  for (unsigned f = 0; f < 4; ++f) normal2[f] = normals[f].squaredNorm();
+  return sorted_edges([&](unsigned e) {
+    const auto& [f, g] = kEdgeVertices[5 - e];  // the faces at edge e lie opposite these
+    const double cosine = -normals[f].dot(normals[g]);
+    const double product = normal2[f] * normal2[g];
+    return product > 0 ? cosine * std::abs(cosine) / product : 0;
+  });
+}
+
+/// By the sine of the dihedral angle, up to a common factor, squared.
+std::array<unsigned, 6> edges_by_sine(const TetMesh& mesh, const TetVertices& tv) {
+  const std::array<Point, 4> normals = face_normals(mesh, tv);
+  std::array<double, 4> normal2{};
+  for (unsigned f = 0; f < 4; ++f) normal2[f] = normals[f].squaredNorm();
   return sorted_edges([&](unsigned e) {
     const auto& [i, j] = kEdgeVertices[e];
     return (mesh.point(tv[i]) - mesh.point(tv[j])).squaredNorm() * normal2[i] * normal2[j];
@@ -64,6 +87,8 @@ std::array<unsigned, 6> edges_in_order(const TetMesh& mesh, const TetVertices& t
       return edges_by_length(mesh, tv, -1);
     case EdgeOrder::shortest:
       return edges_by_length(mesh, tv, 1);
+    case EdgeOrder::angle:
+      return edges_by_angle(mesh, tv);
     case EdgeOrder::sine:
       break;
   }
@@ -116,7 +141,8 @@ std::string Composition::describe() const {
   ParameterSettings sorted = settings;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& x, const auto& y) { return x.first < y.first; });
-  std::string text = fmt::format("{} order {}", operator_name, static_cast<int>(order));
+  std::string text =
+      fmt::format("{} order {} edges {}", operator_name, static_cast<int>(order), most_edges);
   for (const auto& [parameter, value] : sorted) text += fmt::format(" {} = {}", parameter, value);
   return text;
 }
@@ -167,7 +193,7 @@ TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition
 TetAttempts::Leaf TetAttempts::build_leaf(const Registry& registry,
                                           const Composition& composition) {
   Leaf leaf{registry.make(composition.operator_name, composition.settings), composition.order,
-            leaves_++, bits_};
+            composition.most_edges, leaves_++, bits_};
   bits_ += targets_of_a_tet(leaf.op->info().target);
   if (bits_ > kMostAttempts) {
     throw Error(fmt::format("a composition makes more than {} attempts at a tet", kMostAttempts));
@@ -209,14 +235,16 @@ void TetAttempts::run_leaf(const Node& node, Progress& progress) const {
     case TargetKind::tet:
       try_once(node, progress, Target::of(tet), 0, {});
       return;
-    case TargetKind::edge:
-      for (const unsigned e : edges_in_order(mesh, corners, leaf.order)) {
+    case TargetKind::edge: {
+      const auto edges = edges_in_order(mesh, corners, leaf.order);
+      for (const unsigned e : std::span(edges).first(leaf.most_edges)) {
         const TetEdge edge(tet, e);
         const auto ends = mesh.vertices(edge);
         if (!changed_around(mesh, ends, progress.since)) continue;
         if (!try_once(node, progress, Target::of(edge), e, ends)) return;
       }
       return;
+    }
     case TargetKind::face:
       for (unsigned f = 0; f < 4; ++f) {
         const HalfFace face(tet, f);

@@ -15,6 +15,7 @@ namespace tetmend {
 /// In which order the edges of a tet are tried.
 enum class EdgeOrder {
   sine,     ///< lowest sine of the dihedral angle first: the edges to get rid of
+  angle,    ///< largest dihedral angle first: those of them that go most easily
   longest,  ///< longest first: the edges to split
   shortest
 };
@@ -34,6 +35,7 @@ struct Composition {
   std::string operator_name = {};  ///< of Kind::one
   ParameterSettings settings = {};
   EdgeOrder order = EdgeOrder::sine;
+  unsigned most_edges = 6;        ///< of a tet that are tried, the first in that order
   double desperate = kDesperate;  ///< of a sequence: below this worst quality, a gain of 0.001
                                   ///< pays for one more bad tet
   std::vector<Composition> parts = {};  ///< of the other kinds
@@ -60,6 +62,7 @@ class TetAttempts {
   struct Leaf {
     std::unique_ptr<Operator> op;
     EdgeOrder order;
+    unsigned most_edges;
     std::size_t number;  // of all leaves: has a memory of its own
     unsigned first_bit;  // in QueuedTet::todo
   };

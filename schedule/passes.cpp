@@ -48,7 +48,8 @@ void local_reconnection(Run& run, const LocalReconnection& options) {
   PassScope scope(run, "local_reconnection");
   Composition what{.kind = Composition::Kind::all_of};
   if (!options.edge_operator.empty()) {
-    what.parts.push_back(one(options.edge_operator, options.edge_settings));
+    what.parts.push_back(one(options.edge_operator, options.edge_settings, options.edge_order));
+    what.parts.back().most_edges = options.most_edges;
   }
   if (!options.face_operator.empty()) {
     what.parts.push_back(one(options.face_operator, options.face_settings));

@@ -17,6 +17,8 @@ struct LocalReconnection {
   Selection on = {};
   std::string edge_operator = "recursive_shell_transformation";  ///< empty: none
   ParameterSettings edge_settings = {};
+  EdgeOrder edge_order = EdgeOrder::sine;
+  unsigned most_edges = 6;                           ///< of a tet that are tried
   std::string face_operator = "multi_face_removal";  ///< empty: none
   ParameterSettings face_settings = {};
   unsigned sweeps = 2;  ///< new bad tets are tried in the next sweep

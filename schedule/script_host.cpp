@@ -235,6 +235,8 @@ int ScriptHost::reconnect(lua_State* lua) {
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   options.on = std::move(arguments.on);
   options.edge_settings = std::move(edges.settings);
+  options.edge_order = edges.order;
+  options.most_edges = edges.most_edges;
   options.face_settings = std::move(faces.settings);
   for (auto& setting : arguments.of_operators[0]) options.edge_settings.push_back(setting);
   for (auto& setting : arguments.of_operators[1]) options.face_settings.push_back(setting);

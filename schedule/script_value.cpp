@@ -177,12 +177,19 @@ Composition read_sequence(const Registry& registry, const Subject& subject,
 }
 
 EdgeOrder read_order(const Subject& subject, const ScriptValue& value) {
-  static constexpr std::array<std::string_view, 3> kOrders = {"sine", "longest", "shortest"};
+  static constexpr std::array<std::string_view, 4> kOrders = {"sine", "angle", "longest",
+                                                              "shortest"};
   const std::string& name = read_text(subject, value);
   if (name == "sine") return EdgeOrder::sine;
+  if (name == "angle") return EdgeOrder::angle;
   if (name == "longest") return EdgeOrder::longest;
   if (name == "shortest") return EdgeOrder::shortest;
   refuse_name(subject, "value", name, kOrders);
+}
+
+unsigned read_most_edges(const Subject& subject, const ScriptValue& value) {
+  read_in_range(subject, value, 1, 6);
+  return static_cast<unsigned>(read_count(subject, value));
 }
 
 }  // namespace
@@ -289,8 +296,10 @@ Composition read_composition(const Registry& registry, const Subject& subject,
     const Subject field = {std::string(info.name) + ": " + name};
     if (name == "order") {
       composition.order = read_order(field, setting);
+    } else if (name == "most_edges") {
+      composition.most_edges = read_most_edges(field, setting);
     } else if (!read_setting(field, info.parameters, name, setting, composition.settings)) {
-      std::vector<std::string_view> valid = {"order"};
+      std::vector<std::string_view> valid = {"order", "most_edges"};
       for (const ParameterSpec& spec : info.parameters) valid.push_back(spec.name);
       refuse_name({std::string(info.name)}, "parameter", name, valid);
     }

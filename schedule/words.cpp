@@ -15,7 +15,8 @@ constexpr std::array<WordField, 1> kOnlyOn = {kOn};
 constexpr std::array<WordField, 3> kReconnectionFields = {{
     kOn,
     {"edges", "operator or false", "'recursive_shell_transformation'",
-     "what is tried on the edges of a tet, those at the smallest sine first"},
+     "what is tried on the edges of a tet, those at the smallest sine first; order and most_edges "
+     "as for apply"},
     {"faces", "operator or false", "'multi_face_removal'", "what is tried then on its faces"},
 }};
 constexpr std::array<ParameterSpec, 1> kReconnectionNumbers = {{
@@ -60,7 +61,9 @@ constexpr std::array<WordInfo, 18> kWords = {{
      "edge_split"},
     {"apply", "apply(what, {...})",
      "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
-     "value, order = \"sine\", \"longest\" or \"shortest\"}, first_of{...}, all_of{...} or "
+     "value, order = \"sine\", \"angle\" (largest first), \"longest\" or \"shortest\", most_edges "
+     "= 6 "
+     "(of a tet, the first in that order)}, first_of{...}, all_of{...} or "
      "sequence{...}. An operator on edges, faces or vertices is tried on those of the tet",
      kOnlyOn, kApplyNumbers},
     {"attempt", "attempt(what, {vertex, ...}, {vertex, vertex, vertex, vertex})",

@@ -72,6 +72,9 @@ TEST_CASE("names and descriptions tell compositions apart") {
         "first_of(edge_removal, all_of(flip_2_3, smoothing))");
   CHECK(first_of({op("flip_2_3")}).describe() != all_of({op("flip_2_3")}).describe());
   CHECK(op("smoothing", {{"steps", 3}}).describe() != op("smoothing").describe());
+  Composition few = op("edge_removal");
+  few.most_edges = 2;
+  CHECK(few.describe() != op("edge_removal").describe());
   CHECK(op("smoothing", {{"steps", 3}, {"laplacian", 0}}).describe() ==
         op("smoothing", {{"laplacian", 0}, {"steps", 3}}).describe());
 }
@@ -195,6 +198,47 @@ TEST_CASE("edges are tried by length when that is asked for") {
     REQUIRE(lengths.size() >= 3);
     CHECK(longest == std::is_sorted(lengths.rbegin(), lengths.rend()));
     CHECK(longest != std::is_sorted(lengths.begin(), lengths.end()));
+  }
+}
+
+TEST_CASE("edges are tried from the largest dihedral angle down when that is asked for") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  Composition split = op("edge_split", {{"least_gain", 1}});  // never accepted
+  split.order = EdgeOrder::angle;
+  const Attempts attempts = attempts_at_worst(mesh, split);
+  REQUIRE(attempts.targets.size() == 6);
+  std::vector<VertexHandle> corners;
+  for (const auto& ends : attempts.targets) corners.insert(corners.end(), ends.begin(), ends.end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  REQUIRE(corners.size() == 4);
+  const auto angles = dihedral_angles(mesh.point(corners[0]), mesh.point(corners[1]),
+                                      mesh.point(corners[2]), mesh.point(corners[3]));
+  std::vector<double> tried;
+  for (auto ends : attempts.targets) {
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto& [i, j] = kEdgeVertices[e];
+      if (corners[i] == ends[0] && corners[j] == ends[1]) tried.push_back(angles[e]);
+    }
+  }
+  CHECK(tried.size() == 6);
+  CHECK(std::is_sorted(tried.rbegin(), tried.rend()));
+}
+
+TEST_CASE("of the edges of a tet only the first few are tried when that is asked for") {
+  TetMesh mesh(delaunay_ball(200, 4));
+  Composition split = op("edge_split", {{"least_gain", 1}});  // never accepted
+  for (const EdgeOrder order : {EdgeOrder::sine, EdgeOrder::longest}) {
+    split.order = order;
+    split.most_edges = 6;
+    TetMesh one = mesh;
+    const auto all = attempts_at_worst(one, split).targets;
+    split.most_edges = 2;
+    TetMesh two = mesh;
+    const auto few = attempts_at_worst(two, split).targets;
+    REQUIRE(all.size() == 6);
+    CHECK(few == std::vector(all.begin(), all.begin() + 2));
   }
 }
 

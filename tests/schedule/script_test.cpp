@@ -100,6 +100,10 @@ TEST_CASE("words do what the passes in C++ do") {
   same("local_reconnection{edges = {'edge_removal'}, faces = 'flip_2_3'}", [](Run& r) {
     local_reconnection(r, {.edge_operator = "edge_removal", .face_operator = "flip_2_3"});
   });
+  same("local_reconnection{edges = {'edge_removal', order = 'angle', most_edges = 2}}", [](Run& r) {
+    local_reconnection(
+        r, {.edge_operator = "edge_removal", .edge_order = EdgeOrder::angle, .most_edges = 2});
+  });
   same("smooth{cycles = 1, laplacian = false, on = {below = 0.3}}", [](Run& r) {
     smooth(r, {.on = {.below = 0.3f}, .settings = {{"laplacian", 0}}, .cycles = 1});
   });
@@ -180,9 +184,12 @@ TEST_CASE(
       {"apply('magic')", "unknown operator 'magic'"},
       {"apply(3)", "apply must be an operator, first_of{...}, all_of{...} or sequence{...}, is 3"},
       {"apply({'edge_split', relaxed = true})",
-       "edge_split has no parameter 'relaxed'; valid: order, least_gain"},
+       "edge_split has no parameter 'relaxed'; valid: order, most_edges, least_gain"},
       {"apply({'edge_split', order = 'best'})",
-       "edge_split: order has no value 'best'; valid: sine, longest, shortest"},
+       "edge_split: order has no value 'best'; valid: sine, angle, longest, shortest"},
+      {"apply({'edge_split', most_edges = 7})", "edge_split: most_edges = 7 is outside 1 to 6"},
+      {"local_reconnection{edges = {'edge_removal', most_edges = 1.5}}",
+       "edge_removal: most_edges = 1.5 is not a whole number"},
       {"apply(first_of{})", "apply: nothing to try"},
       {"apply(sequence{'smoothing'})", "apply: a sequence is an operator and what follows it"},
       {"apply(sequence{'smoothing', 'flip_2_3', desperate = 2})",
