@@ -11,7 +11,9 @@ local time_limit   = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                                help = "seconds after which no further pass begins; 0: none"}
 
 local worst = {below = 0.5, worst = 100}
-local few   = {below = 0.5, worst = 16}
+local few   = {below = 0.5, worst = 24}
+-- As in the default schedule: which edges are tried there decides about the time alone.
+local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.25, at_least = 100}
 local hard  = {below = 0.35}
 
@@ -31,15 +33,15 @@ end
 -- Algorithm 6, as long as it is fast.
 local function plain_round()
   begin_round()
-  local_reconnection{}
+  local_reconnection{edges = quick}
   clean_up()
   insert_points{}
   smooth{}
 end
 
-local function mend()
+local function mend(edges)
   clean_up()
-  local_reconnection{}
+  local_reconnection{edges = edges}
   smooth{}
 end
 
@@ -64,7 +66,7 @@ local function first_dear_round()
     apply(refill(14, 0.35), {on = {below = 0, at_least = 32}})
     smooth{on = dire}
   end
-  mend()
+  mend(quick)
 end
 
 -- A steep exponent: a new mild bad tet hardly counts against a worse one that goes.
@@ -115,7 +117,7 @@ repeat
   local last = before
   plain_round()
   before = quality()
-until before.n_bad > 0.75 * last.n_bad or is_enough()
+until before.n_bad > 0.6 * last.n_bad or is_enough()
 if not is_enough() then first_dear_round() end
 
 while not is_enough() do
