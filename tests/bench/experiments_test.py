@@ -51,13 +51,30 @@ class Experiments(unittest.TestCase):
         self.assertGreaterEqual(self.curves("figure12a-folded_sheet.svg"), 2)
         self.assertEqual(self.curves("figure12b.svg"), 3)
 
-    def test_what_an_ablation_leaves_out_is_missed(self) -> None:
+    def passes_of(self, schedule: str) -> list[str]:
+        report = self.output / "report.json"
+        mesh = SOURCE / "assets" / "meshes" / "folded_sheet.mesh"
+        subprocess.run([BUILD / "bin" / "tetmend", "improve", mesh, "-o", self.output / "x.mesh",
+                        "--quiet", "--schedule", schedule, "--report", report], check=True)
+        return [record["name"] for record in json.loads(report.read_text())["passes"]]
+
+    def test_an_ablation_makes_all_passes_but_those_that_it_leaves_out(self) -> None:
         [rows] = self.run_experiment("ablation", "folded_sheet")
-        whole = rows.pop("nothing")["after"]
-        self.assertEqual(len(rows), 8)
-        for name in ("local_reconnection", "smooth", "insert_points", "cavity_insertion"):
-            self.assertNotEqual(rows[name]["after"], whole, name)
-        self.assertGreater(rows["local_reconnection"]["after"]["n_bad"], whole["n_bad"])
+        self.assertEqual(len(rows), 9)
+        whole = self.passes_of("thorough")
+        passes = {"local_reconnection": "local_reconnection", "smooth": "smoothing",
+                  "suppress_points": "point_suppression", "insert_points": "point_insertion",
+                  "cavity_insertion": "cavity_insertion",
+                  "polyhedron_reconnection": "polyhedron_reconnection", "sequence": "sequence("}
+        for word, name in passes.items():
+            self.assertTrue(any(made.startswith(name) for made in whole), name)
+            kept = self.passes_of(str(self.output / f"thorough-without-{word}.lua"))
+            self.assertFalse(any(made.startswith(name) for made in kept), word)
+            self.assertGreater(len(set(kept)), 1)
+            self.assertNotEqual(rows[word]["after"], rows["nothing"]["after"], word)
+        self.assertTrue(any("joint_smoothing" in made for made in whole))
+        kept = self.passes_of(str(self.output / "thorough-without-joint_smoothing.lua"))
+        self.assertFalse(any("joint_smoothing" in made for made in kept))
 
     def test_all_schedules_that_are_listed_are_compared(self) -> None:
         [rows] = self.run_experiment("schedules", "sheet")

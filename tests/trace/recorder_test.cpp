@@ -150,7 +150,7 @@ TEST_CASE("a filter by place keeps the calls that aim at it, with all in them") 
 
 TEST_CASE("a trace with a limit ends before it, and the run goes on") {
   const TempFolder folder;
-  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh mesh = asset_mesh("folded_sheet.mesh");
   TetMesh limited = mesh;
   record(mesh, folder / "all");
   const std::uintmax_t size = std::filesystem::file_size(folder / "all");
