@@ -42,14 +42,16 @@ void complete_triangles(Lanes* lanes, std::size_t count) {
   }
 }
 
-/// Returns the smallest, or some value below `least_square` as soon as there is one.
+/// Returns the smallest, or some value below `least_square` as soon as there is one. Begins with
+/// the lanes `first`, which become those that ended the walk: they will often end the next as well.
 TETMEND_WIDE
 double evaluate_ball(const Lanes* lanes, std::size_t count, double px, double py, double pz,
-                     Values* squares, double least_square) {
+                     Values* squares, double least_square, std::size_t& first) {
   using B = BallOptimiser;
   const WideVector zero = {};
   WideVector smallest = zero + std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < count; ++n) {
+  std::size_t n = first;
+  for (std::size_t left = count; left > 0; --left, n = n + 1 < count ? n + 1 : 0) {
     const auto* ball = lanes[n].vectors();
     const WideVector ux = ball[B::ax] - px, uy = ball[B::ay] - py, uz = ball[B::az] - pz;
     const WideVector vx = ball[B::bx] - px, vy = ball[B::by] - py, vz = ball[B::bz] - pz;
@@ -80,7 +82,10 @@ double evaluate_ball(const Lanes* lanes, std::size_t count, double px, double py
     *squares[n].vectors() = square;
     smallest = square < smallest ? square : smallest;
     const auto below = square < least_square;
-    if ((below[0] | below[1] | below[2] | below[3]) != 0) break;
+    if ((below[0] | below[1] | below[2] | below[3]) != 0) {
+      first = n;
+      break;
+    }
   }
   double worst = smallest[0];
   for (std::size_t i = 1; i < B::kLanes; ++i) worst = smallest[i] < worst ? smallest[i] : worst;
@@ -126,7 +131,8 @@ double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares,
   if (!complete_) complete_triangles(lanes_.data(), count);
   complete_ = true;
   if (squares.size() < count) squares.resize(lanes_.size());
-  return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data(), least_square);
+  return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data(), least_square,
+                       first_);
 }
 
 double BallOptimiser::worst(const Point& p) {

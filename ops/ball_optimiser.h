@@ -25,7 +25,7 @@ class BallOptimiser {
     double least_step = 1e-2;  ///< shortest step, as a share of the size of the ball
   };
 
-  void clear() { size_ = 0; }
+  void clear() { size_ = first_ = 0; }
   /// A link triangle; (p, a, b, c) is positive for a vertex p inside the ball.
   void add(const Point& a, const Point& b, const Point& c);
   std::size_t size() const { return size_; }
@@ -76,6 +76,7 @@ class BallOptimiser {
   // Squares of the qualities with their signs: the root is taken of few.
   std::vector<Values> square_;
   std::vector<Values> trial_;
+  std::size_t first_ = 0;  // lanes that ended the last walk that ended early
   std::array<Point, kMaxActive> gradients_;
 };
 

@@ -149,6 +149,44 @@ TEST_CASE("the worst of a ball is the smallest minimum sine, tet by tet") {
   }
 }
 
+TEST_CASE(
+    "a ball tells whether its worst exceeds a bound, call after call, and keeps what does not") {
+  Random random(12);
+  unsigned above = 0;
+  unsigned below = 0;
+  for (int round = 0; round < 50; ++round) {
+    std::vector<Triangle> triangles;  // many more than are evaluated side by side
+    for (int i = 0; i < 5; ++i) {
+      for (const Triangle& t : random_ball(random, 0.3)) triangles.push_back(t);
+    }
+    BallOptimiser ball;
+    load(ball, triangles);
+    Point kept = random.in_ball(0.3);
+    ball.worst(kept);
+    for (int trial = 0; trial < 20; ++trial) {
+      const Point p = random.in_ball(0.3);
+      const double worst = direct_worst(triangles, p);
+      // Above, below and near the truth.
+      const double least = worst + 0.1 * (trial % 5 - 2) + 0.001;
+      const double told = ball.worst_above(p, least);
+      if (worst > least) {
+        CHECK(told == doctest::Approx(worst));
+        kept = p;
+        ++above;
+      } else {
+        CHECK(told <= least);
+        ++below;
+      }
+      for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Triangle& t = triangles[i];
+        CHECK(ball.quality(i) == doctest::Approx(minimum_sine(kept, t[0], t[1], t[2])));
+      }
+    }
+  }
+  CHECK(above > 100);
+  CHECK(below > 100);
+}
+
 TEST_CASE("a ball keeps its triangles when its arrays grow") {
   Random random(2);
   BallOptimiser ball;
