@@ -17,8 +17,9 @@ namespace {
 
 constexpr int kBits = 21;
 
-/// One step along the curve: the bits of the three axes at one level, most significant first, give
-/// one digit of the key and the way in which the axes are turned and reflected below.
+/// One step along the curve: the bits of the three axes at one level or two, most significant
+/// first, give one digit of the key or two and the way in which the axes are turned and reflected
+/// below.
 struct Step {
   std::uint8_t digit;
   std::uint8_t next;
@@ -76,6 +77,26 @@ constexpr Steps kSteps = [] {
   return steps;
 }();
 
+/// Two levels in one step. The index holds two bits of each axis: those of axis i at bit 2 i.
+constexpr auto kDoubleSteps = [] {
+  std::array<std::array<Step, 64>, kTurns> steps{};
+  for (std::size_t turn = 0; turn < kTurns; ++turn) {
+    for (unsigned index = 0; index < 64; ++index) {
+      unsigned high = 0;
+      unsigned low = 0;
+      for (unsigned i = 0; i < 3; ++i) {
+        high |= (index >> (2 * i + 1) & 1u) << i;
+        low |= (index >> (2 * i) & 1u) << i;
+      }
+      const Step first = kSteps[turn][high];
+      const Step second = kSteps[first.next][low];
+      steps[turn][index] = {static_cast<std::uint8_t>(first.digit << 3 | second.digit),
+                            second.next};
+    }
+  }
+  return steps;
+}();
+
 }  // namespace
 
 HilbertCurve::HilbertCurve(std::span<const Point> points) {
@@ -105,14 +126,15 @@ std::uint64_t HilbertCurve::key(const Point& p) const {
     const double cell = std::clamp((p[i] - origin_[i]) * scale_, 0.0, double((1 << kBits) - 1));
     x[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell);
   }
-  std::uint64_t key = 0;
-  std::size_t turn = 0;
-  for (int level = kBits - 1; level >= 0; --level) {
-    const unsigned bits =
-        (x[0] >> level & 1u) | (x[1] >> level & 1u) << 1 | (x[2] >> level & 1u) << 2;
-    const Step step = kSteps[turn][bits];
-    key = key << 3 | step.digit;
-    turn = step.next;
+  static_assert(kBits % 2 == 1);
+  constexpr int kTop = kBits - 1;
+  Step step = kSteps[0][x[0] >> kTop | x[1] >> kTop << 1 | x[2] >> kTop << 2];
+  std::uint64_t key = step.digit;
+  for (int level = kTop - 2; level >= 0; level -= 2) {
+    const unsigned index =
+        (x[0] >> level & 3u) | (x[1] >> level & 3u) << 2 | (x[2] >> level & 3u) << 4;
+    step = kDoubleSteps[step.next][index];
+    key = key << 6 | step.digit;
   }
   return key;
 }
