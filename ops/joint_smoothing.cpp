@@ -18,6 +18,7 @@ class JointSmoothing final : public Operator {
       : Operator(joint_smoothing_info()),
         rings_(values.integer("rings")),
         desperate_(values.real("desperate")),
+        goal_(values.real("goal")),
         least_gain_(values.real("least_gain")) {
     limits_.steps = values.integer("steps");
   }
@@ -32,9 +33,11 @@ class JointSmoothing final : public Operator {
   }
 
   Verdict evaluate(OperatorContext& context, Target target) const override {
-    const Verdict verdict = load_patch(context, target.tet());
+    std::size_t number = 0;
+    const Verdict verdict = load_patch(context, target.tet(), number);
     if (verdict != Verdict::accepted) return verdict;
     PatchOptimiser& patch = context.scratch.patch;
+    if (goal_ > 0) return lift(context, target.tet(), number);
     const double start = patch.worst();
     if (start >= kBadThreshold) return Verdict::not_applicable;
     const double start_deficit = patch.total_deficit();
@@ -53,10 +56,31 @@ class JointSmoothing final : public Operator {
     return to_verdict(transaction.move_vertices(scratch.moves));
   }
 
+  /// A goal may lie above what the others keep, which are good enough then: it suffices that no bad
+  /// tet is worse or new.
+  bool is_improvement(const Transaction& transaction, Scratch& scratch) const override {
+    const bool better = is_better(transaction, scratch);
+    if (!(goal_ > 0) || better || transaction.empty()) return better;
+    std::sort(scratch.before.begin(), scratch.before.end());
+    std::sort(scratch.now.begin(), scratch.now.end());
+    const std::ptrdiff_t bad = count_bad(scratch.before);
+    return count_bad(scratch.now) <= bad &&
+           std::equal(scratch.before.begin(), scratch.before.begin() + bad, scratch.now.begin(),
+                      [](Quality was, Quality is) { return is > was - kQualityTolerance; });
+  }
+
  private:
+  /// Others may get worse for the tet, but none bad.
+  Verdict lift(OperatorContext& context, TetHandle t, std::size_t number) const {
+    constexpr PatchOptimiser::Limits kPatient = {.steps = 200, .least_gain = 1e-6};
+    if (context.mesh.quality(t) >= goal_) return Verdict::not_applicable;
+    const bool reached = context.scratch.patch.lift(number, goal_, kBadThreshold, kPatient);
+    return reached ? Verdict::accepted : Verdict::no_improvement;
+  }
+
   /// Puts the free vertices and their links into the moves of the scratch, and the tets around them
-  /// into the patch.
-  Verdict load_patch(OperatorContext& context, TetHandle t) const {
+  /// into the patch, where t has the given number then.
+  Verdict load_patch(OperatorContext& context, TetHandle t, std::size_t& number) const {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
     scratch.neighbours.clear();
@@ -79,10 +103,10 @@ class JointSmoothing final : public Operator {
         }
       }
     }
-    return load_tets(context);
+    return load_tets(context, t, number);
   }
 
-  static Verdict load_tets(OperatorContext& context) {
+  static Verdict load_tets(OperatorContext& context, TetHandle t, std::size_t& t_number) {
     const TetMesh& mesh = context.mesh;
     Scratch& scratch = context.scratch;
     const auto& free = scratch.neighbours;
@@ -101,6 +125,7 @@ class JointSmoothing final : public Operator {
       for (const HalfFace f : scratch.link) {
         if (!scratch.set.insert(f.tet().index())) continue;
         if (scratch.patch.tet_count() == kMaxTets) return Verdict::not_applicable;
+        if (f.tet() == t) t_number = scratch.patch.tet_count();
         const TetVertices& tv = mesh.vertices(f.tet());
         scratch.patch.add_tet(
             {mesh.point(tv[0]), mesh.point(tv[1]), mesh.point(tv[2]), mesh.point(tv[3])},
@@ -121,14 +146,17 @@ class JointSmoothing final : public Operator {
 
   int rings_;
   double desperate_;
+  double goal_;
   double least_gain_;
   PatchOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 4> kParameters = {{
+constexpr std::array<ParameterSpec, 5> kParameters = {{
     {"rings", ParameterSpec::Kind::integer, 0, 1, 0, "1: the vertices next to them move as well"},
     {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
+    {"goal", ParameterSpec::Kind::real, 0, 1, 0,
+     "if not 0: the tet is to become as good as this; others may get worse, but not bad"},
     {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 1e-3,
      "least gain of the worst quality around the vertices"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 20,

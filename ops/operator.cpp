@@ -37,6 +37,10 @@ bool is_better(const Transaction& transaction, Scratch& scratch) {
   return improves(scratch.now, scratch.before);
 }
 
+bool Operator::is_improvement(const Transaction& transaction, Scratch& scratch) const {
+  return is_better(transaction, scratch);
+}
+
 Error Operator::failure(Target target, std::string_view reason) const {
   return Error(fmt::format("operator '{}'{}{} failed at {} {}: {}", info_.name,
                            origin_.empty() ? "" : " of ", origin_, to_string(target.kind),
@@ -73,7 +77,7 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
     forget_comparison(context.scratch);
     return verdict;
   }
-  const bool better = is_better(transaction, context.scratch);
+  const bool better = is_improvement(transaction, context.scratch);
   const bool may_stay = better || (context.opening && !transaction.empty());
   if (!may_stay) return Verdict::no_improvement;
   transaction.keep();

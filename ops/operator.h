@@ -96,6 +96,9 @@ class Operator {
   /// Makes the edits. Anything but `accepted` undoes them.
   virtual Verdict apply(OperatorContext& context, Target target,
                         Transaction& transaction) const = 0;
+  /// Whether the edits are worth keeping; if not overridden, is_better(). Leaves the quality
+  /// vectors in the scratch.
+  virtual bool is_improvement(const Transaction& transaction, Scratch& scratch) const;
 
  private:
   friend class Registry;  // sets origin and settings

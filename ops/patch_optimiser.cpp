@@ -79,6 +79,10 @@ struct Shape {
   bool is_degenerate() const {
     return !(norm2[0] > 0 && norm2[1] > 0 && norm2[2] > 0 && norm2[3] > 0);
   }
+  bool is_obtuse(unsigned e) const {
+    const auto& [k, l] = kOtherCorners[e];
+    return normal[k].dot(normal[l]) > 0;
+  }
   /// Sine over V6.
   double ratio(unsigned e) const {
     const auto& [k, l] = kOtherCorners[e];
@@ -86,9 +90,17 @@ struct Shape {
   }
 };
 
-/// The most that a sine lacks; all six have the sign of the volume.
-double lack_of(const std::array<double, 6>& sines, double enough) {
-  return enough - *std::min_element(sines.begin(), sines.end());
+/// The most that a sine lacks of its goal.
+double lack_of(const std::array<double, 6>& sines, const std::array<double, 6>& goals) {
+  double most = goals[0] - sines[0];
+  for (unsigned e = 1; e < 6; ++e) most = std::max(most, goals[e] - sines[e]);
+  return most;
+}
+
+std::array<double, 6> all_six(double sine) {
+  std::array<double, 6> sines{};
+  sines.fill(sine);
+  return sines;
 }
 
 double minimum_sine_of(const std::array<double, 6>& sines) {
@@ -163,27 +175,29 @@ void PatchOptimiser::measure_scales() {
   for (std::size_t v = 0; v < scale_.size(); ++v) scale_[v] /= std::max(trial_[v].x(), 1.0);
 }
 
-double PatchOptimiser::norm(const std::vector<Sines>& sines, int doublings, double enough) const {
+double PatchOptimiser::norm(const std::vector<Sines>& sines, int doublings) const {
   double most = 0;
-  for (const Sines& of_tet : sines) most = std::max(most, lack_of(of_tet, enough));
+  for (std::size_t n = 0; n < sines.size(); ++n)
+    most = std::max(most, lack_of(sines[n], goals_[n]));
   if (!(most > 0)) return 0;
   double sum = 0;
-  for (const Sines& of_tet : sines) {
-    for (const double sine : of_tet) {
-      if (sine < enough) sum += raise((enough - sine) / most, doublings);
+  for (std::size_t n = 0; n < sines.size(); ++n) {
+    for (unsigned e = 0; e < 6; ++e) {
+      const double lack = goals_[n][e] - sines[n][e];
+      if (lack > 0) sum += raise(lack / most, doublings);
     }
   }
   return most * lower(sum, doublings);
 }
 
 /// Of the norm at the current points, whose value is given.
-void PatchOptimiser::find_gradient(int doublings, double enough, double norm,
-                                   std::vector<Point>& gradient) {
+void PatchOptimiser::find_gradient(int doublings, double norm, std::vector<Point>& gradient) {
   constexpr double kNegligible = 1e-8;
   gradient.assign(points_.size(), Point::Zero());
   for (std::size_t n = 0; n < tets_.size(); ++n) {
     const Sines& sines = sines_[n];
-    if (!(raise(std::max(0.0, lack_of(sines, enough)) / norm, doublings) > kNegligible)) continue;
+    const Sines& goals = goals_[n];
+    if (!(raise(std::max(0.0, lack_of(sines, goals)) / norm, doublings) > kNegligible)) continue;
     Tet& tet = tets_[n];
     for (unsigned i = 0; i < 4; ++i) {
       if (tet.vertex[i] != kFixed) {
@@ -199,7 +213,7 @@ void PatchOptimiser::find_gradient(int doublings, double enough, double norm,
     slope.fill(Point::Zero());
     std::array<double, 4> by_face{};
     for (unsigned e = 0; e < 6; ++e) {
-      const double share = (enough - sines[e]) / norm;
+      const double share = (goals[e] - sines[e]) / norm;
       if (!(share > 0)) continue;
       const double weight = -raise(share, doublings) / share;
       by_volume += weight * shape.ratio(e);
@@ -255,7 +269,7 @@ void PatchOptimiser::find_direction() {
 }
 
 /// Goes along the direction as far as the norm falls; `value` follows. False if it nowhere does.
-bool PatchOptimiser::search_line(int doublings, double enough, double slope, double& value) {
+bool PatchOptimiser::search_line(int doublings, double slope, double& value) {
   constexpr double kLeastShare = 1e-4;  // of the fall that the slope promises
   constexpr int kTrials = 10;
   step_ = 1;
@@ -266,7 +280,7 @@ bool PatchOptimiser::search_line(int doublings, double enough, double slope, dou
     }
     double shrink = 0.25;
     if (measure(trial_, trial_sines_)) {
-      const double reached = norm(trial_sines_, doublings, enough);
+      const double reached = norm(trial_sines_, doublings);
       if (reached <= value + kLeastShare * step_ * slope) {
         value = reached;
         points_.swap(trial_);
@@ -295,28 +309,59 @@ void PatchOptimiser::remember() {
 /// Lowers the norm for p = 2^doublings.
 void PatchOptimiser::descend(int doublings, const Limits& limits) {
   remembered_ = 0;
-  double value = norm(sines_, doublings, limits.enough);
+  double value = norm(sines_, doublings);
   if (!(value > 0)) return;
-  find_gradient(doublings, limits.enough, value, gradient_);
+  find_gradient(doublings, value, gradient_);
   for (int i = 0; i < limits.steps; ++i) {
     if (!(dot(gradient_, gradient_) > 0)) return;
     find_direction();
     double slope = dot(gradient_, direction_);
     const double before = value;
-    if (!(slope < 0) || !search_line(doublings, limits.enough, slope, value)) {
+    if (!(slope < 0) || !search_line(doublings, slope, value)) {
       if (remembered_ == 0) return;
       remembered_ = 0;  // the past misleads: along the gradient
       continue;
     }
     if (before - value < limits.least_gain) return;
     last_gradient_.swap(gradient_);
-    find_gradient(doublings, limits.enough, value, gradient_);
+    find_gradient(doublings, value, gradient_);
     remember();
   }
 }
 
+bool PatchOptimiser::lift(std::size_t tet, double goal, double least, const Limits& limits) {
+  // What is aimed at beyond the goals: near them the norm falls slowly.
+  constexpr double kMargin = 1e-3;
+  constexpr int kSquares = 1;
+  worst();
+  best_ = points_;
+  measure_scales();
+  goals_.clear();
+  for (const Sines& sines : sines_) {
+    goals_.push_back(all_six(std::min(minimum_sine_of(sines), least) + kMargin));
+  }
+  const Shape shape(tets_[tet].corners);
+  const Sines& sines = sines_[tet];
+  const auto sharpest = std::min_element(sines.begin(), sines.end()) - sines.begin();
+  for (unsigned e = 0; e < 6; ++e) {
+    const bool alike = shape.is_obtuse(e) == shape.is_obtuse(static_cast<unsigned>(sharpest));
+    goals_[tet][e] = (alike ? goal : std::min(sines[e], least)) + kMargin;
+  }
+  descend(kSquares, limits);
+  bool reached = true;
+  for (std::size_t n = 0; n < tets_.size() && reached; ++n) {
+    reached = lack_of(sines_[n], goals_[n]) <= kMargin + kQualityTolerance;
+  }
+  if (!reached) {
+    points_ = best_;
+    worst();
+  }
+  return reached;
+}
+
 double PatchOptimiser::optimise(const Limits& limits) {
   double best = worst();
+  goals_.assign(tets_.size(), all_six(limits.enough));
   best_ = points_;
   measure_scales();
   for (int doublings = limits.mildest; doublings <= limits.sharpest; doublings += 2) {

@@ -47,6 +47,13 @@ class PatchOptimiser {
   /// Where vertex v is now.
   const Point& point(std::size_t v) const { return points_[v]; }
 
+  /// Moves the vertices until the angles of one tet that are acute, or obtuse, as its worst is have
+  /// sines of `goal`. All other sines may fall to `least`; those of a tet that is below, to what
+  /// its worst is now. What they lack of that, squared, is minimised in sum. False if something is
+  /// still lacking in the end; then no vertex has moved. Of the limits, steps and least gain count.
+  /// Cost: as of optimise().
+  bool lift(std::size_t tet, double goal, double least, const Limits& limits);
+
   /// Moves the vertices; returns the worst quality, which is not lower than it was. Cost: a few
   /// dozen looks at all tets. Takes no memory once it has seen a patch as large.
   double optimise(const Limits& limits);
@@ -69,15 +76,16 @@ class PatchOptimiser {
   void measure_scales();
   bool measure(const std::vector<Point>& points, std::vector<Sines>& sines);
   void descend(int doublings, const Limits& limits);
-  double norm(const std::vector<Sines>& sines, int doublings, double enough) const;
-  void find_gradient(int doublings, double enough, double norm, std::vector<Point>& gradient);
+  double norm(const std::vector<Sines>& sines, int doublings) const;
+  void find_gradient(int doublings, double norm, std::vector<Point>& gradient);
   void find_direction();
-  bool search_line(int doublings, double enough, double slope, double& value);
+  bool search_line(int doublings, double slope, double& value);
   void remember();
 
   std::vector<Point> points_;
   std::vector<Tet> tets_;
   std::vector<Sines> sines_;
+  std::vector<Sines> goals_;   // sines above these need nothing
   std::vector<double> scale_;  // mean edge length at each vertex: the unit of its steps
   std::vector<Point> trial_;
   std::vector<Sines> trial_sines_;

@@ -28,7 +28,7 @@ struct PluginAbi {
 
 /// To be raised when plugins must be built anew although no size changed: when a virtual function
 /// of Operator or TraceSink comes, goes or changes place, when members change places or meaning.
-inline constexpr std::uint32_t kPluginAbiVersion = 2;
+inline constexpr std::uint32_t kPluginAbiVersion = 3;
 
 /// Checksum of the sizes of all that host and plugin share: it differs between versions of tetmend
 /// whose classes differ, and between standard libraries, also by their debugging modes.

@@ -11,11 +11,13 @@ local time_limit   = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                                help = "seconds after which no further pass begins; 0: none"}
 
 local worst = {below = 0.5, worst = 100}
-local few   = {below = 0.5, worst = 24}
+local few   = {below = 0.5, worst = 40}
 -- As in the default schedule: which edges are tried there decides about the time alone.
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.25, at_least = 100}
 local hard  = {below = 0.35}
+-- Angles between 147.5 and 150 degrees: that measure counts the sine of an obtuse angle three quarters.
+local blunt = {below = 0.54, property = {"warped_min_sine", low = 0.37, high = 0.4025}}
 
 local function is_enough()
   local now = quality()
@@ -76,6 +78,12 @@ local function insertion_round()
   apply({"cavity_insertion", exponent = 16}, {on = {below = 0.5, worst = 1000}})
   apply(open_by("edge_split", 0.35), {on = few})
   mend()
+end
+
+-- Moves the vertices of a tet until it is as good as the goal; no other gets bad for it.
+local function lift(goal, on)
+  return apply({"joint_smoothing", goal = goal}, {on = on})
+       + apply({"joint_smoothing", goal = goal, rings = 1}, {on = on})
 end
 
 -- All that may help the worst, every other round with less regard for mild ones.
@@ -152,4 +160,6 @@ end
 if max_rounds > 0 and not is_enough() then
   worst_tets(1)
   while all_bad_tets() and not is_enough() do end
+  lift(0.505, "bad")
+  lift(0.54, blunt)
 end

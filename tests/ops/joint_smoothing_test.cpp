@@ -43,6 +43,41 @@ TEST_CASE("where no vertex alone can move, the vertices of a tet together can") 
   CHECK(accepted > 3);
 }
 
+TEST_CASE("with a goal a tet becomes as good as that and no other gets bad, or nothing moves") {
+  LoneWorker worker(delaunay_ball(150, 3));
+  const TetMesh& mesh = worker.mesh;
+  const auto bad_tets = [&] {
+    std::vector<Quality> bad;
+    for (const TetHandle t : live_tets(mesh)) {
+      if (mesh.quality(t) < kBadThreshold) bad.push_back(mesh.quality(t));
+    }
+    std::sort(bad.begin(), bad.end());
+    return bad;
+  };
+  unsigned accepted = 0;
+  unsigned beyond_good = 0;
+  for (const TetHandle t : live_tets(mesh)) {
+    const Quality quality = mesh.quality(t);
+    const std::vector<Quality> before = bad_tets();
+    const MeshData data = mesh.to_data();
+    CHECK(smooth(worker, t, {{"goal", 0.99 * quality}}) != Verdict::accepted);
+    const Verdict verdict = smooth(worker, t, {{"goal", std::min(quality + 0.02, 1.0)}});
+    if (verdict != Verdict::accepted) {
+      CHECK(mesh.to_data().points == data.points);
+      continue;
+    }
+    ++accepted;
+    if (quality > kBadThreshold) ++beyond_good;
+    CHECK(mesh.quality(t) > std::min(quality, kBadThreshold) - 1e-5f);
+    const std::vector<Quality> now = bad_tets();
+    REQUIRE(now.size() <= before.size());
+    for (std::size_t i = 0; i < now.size(); ++i) CHECK(now[i] > before[i] - 1e-5f);
+  }
+  MESSAGE(accepted, " accepted, ", beyond_good, " of tets that were not bad");
+  CHECK(accepted > 10);
+  CHECK(beyond_good > 3);
+}
+
 TEST_CASE("only free vertices of the tet move, and no tet is replaced") {
   LoneWorker worker(delaunay_ball(100, 3));
   unsigned accepted = 0;

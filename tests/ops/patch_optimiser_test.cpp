@@ -262,6 +262,65 @@ TEST_CASE("a patch that is good enough, or empty, stays as it is") {
   CHECK(optimiser.total_deficit() == 0);
 }
 
+TEST_CASE("a tet is lifted to a goal only if no other falls below what it may") {
+  Random random(21);
+  constexpr double kLeast = 0.4;
+  unsigned lifted = 0;
+  unsigned refused = 0;
+  for (int round = 0; round < 100; ++round) {
+    const Patch patch = random_patch(random, 0.35);
+    PatchOptimiser optimiser;
+    patch.load(optimiser);
+    std::vector<double> before;
+    for (std::size_t t = 0; t < patch.tets.size(); ++t) {
+      before.push_back(patch.quality(t, patch.points));
+    }
+    const auto worst = std::min_element(before.begin(), before.end());
+    if (*worst <= 0) continue;
+    const auto target = static_cast<std::size_t>(worst - before.begin());
+    const double goal = *worst + (round % 2 == 0 ? 0.05 : 0.4);
+    const bool reached = optimiser.lift(target, goal, kLeast, {.steps = 200, .least_gain = 1e-6});
+    const std::vector<Point> after = patch.moved(optimiser);
+    (reached ? lifted : refused) += 1;
+    if (!reached) CHECK(after == patch.points);
+    for (std::size_t t = 0; t < patch.tets.size() && reached; ++t) {
+      CHECK(patch.quality(t, after) > std::min(before[t], kLeast) - 1e-5);
+    }
+  }
+  MESSAGE(lifted, " lifted, ", refused, " refused");
+  CHECK(lifted > 20);
+  CHECK(refused > 5);
+}
+
+TEST_CASE("a lifted tet has its goal at the angles that are like its worst") {
+  Random random(22);
+  unsigned lifted = 0;
+  for (int round = 0; round < 100; ++round) {
+    const Patch patch = random_patch(random, 0.35);
+    PatchOptimiser optimiser;
+    patch.load(optimiser);
+    if (patch.worst(patch.points) <= 0) continue;
+    const std::size_t target = 1;  // between the two vertices that move
+    const auto angles = [&](const std::vector<Point>& at) {
+      const auto& [a, b, c, d] = patch.tets[target];
+      return dihedral_angles(at[a], at[b], at[c], at[d]);
+    };
+    const auto sine = [](double degrees) { return std::sin(degrees * std::numbers::pi / 180); };
+    const auto before = angles(patch.points);
+    const double worst = *std::min_element(before.begin(), before.end(),
+                                           [&](double x, double y) { return sine(x) < sine(y); });
+    const double goal = patch.quality(target, patch.points) + 0.1;
+    if (!optimiser.lift(target, goal, 0.1, {.steps = 200, .least_gain = 1e-6})) continue;
+    ++lifted;
+    const auto now = angles(patch.moved(optimiser));
+    for (std::size_t e = 0; e < 6; ++e) {
+      if ((before[e] > 90) == (worst > 90)) CHECK(sine(now[e]) > goal - 1e-5);
+    }
+  }
+  MESSAGE(lifted, " lifted");
+  CHECK(lifted > 20);
+}
+
 TEST_CASE("a degenerate tet counts as 0 and makes no wrong numbers") {
   PatchOptimiser optimiser;
   Patch patch;
