@@ -17,7 +17,7 @@ local quick = {"recursive_shell_transformation", max_level = 2, order = "angle",
 local dire  = {below = 0.25, at_least = 100}
 local hard  = {below = 0.35}
 -- Angles between 147.5 and 150 degrees: that measure counts the sine of an obtuse angle three quarters.
-local blunt = {below = 0.54, property = {"warped_min_sine", low = 0.37, high = 0.4025}}
+local blunt = {below = 0.54, worst = 100, property = {"warped_min_sine", low = 0.37, high = 0.4025}}
 
 local function is_enough()
   local now = quality()
@@ -160,6 +160,6 @@ end
 if max_rounds > 0 and not is_enough() then
   worst_tets(1)
   while all_bad_tets() and not is_enough() do end
-  lift(0.505, "bad")
+  lift(0.505, worst)
   lift(0.54, blunt)
 end
