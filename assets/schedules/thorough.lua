@@ -104,7 +104,7 @@ local function all_bad_tets()
   local n_bad = quality().n_bad
   apply({"cavity_insertion", exponent = 1, desperate = 0, tries = 2})
   apply(refill(20, 0), {on = hard})
-  return quality().n_bad < 0.95 * n_bad
+  return quality().n_bad < 0.92 * n_bad
 end
 
 -- Every form of every operator for the few that decide about the angles; returns how often it helped.
