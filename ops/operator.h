@@ -79,8 +79,8 @@ class Operator {
   const std::string& settings() const { return settings_; }
 
   /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
-  /// result only if the quality vector of all that changed improves (see improves()), or if the
-  /// context says that the attempt is an opening. After a
+  /// result only if is_improvement() says so, as a rule because the quality vector of all that
+  /// changed improves, or if the context says that the attempt is an opening. After a
   /// refusal the mesh is what it was, bit by bit. Anything but `accepted` is `deferred` if the
   /// territory of the workspace was in the way. Precondition: the target is of the operator's
   /// kind, names a live entity and lies in that territory.

@@ -7,7 +7,7 @@ local least_progress = parameter{"least_progress", default = 0.4, low = 0, high 
 local last_sweeps    = parameter{"last_sweeps", default = 3, low = 0, high = 1000,
                                  help = "most sweeps of dearer operators over the worst tets in the last round"}
 
--- DEVIATION: Algorithm 5 tries all edges; which ones makes no difference to the final mesh, but to the time.
+-- DEVIATION: Algorithm 5 tries all edges; which ones makes little difference but to the time (docs/deviations.md).
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.25, at_least = 100}
 local worst = {below = 0, at_least = 32}
