@@ -3,6 +3,7 @@
 #include "kernel/quality.h"
 
 #include <array>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -90,23 +91,39 @@ double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d
   return 12.0 * root * std::abs(root) / squares;
 }
 
-double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const Point& d) {
-  constexpr double kObtuseFactor = 0.75;
-  const Frame frame(a, b, c, d);
+namespace {
+
+/// Smallest sine of the six angles, each times the factor of its kind, at most 1; 0 if a face is
+/// degenerate.
+double smallest_sine(const Frame& frame, double acute_factor, double obtuse_factor) {
   double smallest = 1;
   for (std::size_t e = 0; e < 6; ++e) {
     const auto [sine, cosine] = frame.sine_cosine(e);
     const auto& [k, l] = kEdgeVertices[5 - e];
     const double scale = frame.normal[k].norm() * frame.normal[l].norm();
     if (!(scale > 0)) return 0;
-    smallest = std::min(smallest, sine / scale * (cosine < 0 ? kObtuseFactor : 1.0));
+    smallest = std::min(smallest, sine / scale * (cosine < 0 ? obtuse_factor : acute_factor));
   }
+  return smallest;
+}
+
+}  // namespace
+
+double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Frame frame(a, b, c, d);
+  const double smallest = smallest_sine(frame, 1, 0.75);
+  return frame.v6 < 0 ? -smallest : smallest;
+}
+
+double largest_angle_sine(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Frame frame(a, b, c, d);
+  const double smallest = smallest_sine(frame, std::numeric_limits<double>::infinity(), 1);
   return frame.v6 < 0 ? -smallest : smallest;
 }
 
 std::span<const QualityMeasure> quality_measures() {
   static constexpr double kRegularSine = 0.94280904158206336587;
-  static constexpr std::array<QualityMeasure, 6> kMeasures = {{
+  static constexpr std::array<QualityMeasure, 7> kMeasures = {{
       {"min_sine", "smallest sine of the six dihedral angles, signed (regular tet 0.9428)",
        &minimum_sine, kRegularSine},
       {"min_angle", "smallest dihedral angle in degrees, signed (regular tet 70.53)",
@@ -117,6 +134,8 @@ std::span<const QualityMeasure> quality_measures() {
        1},
       {"warped_min_sine", "minimum sine, obtuse angles times 0.75, signed (regular tet 0.9428)",
        &warped_minimum_sine, kRegularSine},
+      {"largest_angle_sine", "sine of the largest dihedral angle if it is obtuse, else 1, signed",
+       &largest_angle_sine, 1},
   }};
   return kMeasures;
 }
@@ -133,10 +152,8 @@ const QualityMeasure& find_quality_measure(std::string_view name) {
 
 bool pays_for_bad(std::span<const Quality> now, std::span<const Quality> before, double desperate) {
   if (before.empty() || before[0] >= desperate) return false;
-  // Tiny gains, one after the other, would fill the neighbourhood with bad tets.
-  constexpr double kPrice = 0.001;
   const double gain = now.empty() ? 1 : now[0] - before[0];
-  return gain >= kPrice * static_cast<double>(count_bad(now) - count_bad(before));
+  return gain >= kPriceOfBad * static_cast<double>(count_bad(now) - count_bad(before));
 }
 
 bool improves(std::span<const Quality> now, std::span<const Quality> before) {

@@ -79,6 +79,9 @@ double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d
 /// Regular tet: 0.942809. Source: option of [klingner_shewchuk].
 double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// Sine of the largest dihedral angle, with the sign of the volume; 1 if none is obtuse.
+double largest_angle_sine(const Point& a, const Point& b, const Point& c, const Point& d);
+
 /// All measures; the first is the default.
 std::span<const QualityMeasure> quality_measures();
 
@@ -113,11 +116,15 @@ inline bool lowers_deficit(std::span<const Quality> now, std::span<const Quality
   return total(now) < total(before);
 }
 
+/// The least gain that pays for one more bad tet. Tiny gains, one after the other, would fill the
+/// neighbourhood with bad tets.
+inline constexpr double kPriceOfBad = 0.001;
+
 /// Where the worst tet is desperate, that is below this quality, more bad tets may come of a gain.
 inline constexpr double kDesperate = 0.2;
 
-/// True if the worst tet was below `desperate` and gained at least 0.001 for each tet by which the
-/// number of bad ones has grown. Both ascending.
+/// True if the worst tet was below `desperate` and gained at least kPriceOfBad for each tet by
+/// which the number of bad ones has grown. Both ascending.
 bool pays_for_bad(std::span<const Quality> now, std::span<const Quality> before, double desperate);
 
 /// True if a better worst tet is worth what it costs the others: they lack less in sum, or it pays

@@ -347,7 +347,16 @@ bool PatchOptimiser::lift(std::size_t tet, double goal, double least, const Limi
     const bool alike = shape.is_obtuse(e) == shape.is_obtuse(static_cast<unsigned>(sharpest));
     goals_[tet][e] = (alike ? goal : std::min(sines[e], least)) + kMargin;
   }
-  descend(kSquares, limits);
+  // A tet that has not come half the way in its first steps hardly ever arrives.
+  constexpr int kFirst = 30;
+  const double lacked = lack_of(sines_[tet], goals_[tet]);
+  Limits part = limits;
+  part.steps = std::min(kFirst, limits.steps);
+  descend(kSquares, part);
+  if (lack_of(sines_[tet], goals_[tet]) < 0.5 * lacked) {
+    part.steps = limits.steps - part.steps;
+    descend(kSquares, part);
+  }
   bool reached = true;
   for (std::size_t n = 0; n < tets_.size() && reached; ++n) {
     reached = lack_of(sines_[n], goals_[n]) <= kMargin + kQualityTolerance;

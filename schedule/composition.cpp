@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -106,6 +107,11 @@ constexpr unsigned kMostAttempts = 64;
 /// that the sequence began with: the others do not decide.
 constexpr Quality kReach = 0.2f;
 
+double largest_angle_sine(const TetMesh& mesh, const TetVertices& tv) {
+  return tetmend::largest_angle_sine(mesh.point(tv[0]), mesh.point(tv[1]), mesh.point(tv[2]),
+                                     mesh.point(tv[3]));
+}
+
 constexpr std::string_view to_string(Composition::Kind kind) {
   switch (kind) {
     case Composition::Kind::first_of:
@@ -122,6 +128,12 @@ constexpr std::string_view to_string(Composition::Kind kind) {
 
 }  // namespace
 
+bool is_worth_gain(double gain, std::span<const Quality> now, std::span<const Quality> before) {
+  if (now.empty() || before.empty() || now[0] < before[0]) return false;
+  const std::ptrdiff_t more_bad = count_bad(now) - count_bad(before);
+  return gain >= kPriceOfBad * static_cast<double>(std::max<std::ptrdiff_t>(1, more_bad));
+}
+
 std::string Composition::name() const {
   if (kind == Kind::one) return operator_name;
   std::string text = std::string(to_string(kind)) + "(";
@@ -135,7 +147,7 @@ std::string Composition::describe() const {
   if (kind != Kind::one) {
     std::string text = std::string(to_string(kind)) + "(";
     for (const Composition& part : parts) text += part.describe() + "; ";
-    if (kind == Kind::sequence) text += fmt::format("desperate {}", desperate);
+    if (kind == Kind::sequence) text += fmt::format("desperate {} to {}", desperate, theta_max);
     return text + ")";
   }
   ParameterSettings sorted = settings;
@@ -165,7 +177,10 @@ TetAttempts::TetAttempts(const Registry& registry, const Composition& compositio
     : root_(build(registry, composition)) {}
 
 TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition& composition) {
-  Node node{composition.kind, {}, {}, composition.desperate};
+  // Of 180 degrees exactly 0: below it, no tet is.
+  const double blunt =
+      composition.theta_max < 180 ? std::sin(composition.theta_max * std::numbers::pi / 180) : 0;
+  Node node{composition.kind, {}, {}, composition.desperate, blunt};
   switch (composition.kind) {
     case Composition::Kind::one:
       node.leaf = build_leaf(registry, composition);
@@ -275,7 +290,7 @@ bool TetAttempts::try_once(const Node& node, Progress& progress, Target target, 
   PairSet& tried = progress.worker.tried[leaf.number];
   const bool remembers = target.kind != TargetKind::tet;  // each tet is queued once
   if (remembers && tried.contains(key[0].index(), key[1].index())) return true;
-  const Verdict verdict = attempt(node, progress.worker, target);
+  const Verdict verdict = attempt(node, progress.worker, target, progress.entry.vertices);
   if (progress.counts) progress.worker.count(verdict);
   progress.accepted = progress.accepted || verdict == Verdict::accepted;
   progress.gone = !progress.entry.is_there(progress.worker.mesh());
@@ -285,9 +300,19 @@ bool TetAttempts::try_once(const Node& node, Progress& progress, Target target, 
   return true;
 }
 
-Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target) const {
+Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
+                             const TetVertices& tet) const {
+  if (node.kind == Composition::Kind::sequence) {
+    return attempt_sequence(node, worker, target, tet);
+  }
+  return node.leaf.op->attempt(worker.context(), target);
+}
+
+Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target target,
+                                      const TetVertices& tet) const {
   OperatorContext& context = worker.context();
-  if (node.kind == Composition::Kind::one) return node.leaf.op->attempt(context, target);
+  const double was = node.blunt > 0 ? largest_angle_sine(context.mesh, tet) : 0;
+  if (node.blunt > 0 && was >= node.blunt) return Verdict::not_applicable;
   Transaction sequence(context.mesh, context.workspace);
   OperatorContext opening = context;
   opening.opening = true;
@@ -297,27 +322,44 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target) co
   bool all_tried = true;
   for (const Node& part : node.parts) {
     sequence.compare(scratch.before, scratch.now);
-    all_tried = follow_up(part, worker, sequence, scratch.before[0] + kReach) && all_tried;
+    const Quality limit = scratch.before[0] + kReach;
+    all_tried = follow_up(part, worker, sequence, limit, node.blunt) && all_tried;
   }
   sequence.compare(scratch.before, scratch.now);
-  if (improves(scratch.now, scratch.before) &&
-      is_worth_it(scratch.now, scratch.before, node.desperate)) {
+  const bool better = node.blunt > 0 ? lowers_angles(context, sequence, was)
+                                     : improves(scratch.now, scratch.before) &&
+                                           is_worth_it(scratch.now, scratch.before, node.desperate);
+  if (better) {
     sequence.keep();
     return Verdict::accepted;
   }
   return all_tried ? Verdict::no_improvement : Verdict::deferred;
 }
 
-/// Tries a part on the tets below `limit` among those that the sequence has changed. False if
-/// attempts were deferred.
+/// The rule of a sequence with a theta_max, for a tet whose largest angle had this sine. The
+/// scratch has the comparison.
+bool TetAttempts::lowers_angles(OperatorContext& context, const Transaction& sequence, double was) {
+  const Scratch& scratch = context.scratch;
+  std::vector<TetHandle> changed;
+  sequence.list_changed(changed);
+  double is = 1;
+  for (const TetHandle t : changed) {
+    is = std::min(is, largest_angle_sine(context.mesh, context.mesh.vertices(t)));
+  }
+  return is_worth_gain(is - was, scratch.now, scratch.before);
+}
+
+/// Tries a part on the tets below `limit` among those that the sequence has changed, and on those
+/// whose largest angle has a sine below `blunt`. False if attempts were deferred.
 bool TetAttempts::follow_up(const Node& part, Worker& worker, const Transaction& sequence,
-                            Quality limit) const {
+                            Quality limit, double blunt) const {
   const TetMesh& mesh = worker.mesh();
   std::vector<TetHandle> changed;
   sequence.list_changed(changed);
   std::vector<QueuedTet> bad;
   for (const TetHandle t : changed) {
-    if (mesh.quality(t) < std::min(limit, kBadThreshold)) {
+    if (mesh.quality(t) < std::min(limit, kBadThreshold) ||
+        (mesh.quality(t) < blunt && largest_angle_sine(mesh, mesh.vertices(t)) < blunt)) {
       bad.push_back({mesh.quality(t), t, mesh.vertices(t)});
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Composition {
     all_of,    ///< the parts in turn, until the tet is gone
     /// The first part, an operator, opens: it may make things worse. The others follow, each on the
     /// bad tets among all that has changed, the worst first. What came of it stays only if it is
-    /// better as a whole.
+    /// better as a whole; with a theta_max, if the largest angles are.
     sequence
   };
   Kind kind = Kind::one;
@@ -38,6 +39,11 @@ struct Composition {
   unsigned most_edges = 6;        ///< of a tet that are tried, the first in that order
   double desperate = kDesperate;  ///< of a sequence: below this worst quality, a gain of 0.001
                                   ///< pays for one more bad tet
+  /// Of a sequence, degrees. Below 180 it is tried on tets with a larger dihedral angle only, what
+  /// follows works on such tets as well, and it stays if the sine of the largest angle of all that
+  /// has changed gains 0.001 on the tet's, and as much for each more bad tet, and the worst tet
+  /// gets no worse.
+  double theta_max = 180;
   std::vector<Composition> parts = {};  ///< of the other kinds
 
   /// As a script writes it, settings left out: first_of(edge_removal, flip_2_3).
@@ -45,6 +51,10 @@ struct Composition {
   /// Equal for compositions that do the same.
   std::string describe() const;
 };
+
+/// Whether an angle that became smaller is worth it: the worst tet got no worse, and the gain of
+/// the sine is at least kPriceOfBad, and as much for each more bad tet. Both ascending.
+bool is_worth_gain(double gain, std::span<const Quality> now, std::span<const Quality> before);
 
 /// A composition made ready. An operator, also one that opens a sequence, is tried on the tet
 /// itself, or on its edges, faces or movable vertices, each that changed since the last time.
@@ -71,6 +81,7 @@ class TetAttempts {
     Leaf leaf;                ///< of an operator; of a sequence, its opening
     std::vector<Node> parts;  ///< of a sequence, what follows
     double desperate;
+    double blunt;  ///< sine of theta_max
   };
   struct Progress;
 
@@ -78,11 +89,14 @@ class TetAttempts {
   Leaf build_leaf(const Registry& registry, const Composition& composition);
   void run(const Node& node, Progress& progress) const;
   void run_leaf(const Node& node, Progress& progress) const;
+  static bool lowers_angles(OperatorContext& context, const Transaction& sequence, double was);
   bool try_once(const Node& node, Progress& progress, Target target, unsigned bit,
                 std::array<VertexHandle, 2> key) const;
-  Verdict attempt(const Node& node, Worker& worker, Target target) const;
-  bool follow_up(const Node& part, Worker& worker, const Transaction& sequence,
-                 Quality limit) const;
+  Verdict attempt(const Node& node, Worker& worker, Target target, const TetVertices& tet) const;
+  Verdict attempt_sequence(const Node& node, Worker& worker, Target target,
+                           const TetVertices& tet) const;
+  bool follow_up(const Node& part, Worker& worker, const Transaction& sequence, Quality limit,
+                 double blunt) const;
   static void forget(const Node& node, Worker& worker);
 
   std::size_t leaves_ = 0;

@@ -302,13 +302,11 @@ int ScriptHost::attempt(lua_State* lua) {
 int ScriptHost::compose(lua_State* lua, const char* how) {
   luaL_checktype(lua, 1, LUA_TTABLE);
   lua_newtable(lua);
-  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, 1));
-  for (lua_Integer i = 1; i <= length; ++i) {
-    lua_rawgeti(lua, 1, i);
-    lua_rawseti(lua, -2, i);
+  for (lua_pushnil(lua); lua_next(lua, 1) != 0;) {
+    lua_pushvalue(lua, -2);  // lua_next needs the key again
+    lua_insert(lua, -2);
+    lua_rawset(lua, -4);
   }
-  lua_getfield(lua, 1, "desperate");
-  lua_setfield(lua, -2, "desperate");
   lua_pushstring(lua, how);
   lua_setfield(lua, -2, "how");
   return 1;

@@ -153,25 +153,39 @@ ValueRange read_range(const Subject& subject, const ScriptValue& value) {
   return range;
 }
 
+/// A field of a sequence.
+void read_field(const Subject& subject, const std::string& name, const ScriptValue& value,
+                Composition& composition) {
+  static constexpr std::array<std::string_view, 2> kFields = {"desperate", "theta_max"};
+  if (name == "desperate") {
+    composition.desperate = read_in_range(subject.of(name), value, -1, 1);
+  } else if (name == "theta_max") {
+    composition.theta_max = read_in_range(subject.of(name), value, 90, 180);
+  } else {
+    refuse_name(subject.of("sequence"), "field", name, kFields);
+  }
+}
+
+/// What the words first_of, all_of and sequence make.
 Composition read_parts(const Registry& registry, const Subject& subject, const ScriptValue& value,
-                       Composition::Kind kind) {
+                       const std::string& how) {
   Composition composition;
-  composition.kind = kind;
+  composition.kind = how == "first_of" ? Composition::Kind::first_of
+                     : how == "all_of" ? Composition::Kind::all_of
+                                       : Composition::Kind::sequence;
+  const bool is_sequence = composition.kind == Composition::Kind::sequence;
   for (const ScriptValue& part : value.list) {
     composition.parts.push_back(read_composition(registry, subject, part));
   }
   if (composition.parts.empty()) throw Error(fmt::format("{}: nothing to try", subject.text));
-  return composition;
-}
-
-Composition read_sequence(const Registry& registry, const Subject& subject,
-                          const ScriptValue& value) {
-  Composition composition = read_parts(registry, subject, value, Composition::Kind::sequence);
-  if (composition.parts.size() < 2 || composition.parts[0].kind != Composition::Kind::one) {
+  if (is_sequence &&
+      (composition.parts.size() < 2 || composition.parts[0].kind != Composition::Kind::one)) {
     throw Error(fmt::format("{}: a sequence is an operator and what follows it", subject.text));
   }
-  if (const ScriptValue* desperate = value.field("desperate")) {
-    composition.desperate = read_in_range(subject.of("desperate"), *desperate, -1, 1);
+  for (const auto& [name, setting] : value.fields) {
+    if (name == "how") continue;
+    if (!is_sequence) throw Error(fmt::format("{}: {} has no field '{}'", subject.text, how, name));
+    read_field(subject, name, setting, composition);
   }
   return composition;
 }
@@ -279,12 +293,10 @@ Composition read_composition(const Registry& registry, const Subject& subject,
     refuse(subject, "an operator, first_of{...}, all_of{...} or sequence{...}", value);
   }
   if (const ScriptValue* how = value.field("how")) {
-    const std::string& kind = read_text(subject, *how);
-    if (kind == "first_of") {
-      return read_parts(registry, subject, value, Composition::Kind::first_of);
+    const std::string& word = read_text(subject, *how);
+    if (word == "first_of" || word == "all_of" || word == "sequence") {
+      return read_parts(registry, subject, value, word);
     }
-    if (kind == "all_of") return read_parts(registry, subject, value, Composition::Kind::all_of);
-    if (kind == "sequence") return read_sequence(registry, subject, value);
   }
   if (value.list.size() != 1) {
     throw Error(fmt::format("{}: an operator with settings is {{name, parameter = value, ...}}",

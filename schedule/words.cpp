@@ -75,12 +75,14 @@ constexpr std::array<WordInfo, 18> kWords = {{
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until the tet is gone"},
-    {"sequence", "sequence{operator, what, ..., desperate = 0.2}",
+    {"sequence", "sequence{operator, what, ..., desperate = 0.2, theta_max = 180}",
      "for apply: one attempt of several parts. The operator may make things worse; the others then "
      "work on the bad tets among all that has changed. What came of it stays only if it is better "
      "as a whole, and if the bad tets lack less in sum, unless its worst tet was below "
-     "`desperate`: "
-     "then a gain of 0.001 pays for one more bad tet"},
+     "`desperate`: then a gain of 0.001 pays for one more bad tet. With a theta_max below 180 "
+     "degrees it is for tets with a larger angle: what follows works on such tets as well, and it "
+     "stays if the worst tet gets no worse and the sine of the largest angle gains 0.001, and as "
+     "much for each more bad tet"},
     {"quality", "quality()",
      "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
      "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "

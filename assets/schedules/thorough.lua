@@ -11,13 +11,14 @@ local time_limit   = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                                help = "seconds after which no further pass begins; 0: none"}
 
 local worst = {below = 0.5, worst = 100}
-local few   = {below = 0.5, worst = 40}
+local few   = {below = 0.5, worst = 24}
 -- As in the default schedule: which edges are tried there decides about the time alone.
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.25, at_least = 100}
 local hard  = {below = 0.35}
--- Angles between 147.5 and 150 degrees: that measure counts the sine of an obtuse angle three quarters.
-local blunt = {below = 0.54, worst = 100, property = {"warped_min_sine", low = 0.37, high = 0.4025}}
+-- Largest angles between 147.5 and 150 degrees, and above 148.
+local blunt  = {below = 0.54, worst = 100, property = {"largest_angle_sine", low = 0.5, high = 0.537}}
+local obtuse = {below = 0.53, worst = 8, property = {"largest_angle_sine", low = 0, high = 0.53}}
 
 local function is_enough()
   local now = quality()
@@ -86,6 +87,12 @@ local function lift(goal, on)
        + apply({"joint_smoothing", goal = goal, rings = 1}, {on = on})
 end
 
+-- Lowers angles above 148 degrees, in spite of a few more tets just below 30.
+local function lower(opening, follow_up)
+  return apply(sequence{opening, "recursive_shell_transformation", "smoothing", follow_up, follow_up,
+                        {"joint_smoothing", goal = 0.535}, theta_max = 148}, {on = obtuse})
+end
+
 -- All that may help the worst, every other round with less regard for mild ones.
 local function worst_tets(i)
   local exponent, desperate = 4, 0.2
@@ -104,11 +111,13 @@ local function all_bad_tets()
   local n_bad = quality().n_bad
   apply({"cavity_insertion", exponent = 1, desperate = 0, tries = 2})
   apply(refill(20, 0), {on = hard})
-  return quality().n_bad < 0.92 * n_bad
+  return quality().n_bad < 0.88 * n_bad
 end
 
 -- Every form of every operator for the few that decide about the angles; returns how often it helped.
 local openings = {"edge_split", "edge_removal", "flip_2_3", "edge_contraction"}
+local follow_ups = {"joint_smoothing", all_of{"joint_smoothing", "cavity_insertion"},
+                    {"joint_smoothing", rings = 1}}
 local function very_worst_tets()
   local accepted = 0
   for i, opening in ipairs(openings) do
@@ -161,5 +170,9 @@ if max_rounds > 0 and not is_enough() then
   worst_tets(1)
   while all_bad_tets() and not is_enough() do end
   lift(0.505, worst)
+  lift(0.54, blunt)
+  for _, follow_up in ipairs(follow_ups) do
+    for _, opening in ipairs(openings) do lower(opening, follow_up) end
+  end
   lift(0.54, blunt)
 end

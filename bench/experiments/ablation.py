@@ -16,20 +16,23 @@ local function is_left_out(what)
   if type(what) == "string" then return what == left_out end
   return what.how == left_out or is_left_out(what[1])
 end
+local function without(what)
+  if type(what) == "string" then return what end
+  local kept = {{}}
+  for key, value in pairs(what) do
+    if math.type(key) ~= "integer" then kept[key] = value end
+  end
+  for _, part in ipairs(what) do
+    if not is_left_out(part) then kept[#kept + 1] = without(part) end
+  end
+  return kept
+end
 local function unless_left_out(name, word)
   return function(...) return name == left_out and 0 or word(...) end
 end
 local all_apply = apply
 local function apply(what, options)
-  return is_left_out(what) and 0 or all_apply(what, options)
-end
-local all_sequence = sequence
-local function sequence(parts)
-  local kept = {{parts[1], desperate = parts.desperate}}
-  for i = 2, #parts do
-    if parts[i] ~= left_out then kept[#kept + 1] = parts[i] end
-  end
-  return all_sequence(kept)
+  return is_left_out(what) and 0 or all_apply(without(what), options)
 end
 local local_reconnection = unless_left_out("local_reconnection", local_reconnection)
 local smooth = unless_left_out("smooth", smooth)

@@ -189,7 +189,7 @@ TEST_CASE("the examples of docs/schedules.md run") {
     at += begin.size();
     examples.push_back(page.substr(at, page.find("```", at) - at));
   }
-  REQUIRE(examples.size() == 3);
+  REQUIRE(examples.size() == 4);
   Bench bench;
   const Outcome rounds = bench.improve(examples[0]);
   CHECK(rounds.status == 0);
@@ -201,4 +201,5 @@ TEST_CASE("the examples of docs/schedules.md run") {
   const Outcome beyond = bench.improve(examples[1], {"--set", "min_dihedral=60"});
   CHECK(contains(beyond.out, "the surface allows"));
   CHECK(bench.improve(examples[2]).status == 0);
+  CHECK(bench.improve(examples[3]).status == 0);
 }

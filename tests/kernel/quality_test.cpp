@@ -113,6 +113,12 @@ Real direct_warped_minimum_sine(const Corners& p) {
   return sign_of_volume(p) * smallest;
 }
 
+Real direct_largest_angle_sine(const Corners& p) {
+  const auto angles = dihedrals(p);
+  const Real largest = *std::max_element(angles.begin(), angles.end());
+  return sign_of_volume(p) * (2 * largest > std::numbers::pi_v<Real> ? std::sin(largest) : Real{1});
+}
+
 Real direct_minimum_angle(const Corners& p) {
   const auto angles = dihedrals(p);
   return sign_of_volume(p) * *std::min_element(angles.begin(), angles.end()) * kDegrees;
@@ -169,13 +175,14 @@ struct Reference {
   Real (*evaluate)(const Corners& p);
 };
 
-constexpr std::array<Reference, 6> kReferences = {{
+constexpr std::array<Reference, 7> kReferences = {{
     {"min_sine", &direct_minimum_sine},
     {"min_angle", &direct_minimum_angle},
     {"volume_length", &direct_volume_length},
     {"radius_ratio", &direct_radius_ratio},
     {"mean_ratio", &direct_mean_ratio},
     {"warped_min_sine", &direct_warped_minimum_sine},
+    {"largest_angle_sine", &direct_largest_angle_sine},
 }};
 
 // --- Quality vectors. ---
@@ -366,6 +373,11 @@ TEST_CASE("the minimum sine cannot tell 30 from 150 degrees, the warped one can"
   CHECK(evaluate(sine, wedge(turn)) == doctest::Approx(0.5));
   CHECK(evaluate(warped, wedge(turn)) == doctest::Approx(0.5));
   CHECK(evaluate(warped, wedge(5 * turn)) == doctest::Approx(0.75 * std::sin(5 * turn)));
+  const auto largest_sine = [](const Corners& p) {
+    return largest_angle_sine(p[0], p[1], p[2], p[3]);
+  };
+  CHECK(largest_sine(wedge(turn)) == 1);  // no angle is obtuse
+  CHECK(largest_sine(wedge(5 * turn)) == doctest::Approx(std::sin(5 * turn)));
 }
 
 TEST_CASE("the default quality measure is the minimum sine") {

@@ -171,6 +171,61 @@ TEST_CASE("below its desperate quality a sequence may leave new bad tets behind"
   CHECK(deficit_after(-1) != deficit_after(1));
 }
 
+TEST_CASE("a sequence with a theta_max lowers larger angles and leaves the worst tet as good") {
+  const auto largest_angle = [](const TetMesh& mesh, TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    const auto angles =
+        dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+    return *std::max_element(angles.begin(), angles.end());
+  };
+  const auto count_larger = [&](const TetMesh& mesh, double angle) {
+    const auto tets = live_tets(mesh);
+    return std::count_if(tets.begin(), tets.end(),
+                         [&](TetHandle t) { return largest_angle(mesh, t) > angle; });
+  };
+  constexpr double kThetaMax = 135;
+  Composition what = sequence({op("edge_split"), op("recursive_shell_transformation"),
+                               op("smoothing"), op("joint_smoothing")});
+  const Selection on = {.below = 0.8f};
+  TetMesh mesh(delaunay_ball(200, 4));
+  Run run(mesh, kRegistry);
+  do {
+    apply(run, {.what = what});
+  } while (run.records.back().accepted() > 0);
+
+  what.theta_max = kThetaMax;
+  for (int pass = 0; pass < 3; ++pass) {
+    const TetMesh before = mesh;
+    const double q_worst = run.records.back().after.q_worst;
+    apply(run, {.what = what, .on = on});
+    const PassRecord& record = run.records.back();
+    if (pass == 0) REQUIRE(record.accepted() > 0);
+    CHECK(record.after.q_worst >= q_worst);
+    if (record.accepted() > 0) {
+      CHECK(count_larger(mesh, kThetaMax) < count_larger(before, kThetaMax));
+    }
+  }
+  CHECK(check_integrity(mesh).empty());
+
+  // Not for tets without such an angle.
+  const Attempts none = attempts_at_worst(mesh, [&] {
+    what.theta_max = 179.9;
+    return what;
+  }());
+  CHECK(none.names.empty());
+}
+
+TEST_CASE("a smaller angle pays for bad tets, but not for a worse one") {
+  const std::vector<Quality> before = {0.3f, 0.4f, 0.51f};
+  CHECK(is_worth_gain(0.001, before, before));
+  CHECK_FALSE(is_worth_gain(0.0009, before, before));
+  CHECK(is_worth_gain(0.001, std::vector<Quality>{0.3f, 0.49f, 0.49f}, before));
+  CHECK_FALSE(is_worth_gain(0.0019, std::vector<Quality>{0.3f, 0.49f, 0.49f, 0.49f}, before));
+  CHECK(is_worth_gain(0.002, std::vector<Quality>{0.3f, 0.49f, 0.49f, 0.49f}, before));
+  CHECK_FALSE(is_worth_gain(0.0009, std::vector<Quality>{0.3f, 0.6f}, before));
+  CHECK_FALSE(is_worth_gain(0.2, std::vector<Quality>{0.29f, 0.6f}, before));
+}
+
 TEST_CASE("a sequence must open with one operator and go on") {
   CHECK_THROWS_AS(TetAttempts(kRegistry, sequence({op("smoothing")})), Error);
   CHECK_THROWS_AS(TetAttempts(kRegistry, sequence({first_of({op("smoothing")}), op("flip_2_3")})),

@@ -112,6 +112,14 @@ TEST_CASE("words do what the passes in C++ do") {
   same("insert_points{relax = true, on = {below = 0.25, at_least = 10}}", [](Run& r) {
     insert_points(r, {.on = {.below = 0.25f, .at_least = 10}, .settings = {{"relax", 1}}});
   });
+  same("apply(sequence{'flip_2_3', 'smoothing', theta_max = 150}, {on = {below = 0.6}})",
+       [](Run& r) {
+         Composition parts{.kind = Composition::Kind::sequence, .theta_max = 150};
+         for (const char* name : {"flip_2_3", "smoothing"}) {
+           parts.parts.push_back(Composition{.operator_name = name});
+         }
+         apply(r, {.what = parts, .on = {.below = 0.6f}});
+       });
   same("apply(sequence{'edge_split', 'edge_removal', 'smoothing', desperate = 0.3})", [](Run& r) {
     Composition parts{.kind = Composition::Kind::sequence, .desperate = 0.3};
     for (const char* name : {"edge_split", "edge_removal", "smoothing"}) {
@@ -194,6 +202,12 @@ TEST_CASE(
       {"apply(sequence{'smoothing'})", "apply: a sequence is an operator and what follows it"},
       {"apply(sequence{'smoothing', 'flip_2_3', desperate = 2})",
        "apply: desperate = 2 is outside"},
+      {"apply(sequence{'smoothing', 'flip_2_3', theta_max = 60})",
+       "apply: theta_max = 60 is outside"},
+      {"apply(sequence{'smoothing', 'flip_2_3', desparate = 0.3})",
+       "apply: sequence has no field 'desparate'; valid: desperate, theta_max"},
+      {"apply(all_of{'smoothing', 'flip_2_3', desperate = 0.3})",
+       "apply: all_of has no field 'desperate'"},
       {"apply('smoothing', {sweep = 3})", "apply has no parameter 'sweep'; valid: on, sweeps"},
       {"apply(function() end)", "a function is of no use here"},
       {"is_progress(quality(), 3)", "is_progress: now needs what quality() returns"},

@@ -96,7 +96,7 @@ TEST_CASE("calls, visits and passes of a trace lie inside each other") {
 
 TEST_CASE("a trace that was cut off anywhere opens up to there, with a message") {
   const TempFolder folder;
-  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh mesh = asset_mesh("folded_sheet.mesh");
   record(mesh, folder / "trace");
   const std::string whole = read_text(folder / "trace");
   const std::uint64_t events = TraceFile(folder / "trace").event_count();
