@@ -28,7 +28,7 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
                 double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work);
 
 /// Fewer items than this are not worth a division into blocks.
-inline constexpr std::size_t kFewItems = 64;
+inline constexpr std::size_t kFewItems = 8;
 
 namespace detail {
 
