@@ -47,6 +47,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--sizes", default="1e4,1e5,1e6,1e7,3.7e7")
     options = parser.parse_args()
+    options.work.mkdir(parents=True, exist_ok=True)
     print(HEADER)
     base = None
     for size in map(float, options.sizes.split(",")):
