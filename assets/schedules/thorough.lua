@@ -20,11 +20,13 @@ local hard  = {below = 0.35}
 local blunt  = {below = 0.54, worst = 100, property = {"largest_angle_sine", low = 0.5, high = 0.537}}
 local obtuse = {below = 0.53, worst = 8, property = {"largest_angle_sine", low = 0, high = 0.53}}
 
+local function is_late()
+  return time_limit > 0 and quality().seconds >= time_limit
+end
+
 local function is_enough()
   local now = quality()
-  return now.n_bad == 0
-      or math.min(now.theta_min, 180 - now.theta_max) >= min_dihedral
-      or time_limit > 0 and now.seconds >= time_limit
+  return now.n_bad == 0 or math.min(now.theta_min, 180 - now.theta_max) >= min_dihedral or is_late()
 end
 
 local function clean_up()
@@ -169,10 +171,14 @@ end
 if max_rounds > 0 and not is_enough() then
   worst_tets(1)
   while all_bad_tets() and not is_enough() do end
-  lift(0.505, worst)
-  lift(0.54, blunt)
-  for _, follow_up in ipairs(follow_ups) do
-    for _, opening in ipairs(openings) do lower(opening, follow_up) end
+  if not is_late() then
+    lift(0.505, worst)
+    lift(0.54, blunt)
   end
-  lift(0.54, blunt)
+  for _, follow_up in ipairs(follow_ups) do
+    for _, opening in ipairs(openings) do
+      if not is_late() then lower(opening, follow_up) end
+    end
+  end
+  if not is_late() then lift(0.54, blunt) end
 end
