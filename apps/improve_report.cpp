@@ -44,15 +44,21 @@ std::vector<PassTotal> total_by_name(const std::vector<PassRecord>& passes) {
 std::string format_passes(const ImproveReport& report) {
   const std::vector<PassTotal> totals = total_by_name(report.passes);
   if (totals.empty()) return {};
+  // The figures of a longer name, as sequences have, stand in a line below it.
+  constexpr std::size_t kWidest = 30;
   std::size_t width = std::size("pass") - 1;
-  for (const PassTotal& total : totals) width = std::max(width, total.name.size());
+  for (const PassTotal& total : totals) {
+    if (total.name.size() <= kWidest) width = std::max(width, total.name.size());
+  }
   std::string text = fmt::format("{:<{}} {:>6} {:>12} {:>11} {:>9} {:>7}\n", "pass", width, "calls",
                                  "attempts", "accepted", "seconds", "share");
   text += std::string(text.size() - 1, '-') + '\n';
   for (const PassTotal& total : totals) {
     const double share = 100 * total.seconds / std::max(report.seconds.improving, 1e-9);
-    text += fmt::format("{:<{}} {:>6} {:>12} {:>11} {:>9.2f} {:>5.1f} %\n", total.name, width,
-                        total.calls, grouped(total.attempts), grouped(total.accepted),
+    const bool fits = total.name.size() <= width;
+    if (!fits) text += total.name + "\n";
+    text += fmt::format("{:<{}} {:>6} {:>12} {:>11} {:>9.2f} {:>5.1f} %\n", fits ? total.name : "",
+                        width, total.calls, grouped(total.attempts), grouped(total.accepted),
                         total.seconds, share);
   }
   return text;
