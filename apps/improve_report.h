@@ -12,7 +12,7 @@
 
 #include "apps/regions.h"
 #include "kernel/statistics.h"
-#include "kernel/surface_limit.h"
+#include "schedule/limit/surface_limit.h"
 #include "schedule/run.h"
 #include "schedule/schedule_parameter.h"
 

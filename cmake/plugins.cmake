@@ -16,7 +16,7 @@ add_library(tetmend_plugin_host INTERFACE)
 add_library(tetmend::plugin_host ALIAS tetmend_plugin_host)
 target_link_libraries(tetmend_plugin_host INTERFACE tetmend_ops ${CMAKE_DL_LIBS})
 set(whole_libraries "")
-foreach(layer IN ITEMS ops trace kernel)
+foreach(layer IN ITEMS ops search trace kernel)
   # An alias here, a target of the same name where tetmend is installed.
   string(APPEND whole_libraries " $<TARGET_FILE:tetmend::${layer}>")
 endforeach()

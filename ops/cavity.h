@@ -9,7 +9,7 @@
 
 #include "kernel/index_set.h"
 #include "kernel/workspace.h"
-#include "ops/verdict.h"
+#include "trace/verdict.h"
 
 namespace tetmend {
 

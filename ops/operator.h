@@ -16,8 +16,8 @@
 #include "kernel/transaction.h"
 #include "ops/parameters.h"
 #include "ops/scratch.h"
-#include "ops/verdict.h"
 #include "trace/trace_sink.h"
+#include "trace/verdict.h"
 
 namespace tetmend {
 

@@ -8,7 +8,7 @@
 
 #include "kernel/tet_mesh.h"
 #include "kernel/workspace.h"
-#include "ops/polyhedron_search.h"
+#include "search/polyhedron_search.h"
 
 namespace tetmend {
 

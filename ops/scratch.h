@@ -6,12 +6,12 @@
 
 #include "kernel/shell.h"
 #include "kernel/transaction.h"
-#include "ops/ball_optimiser.h"
 #include "ops/cavity.h"
-#include "ops/covering_search.h"
-#include "ops/patch_optimiser.h"
 #include "ops/polyhedron.h"
-#include "ops/polyhedron_search.h"
+#include "search/ball_optimiser.h"
+#include "search/covering_search.h"
+#include "search/patch_optimiser.h"
+#include "search/polyhedron_search.h"
 
 namespace tetmend {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "ops/covering_search.h"
 #include "ops/operator.h"
+#include "search/covering_search.h"
 
 namespace tetmend {
 

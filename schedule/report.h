@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "kernel/statistics.h"
-#include "kernel/surface_limit.h"
+#include "schedule/limit/surface_limit.h"
 
 namespace tetmend {
 

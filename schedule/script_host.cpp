@@ -9,7 +9,7 @@
 
 #include "kernel/error.h"
 #include "kernel/statistics.h"
-#include "kernel/surface_limit.h"
+#include "schedule/limit/surface_limit.h"
 #include "schedule/single_attempt.h"
 
 namespace tetmend {

@@ -14,7 +14,7 @@
 
 #include "bench/micro/example.h"
 #include "kernel/shell.h"
-#include "ops/covering_search.h"
+#include "search/covering_search.h"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
 #include "kernel/surface.h"
-#include "kernel/surface_limit.h"
 #include "ops/registry.h"
+#include "schedule/limit/surface_limit.h"
 #include "tests/apps/program.h"
 
 using namespace tetmend;

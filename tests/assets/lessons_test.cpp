@@ -9,11 +9,11 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
-#include "ops/verdict.h"
 #include "tests/apps/program.h"
 #include "trace/lesson.h"
 #include "trace/replay.h"
 #include "trace/trace_frame.h"
+#include "trace/verdict.h"
 
 using namespace tetmend;
 using namespace tetmend::test;

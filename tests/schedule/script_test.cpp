@@ -11,7 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/integrity.h"
-#include "kernel/surface_limit.h"
+#include "schedule/limit/surface_limit.h"
 #include "schedule/reference.h"
 #include "schedule/schedule.h"
 #include "schedule/words.h"

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "ops/covering_search.h"
+#include "search/covering_search.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The placement of a vertex in its ball, against finite differences, random search and brute force.
-#include "ops/ball_optimiser.h"
+#include "search/ball_optimiser.h"
 
 #include <algorithm>
 #include <array>

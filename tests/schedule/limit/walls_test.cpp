@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walls and sectors of cubes, of faces that stand free, and of frozen tets.
-#include "kernel/walls.h"
+#include "schedule/limit/walls.h"
 
 #include <map>
 #include <numbers>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The covering search on small shells whose best covering is known.
-#include "ops/covering_search.h"
+#include "search/covering_search.h"
 
 #include <algorithm>
 #include <cmath>

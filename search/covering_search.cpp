@@ -4,7 +4,7 @@
 //   pocket(i, d) = best over k of pocket(i, k) + pocket(i+k, d-k) + triangle(i, i+k, i+d) [chen,
 //   Eq. 1, Alg. 2] full reduction = pocket(0, m-1) core: shortest path around the ring; an arc i ->
 //   i+d costs pocket(i, d) + core side (i, i+d), an arc of length 1 the old tet
-#include "ops/covering_search.h"
+#include "search/covering_search.h"
 
 #include <cmath>
 

@@ -19,7 +19,7 @@
 
 #include "kernel/geometry.h"
 #include "kernel/quality.h"
-#include "ops/covering_search.h"
+#include "search/covering_search.h"
 
 using namespace tetmend;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The polyhedron search on small solids that are known by hand; polyhedron_oracle_test.cpp has the
 // random ones.
-#include "ops/polyhedron_search.h"
+#include "search/polyhedron_search.h"
 
 #include <algorithm>
 #include <array>

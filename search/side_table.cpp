@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ops/side_table.h"
+#include "search/side_table.h"
 
 #include <bit>
 #include <cassert>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Walks from wall to wall around an edge.
-#include "kernel/walls.h"
+#include "schedule/limit/walls.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 //
 //   boxes of (t1, t2, t3), the whole range first: drop a box that cannot hold an apex | stop if its
 //   middle is one | halve it
-#include "kernel/apex_search.h"
+#include "search/apex_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,7 +17,7 @@
 #include "contract/zoo.h"
 #include "kernel/exact_orientation.h"
 #include "kernel/quality.h"
-#include "ops/polyhedron_search.h"
+#include "search/polyhedron_search.h"
 
 using namespace tetmend;
 using contract::Random;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ops/polyhedron_search.h"
+#include "search/polyhedron_search.h"
 
 #include <algorithm>
 #include <bit>

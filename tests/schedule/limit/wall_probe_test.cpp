@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What walls allow is never less than what a mesh has.
-#include "kernel/wall_probe.h"
+#include "schedule/limit/wall_probe.h"
 
 #include <algorithm>
 #include <cmath>

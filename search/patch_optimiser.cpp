@@ -5,7 +5,7 @@
 //     repeat: gradient of the p-norm -> direction from the last steps -> step, halved until the
 //             norm falls and no tet turns over; stop when it falls by little
 //   keep the best of start and ends
-#include "ops/patch_optimiser.h"
+#include "search/patch_optimiser.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 //           direction = shortest vector in the hull of their gradients; stop when it is nearly zero
 //           step = halve from the last step until the worst quality rises; stop when the gain is
 //           small
-#include "ops/ball_optimiser.h"
+#include "search/ball_optimiser.h"
 
 #include <algorithm>
 #include <cmath>

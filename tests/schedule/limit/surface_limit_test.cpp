@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bad tets that surfaces force: known cases, and bounds that no mesh may break.
-#include "kernel/surface_limit.h"
+#include "schedule/limit/surface_limit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 //   walls of bad tets and walls next to them: where no tet is bad, none is forced
 //   -> arguments: one of the tets on these walls is bad in every mesh
 //   -> as many of them as cannot speak of the same tet: the least number of bad tets
-#include "kernel/surface_limit.h"
+#include "schedule/limit/surface_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "kernel/chunks.h"
-#include "kernel/wall_probe.h"
+#include "schedule/limit/wall_probe.h"
 
 namespace tetmend {
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "kernel/quality.h"
-#include "ops/side_table.h"
+#include "search/side_table.h"
 
 namespace tetmend {
 

@@ -7,8 +7,8 @@
 #include <bitset>
 #include <vector>
 
-#include "kernel/apex_search.h"
-#include "kernel/walls.h"
+#include "schedule/limit/walls.h"
+#include "search/apex_search.h"
 
 namespace tetmend {
 

@@ -5,7 +5,7 @@
 //   case it leaves a gap in each sector.
 //   A gap is filled by at least one tet; the one that ends at the next wall has an angle of at most
 //   the gap there. So a gap below the range makes the tet on the next wall bad.
-#include "kernel/wall_probe.h"
+#include "schedule/limit/wall_probe.h"
 
 #include <algorithm>
 #include <cmath>

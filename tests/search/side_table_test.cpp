@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ranks, sides and overlaps of a few points, the latter against projections on separating axes.
-#include "ops/side_table.h"
+#include "search/side_table.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The search for an apex: against triangles whose best tet is known, and against sampled tets.
-#include "kernel/apex_search.h"
+#include "search/apex_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The placement of several vertices at once, against finite differences and the ascent of one
 // vertex.
-#include "ops/patch_optimiser.h"
+#include "search/patch_optimiser.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/geometry.h"
-#include "ops/ball_optimiser.h"
+#include "search/ball_optimiser.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
