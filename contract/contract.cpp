@@ -18,8 +18,8 @@ TetMesh with_free_slots(const MeshData& data) {
   const ParameterValues defaults("", edge_contraction_info().parameters, {});
   const auto contraction = edge_contraction_info().make(defaults);
   Workspace workspace(mesh);
-  const auto scratch = std::make_unique<Scratch>();
-  OperatorContext context{mesh, workspace, *scratch};
+  OperatorStates states;
+  OperatorContext context{mesh, workspace, states};
   for (const VertexHandle v : live_vertices(mesh)) contraction->attempt(context, Target::of(v));
   return mesh;
 }

@@ -49,8 +49,8 @@ class Side {
   Workspace workspace_;
   Workspace::FreeSlots slots_;
   std::vector<BlockId> blocks_;
-  std::unique_ptr<Scratch> scratch_ = std::make_unique<Scratch>();
-  OperatorContext context_{mesh, workspace_, *scratch_};
+  OperatorStates states_;
+  OperatorContext context_{mesh, workspace_, states_};
 };
 
 std::vector<Target> targets_at(const TetMesh& mesh, TetHandle t, TargetKind kind) {

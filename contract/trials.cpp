@@ -38,10 +38,9 @@ struct Answer {
 };
 
 struct Worker {
-  explicit Worker(const TetMesh& start)
-      : mesh(start), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const TetMesh& start) : mesh(start), workspace(mesh) {}
   Answer attempt(const Operator& op, Target target, TraceSink* trace = nullptr) {
-    OperatorContext context{mesh, workspace, *scratch, trace};
+    OperatorContext context{mesh, workspace, states, trace};
     try {
       return {op.attempt(context, target), ""};
     } catch (const Error& error) {
@@ -51,7 +50,7 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 /// A refusal or an error, judged by the mesh before and after.

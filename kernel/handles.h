@@ -29,6 +29,8 @@ class Handle {
 using VertexHandle = Handle<struct VertexTag>;
 using TetHandle = Handle<struct TetTag>;
 
+using TetVertices = std::array<VertexHandle, 4>;  ///< in positive order
+
 static_assert(!std::is_convertible_v<VertexHandle, TetHandle>);
 static_assert(!std::is_invocable_v<std::equal_to<>, VertexHandle, TetHandle>);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quality measures of a tet and the comparison of quality vectors.
+// Quality measures of a tet.
 #include "kernel/quality.h"
 
 #include <array>
@@ -148,21 +148,6 @@ const QualityMeasure& find_quality_measure(std::string_view name) {
     valid += measure.name;
   }
   throw Error("unknown quality measure '" + std::string(name) + "'; valid: " + valid);
-}
-
-bool pays_for_bad(std::span<const Quality> now, std::span<const Quality> before, double desperate) {
-  if (before.empty() || before[0] >= desperate) return false;
-  const double gain = now.empty() ? 1 : now[0] - before[0];
-  return gain >= kPriceOfBad * static_cast<double>(count_bad(now) - count_bad(before));
-}
-
-bool improves(std::span<const Quality> now, std::span<const Quality> before) {
-  const std::size_t common = std::min(now.size(), before.size());
-  for (std::size_t i = 0; i < common; ++i) {
-    if (now[i] < before[i]) return false;
-    if (now[i] > before[i] + kQualityTolerance) return true;
-  }
-  return now.size() < before.size();
 }
 
 }  // namespace tetmend

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -14,13 +13,21 @@
 
 namespace tetmend {
 
-/// Quality as the mesh stores it. Single precision is enough to rank tets; see `improves` for
+/// Quality as the mesh stores it. Single precision is enough to rank tets; see kernel/judge.h for
 /// comparisons.
 using Quality = float;
 
-/// A tet whose minimum sine is below this (an angle under 30 or over 150 degrees) is bad
-/// ([chen, 6.1]).
-inline constexpr Quality kBadThreshold = 0.5f;
+/// What is measured, and from when on a tet is good.
+struct Standard {
+  std::string_view measure;  ///< a name of quality_measures()
+  Quality good;
+};
+
+/// Minimum sine, no angle under 30 or over 150 degrees ([chen, 6.1]).
+inline constexpr Standard kStandard = {"min_sine", 0.5f};
+
+/// A tet of lower quality is bad.
+inline constexpr Quality kBadThreshold = kStandard.good;
 
 /// A measure is a pure function of the four points of a tet, in positive order for a valid tet.
 struct QualityMeasure {
@@ -87,56 +94,5 @@ std::span<const QualityMeasure> quality_measures();
 
 /// @throws Error for an unknown name, with the valid ones.
 const QualityMeasure& find_quality_measure(std::string_view name);
-
-/// Differences below this do not count as progress: they are within reach of rounding, and a run
-/// would crawl.
-inline constexpr Quality kQualityTolerance = 1e-6f;
-
-/// True if the quality vector `now` is better than `before`: both ascending, compared
-/// lexicographically, the shorter better when one continues the other ([chen, 6.1]). The first
-/// entry that differs by more than kQualityTolerance decides, and no earlier entry may be lower at
-/// all, so true also holds in the strict order.
-bool improves(std::span<const Quality> now, std::span<const Quality> before);
-
-/// How much a tet lacks to be good, (0.5 - q)^4, or 0: a sum of it weighs one very bad tet against
-/// several mild ones.
-inline double deficit(double quality) {
-  const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - quality);
-  return (lack * lack) * (lack * lack);
-}
-
-/// True if the tets lack less in sum. By the order of quality vectors alone, insertions raise the
-/// worst tet a little and leave more bad tets than they found.
-inline bool lowers_deficit(std::span<const Quality> now, std::span<const Quality> before) {
-  const auto total = [](std::span<const Quality> qualities) {
-    double sum = 0;
-    for (const Quality q : qualities) sum += deficit(q);
-    return sum;
-  };
-  return total(now) < total(before);
-}
-
-/// The least gain that pays for one more bad tet. Tiny gains, one after the other, would fill the
-/// neighbourhood with bad tets.
-inline constexpr double kPriceOfBad = 0.001;
-
-/// Where the worst tet is desperate, that is below this quality, more bad tets may come of a gain.
-inline constexpr double kDesperate = 0.2;
-
-/// True if the worst tet was below `desperate` and gained at least kPriceOfBad for each tet by
-/// which the number of bad ones has grown. Both ascending.
-bool pays_for_bad(std::span<const Quality> now, std::span<const Quality> before, double desperate);
-
-/// True if a better worst tet is worth what it costs the others: they lack less in sum, or it pays
-/// for them.
-inline bool is_worth_it(std::span<const Quality> now, std::span<const Quality> before,
-                        double desperate) {
-  return pays_for_bad(now, before, desperate) || lowers_deficit(now, before);
-}
-
-/// Number of bad tets. Ascending.
-inline std::ptrdiff_t count_bad(std::span<const Quality> qualities) {
-  return std::lower_bound(qualities.begin(), qualities.end(), kBadThreshold) - qualities.begin();
-}
 
 }  // namespace tetmend

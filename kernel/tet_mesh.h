@@ -20,7 +20,6 @@
 
 namespace tetmend {
 
-using TetVertices = std::array<VertexHandle, 4>;
 /// Counts commits or passes: which of two things happened later. 0 is "never".
 using Date = std::uint32_t;
 
@@ -305,5 +304,12 @@ class BuildError : public Error {
  private:
   std::size_t tet_;
 };
+
+/// Lowest quality of the tets, of which there is at least one.
+inline Quality worst_quality(const TetMesh& mesh, std::span<const TetHandle> tets) {
+  Quality worst = mesh.quality(tets[0]);
+  for (const TetHandle t : tets.subspan(1)) worst = std::min(worst, mesh.quality(t));
+  return worst;
+}
 
 }  // namespace tetmend

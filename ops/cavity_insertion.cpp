@@ -3,38 +3,46 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "ops/cavity.h"
 #include "ops/relaxation.h"
-#include "ops/smoothing.h"
 
 namespace tetmend {
 
 namespace {
 
-class CavityInsertion final : public Operator {
+struct State {
+  VertexCavity cavity;
+  std::vector<VertexCavity::Place> places;  // the best first
+  std::size_t next = 0;                     // place to be tried
+  BallOptimiser ball;
+  std::vector<TetVertices> new_tets;
+  RelaxationState relaxation;
+};
+
+class CavityInsertion final : public OperatorOf<State> {
  public:
   explicit CavityInsertion(const ParameterValues& values)
-      : Operator(cavity_insertion_info()),
+      : OperatorOf(cavity_insertion_info(), Judge::fair({.exponent = values.real("exponent"),
+                                                         .desperate = values.real("desperate")})),
         tries_(static_cast<std::size_t>(values.integer("tries"))),
-        relax_(values.flag("relax")),
-        desperate_(static_cast<Quality>(values.real("desperate"))),
-        exponent_(values.real("exponent")) {
+        relax_(values.flag("relax")) {
     growth_.max_tets = static_cast<std::size_t>(values.integer("max_tets"));
     limits_.steps = values.integer("steps");
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return context.mesh.is_frozen(target.tet()) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    VertexCavity& cavity = context.scratch.cavity;
-    auto& places = context.scratch.places;
+    VertexCavity& cavity = state.cavity;
+    auto& places = state.places;
     places.clear();
-    const double least = least_promise(mesh, target);
+    state.next = 0;
+    const double least = least_promise(context, target);
     for (const Point& site : list_sites(mesh, mesh.vertices(target.tet()))) {
       // Smoothing of the one vertex gains that factor at most, as a rule.
       constexpr double kBeforeSmoothing = 0.4;
@@ -42,7 +50,7 @@ class CavityInsertion final : public Operator {
       Verdict verdict = cavity.offer(mesh, context.workspace, site);
       constexpr int kTurns = 2;
       for (int turn = 0; turn < kTurns && verdict == Verdict::accepted; ++turn) {
-        verdict = settle(context);
+        verdict = settle(context, state);
       }
       if (verdict == Verdict::deferred) return verdict;
       if (cavity.worst() > least) places.push_back({cavity.point(), cavity.worst()});
@@ -56,20 +64,17 @@ class CavityInsertion final : public Operator {
     return places.empty() ? Verdict::no_improvement : Verdict::accepted;
   }
 
-  Verdict apply(OperatorContext& context, Target target, Transaction&) const override {
-    VertexCavity& cavity = context.scratch.cavity;
-    Verdict verdict = Verdict::no_improvement;
-    for (const VertexCavity::Place& place : context.scratch.places) {
-      cavity.begin(target.tet(), 0, growth_);
-      verdict = cavity.offer(context.mesh, context.workspace, place.point);
-      if (verdict == Verdict::accepted) {
-        Transaction trial(context.mesh, context.workspace);
-        verdict = insert(context, trial);
-        if (verdict == Verdict::accepted) trial.keep();
-      }
-      if (verdict == Verdict::accepted || verdict == Verdict::deferred) return verdict;
-    }
-    return verdict;
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
+                State& state) const override {
+    VertexCavity& cavity = state.cavity;
+    cavity.begin(target.tet(), 0, growth_);
+    const Point& point = state.places[state.next].point;
+    const Verdict verdict = cavity.offer(context.mesh, context.workspace, point);
+    return verdict == Verdict::accepted ? insert(context, transaction, state) : verdict;
+  }
+
+  bool propose_next(OperatorContext&, Target, State& state) const override {
+    return ++state.next < state.places.size();
   }
 
  private:
@@ -89,62 +94,44 @@ class CavityInsertion final : public Operator {
   }
 
   /// The worst new tet must promise to become better than the target.
-  double least_promise(const TetMesh& mesh, Target target) const {
+  double least_promise(const OperatorContext& context, Target target) const {
     constexpr double kBeforeRelaxation = 0.5;
-    const double floor = std::max(mesh.quality(target.tet()), 0.0f);
-    return relax_ ? kBeforeRelaxation * floor : floor;
+    const Quality quality = context.mesh.quality(target.tet());
+    const double floor = relax_ ? kBeforeRelaxation * quality : quality;
+    return std::max(0.0, std::min(floor, context.judge->floor(quality)));
   }
 
   /// Moves the vertex to the best place in its cavity, and looks for a better cavity there.
-  Verdict settle(OperatorContext& context) const {
-    Scratch& scratch = context.scratch;
-    VertexCavity& cavity = scratch.cavity;
-    load_ball(context.mesh, cavity.faces(), scratch.ball);
+  Verdict settle(OperatorContext& context, State& state) const {
+    VertexCavity& cavity = state.cavity;
+    load_ball(context.mesh, cavity.faces(), state.ball);
     Point point = cavity.point();
-    const double worst = scratch.ball.optimise(point, limits_);
+    const double worst = state.ball.optimise(point, limits_);
     cavity.move(point, worst);
     return cavity.offer(context.mesh, context.workspace, point);
   }
 
-  /// Makes the cavity and the vertex real. `accepted` if that was worth it.
-  Verdict insert(OperatorContext& context, Transaction& transaction) const {
-    Scratch& scratch = context.scratch;
-    const VertexCavity& cavity = scratch.cavity;
+  /// Makes the cavity and the vertex real.
+  Verdict insert(OperatorContext& context, Transaction& transaction, State& state) const {
+    const VertexCavity& cavity = state.cavity;
     if (context.workspace.mesh_may_overlap() && !is_sphere(context.mesh, cavity.faces())) {
       return Verdict::inverted;
     }
     const VertexHandle v = transaction.add_vertex(cavity.point());
     if (!v.is_valid()) return Verdict::deferred;
-    scratch.new_tets.clear();
+    state.new_tets.clear();
     for (const HalfFace f : cavity.faces()) {
       const auto [a, b, c] = context.mesh.vertices(f);
-      scratch.new_tets.push_back({v, a, b, c});
+      state.new_tets.push_back({v, a, b, c});
     }
-    const Verdict verdict = to_verdict(transaction.replace_cavity(cavity.tets(), scratch.new_tets));
+    const Verdict verdict = to_verdict(transaction.replace_cavity(cavity.tets(), state.new_tets));
     if (verdict != Verdict::accepted) return verdict;
-    if (relax_) relax(context, transaction, v, limits_);
-    if (!is_better(transaction, scratch)) return Verdict::no_improvement;
-    // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others;
-    // how many are too many is for the exponent to say.
-    transaction.compare(scratch.before, scratch.now);
-    const bool worth_it = pays_for_bad(scratch.now, scratch.before, desperate_) ||
-                          total_deficit(scratch.now) < total_deficit(scratch.before);
-    return worth_it ? Verdict::accepted : Verdict::no_improvement;
-  }
-
-  /// As lowers_deficit() adds up, with the exponent of this operator.
-  double total_deficit(std::span<const Quality> qualities) const {
-    double sum = 0;
-    for (const Quality q : qualities) {
-      if (q < kBadThreshold) sum += std::pow(kBadThreshold - q, exponent_);
-    }
-    return sum;
+    if (relax_) relax(context, transaction, v, limits_, state.relaxation);
+    return Verdict::accepted;
   }
 
   std::size_t tries_;
   bool relax_;
-  Quality desperate_;
-  double exponent_;
   VertexCavity::Limits growth_;
   BallOptimiser::Limits limits_;
 };

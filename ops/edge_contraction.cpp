@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernel/index_set.h"
 #include "kernel/star.h"
 #include "ops/smoothing.h"
 
@@ -11,100 +12,101 @@ namespace tetmend {
 
 namespace {
 
-class EdgeContraction final : public Operator {
+struct State {
+  BallState ball;
+  VertexHandle kept_vertex;
+  std::vector<VertexHandle> neighbours;
+  IndexSet set;
+  std::vector<Quality> qualities;
+  std::vector<Quality> best_qualities;
+  Replacement replacement;
+};
+
+class EdgeContraction final : public OperatorOf<State> {
  public:
   explicit EdgeContraction(const ParameterValues& values)
-      : Operator(edge_contraction_info()), least_ratio_(values.real("least_ratio")) {
+      : OperatorOf(edge_contraction_info()), least_ratio_(values.real("least_ratio")) {
     limits_.steps = values.integer("steps");
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     const VertexHandle v = target.vertex();
     if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid())
       return Verdict::not_applicable;
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
     const VertexHandle v = target.vertex();
-    if (!collect_link(mesh, v, context.workspace, scratch.link)) return Verdict::deferred;
-    load_ball(mesh, scratch.link, scratch.ball);
-    Quality worst_old = mesh.quality(scratch.link[0].tet());
-    for (const HalfFace f : scratch.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
-    list_neighbours(mesh, scratch);
+    if (!collect_link(mesh, v, context.workspace, state.ball.link)) return Verdict::deferred;
+    load_ball(mesh, state.ball.link, state.ball.ball);
+    Quality worst_old = mesh.quality(state.ball.link[0].tet());
+    for (const HalfFace f : state.ball.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
+    list_neighbours(mesh, state);
 
-    scratch.kept_vertex = VertexHandle();
-    for (const VertexHandle w : scratch.neighbours) {
+    state.kept_vertex = VertexHandle();
+    for (const VertexHandle w : state.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
       const double share = mesh.is_fixed(w) ? 1 : least_ratio_;
-      const double least = context.opening ? required_quality(context, worst_old)
-                                           : share * static_cast<double>(worst_old);
-      if (!contract(mesh, w, std::max(least, 0.0), scratch)) continue;
-      if (scratch.kept_vertex.is_valid() && !improves(scratch.qualities, scratch.best_qualities))
+      const double least =
+          std::min(context.judge->floor(worst_old), share * static_cast<double>(worst_old));
+      if (!contract(mesh, w, std::max(least, 0.0), state)) continue;
+      if (state.kept_vertex.is_valid() && !improves(state.qualities, state.best_qualities))
         continue;
-      scratch.kept_vertex = w;
-      std::swap(scratch.best_qualities, scratch.qualities);
+      state.kept_vertex = w;
+      std::swap(state.best_qualities, state.qualities);
     }
-    return scratch.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
+    return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
+                State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    const VertexHandle w = scratch.kept_vertex;
-    scratch.old_tets.clear();
-    scratch.new_tets.clear();
-    for (const HalfFace f : scratch.link) {
-      scratch.old_tets.push_back(f.tet());
+    const VertexHandle w = state.kept_vertex;
+    state.replacement.old_tets.clear();
+    state.replacement.new_tets.clear();
+    for (const HalfFace f : state.ball.link) {
+      state.replacement.old_tets.push_back(f.tet());
       const auto [a, b, c] = mesh.vertices(f);
-      if (a != w && b != w && c != w) scratch.new_tets.push_back({w, a, b, c});
+      if (a != w && b != w && c != w) state.replacement.new_tets.push_back({w, a, b, c});
     }
-    const Verdict verdict =
-        to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    const Verdict verdict = state.replacement.make(transaction);
     if (verdict != Verdict::accepted || mesh.is_fixed(w)) return verdict;
-
-    if (!collect_link(mesh, w, context.workspace, scratch.link)) return Verdict::deferred;
-    load_ball(mesh, scratch.link, scratch.ball);
-    scratch.point = mesh.point(w);
-    const double start = scratch.ball.worst(scratch.point);
-    if (start < limits_.enough &&
-        scratch.ball.optimise_from(scratch.point, start, limits_) > start) {
-      // A refused move leaves the contraction as it is; the check of the attempt decides.
-      transaction.move_vertex(w, scratch.point, scratch.link);
-    }
+    if (!collect_link(mesh, w, context.workspace, state.ball.link)) return Verdict::deferred;
+    // A refused move leaves the contraction as it is; the judge decides.
+    climb(context, transaction, w, limits_, state.ball);
     return Verdict::accepted;
   }
 
  private:
-  static void list_neighbours(const TetMesh& mesh, Scratch& scratch) {
-    scratch.set.clear();
-    scratch.neighbours.clear();
-    for (const HalfFace f : scratch.link) {
+  static void list_neighbours(const TetMesh& mesh, State& state) {
+    state.set.clear();
+    state.neighbours.clear();
+    for (const HalfFace f : state.ball.link) {
       for (const VertexHandle w : mesh.vertices(f)) {
-        if (scratch.set.insert(w.index())) scratch.neighbours.push_back(w);
+        if (state.set.insert(w.index())) state.neighbours.push_back(w);
       }
     }
   }
 
-  /// Qualities (ascending) of the ball re-coned from w, into scratch.qualities. False as soon as
+  /// Qualities (ascending) of the ball re-coned from w, into state.qualities. False as soon as
   /// one is not above `least`.
-  static bool contract(const TetMesh& mesh, VertexHandle w, double least, Scratch& scratch) {
+  static bool contract(const TetMesh& mesh, VertexHandle w, double least, State& state) {
     // The tets at the edge that goes have quality 0; one below refuses.
     constexpr double kLessThanZero = -std::numeric_limits<double>::min();
-    if (scratch.ball.worst_above(mesh.point(w), kLessThanZero) <= kLessThanZero) return false;
-    scratch.qualities.clear();
-    for (std::size_t i = 0; i < scratch.link.size(); ++i) {
-      const auto [a, b, c] = mesh.vertices(scratch.link[i]);
+    if (state.ball.ball.worst_above(mesh.point(w), kLessThanZero) <= kLessThanZero) return false;
+    state.qualities.clear();
+    for (std::size_t i = 0; i < state.ball.link.size(); ++i) {
+      const auto [a, b, c] = mesh.vertices(state.ball.link[i]);
       if (a == w || b == w || c == w) continue;
-      const double q = scratch.ball.quality(i);
+      const double q = state.ball.ball.quality(i);
       if (!(q > least)) return false;
-      scratch.qualities.push_back(static_cast<Quality>(q));
+      state.qualities.push_back(static_cast<Quality>(q));
     }
-    std::sort(scratch.qualities.begin(), scratch.qualities.end());
-    return !scratch.qualities.empty();
+    std::sort(state.qualities.begin(), state.qualities.end());
+    return !state.qualities.empty();
   }
 
   double least_ratio_;

@@ -7,21 +7,21 @@ namespace tetmend {
 
 namespace {
 
-class EdgeRemoval final : public Operator {
+class EdgeRemoval final : public OperatorOf<ShellState> {
  public:
-  explicit EdgeRemoval(const ParameterValues&) : Operator(edge_removal_info()) {}
+  explicit EdgeRemoval(const ParameterValues&) : OperatorOf(edge_removal_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
-    return find_searchable_shell(context, target.edge(), context.scratch.shell);
+  Verdict precondition(const OperatorContext& context, Target target,
+                       ShellState& state) const override {
+    return find_searchable_shell(context, target.edge(), state.shell);
   }
-  Verdict evaluate(OperatorContext& context, Target) const override {
-    const Shell& shell = context.scratch.shell;
-    return propose_covering(context, shell, {}, false, required_floor(context, shell));
+  Verdict evaluate(OperatorContext& context, Target, ShellState& state) const override {
+    return propose_covering(context, *context.judge, state.shell, {}, Core::refused, state);
   }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                ShellState& state) const override {
+    return state.replacement.make(transaction);
   }
 };
 

@@ -5,80 +5,78 @@
 #include <cmath>
 
 #include "ops/relaxation.h"
-#include "ops/shell_search.h"
 
 namespace tetmend {
 
 namespace {
 
-class EdgeSplit final : public Operator {
+struct State {
+  Shell shell;
+  BallOptimiser ball;
+  Point point = Point::Zero();  // of the new vertex
+  Replacement replacement;
+  RelaxationState relaxation;
+};
+
+class EdgeSplit final : public OperatorOf<State> {
  public:
   explicit EdgeSplit(const ParameterValues& values)
-      : Operator(edge_split_info()),
+      : OperatorOf(edge_split_info(), Judge::fair({.desperate = values.real("desperate")})),
         least_gain_(values.real("least_gain")),
-        desperate_(static_cast<Quality>(values.real("desperate"))),
         relax_(values.flag("relax")),
         max_degree_(static_cast<unsigned>(values.integer("max_degree"))) {
     limits_.steps = values.integer("steps");
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
-    const Verdict verdict = find_searchable_shell(context, target.edge(), context.scratch.shell);
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
+    const Verdict verdict = find_searchable_shell(context, target.edge(), state.shell);
     if (verdict != Verdict::accepted) return verdict;
-    return context.scratch.shell.degree <= max_degree_ ? Verdict::accepted
-                                                       : Verdict::not_applicable;
+    return state.shell.degree <= max_degree_ ? Verdict::accepted : Verdict::not_applicable;
   }
 
   /// Places the vertex before it exists: the ball of the new vertex is the shell.
-  Verdict evaluate(OperatorContext& context, Target) const override {
+  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    const Shell& shell = scratch.shell;
-    Quality floor = mesh.quality(shell.tets[0]);
-    for (unsigned i = 1; i < shell.degree; ++i) {
-      floor = std::min(floor, mesh.quality(shell.tets[i]));
+    const Shell& shell = state.shell;
+    const Quality worst = worst_quality(mesh, shell);
+    double least = context.judge->floor(worst, least_gain_);
+    if (relax_) {
+      // What is left to be gained by smoothing the neighbours is limited.
+      constexpr double kRelaxedShare = 0.2;
+      least = std::max(0.0, std::min(least, kRelaxedShare * worst));
     }
-    // What is left to be gained by smoothing the neighbours is limited.
-    constexpr double kRelaxedShare = 0.2;
-    const double least = relax_            ? kRelaxedShare * std::max(floor, 0.0f)
-                         : context.opening ? required_quality(context, floor)
-                                           : floor + least_gain_;
-    if (floor > 0 && is_hopeless(mesh, shell, least)) return Verdict::no_improvement;
+    if (worst > 0 && is_hopeless(mesh, shell, least)) return Verdict::no_improvement;
     const Point& a = mesh.point(shell.a);
     const Point& b = mesh.point(shell.b);
-    scratch.ball.clear();
+    state.ball.clear();
     for (unsigned i = 0; i < shell.degree; ++i) {
       const Point& p = mesh.point(shell.ring[i]);
       const Point& q = mesh.point(shell.next(i));
-      scratch.ball.add(a, q, p);
-      scratch.ball.add(b, p, q);
+      state.ball.add(a, q, p);
+      state.ball.add(b, p, q);
     }
-    scratch.point = 0.5 * (a + b);
-    const double reached = scratch.ball.optimise(scratch.point, limits_);
+    state.point = 0.5 * (a + b);
+    const double reached = state.ball.optimise(state.point, limits_);
     return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    Scratch& scratch = context.scratch;
-    const Shell& shell = scratch.shell;
-    const VertexHandle v = transaction.add_vertex(scratch.point);
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
+                State& state) const override {
+    const Shell& shell = state.shell;
+    auto& [old_tets, new_tets] = state.replacement;
+    const VertexHandle v = transaction.add_vertex(state.point);
     if (!v.is_valid()) return Verdict::deferred;
-    scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + shell.degree);
-    scratch.new_tets.clear();
+    old_tets.assign(shell.tets.begin(), shell.tets.begin() + shell.degree);
+    new_tets.clear();
     for (unsigned i = 0; i < shell.degree; ++i) {
-      scratch.new_tets.push_back({shell.a, v, shell.ring[i], shell.next(i)});
-      scratch.new_tets.push_back({v, shell.b, shell.ring[i], shell.next(i)});
+      new_tets.push_back({shell.a, v, shell.ring[i], shell.next(i)});
+      new_tets.push_back({v, shell.b, shell.ring[i], shell.next(i)});
     }
-    const Verdict verdict =
-        to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
+    const Verdict verdict = state.replacement.make(transaction);
     if (verdict != Verdict::accepted) return verdict;
-    if (relax_) relax(context, transaction, v, limits_);
-    transaction.compare(scratch.before, scratch.now);
-    // DEVIATION: beside the order of the quality vectors, which the attempt checks, the sum of (0.5
-    // - q)^4 over the bad tets must fall, unless the worst tet is desperate.
-    const bool worth_it = context.opening || is_worth_it(scratch.now, scratch.before, desperate_);
-    return worth_it ? Verdict::accepted : Verdict::no_improvement;
+    if (relax_) relax(context, transaction, v, limits_, state.relaxation);
+    return Verdict::accepted;
   }
 
  private:
@@ -102,7 +100,6 @@ class EdgeSplit final : public Operator {
   }
 
   double least_gain_;
-  Quality desperate_;
   bool relax_;
   unsigned max_degree_;
   BallOptimiser::Limits limits_;

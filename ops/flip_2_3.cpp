@@ -7,37 +7,37 @@ namespace tetmend {
 
 namespace {
 
-class Flip23 final : public Operator {
+class Flip23 final : public OperatorOf<Replacement> {
  public:
-  explicit Flip23(const ParameterValues&) : Operator(flip_2_3_info()) {}
+  explicit Flip23(const ParameterValues&) : OperatorOf(flip_2_3_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, Replacement&) const override {
     return context.mesh.is_free(target.face()) ? Verdict::accepted : Verdict::constrained;
   }
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   Replacement& replacement) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
     const HalfFace face = target.face();
     const HalfFace twin = mesh.twin(face);
     const VertexHandle a = mesh.vertices(face.tet())[face.face()];
     const VertexHandle b = mesh.vertices(twin.tet())[twin.face()];
     if (!context.workspace.holds(b)) return Verdict::deferred;
-    const Quality floor = std::min(mesh.quality(face.tet()), mesh.quality(twin.tet()));
+    const Quality worst = std::min(mesh.quality(face.tet()), mesh.quality(twin.tet()));
+    const double floor = std::max(context.judge->floor(worst), 0.0);
     const auto ring = mesh.vertices(face);
-    scratch.old_tets.assign({face.tet(), twin.tet()});
-    scratch.new_tets.clear();
+    replacement.old_tets.assign({face.tet(), twin.tet()});
+    replacement.new_tets.clear();
     for (unsigned i = 0; i < 3; ++i) {
       const TetVertices tet = {a, b, ring[i], ring[(i + 1) % 3]};
-      if (mesh.evaluate(tet) <= std::max(required_quality(context, floor), 0.0))
-        return Verdict::no_improvement;
-      scratch.new_tets.push_back(tet);
+      if (mesh.evaluate(tet) <= floor) return Verdict::no_improvement;
+      replacement.new_tets.push_back(tet);
     }
     return Verdict::accepted;
   }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                Replacement& replacement) const override {
+    return replacement.make(transaction);
   }
 };
 

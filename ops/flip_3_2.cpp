@@ -9,36 +9,38 @@ namespace tetmend {
 
 namespace {
 
-class Flip32 final : public Operator {
+struct State {
+  Shell shell;
+  Replacement replacement;
+};
+
+class Flip32 final : public OperatorOf<State> {
  public:
-  explicit Flip32(const ParameterValues&) : Operator(flip_3_2_info()) {}
+  explicit Flip32(const ParameterValues&) : OperatorOf(flip_3_2_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
-    const Verdict verdict = find_searchable_shell(context, target.edge(), context.scratch.shell);
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
+    const Verdict verdict = find_searchable_shell(context, target.edge(), state.shell);
     if (verdict != Verdict::accepted) return verdict;
-    return context.scratch.shell.degree == 3 ? Verdict::accepted : Verdict::not_applicable;
+    return state.shell.degree == 3 ? Verdict::accepted : Verdict::not_applicable;
   }
-  Verdict evaluate(OperatorContext& context, Target) const override {
+  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    const Shell& shell = scratch.shell;
+    const Shell& shell = state.shell;
     const auto& ring = shell.ring;
-    scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + 3);
-    scratch.new_tets.assign(
+    state.replacement.old_tets.assign(shell.tets.begin(), shell.tets.begin() + 3);
+    state.replacement.new_tets.assign(
         {{shell.a, ring[0], ring[1], ring[2]}, {ring[0], ring[1], ring[2], shell.b}});
-    Quality floor = mesh.quality(shell.tets[0]);
-    for (unsigned i = 1; i < 3; ++i) floor = std::min(floor, mesh.quality(shell.tets[i]));
-    for (const TetVertices& tet : scratch.new_tets) {
+    const double floor = context.judge->floor(worst_quality(mesh, shell));
+    for (const TetVertices& tet : state.replacement.new_tets) {
       const Quality quality = mesh.evaluate(tet);
       if (quality <= 0) return Verdict::inverted;
       if (quality <= floor) return Verdict::no_improvement;
     }
     return Verdict::accepted;
   }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+    return state.replacement.make(transaction);
   }
 };
 

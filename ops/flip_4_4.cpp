@@ -29,20 +29,24 @@ FourQualities quality_vector(const TetMesh& mesh, const FourTets& tets) {
   return qualities;
 }
 
-class Flip44 final : public Operator {
+struct State {
+  Shell shell;
+  Replacement replacement;
+};
+
+class Flip44 final : public OperatorOf<State> {
  public:
-  explicit Flip44(const ParameterValues&) : Operator(flip_4_4_info()) {}
+  explicit Flip44(const ParameterValues&) : OperatorOf(flip_4_4_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
-    const Verdict verdict = find_searchable_shell(context, target.edge(), context.scratch.shell);
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
+    const Verdict verdict = find_searchable_shell(context, target.edge(), state.shell);
     if (verdict != Verdict::accepted) return verdict;
-    return context.scratch.shell.degree == 4 ? Verdict::accepted : Verdict::not_applicable;
+    return state.shell.degree == 4 ? Verdict::accepted : Verdict::not_applicable;
   }
-  Verdict evaluate(OperatorContext& context, Target) const override {
+  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    const Shell& shell = scratch.shell;
+    const Shell& shell = state.shell;
     FourTets best = tets_around_diagonal(shell, 0);
     FourQualities reached = quality_vector(mesh, best);
     const FourTets other = tets_around_diagonal(shell, 1);
@@ -51,16 +55,14 @@ class Flip44 final : public Operator {
       reached = qualities;
     }
     if (reached[0] <= 0) return Verdict::inverted;
-    Quality floor = mesh.quality(shell.tets[0]);
-    for (unsigned i = 1; i < 4; ++i) floor = std::min(floor, mesh.quality(shell.tets[i]));
-    if (reached[0] <= floor) return Verdict::no_improvement;
-    scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + 4);
-    scratch.new_tets.assign(best.begin(), best.end());
+    if (reached[0] <= context.judge->floor(worst_quality(mesh, shell)))
+      return Verdict::no_improvement;
+    state.replacement.old_tets.assign(shell.tets.begin(), shell.tets.begin() + 4);
+    state.replacement.new_tets.assign(best.begin(), best.end());
     return Verdict::accepted;
   }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+    return state.replacement.make(transaction);
   }
 };
 

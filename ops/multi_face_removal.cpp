@@ -61,23 +61,28 @@ VertexHandle fourth(const TetMesh& mesh, TetHandle t, VertexHandle x, VertexHand
   return {};
 }
 
-class MultiFaceRemoval final : public Operator {
+struct State {
+  CoveringSearch search;
+  Replacement replacement;
+};
+
+class MultiFaceRemoval final : public OperatorOf<State> {
  public:
   explicit MultiFaceRemoval(const ParameterValues& values)
-      : Operator(multi_face_removal_info()),
+      : OperatorOf(multi_face_removal_info()),
         max_polygon_(static_cast<unsigned>(values.integer("max_polygon"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return context.mesh.is_free(target.face()) ? Verdict::accepted : Verdict::constrained;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
+    auto& [old_tets, new_tets] = state.replacement;
     const HalfFace twin = mesh.twin(target.face());
     if (!context.workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return Verdict::deferred;
-    const Sandwich sandwich = grow(context, target.face());
+    const Sandwich sandwich = grow(context, target.face(), old_tets);
 
     std::array<Point, kMaxSearchRing> ring;
     for (unsigned i = 0; i < sandwich.size; ++i) ring[i] = mesh.point(sandwich.ring[i]);
@@ -85,27 +90,23 @@ class MultiFaceRemoval final : public Operator {
     problem.a = mesh.point(sandwich.a);
     problem.b = mesh.point(sandwich.b);
     problem.ring = {ring.data(), sandwich.size};
-    problem.floor = mesh.quality(scratch.old_tets[0]);
-    for (const TetHandle t : scratch.old_tets)
-      problem.floor = std::min(problem.floor, mesh.quality(t));
+    problem.floor = static_cast<Quality>(context.judge->floor(worst_quality(mesh, old_tets)));
     Covering covering;
-    if (!scratch.search.run(problem, covering)) return Verdict::no_improvement;
+    if (!state.search.run(problem, covering)) return Verdict::no_improvement;
     list_new_tets(
         covering, sandwich.a, sandwich.b, sandwich.ring, [](unsigned, unsigned) { return false; },
-        scratch.new_tets);
+        new_tets);
     return Verdict::accepted;
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+    return state.replacement.make(transaction);
   }
 
  private:
-  /// Leaves the tets of the sandwich in scratch.old_tets.
-  Sandwich grow(const OperatorContext& context, HalfFace face) const {
+  /// Lists the tets of the sandwich.
+  Sandwich grow(const OperatorContext& context, HalfFace face, std::vector<TetHandle>& tets) const {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
     const HalfFace twin = mesh.twin(face);
     Sandwich s;
     s.a = mesh.vertices(face.tet())[face.face()];
@@ -118,7 +119,7 @@ class MultiFaceRemoval final : public Operator {
       s.upper[i] = face.tet();
       s.lower[i] = twin.tet();
     }
-    scratch.old_tets.assign({face.tet(), twin.tet()});
+    tets.assign({face.tet(), twin.tet()});
     for (unsigned i = 0; i < s.size && s.size < max_polygon_;) {
       const VertexHandle p = s.ring[i];
       const VertexHandle q = s.ring[i + 1 == s.size ? 0 : i + 1];
@@ -134,8 +135,8 @@ class MultiFaceRemoval final : public Operator {
         continue;
       }
       s.insert(i, w, above, below);
-      scratch.old_tets.push_back(above);
-      scratch.old_tets.push_back(below);
+      tets.push_back(above);
+      tets.push_back(below);
     }
     return s;
   }

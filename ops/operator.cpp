@@ -2,7 +2,6 @@
 // The fixed order of an attempt.
 #include "ops/operator.h"
 
-#include <algorithm>
 #include <new>
 
 #include <fmt/format.h>
@@ -11,34 +10,29 @@ namespace tetmend {
 
 namespace {
 
-/// What ends without a comparison has none to tell of.
-void forget_comparison(Scratch& scratch) {
-  scratch.before.clear();
-  scratch.now.clear();
+/// The tet of a target; invalid for a vertex.
+TetHandle tet_of(Target target) {
+  switch (target.kind) {
+    case TargetKind::tet:
+      return target.tet();
+    case TargetKind::edge:
+      return target.edge().tet();
+    case TargetKind::face:
+      return target.face().tet();
+    case TargetKind::vertex:
+      break;
+  }
+  return {};
 }
 
 }  // namespace
 
-bool is_better(const Transaction& transaction, Scratch& scratch) {
-  if (transaction.empty()) {
-    forget_comparison(scratch);
-    return false;
+OperatorState& OperatorStates::of(const Operator& op) {
+  const std::type_info* type = &typeid(op);
+  for (const Entry& entry : entries_) {
+    if (entry.type == type) return *entry.state;
   }
-  transaction.list_qualities(scratch.before, scratch.now);
-  // The worst tets decide nearly always; then nothing needs to be sorted.
-  if (!scratch.before.empty() && !scratch.now.empty()) {
-    const Quality worst_before = *std::min_element(scratch.before.begin(), scratch.before.end());
-    const Quality worst_now = *std::min_element(scratch.now.begin(), scratch.now.end());
-    if (worst_now < worst_before) return false;
-    if (worst_now > worst_before + kQualityTolerance) return true;
-  }
-  std::sort(scratch.before.begin(), scratch.before.end());
-  std::sort(scratch.now.begin(), scratch.now.end());
-  return improves(scratch.now, scratch.before);
-}
-
-bool Operator::is_improvement(const Transaction& transaction, Scratch& scratch) const {
-  return is_better(transaction, scratch);
+  return *entries_.emplace_back(Entry{type, op.make_state()}).state;
 }
 
 Error Operator::failure(Target target, std::string_view reason) const {
@@ -64,38 +58,52 @@ Verdict Operator::try_target(OperatorContext& context, Target target) const {
 }
 
 Verdict Operator::run_stages(OperatorContext& context, Target target) const {
+  OperatorState& state = context.states.of(*this);
+  context.states.comparison.forget();
   // Open from the start: edits of the first two stages, which must make none, are undone as well.
   Transaction transaction(context.mesh, context.workspace);
-  Verdict verdict = precondition(context, target);
-  if (verdict == Verdict::accepted) verdict = evaluate(context, target);
+  Verdict verdict = precondition_in(context, target, state);
+  if (verdict == Verdict::accepted) verdict = evaluate_in(context, target, state);
   if (!transaction.empty()) throw Error("it edits the mesh before apply()");
-  if (verdict == Verdict::accepted) {
-    if (context.trace != nullptr) context.trace->candidate_found();
-    verdict = apply(context, target, transaction);
+  if (verdict != Verdict::accepted) return verdict;
+  if (context.trace != nullptr) context.trace->candidate_found();
+  verdict = try_proposals(context, target, transaction, state);
+  if (verdict == Verdict::accepted) transaction.keep();
+  return verdict;
+}
+
+/// The one place where a judge is asked.
+Verdict Operator::try_proposals(OperatorContext& context, Target target, Transaction& transaction,
+                                OperatorState& state) const {
+  const TetHandle tet = tet_of(target);
+  const TetVertices corners = tet.is_valid() ? context.mesh.vertices(tet) : TetVertices{};
+  Comparison& comparison = context.states.comparison;
+  for (;;) {
+    Verdict verdict = apply_in(context, target, transaction, state);
+    if (verdict != Verdict::accepted) {
+      comparison.forget();  // of what apply() compared on its way
+    } else if (!context.judge->accepts({transaction, comparison, tet, corners})) {
+      verdict = Verdict::no_improvement;
+    }
+    if (verdict == Verdict::accepted || verdict == Verdict::deferred) return verdict;
+    transaction.undo();
+    if (!propose_next_in(context, target, state)) return verdict;
+    if (!transaction.empty()) throw Error("it edits the mesh before apply()");
   }
-  if (verdict != Verdict::accepted) {
-    forget_comparison(context.scratch);
-    return verdict;
-  }
-  const bool better = is_improvement(transaction, context.scratch);
-  const bool may_stay = better || (context.opening && !transaction.empty());
-  if (!may_stay) return Verdict::no_improvement;
-  transaction.keep();
-  return Verdict::accepted;
 }
 
 void report_end(OperatorContext& context, Verdict verdict) {
-  Scratch& scratch = context.scratch;
+  Comparison& comparison = context.states.comparison;
   if (verdict == Verdict::accepted || verdict == Verdict::no_improvement) {
-    std::sort(scratch.before.begin(), scratch.before.end());
-    std::sort(scratch.now.begin(), scratch.now.end());
-    context.trace->attempt_ends(to_string(verdict), scratch.before, scratch.now);
+    context.trace->attempt_ends(to_string(verdict), comparison.before(), comparison.now());
   } else {
     context.trace->attempt_ends(to_string(verdict), {}, {});
   }
 }
 
-Verdict Operator::attempt(OperatorContext& context, Target target) const {
+Verdict Operator::attempt(OperatorContext& outer, Target target) const {
+  OperatorContext context = outer;
+  if (context.judge == nullptr) context.judge = &judge_;
   if (context.trace == nullptr) return try_target(context, target);
 
   std::array<VertexHandle, 4> vertices;

@@ -3,19 +3,19 @@
 // schedule owns every loop.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <vector>
 
 #include "kernel/error.h"
+#include "kernel/judge.h"
 #include "kernel/transaction.h"
 #include "ops/parameters.h"
-#include "ops/scratch.h"
 #include "trace/trace_sink.h"
 #include "trace/verdict.h"
 
@@ -39,20 +39,40 @@ struct Target {
   VertexHandle vertex() const { return VertexHandle(code); }
 };
 
+class Operator;
+class Registry;
+
+/// What one operator remembers from stage to stage, and its buffers; see OperatorOf.
+class OperatorState {
+ public:
+  virtual ~OperatorState() = default;
+};
+
+/// The states of all operators of one worker, so that an attempt takes no memory from the heap.
+class OperatorStates {
+ public:
+  /// That of an operator, made when it is first asked for. Operators of one class share it.
+  OperatorState& of(const Operator& op);
+
+  Comparison comparison;  ///< what the last judge looked at
+
+ private:
+  struct Entry {
+    const std::type_info* type;
+    std::unique_ptr<OperatorState> state;
+  };
+  std::vector<Entry> entries_;
+};
+
 /// All that an attempt may use. One for each worker.
 struct OperatorContext {
   TetMesh& mesh;
   Workspace& workspace;
-  Scratch& scratch;
-  TraceSink* trace = nullptr;  ///< null: no trace
-  unsigned level = 0;          ///< recursion level of the attempt that is made next
-  /// The next attempt opens a sequence: it may make things worse, for what follows may make up for
-  /// it. Whoever sets this judges the whole.
-  bool opening = false;
+  OperatorStates& states;
+  TraceSink* trace = nullptr;    ///< null: no trace
+  unsigned level = 0;            ///< recursion level of the attempt that is made next
+  const Judge* judge = nullptr;  ///< null: each operator's own; in its stages never null
 };
-
-class Operator;
-class Registry;
 
 /// How the registry knows an operator.
 struct OperatorInfo {
@@ -64,10 +84,9 @@ struct OperatorInfo {
 };
 
 /// Base of all operators. Instances are immutable and may be shared by workers; what they need to
-/// write lies in the context.
+/// write lies in their state. Derive from OperatorOf.
 class Operator {
  public:
-  explicit Operator(const OperatorInfo& info) : info_(info) {}
   virtual ~Operator() = default;
   Operator(const Operator&) = delete;
   Operator& operator=(const Operator&) = delete;
@@ -77,39 +96,91 @@ class Operator {
   const std::string& origin() const { return origin_; }
   /// Values of its parameters, as a script writes them.
   const std::string& settings() const { return settings_; }
+  /// Decides about its attempts unless the context names another one.
+  const Judge& judge() const { return judge_; }
 
-  /// Tries the operator: precondition -> evaluate -> apply -> check -> keep or undo. Keeps the
-  /// result only if is_improvement() says so, as a rule because the quality vector of all that
-  /// changed improves, or if the context says that the attempt is an opening. After a
-  /// refusal the mesh is what it was, bit by bit. Anything but `accepted` is `deferred` if the
-  /// territory of the workspace was in the way. Precondition: the target is of the operator's
-  /// kind, names a live entity and lies in that territory.
+  /// Tries the operator: precondition -> evaluate -> apply -> judge -> keep or undo; while
+  /// propose_next() has another proposal, apply and judge again. After a refusal the mesh is what it
+  /// was, bit for bit. Anything but `accepted` is `deferred` if the territory of the workspace was
+  /// in the way. Precondition: the target is of the operator's kind, names a live entity and lies in
+  /// that territory.
   /// @throws Error, with the mesh as it was, if a stage throws or edits what it must not: names the
   /// operator, its origin and the target.
   Verdict attempt(OperatorContext& context, Target target) const;
 
  protected:
-  /// Cheap tests that need no search. Must not modify anything.
-  virtual Verdict precondition(const OperatorContext& context, Target target) const = 0;
-  /// Finds what to do and leaves it in the scratch. Must not modify the mesh.
-  virtual Verdict evaluate(OperatorContext& context, Target target) const = 0;
-  /// Makes the edits. Anything but `accepted` undoes them.
-  virtual Verdict apply(OperatorContext& context, Target target,
-                        Transaction& transaction) const = 0;
-  /// Whether the edits are worth keeping; if not overridden, is_better(). Leaves the quality
-  /// vectors in the scratch.
-  virtual bool is_improvement(const Transaction& transaction, Scratch& scratch) const;
+  Operator(const OperatorInfo& info, const Judge& judge) : info_(info), judge_(judge) {}
 
  private:
+  friend class OperatorStates;
   friend class Registry;  // sets origin and settings
 
+  // The stages of OperatorOf, whatever its state.
+  virtual std::unique_ptr<OperatorState> make_state() const = 0;
+  virtual Verdict precondition_in(const OperatorContext&, Target, OperatorState&) const = 0;
+  virtual Verdict evaluate_in(OperatorContext&, Target, OperatorState&) const = 0;
+  virtual Verdict apply_in(OperatorContext&, Target, Transaction&, OperatorState&) const = 0;
+  virtual bool propose_next_in(OperatorContext&, Target, OperatorState&) const = 0;
+
   Verdict run_stages(OperatorContext& context, Target target) const;
+  Verdict try_proposals(OperatorContext& context, Target target, Transaction& transaction,
+                        OperatorState& state) const;
   Verdict try_target(OperatorContext& context, Target target) const;
   Error failure(Target target, std::string_view reason) const;
 
   const OperatorInfo& info_;
   std::string origin_;
   std::string settings_;
+  Judge judge_;
+};
+
+/// An operator with a state of its own: what a stage leaves for the next, and buffers. A state
+/// belongs to one worker and outlives the attempt; a stage may rely only on what an earlier stage of
+/// the same attempt wrote. State: default-constructible.
+template <class State>
+class OperatorOf : public Operator {
+ protected:
+  /// @param judge decides whether what apply() made stays
+  explicit OperatorOf(const OperatorInfo& info, const Judge& judge = Judge::strict())
+      : Operator(info, judge) {}
+
+  /// Cheap tests that need no search. Must not modify the mesh.
+  virtual Verdict precondition(const OperatorContext& context, Target target,
+                               State& state) const = 0;
+  /// Finds what to do and leaves it in the state; what the judge of the context will refuse anyway,
+  /// it need not find. Must not modify the mesh.
+  virtual Verdict evaluate(OperatorContext& context, Target target, State& state) const = 0;
+  /// Makes the edits. Anything but `accepted` undoes them.
+  virtual Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
+                        State& state) const = 0;
+  /// After a refused proposal, whose edits are undone: true if apply() can make another one. Must
+  /// not modify the mesh.
+  virtual bool propose_next(OperatorContext& /*context*/, Target /*target*/,
+                            State& /*state*/) const {
+    return false;
+  }
+
+ private:
+  struct Held final : OperatorState {
+    State state;
+  };
+  static State& unwrap(OperatorState& held) { return static_cast<Held&>(held).state; }
+
+  std::unique_ptr<OperatorState> make_state() const final { return std::make_unique<Held>(); }
+  Verdict precondition_in(const OperatorContext& context, Target target,
+                          OperatorState& held) const final {
+    return precondition(context, target, unwrap(held));
+  }
+  Verdict evaluate_in(OperatorContext& context, Target target, OperatorState& held) const final {
+    return evaluate(context, target, unwrap(held));
+  }
+  Verdict apply_in(OperatorContext& context, Target target, Transaction& transaction,
+                   OperatorState& held) const final {
+    return apply(context, target, transaction, unwrap(held));
+  }
+  bool propose_next_in(OperatorContext& context, Target target, OperatorState& held) const final {
+    return propose_next(context, target, unwrap(held));
+  }
 };
 
 constexpr std::string_view to_string(TargetKind kind) {
@@ -134,19 +205,18 @@ constexpr Verdict to_verdict(EditResult result) {
   return Verdict::not_applicable;
 }
 
-/// What the worst new tet must exceed when that of the old ones is `worst`. In an opening, only a
-/// share of it: what follows cannot make up for more.
-inline double required_quality(const OperatorContext& context, double worst) {
-  constexpr double kHopefulShare = 0.2;
-  return context.opening ? kHopefulShare * std::max(worst, 0.0) : worst;
-}
+/// A proposal: tets to replace, and by what.
+struct Replacement {
+  std::vector<TetHandle> old_tets;
+  std::vector<TetVertices> new_tets;
 
-/// True if all that the transaction changed is better now; leaves the qualities in the scratch, in
-/// no particular order.
-bool is_better(const Transaction& transaction, Scratch& scratch);
+  Verdict make(Transaction& transaction) const {
+    return to_verdict(transaction.replace_cavity(old_tets, new_tets));
+  }
+};
 
 /// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last
-/// comparison if that decided: the scratch is empty when none was made.
+/// comparison if that decided: it is empty when none was made.
 void report_end(OperatorContext& context, Verdict verdict);
 
 }  // namespace tetmend

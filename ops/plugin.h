@@ -14,6 +14,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "kernel/shell.h"
 #include "ops/registry.h"
 
 namespace tetmend {
@@ -28,7 +29,7 @@ struct PluginAbi {
 
 /// To be raised when plugins must be built anew although no size changed: when a virtual function
 /// of Operator or TraceSink comes, goes or changes place, when members change places or meaning.
-inline constexpr std::uint32_t kPluginAbiVersion = 3;
+inline constexpr std::uint32_t kPluginAbiVersion = 4;
 
 /// Checksum of the sizes of all that host and plugin share: it differs between versions of tetmend
 /// whose classes differ, and between standard libraries, also by their debugging modes.
@@ -48,11 +49,11 @@ constexpr std::uint32_t plugin_layout() {
                                  sizeof(Transaction),
                                  sizeof(IndexSet),
                                  sizeof(Shell),
-                                 sizeof(CoveringSearch),
-                                 sizeof(BallOptimiser),
-                                 sizeof(PatchOptimiser),
                                  sizeof(VertexMove),
-                                 sizeof(Scratch),
+                                 sizeof(Judge),
+                                 sizeof(Comparison),
+                                 sizeof(OperatorStates),
+                                 sizeof(Replacement),
                                  sizeof(AttemptEvent),
                                  sizeof(OperatorContext),
                                  sizeof(OperatorInfo),

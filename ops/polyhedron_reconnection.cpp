@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //   evaluate: grow to the full size, only to know that nobody else is in the way; start again
-//   apply:    search, replace, smooth, judge; undo, grow and try again until it is worth it
+//   apply:    search, replace, smooth; after a refusal, grow and try again
 #include "ops/polyhedron_reconnection.h"
 
 #include <algorithm>
@@ -21,10 +21,16 @@ Point mean(const TetMesh& mesh, std::span<const VertexHandle> vertices) {
   return sum / static_cast<double>(vertices.size());
 }
 
-class PolyhedronReconnection final : public Operator {
+struct State {
+  RefillingState refilling;
+  BallState ball;
+};
+
+class PolyhedronReconnection final : public OperatorOf<State> {
  public:
   explicit PolyhedronReconnection(const ParameterValues& values)
-      : Operator(polyhedron_reconnection_info()),
+      : OperatorOf(polyhedron_reconnection_info(),
+                   Judge::fair({.desperate = values.real("desperate"), .more_bad = false})),
         insert_(values.flag("insert")),
         remove_(values.flag("remove")),
         relax_(values.flag("relax")),
@@ -32,88 +38,74 @@ class PolyhedronReconnection final : public Operator {
         min_vertices_(static_cast<std::size_t>(values.integer("min_vertices"))),
         max_vertices_(static_cast<std::size_t>(values.integer("max_vertices") - insert_)),
         step_(values.integer("step")),
-        max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))),
-        desperate_(static_cast<Quality>(values.real("desperate"))) {}
+        max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return context.mesh.is_frozen(target.tet()) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target) const override {
-    Polyhedron& polyhedron = context.scratch.polyhedron;
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+    auto& [polyhedron, search, replacement] = state.refilling;
     polyhedron.start(context.mesh, target.tet());
-    while (grow(context)) {
+    while (grow(context, state)) {
     }
     if (context.workspace.met_border()) return Verdict::deferred;
     polyhedron.start(context.mesh, target.tet());
-    while (polyhedron.vertices().size() < min_vertices_ && grow(context)) {
+    while (polyhedron.vertices().size() < min_vertices_ && grow(context, state)) {
     }
-    context.scratch.polyhedron_search.clear();
+    search.clear();
     return Verdict::accepted;
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction&) const override {
-    Verdict verdict = Verdict::no_improvement;
-    do {
-      Transaction attempt(context.mesh, context.workspace);
-      verdict = try_size(context, attempt);
-      if (verdict != Verdict::accepted) continue;
-      attempt.keep();
-      return verdict;
-    } while (grow_by_step(context));
+  /// Fills the polyhedron as it is now.
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
+                State& state) const override {
+    const TetMesh& mesh = context.mesh;
+    auto& [polyhedron, search, replacement] = state.refilling;
+    VertexHandle added;
+    if (insert_) {
+      added = transaction.add_vertex(mean(mesh, polyhedron.vertices()));
+      if (!added.is_valid()) return Verdict::deferred;
+    }
+    load_points(mesh, added, state.refilling);
+    if (context.workspace.mesh_may_overlap() && !polyhedron.is_embedded(mesh, search.table())) {
+      return Verdict::not_applicable;
+    }
+    Verdict verdict = refill(make_problem(context, polyhedron), state.refilling, added);
+    if (verdict != Verdict::accepted) return verdict;
+    verdict = replacement.make(transaction);
+    if (verdict == Verdict::accepted && relax_) smooth(context, transaction, added, state);
     return verdict;
   }
 
- private:
-  bool grow(OperatorContext& context) const {
-    return context.scratch.polyhedron.grow(context.mesh, context.workspace, max_vertices_);
-  }
-
-  bool grow_by_step(OperatorContext& context) const {
+  bool propose_next(OperatorContext& context, Target, State& state) const override {
     int grown = 0;
-    while (grown < step_ && grow(context)) ++grown;
+    while (grown < step_ && grow(context, state)) ++grown;
     return grown > 0;
   }
 
-  /// Fills the polyhedron as it is now.
-  Verdict try_size(OperatorContext& context, Transaction& transaction) const {
-    const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    VertexHandle added;
-    if (insert_) {
-      added = transaction.add_vertex(mean(mesh, scratch.polyhedron.vertices()));
-      if (!added.is_valid()) return Verdict::deferred;
-    }
-    load_points(context, added);
-    if (context.workspace.mesh_may_overlap() &&
-        !scratch.polyhedron.is_embedded(mesh, scratch.polyhedron_search.table())) {
-      return Verdict::not_applicable;
-    }
-    Verdict verdict = refill(context, make_problem(mesh, scratch.polyhedron), added);
-    if (verdict != Verdict::accepted) return verdict;
-    verdict = to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
-    if (verdict != Verdict::accepted) return verdict;
-    if (relax_) smooth(context, transaction, added);
-    return is_worth_it(transaction, scratch) ? Verdict::accepted : Verdict::no_improvement;
+ private:
+  bool grow(OperatorContext& context, State& state) const {
+    return state.refilling.polyhedron.grow(context.mesh, context.workspace, max_vertices_);
   }
 
   /// A vertex to be added has the number after those of the polyhedron, so with it the table is
   /// made anew for each size.
-  void load_points(OperatorContext& context, VertexHandle added) const {
-    const auto vertices = context.scratch.polyhedron.vertices();
-    PolyhedronSearch& search = context.scratch.polyhedron_search;
+  void load_points(const TetMesh& mesh, VertexHandle added, RefillingState& state) const {
+    const auto vertices = state.polyhedron.vertices();
+    PolyhedronSearch& search = state.search;
     if (insert_) search.clear();
-    while (search.size() < vertices.size()) {
-      search.add(context.mesh.point(vertices[search.size()]));
-    }
-    if (insert_) search.add(context.mesh.point(added));
+    while (search.size() < vertices.size()) search.add(mesh.point(vertices[search.size()]));
+    if (insert_) search.add(mesh.point(added));
   }
 
-  PolyhedronProblem make_problem(const TetMesh& mesh, const Polyhedron& polyhedron) const {
+  PolyhedronProblem make_problem(const OperatorContext& context,
+                                 const Polyhedron& polyhedron) const {
+    const TetMesh& mesh = context.mesh;
     // What smoothing can make good of is limited.
     constexpr Quality kRelaxedShare = 0.5;
-    PolyhedronProblem problem = better_filling(mesh, polyhedron, desperate_);
+    PolyhedronProblem problem = better_filling(mesh, polyhedron, *context.judge);
     problem.max_nodes = max_nodes_;
     const auto vertices = polyhedron.vertices();
     for (unsigned n = 0; n < vertices.size(); ++n) {
@@ -129,21 +121,14 @@ class PolyhedronReconnection final : public Operator {
     return problem;
   }
 
-  void smooth(OperatorContext& context, Transaction& transaction, VertexHandle added) const {
+  void smooth(OperatorContext& context, Transaction& transaction, VertexHandle added,
+              State& state) const {
     for (int round = 0; round < rounds_; ++round) {
-      if (added.is_valid()) climb(context, transaction, added, limits_);
-      for (const VertexHandle v : context.scratch.polyhedron.vertices()) {
-        if (!context.mesh.is_deleted(v)) climb(context, transaction, v, limits_);
+      if (added.is_valid()) climb(context, transaction, added, limits_, state.ball);
+      for (const VertexHandle v : state.refilling.polyhedron.vertices()) {
+        if (!context.mesh.is_deleted(v)) climb(context, transaction, v, limits_, state.ball);
       }
     }
-  }
-
-  bool is_worth_it(const Transaction& transaction, Scratch& scratch) const {
-    if (!is_better(transaction, scratch)) return false;
-    transaction.compare(scratch.before, scratch.now);
-    if (pays_for_bad(scratch.now, scratch.before, desperate_)) return true;
-    return count_bad(scratch.now) <= count_bad(scratch.before) &&
-           !lowers_deficit(scratch.before, scratch.now);
   }
 
   bool insert_;
@@ -154,7 +139,6 @@ class PolyhedronReconnection final : public Operator {
   std::size_t max_vertices_;
   int step_;
   unsigned max_nodes_;
-  Quality desperate_;
   BallOptimiser::Limits limits_;
 };
 

@@ -10,7 +10,6 @@
 #include "ops/recursive_shell_transformation.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "ops/shell_search.h"
 
@@ -25,17 +24,17 @@ struct Limits {
   int budget;
   bool reflex_only;
   bool filter;
-  Quality floor;  // of target mode
 };
 
 class Recursion {
  public:
-  /// @param target in target mode, the quality of the tet that is to go
-  Recursion(OperatorContext& context, const Limits& limits, std::optional<Quality> target)
+  Recursion(OperatorContext& context, const Limits& limits, ShellState& state)
       : context_(context),
         mesh_(context.mesh),
         limits_(limits),
-        target_(target),
+        state_(state),
+        // Each step improves the mesh by itself, unless the whole opens a sequence.
+        judge_(context.judge->kind() == Judge::Kind::opening ? *context.judge : Judge::strict()),
         budget_(limits.budget) {}
 
   /// Removes the edge of a searchable shell, which may change on the way.
@@ -45,7 +44,6 @@ class Recursion {
   enum class State { gone, reduced, found, blocked };
   Verdict reduce(State state, Shell& shell, VertexHandle face, int level);
   Verdict reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level);
-  Verdict try_transform(const Shell& shell, int level);
   struct Ancestor {
     VertexHandle a;
     VertexHandle b;
@@ -54,7 +52,7 @@ class Recursion {
   State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell);
   State relocate(VertexHandle face, Shell& shell);
   Verdict transform(const Shell& shell, int level);
-  std::optional<Quality> target_floor(const Shell& shell) const;
+  Verdict try_transform(const Shell& shell, int level);
   ShellLocks locks(const Shell& shell, int level) const;
   std::array<VertexHandle, 2> pick_link_edges(const Shell& shell, unsigned i, int level) const;
   VertexHandle promising_end(const Shell& shell, unsigned i) const;
@@ -63,7 +61,8 @@ class Recursion {
   OperatorContext& context_;
   const TetMesh& mesh_;
   const Limits& limits_;
-  std::optional<Quality> target_;
+  ShellState& state_;
+  Judge judge_;
   int budget_;
   bool too_deep_ = false;
   std::size_t changes_ = 0;
@@ -134,32 +133,16 @@ Verdict Recursion::transform(const Shell& shell, int level) {
   return verdict;
 }
 
-/// In target mode a shell may get worse, but not as bad as the tet that is to go.
-std::optional<Quality> Recursion::target_floor(const Shell& shell) const {
-  if (!target_) return {};
-  Quality worst = limits_.floor;
-  for (unsigned i = 0; i < shell.degree; ++i) {
-    worst = std::min(worst, mesh_.quality(shell.tets[i]));
-  }
-  return std::max(*target_, worst);
-}
-
 Verdict Recursion::try_transform(const Shell& shell, int level) {
   --budget_;
+  context_.states.comparison.forget();  // nothing is compared yet
   Verdict verdict =
-      propose_covering(context_, shell, locks(shell, level), true, target_floor(shell));
-  context_.scratch.before.clear();  // nothing is compared yet
-  context_.scratch.now.clear();
+      propose_covering(context_, judge_, shell, locks(shell, level), Core::allowed, state_);
   if (verdict != Verdict::accepted) return verdict;
   if (context_.trace != nullptr) context_.trace->candidate_found();
-  Transaction step(context_.mesh, context_.workspace);
-  verdict = to_verdict(step.replace_cavity(context_.scratch.old_tets, context_.scratch.new_tets));
-  if (verdict != Verdict::accepted) return verdict;
-  const bool better = is_better(step, context_.scratch);
-  if (!better && !target_) return Verdict::no_improvement;
-  step.keep();
-  ++changes_;
-  return Verdict::accepted;
+  verdict = take_step(context_, judge_, state_.replacement);
+  if (verdict == Verdict::accepted) ++changes_;
+  return verdict;
 }
 
 /// A tet at the face that also belongs to the shell of an ancestor must stay ([chen, 5.2 (2)]).
@@ -258,53 +241,36 @@ Verdict Recursion::reduce(State state, Shell& shell, VertexHandle face, int leve
   }
 }
 
-class RecursiveShellTransformation final : public Operator {
+class RecursiveShellTransformation final : public OperatorOf<ShellState> {
  public:
   explicit RecursiveShellTransformation(const ParameterValues& values)
-      : Operator(recursive_shell_transformation_info()),
+      : OperatorOf(recursive_shell_transformation_info()),
         limits_{.max_level = values.integer("max_level"),
                 .budget = values.integer("budget"),
                 .reflex_only = values.flag("reflex_only"),
-                .filter = values.flag("filter"),
-                .floor = static_cast<Quality>(values.real("floor"))},
-        target_mode_(values.flag("target_mode")),
-        desperate_(static_cast<Quality>(values.real("desperate"))) {}
+                .filter = values.flag("filter")} {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
-    return find_searchable_shell(context, target.edge(), context.scratch.shell);
+  Verdict precondition(const OperatorContext& context, Target target,
+                       ShellState& state) const override {
+    return find_searchable_shell(context, target.edge(), state.shell);
   }
-  Verdict evaluate(OperatorContext&, Target) const override { return Verdict::accepted; }
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
-    if (target_mode_) return remove_tet(context, target.edge().tet(), transaction);
-    Recursion recursion(context, limits_, {});
-    const Verdict verdict = recursion.remove(context.scratch.shell);
+  Verdict evaluate(OperatorContext&, Target, ShellState&) const override {
+    return Verdict::accepted;
+  }
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
+                ShellState& state) const override {
+    Recursion recursion(context, limits_, state);
+    const Verdict verdict = recursion.remove(state.shell);
     // What was reached on the way is an improvement by itself.
     return transaction.empty() ? verdict : Verdict::accepted;
   }
 
  private:
-  /// All or nothing: on the way shells may get worse.
-  Verdict remove_tet(OperatorContext& context, TetHandle t, Transaction& transaction) const {
-    const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    const TetVertices corners = mesh.vertices(t);
-    Recursion recursion(context, limits_, mesh.quality(t));
-    const Verdict verdict = recursion.remove(scratch.shell);
-    if (mesh.vertices(t) == corners) {
-      return verdict == Verdict::accepted ? Verdict::no_improvement : verdict;
-    }
-    transaction.compare(scratch.before, scratch.now);
-    const bool worth_it = is_worth_it(scratch.now, scratch.before, desperate_);
-    return worth_it ? Verdict::accepted : Verdict::no_improvement;
-  }
-
   Limits limits_;
-  bool target_mode_;
-  Quality desperate_;
 };
 
-constexpr std::array<ParameterSpec, 7> kParameters = {{
+constexpr std::array<ParameterSpec, 4> kParameters = {{
     {"max_level", ParameterSpec::Kind::integer, 0, kDeepest - 1, 5,
      "deepest recursion level; 0 means no recursion"},
     {"budget", ParameterSpec::Kind::integer, 1, 1e6, 400,
@@ -312,12 +278,6 @@ constexpr std::array<ParameterSpec, 7> kParameters = {{
     {"reflex_only", ParameterSpec::Kind::flag, 0, 1, 1, "recurse only on reflex link edges"},
     {"filter", ParameterSpec::Kind::flag, 0, 1, 1,
      "recurse only on link edges whose removal would remove a supporting face"},
-    {"target_mode", ParameterSpec::Kind::flag, 0, 1, 0,
-     "all or nothing for the tet of the edge: on the way, shells may get worse"},
-    {"floor", ParameterSpec::Kind::real, 0, 1, 0.35,
-     "in target mode, no shell gets worse than this"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "in target mode, below this worst quality a gain of 0.001 pays for one more bad tet"},
 }};
 
 }  // namespace

@@ -4,31 +4,26 @@
 #include <algorithm>
 
 #include "kernel/star.h"
-#include "ops/shell_search.h"
-#include "ops/smoothing.h"
 
 namespace tetmend {
 
 namespace {
 
 /// Shell transformations on the edges of the bad tets around v.
-void reconnect(OperatorContext& context, VertexHandle v) {
+void reconnect(OperatorContext& context, VertexHandle v, RelaxationState& state) {
   const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
-  if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
-  for (const HalfFace opposite : scratch.link) {
+  const Judge judge = Judge::strict();
+  Shell& shell = state.shell.shell;
+  if (!collect_link(mesh, v, context.workspace, state.ball.link)) return;
+  for (const HalfFace opposite : state.ball.link) {
     const TetHandle t = opposite.tet();
     for (unsigned e = 0; e < 6; ++e) {
       // An earlier transformation may have taken the slot.
       if (mesh.is_deleted(t) || mesh.quality(t) >= kBadThreshold) break;
-      if (find_searchable_shell(context, TetEdge(t, e), scratch.shell) != Verdict::accepted)
-        continue;
-      if (propose_covering(context, scratch.shell, {}, true) != Verdict::accepted) continue;
-      Transaction step(context.mesh, context.workspace);
-      if (step.replace_cavity(scratch.old_tets, scratch.new_tets) == EditResult::made &&
-          is_better(step, scratch)) {
-        step.keep();
-      }
+      if (find_searchable_shell(context, TetEdge(t, e), shell) != Verdict::accepted) continue;
+      const Verdict verdict =
+          propose_covering(context, judge, shell, {}, Core::allowed, state.shell);
+      if (verdict == Verdict::accepted) take_step(context, judge, state.shell.replacement);
     }
   }
 }
@@ -36,20 +31,20 @@ void reconnect(OperatorContext& context, VertexHandle v) {
 }  // namespace
 
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits) {
-  const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
+           const BallOptimiser::Limits& limits, RelaxationState& state) {
   for (int round = 0; round < 2; ++round) {
-    const auto ring = one_ring(mesh, v, context.workspace);
-    scratch.neighbours.assign(ring.begin(), ring.end());
-    scratch.neighbours.push_back(v);
-    for (const VertexHandle w : scratch.neighbours) climb(context, transaction, w, limits);
+    const auto ring = one_ring(context.mesh, v, context.workspace);
+    state.neighbours.assign(ring.begin(), ring.end());
+    state.neighbours.push_back(v);
+    for (const VertexHandle w : state.neighbours) {
+      climb(context, transaction, w, limits, state.ball);
+    }
     if (round > 0) break;
-    reconnect(context, v);
-    // The second round of smoothing is as dear as the first; it cannot make up for this much.
+    reconnect(context, v, state);
+    // The second round of smoothing is as costly as the first; it cannot make up for this much.
     constexpr Quality kHopeless = 0.5f;
-    transaction.compare(scratch.before, scratch.now);
-    if (scratch.now[0] < kHopeless * std::max(scratch.before[0], 0.0f)) break;
+    state.halfway.look_at(transaction);
+    if (state.halfway.worst_now() < kHopeless * std::max(state.halfway.worst_before(), 0.0f)) break;
   }
 }
 

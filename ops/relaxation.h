@@ -3,15 +3,22 @@
 // reconnected. Shared by the operators that insert.
 #pragma once
 
-#include "ops/operator.h"
+#include "ops/shell_search.h"
+#include "ops/smoothing.h"
 
 namespace tetmend {
 
+struct RelaxationState {
+  BallState ball;
+  ShellState shell;
+  std::vector<VertexHandle> neighbours;
+  Comparison halfway;
+};
+
 /// Smooths around a new vertex, reconnects its bad tets, smooths again; ends when the second half
-/// cannot make up for what the worst tet lost. Leaves the quality vectors of the transaction as
-/// they were after the first half in the scratch. Precondition: the star of the vertex lies in the
+/// cannot make up for what the worst tet lost. Precondition: the star of the vertex lies in the
 /// territory. Cost: two smoothings of each vertex of its one-ring.
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits);
+           const BallOptimiser::Limits& limits, RelaxationState& state);
 
 }  // namespace tetmend

@@ -22,18 +22,10 @@ Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shel
                                                              : Verdict::not_applicable;
 }
 
-Quality required_floor(const OperatorContext& context, const Shell& shell) {
-  Quality worst = context.mesh.quality(shell.tets[0]);
-  for (unsigned i = 1; i < shell.degree; ++i) {
-    worst = std::min(worst, context.mesh.quality(shell.tets[i]));
-  }
-  return static_cast<Quality>(required_quality(context, worst));
-}
-
-Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks,
-                         bool allow_core, std::optional<Quality> floor) {
+Verdict propose_covering(const OperatorContext& context, const Judge& judge, const Shell& shell,
+                         ShellLocks locks, Core core, ShellState& state) {
   const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
+  auto& [old_tets, new_tets] = state.replacement;
   const unsigned m = shell.degree;
   std::array<Point, kMaxSearchRing> ring;
   std::array<Quality, kMaxSearchRing> sides;
@@ -46,22 +38,32 @@ Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLock
   problem.b = mesh.point(shell.b);
   problem.ring = {ring.data(), m};
   problem.old_sides = {sides.data(), m};
-  problem.floor = floor.value_or(*std::min_element(sides.begin(), sides.begin() + m));
+  problem.floor =
+      static_cast<Quality>(judge.floor(*std::min_element(sides.begin(), sides.begin() + m)));
   problem.locked_vertices = locks.vertices;
   problem.locked_edges = locks.edges;
-  problem.allow_core = allow_core;
+  problem.allow_core = core == Core::allowed;
   Covering covering;
-  if (!scratch.search.run(problem, covering)) return Verdict::no_improvement;
+  if (!state.search.run(problem, covering)) return Verdict::no_improvement;
 
   const auto is_ring_side = [m](unsigned i, unsigned j) { return j == (i + 1 == m ? 0 : i + 1); };
-  list_new_tets(covering, shell.a, shell.b, shell.ring, is_ring_side, scratch.new_tets);
-  scratch.old_tets.assign(shell.tets.begin(), shell.tets.begin() + m);
+  list_new_tets(covering, shell.a, shell.b, shell.ring, is_ring_side, new_tets);
+  old_tets.assign(shell.tets.begin(), shell.tets.begin() + m);
   for (unsigned n = 0; n < covering.degree; ++n) {
     const unsigned i = covering.core[n];
     if (is_ring_side(i, covering.core[n + 1 == covering.degree ? 0 : n + 1])) {
-      std::erase(scratch.old_tets, shell.tets[i]);
+      std::erase(old_tets, shell.tets[i]);
     }
   }
+  return Verdict::accepted;
+}
+
+Verdict take_step(OperatorContext& context, const Judge& judge, const Replacement& replacement) {
+  Transaction step(context.mesh, context.workspace);
+  const Verdict verdict = replacement.make(step);
+  if (verdict != Verdict::accepted) return verdict;
+  if (!judge.accepts({step, context.states.comparison})) return Verdict::no_improvement;
+  step.keep();
   return Verdict::accepted;
 }
 

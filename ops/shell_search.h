@@ -2,8 +2,7 @@
 // From a shell of the mesh to a covering search and back: what all operators on edges share.
 #pragma once
 
-#include <optional>
-
+#include "kernel/shell.h"
 #include "ops/operator.h"
 #include "search/covering_search.h"
 
@@ -19,14 +18,28 @@ struct ShellLocks {
 /// shell is left in `shell`.
 Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shell& shell);
 
-/// What each new tet of an attempt on a shell must exceed, see required_quality().
-Quality required_floor(const OperatorContext& context, const Shell& shell);
+/// What operators on shells remember.
+struct ShellState {
+  Shell shell;
+  CoveringSearch search;
+  Replacement replacement;
+};
 
-/// Searches the best covering of a shell and leaves old and new tets in the scratch. `accepted`
-/// only if there is one of which every new tet is better than `floor`, which is, if not given, the
-/// worst old tet.
-Verdict propose_covering(OperatorContext& context, const Shell& shell, ShellLocks locks,
-                         bool allow_core, std::optional<Quality> floor = {});
+inline Quality worst_quality(const TetMesh& mesh, const Shell& shell) {
+  return worst_quality(mesh, std::span(shell.tets).first(shell.degree));
+}
+
+/// Whether a covering may leave a part of the ring without triangles.
+enum class Core : bool { refused, allowed };
+
+/// Searches the best covering of a shell, which need not be that of the state, and leaves it in the
+/// replacement of the state. `accepted` only if there is one of which every new tet is above the
+/// floor of the judge.
+Verdict propose_covering(const OperatorContext& context, const Judge& judge, const Shell& shell,
+                         ShellLocks locks, Core core, ShellState& state);
+
+/// Makes a replacement as a step of a larger change, and keeps it if the judge accepts.
+Verdict take_step(OperatorContext& context, const Judge& judge, const Replacement& replacement);
 
 /// Writes the tets of a covering: upper and lower tets of each triangle, then the sides of the core
 /// that are new. `is_old_side(i)` tells which ring sides of the core stay as they are.

@@ -7,21 +7,21 @@ namespace tetmend {
 
 namespace {
 
-class ShellTransformation final : public Operator {
+class ShellTransformation final : public OperatorOf<ShellState> {
  public:
-  explicit ShellTransformation(const ParameterValues&) : Operator(shell_transformation_info()) {}
+  explicit ShellTransformation(const ParameterValues&) : OperatorOf(shell_transformation_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
-    return find_searchable_shell(context, target.edge(), context.scratch.shell);
+  Verdict precondition(const OperatorContext& context, Target target,
+                       ShellState& state) const override {
+    return find_searchable_shell(context, target.edge(), state.shell);
   }
-  Verdict evaluate(OperatorContext& context, Target) const override {
-    const Shell& shell = context.scratch.shell;
-    return propose_covering(context, shell, {}, true, required_floor(context, shell));
+  Verdict evaluate(OperatorContext& context, Target, ShellState& state) const override {
+    return propose_covering(context, *context.judge, state.shell, {}, Core::allowed, state);
   }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                ShellState& state) const override {
+    return state.replacement.make(transaction);
   }
 };
 

@@ -9,73 +9,75 @@ namespace tetmend {
 
 namespace {
 
-class Smoothing final : public Operator {
+struct State {
+  BallState ball;
+  IndexSet neighbours;
+};
+
+class Smoothing final : public OperatorOf<State> {
  public:
   explicit Smoothing(const ParameterValues& values)
-      : Operator(smoothing_info()),
+      // A gain of a desperate tet is worth any number of bad ones.
+      : OperatorOf(smoothing_info(),
+                   Judge::fair({.desperate = values.real("desperate"), .price = 0})),
         laplacian_(values.flag("laplacian")),
         optimise_(values.flag("optimise")),
-        desperate_(values.real("desperate")),
         least_gain_(values.real("least_gain")) {
     limits_.steps = values.integer("steps");
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     const VertexHandle v = target.vertex();
     if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid())
       return Verdict::not_applicable;
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
+    auto& [ball, link, point] = state.ball;
     const VertexHandle v = target.vertex();
-    if (!collect_link(mesh, v, context.workspace, scratch.link)) return Verdict::deferred;
-    load_ball(mesh, scratch.link, scratch.ball);
-    scratch.point = mesh.point(v);
-    const double start = scratch.ball.worst(scratch.point);
-    const double start_deficit = scratch.ball.total_deficit();
+    if (!collect_link(mesh, v, context.workspace, link)) return Verdict::deferred;
+    load_ball(mesh, link, ball);
+    point = mesh.point(v);
+    const double start = ball.worst(point);
+    const double deficit_limit = context.judge->deficit_limit(start, ball.total_deficit());
     double reached = start;
     if (laplacian_) {
-      const Point mean = mean_of_neighbours(mesh, scratch);
+      const Point mean = mean_of_neighbours(mesh, state);
       const double least = std::max(start, 0.0);
-      const double value = scratch.ball.worst_above(mean, least);
+      const double value = ball.worst_above(mean, least);
       if (value > least) {
-        scratch.point = mean;
+        point = mean;
         reached = value;
       }
     }
-    if (optimise_ && reached < kBadThreshold)
-      reached = scratch.ball.optimise_from(scratch.point, reached, limits_);
-    if (!(reached > start + least_gain_)) return Verdict::no_improvement;
-    // DEVIATION: as in edge_split, a small gain of the worst tet must not be paid by many others.
-    if (start >= desperate_ && !(scratch.ball.total_deficit() < start_deficit))
-      return Verdict::no_improvement;
-    return Verdict::accepted;
+    if (optimise_ && reached < kBadThreshold) reached = ball.optimise_from(point, reached, limits_);
+    if (!(reached > context.judge->floor(start, least_gain_))) return Verdict::no_improvement;
+    // Less, not as much: a ball without bad tets stays as it is.
+    return ball.total_deficit() < deficit_limit ? Verdict::accepted : Verdict::no_improvement;
   }
 
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
+  Verdict apply(OperatorContext&, Target target, Transaction& transaction,
+                State& state) const override {
+    return to_verdict(transaction.move_vertex(target.vertex(), state.ball.point, state.ball.link));
   }
 
  private:
-  static Point mean_of_neighbours(const TetMesh& mesh, Scratch& scratch) {
+  static Point mean_of_neighbours(const TetMesh& mesh, State& state) {
     Point sum = Point::Zero();
-    scratch.set.clear();
-    for (const HalfFace f : scratch.link) {
+    state.neighbours.clear();
+    for (const HalfFace f : state.ball.link) {
       for (const VertexHandle w : mesh.vertices(f)) {
-        if (scratch.set.insert(w.index())) sum += mesh.point(w);
+        if (state.neighbours.insert(w.index())) sum += mesh.point(w);
       }
     }
-    return sum / static_cast<double>(scratch.set.size());
+    return sum / static_cast<double>(state.neighbours.size());
   }
 
   bool laplacian_;
   bool optimise_;
-  double desperate_;
   double least_gain_;
   BallOptimiser::Limits limits_;
 };
@@ -103,16 +105,16 @@ void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimise
 }
 
 void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits) {
+           const BallOptimiser::Limits& limits, BallState& state) {
   const TetMesh& mesh = context.mesh;
   if (mesh.is_fixed(v)) return;
-  Scratch& scratch = context.scratch;
-  if (!collect_link(mesh, v, context.workspace, scratch.link)) return;
-  load_ball(mesh, scratch.link, scratch.ball);
-  Point point = mesh.point(v);
-  const double start = scratch.ball.worst(point);
-  if (start >= limits.enough || scratch.ball.optimise_from(point, start, limits) <= start) return;
-  transaction.move_vertex(v, point, scratch.link);
+  auto& [ball, link, point] = state;
+  if (!collect_link(mesh, v, context.workspace, link)) return;
+  load_ball(mesh, link, ball);
+  point = mesh.point(v);
+  const double start = ball.worst(point);
+  if (start >= limits.enough || ball.optimise_from(point, start, limits) <= start) return;
+  transaction.move_vertex(v, point, link);
 }
 
 const OperatorInfo& smoothing_info() {

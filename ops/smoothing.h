@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ops/operator.h"
+#include "search/ball_optimiser.h"
 
 namespace tetmend {
 
@@ -12,6 +13,13 @@ namespace tetmend {
 /// steps (12).
 const OperatorInfo& smoothing_info();
 
+/// What operators on the ball of a vertex remember: its link, and its best place in there.
+struct BallState {
+  BallOptimiser ball;
+  std::vector<HalfFace> link;
+  Point point = Point::Zero();
+};
+
 /// Loads the ball around a vertex, given by its link, into the optimiser.
 void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimiser& ball);
 
@@ -19,6 +27,6 @@ void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimise
 /// where it is if it is fixed, its ball is good enough or partly in another worker's territory, or
 /// nothing is gained.
 void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits);
+           const BallOptimiser::Limits& limits, BallState& state);
 
 }  // namespace tetmend

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "ops/cavity.h"
-#include "ops/smoothing.h"
 
 namespace tetmend {
 
@@ -47,12 +46,12 @@ VertexHandle apex_behind(const TetMesh& mesh, HalfFace f) {
   return mesh.vertices(twin.tet())[twin.face()];
 }
 
-/// Walks from `start` through the faces that part it from the point of the scratch, to the tet that
-/// holds it. Leaves that as the only tet of the cavity.
-Verdict locate_point(OperatorContext& context, TetHandle start) {
+/// Walks from `start` through the faces that part it from the point, to the tet that holds it.
+/// Leaves that as the only tet of the cavity.
+Verdict locate_point(OperatorContext& context, TetHandle start, VertexInsertionState& state) {
   constexpr unsigned kMaxSteps = 64;
   const TetMesh& mesh = context.mesh;
-  const Point& point = context.scratch.point;
+  const Point& point = state.ball.point;
   TetHandle t = start;
   for (unsigned step = 0; step < kMaxSteps; ++step) {
     HalfFace way_out;
@@ -64,7 +63,7 @@ Verdict locate_point(OperatorContext& context, TetHandle start) {
       way_out = HalfFace(t, f);
     }
     if (lowest == 0) {
-      context.scratch.old_tets.assign(1, t);
+      state.replacement.old_tets.assign(1, t);
       return Verdict::accepted;
     }
     if (is_wall(mesh, way_out)) return Verdict::constrained;
@@ -75,22 +74,23 @@ Verdict locate_point(OperatorContext& context, TetHandle start) {
 }
 
 /// Adds the tets whose circumspheres hold the point, neighbour by neighbour.
-Verdict grow_cavity(OperatorContext& context, std::size_t max_tets) {
+Verdict grow_cavity(OperatorContext& context, std::size_t max_tets, VertexInsertionState& state) {
   const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
-  scratch.set.clear();
-  for (const TetHandle t : scratch.old_tets) scratch.set.insert(t.index());
-  for (std::size_t i = 0; i < scratch.old_tets.size(); ++i) {
+  IndexSet& inside = state.inside;
+  auto& cavity = state.replacement.old_tets;
+  inside.clear();
+  for (const TetHandle t : cavity) inside.insert(t.index());
+  for (std::size_t i = 0; i < cavity.size(); ++i) {
     for (unsigned f = 0; f < 4; ++f) {
-      if (scratch.old_tets.size() >= max_tets) return Verdict::accepted;
-      const HalfFace face(scratch.old_tets[i], f);
+      if (cavity.size() >= max_tets) return Verdict::accepted;
+      const HalfFace face(cavity[i], f);
       if (is_wall(mesh, face)) continue;
       const TetHandle next = mesh.twin(face).tet();
-      if (scratch.set.contains(next.index())) continue;
+      if (inside.contains(next.index())) continue;
       if (!context.workspace.holds(apex_behind(mesh, face))) return Verdict::deferred;
-      if (!is_in_circumsphere(mesh, next, scratch.point)) continue;
-      scratch.set.insert(next.index());
-      scratch.old_tets.push_back(next);
+      if (!is_in_circumsphere(mesh, next, state.ball.point)) continue;
+      inside.insert(next.index());
+      cavity.push_back(next);
     }
   }
   return Verdict::accepted;
@@ -98,42 +98,42 @@ Verdict grow_cavity(OperatorContext& context, std::size_t max_tets) {
 
 /// Removes tets from the cavity until the point sees all outer faces, and lists these. Rounding in
 /// the steps before can cost quality, but never validity: here the sight is certified.
-Verdict trim_cavity(OperatorContext& context) {
-  const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
-  const TetHandle holder = scratch.old_tets[0];
+Verdict trim_cavity(const TetMesh& mesh, VertexInsertionState& state) {
+  IndexSet& inside = state.inside;
+  auto& cavity = state.replacement.old_tets;
+  auto& link = state.ball.link;
+  const TetHandle holder = cavity[0];
   const auto is_outer = [&](HalfFace f) {
-    return mesh.is_boundary(f) || !scratch.set.contains(mesh.twin(f).tet().index());
+    return mesh.is_boundary(f) || !inside.contains(mesh.twin(f).tet().index());
   };
   const auto must_go = [&](TetHandle t) {
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace face(t, f);
-      if (is_outer(face) && !sees(mesh, face, scratch.point)) return true;
+      if (is_outer(face) && !sees(mesh, face, state.ball.point)) return true;
     }
     return false;
   };
   do {
-    scratch.set.clear();
-    for (const TetHandle t : scratch.old_tets) scratch.set.insert(t.index());
-  } while (std::erase_if(scratch.old_tets, must_go) > 0);
-  if (scratch.old_tets.empty() || scratch.old_tets[0] != holder) return Verdict::inverted;
+    inside.clear();
+    for (const TetHandle t : cavity) inside.insert(t.index());
+  } while (std::erase_if(cavity, must_go) > 0);
+  if (cavity.empty() || cavity[0] != holder) return Verdict::inverted;
 
-  scratch.link.clear();
-  for (const TetHandle t : scratch.old_tets) {
+  link.clear();
+  for (const TetHandle t : cavity) {
     for (unsigned f = 0; f < 4; ++f) {
-      if (is_outer(HalfFace(t, f))) scratch.link.push_back(HalfFace(t, f));
+      if (is_outer(HalfFace(t, f))) link.push_back(HalfFace(t, f));
     }
   }
-  return is_sphere(mesh, scratch.link) ? Verdict::accepted : Verdict::inverted;
+  return is_sphere(mesh, link) ? Verdict::accepted : Verdict::inverted;
 }
 
 }  // namespace
 
 VertexInsertion::VertexInsertion(const OperatorInfo& info, const ParameterValues& values)
-    : Operator(info),
+    : OperatorOf(info, Judge::fair({.desperate = values.real("desperate")})),
       max_tets_(static_cast<std::size_t>(values.integer("max_tets"))),
-      smooth_(values.flag("smooth")),
-      desperate_(static_cast<Quality>(values.real("desperate"))) {}
+      smooth_(values.flag("smooth")) {}
 
 std::span<const ParameterSpec> VertexInsertion::parameters() {
   static constexpr std::array<ParameterSpec, 3> kParameters = {{
@@ -146,47 +146,40 @@ std::span<const ParameterSpec> VertexInsertion::parameters() {
   return kParameters;
 }
 
-Verdict VertexInsertion::precondition(const OperatorContext& context, Target target) const {
+Verdict VertexInsertion::precondition(const OperatorContext& context, Target target, State&) const {
   const TetMesh& mesh = context.mesh;
   return mesh.is_certified_positive(mesh.vertices(target.tet())) ? Verdict::accepted
                                                                  : Verdict::not_applicable;
 }
 
-Verdict VertexInsertion::evaluate(OperatorContext& context, Target target) const {
+Verdict VertexInsertion::evaluate(OperatorContext& context, Target target, State& state) const {
   const TetMesh& mesh = context.mesh;
-  Scratch& scratch = context.scratch;
-  const auto& cavity = scratch.old_tets;
-  scratch.point = place(mesh, target.tet());
-  Verdict verdict = locate_point(context, target.tet());
-  if (verdict == Verdict::accepted) verdict = grow_cavity(context, max_tets_);
-  if (verdict == Verdict::accepted) verdict = trim_cavity(context);
+  auto& [ball, link, point] = state.ball;
+  const auto& cavity = state.replacement.old_tets;
+  point = place(mesh, target.tet());
+  Verdict verdict = locate_point(context, target.tet(), state);
+  if (verdict == Verdict::accepted) verdict = grow_cavity(context, max_tets_, state);
+  if (verdict == Verdict::accepted) verdict = trim_cavity(mesh, state);
   if (verdict != Verdict::accepted) return verdict;
   if (std::find(cavity.begin(), cavity.end(), target.tet()) == cavity.end()) {
     return Verdict::no_improvement;
   }
-  Quality floor = mesh.quality(cavity[0]);
-  for (const TetHandle t : cavity) floor = std::min(floor, mesh.quality(t));
-  load_ball(mesh, scratch.link, scratch.ball);
-  const double reached =
-      smooth_ ? scratch.ball.optimise(scratch.point, limits_) : scratch.ball.worst(scratch.point);
-  return reached > required_quality(context, floor) ? Verdict::accepted : Verdict::no_improvement;
+  load_ball(mesh, link, ball);
+  const double reached = smooth_ ? ball.optimise(point, limits_) : ball.worst(point);
+  return reached > context.judge->floor(worst_quality(mesh, cavity)) ? Verdict::accepted
+                                                                     : Verdict::no_improvement;
 }
 
-Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction) const {
-  Scratch& scratch = context.scratch;
-  const VertexHandle v = transaction.add_vertex(scratch.point);
+Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction,
+                               State& state) const {
+  const VertexHandle v = transaction.add_vertex(state.ball.point);
   if (!v.is_valid()) return Verdict::deferred;
-  scratch.new_tets.clear();
-  for (const HalfFace f : scratch.link) {
+  state.replacement.new_tets.clear();
+  for (const HalfFace f : state.ball.link) {
     const auto [a, b, c] = context.mesh.vertices(f);
-    scratch.new_tets.push_back({v, a, b, c});
+    state.replacement.new_tets.push_back({v, a, b, c});
   }
-  const Verdict verdict =
-      to_verdict(transaction.replace_cavity(scratch.old_tets, scratch.new_tets));
-  if (verdict != Verdict::accepted) return verdict;
-  transaction.compare(scratch.before, scratch.now);
-  const bool worth_it = context.opening || is_worth_it(scratch.now, scratch.before, desperate_);
-  return worth_it ? Verdict::accepted : Verdict::no_improvement;
+  return state.replacement.make(transaction);
 }
 
 }  // namespace tetmend

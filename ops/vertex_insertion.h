@@ -3,9 +3,16 @@
 // the tets that give way to those between the vertex and the outer faces of the cavity.
 #pragma once
 
-#include "ops/operator.h"
+#include "kernel/index_set.h"
+#include "ops/smoothing.h"
 
 namespace tetmend {
+
+struct VertexInsertionState {
+  BallState ball;  // link: the outer faces of the cavity
+  IndexSet inside;
+  Replacement replacement;
+};
 
 /// Target: a tet. Inserts a vertex at a place that the derived class names, as in Delaunay
 /// refinement ([chen, 2.3]): the tets around whose circumspheres hold the vertex give way, except
@@ -19,7 +26,7 @@ namespace tetmend {
 /// would stay, or the worst tet would be no
 /// better, or only at the price of many new bad tets (as edge_split). Cost: the way to the vertex,
 /// the square of the size of the cavity at worst, and the smoothing of one vertex.
-class VertexInsertion : public Operator {
+class VertexInsertion : public OperatorOf<VertexInsertionState> {
  public:
   VertexInsertion(const OperatorInfo& info, const ParameterValues& values);
   static std::span<const ParameterSpec> parameters();
@@ -28,14 +35,15 @@ class VertexInsertion : public Operator {
   /// Where the vertex goes. The tet is certified positive.
   virtual Point place(const TetMesh& mesh, TetHandle t) const = 0;
 
-  Verdict precondition(const OperatorContext& context, Target target) const final;
-  Verdict evaluate(OperatorContext& context, Target target) const final;
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const final;
+  using State = VertexInsertionState;
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const final;
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const final;
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
+                State& state) const final;
 
  private:
   std::size_t max_tets_;
   bool smooth_;
-  Quality desperate_;
   BallOptimiser::Limits limits_;
 };
 

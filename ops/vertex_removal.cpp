@@ -8,15 +8,22 @@ namespace tetmend {
 
 namespace {
 
-class VertexRemoval final : public Operator {
+struct State {
+  std::vector<HalfFace> link;
+  RefillingState refilling;
+};
+
+class VertexRemoval final : public OperatorOf<State> {
  public:
   explicit VertexRemoval(const ParameterValues& values)
-      : Operator(vertex_removal_info()),
-        max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))),
-        desperate_(static_cast<Quality>(values.real("desperate"))) {}
+      // A gain of a desperate tet is worth any number of bad ones.
+      : OperatorOf(
+            vertex_removal_info(),
+            Judge::fair({.desperate = values.real("desperate"), .price = 0, .more_bad = false})),
+        max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     const VertexHandle v = target.vertex();
     // What fills a ball that overlaps itself need not be a mesh.
     if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid() ||
@@ -26,30 +33,26 @@ class VertexRemoval final : public Operator {
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    if (!collect_link(mesh, target.vertex(), context.workspace, scratch.link)) {
+    auto& [polyhedron, search, replacement] = state.refilling;
+    if (!collect_link(mesh, target.vertex(), context.workspace, state.link)) {
       return Verdict::deferred;
     }
-    if (!scratch.polyhedron.start_at_ball(mesh, scratch.link)) return Verdict::not_applicable;
-    scratch.polyhedron_search.clear();
-    for (const VertexHandle v : scratch.polyhedron.vertices()) {
-      scratch.polyhedron_search.add(mesh.point(v));
-    }
-    PolyhedronProblem problem = better_filling(mesh, scratch.polyhedron, desperate_);
+    if (!polyhedron.start_at_ball(mesh, state.link)) return Verdict::not_applicable;
+    search.clear();
+    for (const VertexHandle v : polyhedron.vertices()) search.add(mesh.point(v));
+    PolyhedronProblem problem = better_filling(mesh, polyhedron, *context.judge);
     problem.max_nodes = max_nodes_;
-    return refill(context, problem);
+    return refill(problem, state.refilling);
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.replace_cavity(context.scratch.old_tets, context.scratch.new_tets));
+  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+    return state.refilling.replacement.make(transaction);
   }
 
  private:
   unsigned max_nodes_;
-  Quality desperate_;
 };
 
 constexpr std::array<ParameterSpec, 2> kParameters = {{

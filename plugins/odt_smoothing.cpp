@@ -21,18 +21,25 @@ using namespace tetmend;
 // Forward: the class and its description refer to each other.
 const OperatorInfo& odt_smoothing_info();
 
-class OdtSmoothing final : public Operator {
+// What a stage leaves for the next. It belongs to the thread and is kept from attempt to attempt, so
+// that its vector need not grow anew each time.
+struct State {
+  std::vector<HalfFace> link;
+  Point point = Point::Zero();
+};
+
+class OdtSmoothing final : public OperatorOf<State> {
  public:
   // An instance is shared by all threads: it holds parameters, nothing that an attempt changes.
   explicit OdtSmoothing(const ParameterValues& values)
-      : Operator(odt_smoothing_info()),
+      : OperatorOf(odt_smoothing_info()),
         halvings_(values.integer("halvings")),
         least_gain_(values.real("least_gain")) {}
 
  protected:
   // Stage 1, cheap: is there anything to do here at all? Fixed vertices are the boundary and the
   // constraints; the kernel would refuse to move them, but asking first is quicker.
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     const VertexHandle v = target.vertex();
     if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid()) {
       return Verdict::not_applicable;
@@ -40,23 +47,23 @@ class OdtSmoothing final : public Operator {
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
 
-  // Stage 2: decide, without touching the mesh. The proposal goes to the scratch, which belongs to
-  // the thread.
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  // Stage 2: decide, without touching the mesh. The proposal goes to the state.
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
     const Point start = mesh.point(target.vertex());
     // The walk stops at the border of the part of the mesh that this thread may touch. Then another
     // thread's work would be in the way: try again later.
-    if (!collect_link(mesh, target.vertex(), context.workspace, scratch.link)) {
+    if (!collect_link(mesh, target.vertex(), context.workspace, state.link)) {
       return Verdict::deferred;
     }
-    const double worst = worst_quality(mesh, scratch.link, start);
-    const Point way = way_to_optimum(mesh, scratch.link, start);
+    // What the judge will ask for, and the gain that this operator asks for itself.
+    const double worst = worst_in_ball(mesh, state.link, start);
+    const double least = context.judge->floor(worst, least_gain_);
+    const Point way = way_to_optimum(mesh, state.link, start);
     double share = 1;
     for (int i = 0; i <= halvings_; ++i, share /= 2) {
-      scratch.point = start + share * way;
-      if (worst_quality(mesh, scratch.link, scratch.point) > worst + least_gain_) {
+      state.point = start + share * way;
+      if (worst_in_ball(mesh, state.link, state.point) > least) {
         return Verdict::accepted;
       }
     }
@@ -64,16 +71,16 @@ class OdtSmoothing final : public Operator {
   }
 
   // Stage 3: edit, through the transaction only. It checks that no tet turns over; attempt(), which
-  // calls the stages, checks that the mesh got better, and undoes everything if it did not.
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
+  // calls the stages, asks a judge whether the mesh got better, and undoes everything if it did not.
+  Verdict apply(OperatorContext&, Target target, Transaction& transaction,
+                State& state) const override {
+    return to_verdict(transaction.move_vertex(target.vertex(), state.point, state.link));
   }
 
  private:
   /// Smallest minimum sine of the ball, its vertex at p. A half-face lists its vertices
   /// counterclockwise as seen from outside, so (p, a, b, c) is positive for a p inside.
-  static double worst_quality(const TetMesh& mesh, std::span<const HalfFace> link, const Point& p) {
+  static double worst_in_ball(const TetMesh& mesh, std::span<const HalfFace> link, const Point& p) {
     double worst = 1;
     for (const HalfFace f : link) {
       const auto corners = mesh.vertices(f);

@@ -128,12 +128,6 @@ constexpr std::string_view to_string(Composition::Kind kind) {
 
 }  // namespace
 
-bool is_worth_gain(double gain, std::span<const Quality> now, std::span<const Quality> before) {
-  if (now.empty() || before.empty() || now[0] < before[0]) return false;
-  const std::ptrdiff_t more_bad = count_bad(now) - count_bad(before);
-  return gain >= kPriceOfBad * static_cast<double>(std::max<std::ptrdiff_t>(1, more_bad));
-}
-
 std::string Composition::name() const {
   if (kind == Kind::one) return operator_name;
   std::string text = std::string(to_string(kind)) + "(";
@@ -311,42 +305,28 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
 Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target target,
                                       const TetVertices& tet) const {
   OperatorContext& context = worker.context();
-  const double was = node.blunt > 0 ? largest_angle_sine(context.mesh, tet) : 0;
-  if (node.blunt > 0 && was >= node.blunt) return Verdict::not_applicable;
+  const double sine = node.blunt > 0 ? largest_angle_sine(context.mesh, tet) : 0;
+  if (node.blunt > 0 && sine >= node.blunt) return Verdict::not_applicable;
+  const Judge judge =
+      node.blunt > 0 ? Judge::lowers_angle(sine) : Judge::fair({.desperate = node.desperate});
+  const Judge hopeful = Judge::opening();
   Transaction sequence(context.mesh, context.workspace);
   OperatorContext opening = context;
-  opening.opening = true;
+  opening.judge = &hopeful;
   const Verdict verdict = node.leaf.op->attempt(opening, target);
   if (verdict != Verdict::accepted) return verdict;
-  Scratch& scratch = context.scratch;
+  Comparison& comparison = context.states.comparison;
   bool all_tried = true;
   for (const Node& part : node.parts) {
-    sequence.compare(scratch.before, scratch.now);
-    const Quality limit = scratch.before[0] + kReach;
+    comparison.look_at(sequence);
+    const Quality limit = comparison.worst_before() + kReach;
     all_tried = follow_up(part, worker, sequence, limit, node.blunt) && all_tried;
   }
-  sequence.compare(scratch.before, scratch.now);
-  const bool better = node.blunt > 0 ? lowers_angles(context, sequence, was)
-                                     : improves(scratch.now, scratch.before) &&
-                                           is_worth_it(scratch.now, scratch.before, node.desperate);
-  if (better) {
+  if (judge.accepts({sequence, comparison})) {
     sequence.keep();
     return Verdict::accepted;
   }
   return all_tried ? Verdict::no_improvement : Verdict::deferred;
-}
-
-/// The rule of a sequence with a theta_max, for a tet whose largest angle had this sine. The
-/// scratch has the comparison.
-bool TetAttempts::lowers_angles(OperatorContext& context, const Transaction& sequence, double was) {
-  const Scratch& scratch = context.scratch;
-  std::vector<TetHandle> changed;
-  sequence.list_changed(changed);
-  double is = 1;
-  for (const TetHandle t : changed) {
-    is = std::min(is, largest_angle_sine(context.mesh, context.mesh.vertices(t)));
-  }
-  return is_worth_gain(is - was, scratch.now, scratch.before);
 }
 
 /// Tries a part on the tets below `limit` among those that the sequence has changed, and on those

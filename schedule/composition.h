@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -52,10 +51,6 @@ struct Composition {
   std::string describe() const;
 };
 
-/// Whether an angle that became smaller is worth it: the worst tet got no worse, and the gain of
-/// the sine is at least kPriceOfBad, and as much for each more bad tet. Both ascending.
-bool is_worth_gain(double gain, std::span<const Quality> now, std::span<const Quality> before);
-
 /// A composition made ready. An operator, also one that opens a sequence, is tried on the tet
 /// itself, or on its edges, faces or movable vertices, each that changed since the last time.
 class TetAttempts {
@@ -89,7 +84,6 @@ class TetAttempts {
   Leaf build_leaf(const Registry& registry, const Composition& composition);
   void run(const Node& node, Progress& progress) const;
   void run_leaf(const Node& node, Progress& progress) const;
-  static bool lowers_angles(OperatorContext& context, const Transaction& sequence, double was);
   bool try_once(const Node& node, Progress& progress, Target target, unsigned bit,
                 std::array<VertexHandle, 2> key) const;
   Verdict attempt(const Node& node, Worker& worker, Target target, const TetVertices& tet) const;

@@ -16,7 +16,7 @@ class Worker {
  public:
   /// `workspace` is the one with the free slots of the mesh, or a Workspace::without_slots().
   Worker(TetMesh& mesh, Workspace workspace)
-      : workspace_(std::move(workspace)), context_{mesh, workspace_, scratch_} {}
+      : workspace_(std::move(workspace)), context_{mesh, workspace_, states_} {}
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
@@ -45,7 +45,7 @@ class Worker {
 
  private:
   Workspace workspace_;
-  Scratch scratch_;
+  OperatorStates states_;
   OperatorContext context_;
 };
 

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/judge.h"
+
 namespace tetmend {
 
 namespace {

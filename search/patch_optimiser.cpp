@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "kernel/handles.h"
+#include "kernel/judge.h"
 
 namespace tetmend {
 

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "kernel/judge.h"
+
 namespace tetmend {
 
 namespace {

@@ -62,12 +62,12 @@ void smoothing(benchmark::State& state) {
   Registry registry;
   register_builtin_operators(registry);
   const auto operation = registry.make("smoothing");
-  const auto scratch = std::make_unique<Scratch>();
+  OperatorStates states;
   double moved = 0;
   for (auto _ : state) {
     TetMesh mesh = bench::example_mesh();
     Workspace workspace(mesh);
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const double seconds = bench::seconds_of([&] {
       for (const VertexHandle v : vertices) {
         const Verdict verdict = operation->attempt(context, Target::of(v));

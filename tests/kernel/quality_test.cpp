@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quality measures against formulas written a second time, and the order of quality vectors.
+// Quality measures against formulas written a second time.
 #include "kernel/quality.h"
 
 #include <algorithm>
@@ -187,33 +187,6 @@ constexpr std::array<Reference, 7> kReferences = {{
 
 // --- Quality vectors. ---
 
-/// Lexicographic order without tolerance, the shorter padded with +infinity.
-bool strictly_greater(std::vector<Quality> a, std::vector<Quality> b) {
-  const std::size_t length = std::max(a.size(), b.size());
-  a.resize(length, std::numeric_limits<Quality>::infinity());
-  b.resize(length, std::numeric_limits<Quality>::infinity());
-  return std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end());
-}
-
-/// Short ascending vectors of few distinct values, some of which differ by less than the tolerance.
-std::vector<std::vector<Quality>> sample_vectors(int count) {
-  std::mt19937 random(11);
-  std::uniform_int_distribution<int> length(0, 4);
-  std::uniform_int_distribution<int> coarse(0, 2);
-  std::uniform_int_distribution<int> fine(-2, 2);
-  std::vector<std::vector<Quality>> vectors;
-  for (int i = 0; i < count; ++i) {
-    std::vector<Quality> v(static_cast<std::size_t>(length(random)));
-    for (Quality& q : v) {
-      q = 0.25f * static_cast<Quality>(coarse(random)) +
-          0.6f * kQualityTolerance * static_cast<Quality>(fine(random));
-    }
-    std::sort(v.begin(), v.end());
-    vectors.push_back(v);
-  }
-  return vectors;
-}
-
 }  // namespace
 
 TEST_CASE("every quality measure agrees with a direct formula on random tets") {
@@ -400,77 +373,4 @@ TEST_CASE("an unknown quality measure is an error that names the word and the va
     CHECK(message.find(measure.name) != std::string::npos);
   }
   CHECK_THROWS_AS(find_quality_measure(""), Error);
-}
-
-TEST_CASE("a quality vector improves when its first different entry is larger") {
-  using Values = std::vector<Quality>;
-  CHECK(improves(Values{0.2f, 0.3f}, Values{0.1f, 0.9f}));
-  CHECK_FALSE(improves(Values{0.1f, 0.9f}, Values{0.2f, 0.3f}));
-  CHECK(improves(Values{0.1f, 0.4f}, Values{0.1f, 0.3f, 0.8f}));
-  CHECK_FALSE(improves(Values{0.1f, 0.3f}, Values{0.1f, 0.3f}));
-  CHECK(improves(Values{-0.1f}, Values{-0.2f}));
-  CHECK(improves(Values{0.f}, Values{-0.2f, 0.9f}));
-}
-
-TEST_CASE("of two quality vectors of which one continues the other, the shorter is better") {
-  using Values = std::vector<Quality>;
-  CHECK(improves(Values{0.1f, 0.3f}, Values{0.1f, 0.3f, 0.9f}));
-  CHECK_FALSE(improves(Values{0.1f, 0.3f, 0.9f}, Values{0.1f, 0.3f}));
-  CHECK(improves(Values{}, Values{0.9f}));
-  CHECK_FALSE(improves(Values{0.9f}, Values{}));
-  CHECK_FALSE(improves(Values{}, Values{}));
-}
-
-TEST_CASE("a gain within the tolerance decides nothing, a loss within it forbids") {
-  using Values = std::vector<Quality>;
-  const Quality little = 0.5f * kQualityTolerance;
-  const Quality more = 2.0f * kQualityTolerance;
-  CHECK_FALSE(improves(Values{0.25f + little}, Values{0.25f}));
-  CHECK(improves(Values{0.25f + more}, Values{0.25f}));
-  CHECK(improves(Values{0.25f + little, 0.5f}, Values{0.25f, 0.4f}));
-  CHECK_FALSE(improves(Values{0.25f - little, 0.5f}, Values{0.25f, 0.4f}));
-  CHECK(improves(Values{0.25f + little}, Values{0.25f, 0.4f}));
-  CHECK_FALSE(improves(Values{0.25f - little}, Values{0.25f, 0.4f}));
-}
-
-TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for each 0.001") {
-  using Values = std::vector<Quality>;
-  const Values before = {0.1f, 0.45f, 0.8f};
-  constexpr double kLimit = 0.2;
-  CHECK(pays_for_bad(Values{0.1015f, 0.3f, 0.3f, 0.9f}, before, kLimit));
-  CHECK_FALSE(pays_for_bad(Values{0.1015f, 0.3f, 0.3f, 0.3f, 0.9f}, before, kLimit));
-  CHECK(pays_for_bad(Values{0.1025f, 0.3f, 0.3f, 0.3f, 0.9f}, before, kLimit));
-  CHECK(pays_for_bad(Values{0.1001f, 0.11f, 0.9f}, before, kLimit));  // none is new
-  CHECK(pays_for_bad(Values{}, before, kLimit));
-  CHECK_FALSE(pays_for_bad(Values{0.3f, 0.45f}, before, 0.1));
-  CHECK_FALSE(pays_for_bad(Values{0.3f}, Values{}, kLimit));
-}
-
-TEST_CASE(
-    "a better worst tet is worth it if the bad ones lack less in sum, or if it pays for them") {
-  using Values = std::vector<Quality>;
-  const Values before = {0.3f, 0.4f};
-  const Values many(100, 0.35f);
-  CHECK(is_worth_it(Values{0.31f, 0.4f}, before, 0));
-  CHECK_FALSE(is_worth_it(many, before, 0));
-  CHECK_FALSE(is_worth_it(many, before, 0.35));  // 0.05 pays for 49, not for 98
-  CHECK(is_worth_it(std::span(many).first(50), before, 0.35));
-}
-
-TEST_CASE("improves is a strict order and never contradicts the exact lexicographic one") {
-  const auto vectors = sample_vectors(120);
-  std::size_t better = 0;
-  for (const auto& a : vectors) {
-    CHECK_FALSE(improves(a, a));
-    for (const auto& b : vectors) {
-      if (!improves(a, b)) continue;
-      ++better;
-      CHECK_FALSE(improves(b, a));
-      CHECK(strictly_greater(a, b));
-      for (const auto& c : vectors) {
-        if (improves(b, c)) CHECK(improves(a, c));
-      }
-    }
-  }
-  CHECK(better > 1000);
 }

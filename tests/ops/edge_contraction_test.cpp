@@ -19,13 +19,12 @@ using namespace tetmend::test;
 namespace {
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   Verdict attempt(VertexHandle v, const ParameterSettings& settings = {}) {
     Registry registry;
     register_builtin_operators(registry);
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict =
         registry.make("edge_contraction", settings)->attempt(context, Target::of(v));
     CHECK(check_integrity(mesh).empty());
@@ -40,7 +39,7 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 /// A regular tet with a vertex inside, close to a corner or in the middle of nowhere.

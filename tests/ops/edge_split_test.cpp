@@ -9,6 +9,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "kernel/shell.h"
+#include "kernel/star.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 
@@ -18,8 +20,7 @@ using namespace tetmend::test;
 namespace {
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
     return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
   }
@@ -27,7 +28,7 @@ struct Worker {
     Registry registry;
     register_builtin_operators(registry);
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict =
         registry.make("edge_split", settings)->attempt(context, Target::of(*edge(a, b)));
     CHECK(check_integrity(mesh).empty());
@@ -42,7 +43,7 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 /// The edge is much longer than the ring is wide: the tets are thin, their halves are not as thin.

@@ -21,9 +21,9 @@ std::string trace_of(const MeshData& data, std::string_view name, Target target,
   register_builtin_operators(registry);
   TetMesh mesh(data);
   Workspace workspace(mesh);
-  const auto scratch = std::make_unique<Scratch>();
+  OperatorStates states;
   TextTrace trace;
-  OperatorContext context{mesh, workspace, *scratch, &trace};
+  OperatorContext context{mesh, workspace, states, &trace};
   registry.make(name, settings)->attempt(context, target);
   return trace.text();
 }

@@ -11,6 +11,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "kernel/shell.h"
+#include "kernel/star.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 
@@ -20,8 +22,7 @@ using namespace tetmend::test;
 namespace {
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
 
   bool has_edge(std::uint32_t a, std::uint32_t b) {
     return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace).has_value();
@@ -45,7 +46,7 @@ struct Worker {
     register_builtin_operators(registry);
     REQUIRE(face(corners).has_value());
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict =
         registry.make(name, settings)->attempt(context, Target::of(*face(corners)));
     CHECK(check_integrity(mesh).empty());
@@ -60,7 +61,7 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 }  // namespace

@@ -17,6 +17,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "kernel/shell.h"
+#include "kernel/star.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 
@@ -78,40 +80,41 @@ using namespace tetmend::test;
 namespace {
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   Verdict attempt(const Operator& op, Target target, TraceSink* trace = nullptr,
                   unsigned level = 0) {
-    OperatorContext context{mesh, workspace, *scratch, trace, level};
+    OperatorContext context{mesh, workspace, states, trace, level};
     return op.attempt(context, target);
   }
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 /// An operator whose stages the test writes; notes which of them ran.
-class Scripted final : public Operator {
+struct Empty {};
+
+class Scripted final : public OperatorOf<Empty> {
  public:
   using Apply = std::function<Verdict(OperatorContext&, Transaction&)>;
   Scripted(Verdict precondition, Verdict evaluate, Apply apply)
-      : Operator(kInfo),
+      : OperatorOf(kInfo),
         precondition_(precondition),
         evaluate_(evaluate),
         apply_(std::move(apply)) {}
   mutable std::string stages;
 
  protected:
-  Verdict precondition(const OperatorContext&, Target) const override {
+  Verdict precondition(const OperatorContext&, Target, Empty&) const override {
     stages += "p";
     return precondition_;
   }
-  Verdict evaluate(OperatorContext&, Target) const override {
+  Verdict evaluate(OperatorContext&, Target, Empty&) const override {
     stages += "e";
     return evaluate_;
   }
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction) const override {
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction, Empty&) const override {
     stages += "a";
     return apply_(context, transaction);
   }
@@ -143,19 +146,23 @@ Verdict remove_edge_of_three(OperatorContext& context, Transaction& transaction)
 }
 
 /// Keeps a transaction of its own in evaluate().
-class Hasty final : public Operator {
+class Hasty final : public OperatorOf<Empty> {
  public:
-  explicit Hasty(Verdict verdict) : Operator(kInfo), verdict_(verdict) {}
+  explicit Hasty(Verdict verdict) : OperatorOf(kInfo), verdict_(verdict) {}
 
  protected:
-  Verdict precondition(const OperatorContext&, Target) const override { return Verdict::accepted; }
-  Verdict evaluate(OperatorContext& context, Target) const override {
+  Verdict precondition(const OperatorContext&, Target, Empty&) const override {
+    return Verdict::accepted;
+  }
+  Verdict evaluate(OperatorContext& context, Target, Empty&) const override {
     Transaction own(context.mesh, context.workspace);
     CHECK(remove_edge_of_three(context, own) == Verdict::accepted);
     own.keep();
     return verdict_;
   }
-  Verdict apply(OperatorContext&, Target, Transaction&) const override { return Verdict::accepted; }
+  Verdict apply(OperatorContext&, Target, Transaction&, Empty&) const override {
+    return Verdict::accepted;
+  }
 
  private:
   inline static const OperatorInfo kInfo = {"hasty", TargetKind::tet, "", {}, nullptr};
@@ -299,16 +306,79 @@ TEST_CASE("the trace hears operator, target, level, verdict and the quality vect
   CHECK(trace.events == expected);
 }
 
-TEST_CASE("is_better leaves the ascending vectors of all that changed in the scratch") {
+TEST_CASE("the judge of the context decides before that of the operator") {
+  Worker worker(shell_of_three(0.3));  // two tets are worse
+  const TetMesh start = worker.mesh;
+  const Scripted op(Verdict::accepted, Verdict::accepted, remove_edge_of_three);
+  const Judge patient = Judge::opening(0);
+  const Judge strict = Judge::strict();
+  OperatorContext context{worker.mesh, worker.workspace, worker.states};
+  context.judge = &strict;
+  CHECK(op.attempt(context, kFirstTet) == Verdict::no_improvement);
+  CHECK(worker.mesh == start);
+  context.judge = &patient;
+  CHECK(op.attempt(context, kFirstTet) == Verdict::accepted);
+  CHECK(context.judge == &patient);
+}
+
+namespace {
+
+/// Proposes a bad edit first, then as many good ones as it is told.
+class Persistent final : public OperatorOf<int> {
+ public:
+  explicit Persistent(int good) : OperatorOf(kInfo), good_(good) {}
+
+ protected:
+  Verdict precondition(const OperatorContext&, Target, int&) const override {
+    return Verdict::accepted;
+  }
+  Verdict evaluate(OperatorContext&, Target, int& proposal) const override {
+    proposal = 0;
+    return Verdict::accepted;
+  }
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
+                int& proposal) const override {
+    CHECK(transaction.empty());
+    if (proposal == 0) {  // a vertex of the shell nearly into another
+      const VertexHandle v(0);
+      std::vector<HalfFace> link;
+      if (!collect_link(context.mesh, v, context.workspace, link)) return Verdict::deferred;
+      return Verdict::inverted;
+    }
+    return remove_edge_of_three(context, transaction);
+  }
+  bool propose_next(OperatorContext&, Target, int& proposal) const override {
+    return ++proposal <= good_;
+  }
+
+ private:
+  inline static const OperatorInfo kInfo = {"persistent", TargetKind::tet, "", {}, nullptr};
+  int good_;
+};
+
+}  // namespace
+
+TEST_CASE("an operator may make another proposal after one that was refused") {
   Worker worker(shell_of_three(1.4));
-  Transaction transaction(worker.mesh, worker.workspace);
-  CHECK_FALSE(is_better(transaction, *worker.scratch));
-  OperatorContext context{worker.mesh, worker.workspace, *worker.scratch};
-  REQUIRE(remove_edge_of_three(context, transaction) == Verdict::accepted);
-  CHECK(is_better(transaction, *worker.scratch));
-  CHECK(worker.scratch->before.size() == 3);
-  CHECK(worker.scratch->now.size() == 2);
-  CHECK(std::is_sorted(worker.scratch->before.begin(), worker.scratch->before.end()));
+  const TetMesh start = worker.mesh;
+  CHECK(worker.attempt(Persistent(0), kFirstTet) == Verdict::inverted);
+  CHECK(worker.mesh == start);
+  CHECK(worker.attempt(Persistent(1), kFirstTet) == Verdict::accepted);
+  CHECK(worker.mesh.tet_count() == 2);
+  // Each that the judge refuses is undone before the next.
+  Worker low(shell_of_three(0.3));
+  const TetMesh before = low.mesh;
+  CHECK(low.attempt(Persistent(3), kFirstTet) == Verdict::no_improvement);
+  CHECK(low.mesh == before);
+}
+
+TEST_CASE("operators of one class share a state, those of different classes do not") {
+  OperatorStates states;
+  const Persistent one(1);
+  const Persistent other(2);
+  const Hasty hasty(Verdict::accepted);
+  CHECK(&states.of(one) == &states.of(other));
+  CHECK(&states.of(one) != &states.of(hasty));
 }
 
 TEST_CASE("a target gives back the handle that it was made of") {

@@ -60,13 +60,13 @@ std::string complaint_about(const std::string& file) {
 struct Worker {
   explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   Verdict attempt(const Operator& op, Target target) {
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     return op.attempt(context, target);
   }
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch = std::make_unique<Scratch>();
+  OperatorStates states;
 };
 
 /// What the attempts at all vertices of a ball end in. After an error or refusal the mesh must be

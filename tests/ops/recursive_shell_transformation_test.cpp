@@ -11,6 +11,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "kernel/shell.h"
+#include "kernel/star.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 #include "trace/text_trace.h"
@@ -84,8 +86,7 @@ MeshData shell_that_would_grow() {
 }
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
 
   std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
     return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
@@ -95,7 +96,7 @@ struct Worker {
     Registry registry;
     register_builtin_operators(registry);
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict =
         registry.make(name, settings)->attempt(context, Target::of(*edge(a, b)));
     CHECK(check_integrity(mesh).empty());
@@ -112,43 +113,10 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 }  // namespace
-
-TEST_CASE("in target mode the tet goes where no shell gets better on the way, or nothing changes") {
-  const ParameterSettings target_mode = {{"target_mode", 1}};
-  Worker worker(delaunay_ball(200, 4));
-  const auto attempt = [&](TetHandle t, unsigned e, const ParameterSettings& settings) {
-    const TetVertices corners = worker.mesh.vertices(t);
-    Registry registry;
-    register_builtin_operators(registry);
-    const TetMesh before = worker.mesh;
-    OperatorContext context{worker.mesh, worker.workspace, *worker.scratch};
-    const Verdict verdict = registry.make("recursive_shell_transformation", settings)
-                                ->attempt(context, Target::of(TetEdge(t, e)));
-    CHECK(check_integrity(worker.mesh).empty());
-    if (verdict != Verdict::accepted) CHECK(worker.mesh == before);
-    if (verdict == Verdict::accepted && !settings.empty()) {
-      CHECK(worker.mesh.vertices(t) != corners);
-    }
-    return verdict == Verdict::accepted;
-  };
-  const auto sweep = [&](const ParameterSettings& settings) {
-    unsigned accepted = 0;
-    for (const TetHandle t : live_tets(worker.mesh)) {
-      for (unsigned e = 0; e < 6; ++e) {
-        if (worker.mesh.is_deleted(t) || worker.mesh.quality(t) >= kBadThreshold) break;
-        accepted += attempt(t, e, settings);
-      }
-    }
-    return accepted;
-  };
-  while (sweep({}) > 0) {
-  }
-  CHECK(sweep(target_mode) > 0);
-}
 
 TEST_CASE("without the filter more link edges are tried") {
   const auto tried = [](const ParameterSettings& settings) {
@@ -156,7 +124,7 @@ TEST_CASE("without the filter more link edges are tried") {
     TextTrace trace;
     Registry registry;
     register_builtin_operators(registry);
-    OperatorContext context{worker.mesh, worker.workspace, *worker.scratch, &trace};
+    OperatorContext context{worker.mesh, worker.workspace, worker.states, &trace};
     registry.make("recursive_shell_transformation", settings)
         ->attempt(context, Target::of(*worker.edge(0, 1)));
     return std::count(trace.text().begin(), trace.text().end(), '\n');

@@ -12,6 +12,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "kernel/shell.h"
+#include "kernel/star.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 
@@ -21,8 +23,7 @@ using namespace tetmend::test;
 namespace {
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
 
   std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
     return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
@@ -35,7 +36,7 @@ struct Worker {
     register_builtin_operators(registry);
     REQUIRE(has_edge(a, b));
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict = registry.make(name)->attempt(context, Target::of(*edge(a, b)));
     CHECK(check_integrity(mesh).empty());
     if (verdict != Verdict::accepted) CHECK(mesh == before);
@@ -51,7 +52,7 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 const std::vector<std::string> kBoth = {"shell_transformation", "edge_removal"};
@@ -140,10 +141,8 @@ TEST_CASE("a partial reduction keeps the edge with a smaller shell where removal
   REQUIRE(find_shell(worker.mesh, *worker.edge(0, 1), shell) == ShellKind::closed);
   CHECK(shell.degree == 4);
   // Of the three tets that were replaced.
-  const auto worst = [](const std::vector<Quality>& all) {
-    return *std::min_element(all.begin(), all.end());
-  };
-  CHECK(worst(worker.scratch->now) > worst(worker.scratch->before) + 0.1f);
+  const Comparison& comparison = worker.states.comparison;
+  CHECK(comparison.worst_now() > comparison.worst_before() + 0.1f);
 }
 
 TEST_CASE("an edge on the boundary is refused as constrained") {

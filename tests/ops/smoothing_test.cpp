@@ -36,13 +36,12 @@ MeshData octahedron(const Point& centre) {
 }
 
 struct Worker {
-  explicit Worker(const MeshData& data)
-      : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
+  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   Verdict attempt(std::uint32_t v, const ParameterSettings& settings = {}) {
     Registry registry;
     register_builtin_operators(registry);
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict =
         registry.make("smoothing", settings)->attempt(context, Target::of(VertexHandle(v)));
     CHECK(check_integrity(mesh).empty());
@@ -58,7 +57,7 @@ struct Worker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch;
+  OperatorStates states;
 };
 
 }  // namespace

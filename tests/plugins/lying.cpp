@@ -8,10 +8,11 @@ namespace {
 /// Keeps an edit of its own in evaluate() and then refuses.
 struct EditsInEvaluate final : VertexMover {
   EditsInEvaluate() : VertexMover(kInfo) {}
-  Verdict evaluate(OperatorContext& context, Target target) const override {
-    if (VertexMover::evaluate(context, target) != Verdict::accepted) return Verdict::deferred;
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+    if (VertexMover::evaluate(context, target, state) != Verdict::accepted)
+      return Verdict::deferred;
     Transaction own(context.mesh, context.workspace);
-    if (VertexMover::apply(context, target, own) == Verdict::accepted) own.keep();
+    if (VertexMover::apply(context, target, own, state) == Verdict::accepted) own.keep();
     return Verdict::no_improvement;
   }
   inline static const OperatorInfo kInfo = {
@@ -21,7 +22,9 @@ struct EditsInEvaluate final : VertexMover {
 /// Says "accepted" and has done nothing.
 struct DoesNothing final : VertexMover {
   DoesNothing() : VertexMover(kInfo) {}
-  Verdict apply(OperatorContext&, Target, Transaction&) const override { return Verdict::accepted; }
+  Verdict apply(OperatorContext&, Target, Transaction&, State&) const override {
+    return Verdict::accepted;
+  }
   inline static const OperatorInfo kInfo = {
       "does_nothing", TargetKind::vertex, "help", {}, make<DoesNothing>};
 };
@@ -29,12 +32,12 @@ struct DoesNothing final : VertexMover {
 /// Says "accepted" and has moved the vertex nearly into another.
 struct MakesItWorse final : VertexMover {
   MakesItWorse() : VertexMover(kInfo) {}
-  Verdict evaluate(OperatorContext& context, Target target) const override {
-    const Verdict verdict = VertexMover::evaluate(context, target);
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+    const Verdict verdict = VertexMover::evaluate(context, target, state);
     if (verdict != Verdict::accepted) return verdict;
     const Point& here = context.mesh.point(target.vertex());
-    const Point& there = context.mesh.point(context.mesh.vertices(context.scratch.link[0])[0]);
-    context.scratch.point = here + 0.999 * (there - here);
+    const Point& there = context.mesh.point(context.mesh.vertices(state.link[0])[0]);
+    state.point = here + 0.999 * (there - here);
     return Verdict::accepted;
   }
   inline static const OperatorInfo kInfo = {
@@ -44,8 +47,8 @@ struct MakesItWorse final : VertexMover {
 /// Answers differently the second time: counts in itself.
 struct ChangesItsMind final : VertexMover {
   ChangesItsMind() : VertexMover(kInfo) {}
-  Verdict evaluate(OperatorContext& context, Target target) const override {
-    const Verdict verdict = VertexMover::evaluate(context, target);
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+    const Verdict verdict = VertexMover::evaluate(context, target, state);
     return ++count % 2 == 0 ? Verdict::budget_spent : verdict;
   }
   mutable int count = 0;
@@ -56,10 +59,10 @@ struct ChangesItsMind final : VertexMover {
 /// Walks past the border of its territory, with a workspace of its own.
 struct Trespasses final : VertexMover {
   Trespasses() : VertexMover(kInfo) {}
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     Workspace own(context.mesh);
-    OperatorContext whole{context.mesh, own, context.scratch, nullptr, 0};
-    return VertexMover::evaluate(whole, target);
+    OperatorContext whole{context.mesh, own, context.states, nullptr, 0};
+    return VertexMover::evaluate(whole, target, state);
   }
   inline static const OperatorInfo kInfo = {
       "trespasses", TargetKind::vertex, "help", {}, make<Trespasses>};
@@ -68,13 +71,13 @@ struct Trespasses final : VertexMover {
 /// Looks at all points of the mesh, which other threads may be changing.
 struct LooksAround final : VertexMover {
   LooksAround() : VertexMover(kInfo) {}
-  Verdict evaluate(OperatorContext& context, Target target) const override {
-    const Verdict verdict = VertexMover::evaluate(context, target);
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+    const Verdict verdict = VertexMover::evaluate(context, target, state);
     Point sum = Point::Zero();
     for (std::uint32_t i = 0; i < context.mesh.vertex_slots(); ++i) {
       sum += context.mesh.point(VertexHandle(i));
     }
-    context.scratch.point += 1e-6 * sum;
+    state.point += 1e-6 * sum;
     return verdict;
   }
   inline static const OperatorInfo kInfo = {

@@ -9,7 +9,7 @@ namespace {
 
 struct ThrowsInPrecondition final : VertexMover {
   ThrowsInPrecondition() : VertexMover(kInfo) {}
-  Verdict precondition(const OperatorContext&, Target) const override {
+  Verdict precondition(const OperatorContext&, Target, State&) const override {
     throw std::runtime_error("precondition is not written yet");
   }
   inline static const OperatorInfo kInfo = {
@@ -18,7 +18,7 @@ struct ThrowsInPrecondition final : VertexMover {
 
 struct ThrowsInEvaluate final : VertexMover {
   ThrowsInEvaluate() : VertexMover(kInfo) {}
-  Verdict evaluate(OperatorContext&, Target) const override { throw 7; }
+  Verdict evaluate(OperatorContext&, Target, State&) const override { throw 7; }
   inline static const OperatorInfo kInfo = {
       "throws_in_evaluate", TargetKind::vertex, "help", {}, make<ThrowsInEvaluate>};
 };
@@ -26,9 +26,10 @@ struct ThrowsInEvaluate final : VertexMover {
 /// After an edit inside a transaction of its own, inside that of the attempt.
 struct ThrowsInApply final : VertexMover {
   ThrowsInApply() : VertexMover(kInfo) {}
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
+                State& state) const override {
     Transaction own(context.mesh, context.workspace);
-    const Verdict verdict = VertexMover::apply(context, target, transaction);
+    const Verdict verdict = VertexMover::apply(context, target, transaction, state);
     if (verdict == Verdict::accepted) throw std::runtime_error("index 17 out of range");
     return verdict;
   }
@@ -39,8 +40,10 @@ struct ThrowsInApply final : VertexMover {
 /// For a pass over bad tets: throws at bad ones.
 struct ThrowsAtEdges final : VertexMover {
   ThrowsAtEdges() : VertexMover(kInfo) {}
-  Verdict precondition(const OperatorContext&, Target) const override { return Verdict::accepted; }
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext&, Target, State&) const override {
+    return Verdict::accepted;
+  }
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     if (context.mesh.quality(target.edge().tet()) < 0.3f) throw std::runtime_error("a sliver");
     return Verdict::no_improvement;
   }

@@ -4,38 +4,44 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "kernel/star.h"
 #include "ops/plugin.h"
 
 namespace tetmend::test {
 
-class VertexMover : public Operator {
+struct MoverState {
+  std::vector<HalfFace> link;
+  Point point = Point::Zero();
+};
+
+class VertexMover : public OperatorOf<MoverState> {
  public:
-  using Operator::Operator;
+  using State = MoverState;
+  explicit VertexMover(const OperatorInfo& info) : OperatorOf(info) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target) const override {
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     const VertexHandle v = target.vertex();
     if (!context.mesh.tet_of(v).is_valid()) return Verdict::not_applicable;
     return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
   }
-  Verdict evaluate(OperatorContext& context, Target target) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
-    Scratch& scratch = context.scratch;
-    if (!collect_link(mesh, target.vertex(), context.workspace, scratch.link)) {
+    if (!collect_link(mesh, target.vertex(), context.workspace, state.link)) {
       return Verdict::deferred;
     }
     Point sum = Point::Zero();
-    for (const HalfFace f : scratch.link) {
+    for (const HalfFace f : state.link) {
       for (const VertexHandle w : mesh.vertices(f)) sum += mesh.point(w);
     }
-    scratch.point = sum / (3 * static_cast<double>(scratch.link.size()));
+    state.point = sum / (3 * static_cast<double>(state.link.size()));
     return Verdict::accepted;
   }
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction) const override {
-    return to_verdict(
-        transaction.move_vertex(target.vertex(), context.scratch.point, context.scratch.link));
+  Verdict apply(OperatorContext&, Target target, Transaction& transaction,
+                State& state) const override {
+    return to_verdict(transaction.move_vertex(target.vertex(), state.point, state.link));
   }
 };
 

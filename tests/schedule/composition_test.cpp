@@ -215,17 +215,6 @@ TEST_CASE("a sequence with a theta_max lowers larger angles and leaves the worst
   CHECK(none.names.empty());
 }
 
-TEST_CASE("a smaller angle pays for bad tets, but not for a worse one") {
-  const std::vector<Quality> before = {0.3f, 0.4f, 0.51f};
-  CHECK(is_worth_gain(0.001, before, before));
-  CHECK_FALSE(is_worth_gain(0.0009, before, before));
-  CHECK(is_worth_gain(0.001, std::vector<Quality>{0.3f, 0.49f, 0.49f}, before));
-  CHECK_FALSE(is_worth_gain(0.0019, std::vector<Quality>{0.3f, 0.49f, 0.49f, 0.49f}, before));
-  CHECK(is_worth_gain(0.002, std::vector<Quality>{0.3f, 0.49f, 0.49f, 0.49f}, before));
-  CHECK_FALSE(is_worth_gain(0.0009, std::vector<Quality>{0.3f, 0.6f}, before));
-  CHECK_FALSE(is_worth_gain(0.2, std::vector<Quality>{0.29f, 0.6f}, before));
-}
-
 TEST_CASE("a sequence must open with one operator and go on") {
   CHECK_THROWS_AS(TetAttempts(kRegistry, sequence({op("smoothing")})), Error);
   CHECK_THROWS_AS(TetAttempts(kRegistry, sequence({first_of({op("smoothing")}), op("flip_2_3")})),

@@ -13,6 +13,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/geometry.h"
+#include "kernel/judge.h"
 #include "search/ball_optimiser.h"
 #include "tests/support/zoo.h"
 

@@ -12,6 +12,8 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/judge.h"
+
 using namespace tetmend;
 
 namespace {

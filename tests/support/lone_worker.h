@@ -13,6 +13,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "kernel/shell.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 
@@ -30,7 +31,7 @@ class LoneWorker {
     Registry registry;
     register_builtin_operators(registry);
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, *scratch};
+    OperatorContext context{mesh, workspace, states};
     const Verdict verdict = registry.make(name, settings)->attempt(context, target);
     CHECK(check_integrity(mesh).empty());
     CHECK(count_not_positive(mesh) <= count_not_positive(before));
@@ -71,7 +72,7 @@ class LoneWorker {
 
   TetMesh mesh;
   Workspace workspace;
-  std::unique_ptr<Scratch> scratch = std::make_unique<Scratch>();
+  OperatorStates states;
 
  private:
   Corners corners_of(TetHandle t) const {

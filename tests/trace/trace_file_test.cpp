@@ -199,11 +199,12 @@ TEST_CASE(
       CHECK((event.before.empty() || (from_below && call.candidate_found)));
       continue;
     }
-    if (event.before.empty()) continue;  // an operator that compares for itself
     ++compared;
     CHECK(std::ranges::is_sorted(event.before));
     CHECK(std::ranges::is_sorted(event.after));
-    CHECK_FALSE(improves(event.after, event.before));
+    // A fair judge may refuse a better vector, a strict one never does.
+    if (file.name(call.operator_name) == "edge_removal")
+      CHECK_FALSE(improves(event.after, event.before));
     CHECK(call.worst_before == event.before.front());
     CHECK(call.worst_after == event.after.front());
   }

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "kernel/judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/transaction.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Ascending.
+std::ptrdiff_t count_bad(std::span<const Quality> qualities) {
+  return std::lower_bound(qualities.begin(), qualities.end(), kBadThreshold) - qualities.begin();
+}
+
+std::ptrdiff_t count_more_bad(Comparison& qualities) {
+  return count_bad(qualities.now()) - count_bad(qualities.before());
+}
+
+bool is_better(Comparison& qualities) {
+  if (qualities.has_both()) {
+    const Quality before = qualities.worst_before();
+    const Quality now = qualities.worst_now();
+    if (now < before) return false;
+    if (now > before + kQualityTolerance) return true;
+  }
+  return improves(qualities.now(), qualities.before());
+}
+
+bool is_there(const TetMesh& mesh, TetHandle t, const TetVertices& corners) {
+  return t.index() < mesh.tet_slots() && !mesh.is_deleted(t) && mesh.vertices(t) == corners;
+}
+
+bool reaches_goal(const Change& change, double goal) {
+  if (!change.aimed_at.is_valid()) return false;
+  const TetMesh& mesh = change.transaction.mesh();
+  return !is_there(mesh, change.aimed_at, change.corners) ||
+         mesh.quality(change.aimed_at) > goal - kQualityTolerance;
+}
+
+double largest_angle_sine(const Transaction& transaction) {
+  const TetMesh& mesh = transaction.mesh();
+  std::vector<TetHandle> changed;
+  transaction.list_changed(changed);
+  double sine = 1;
+  for (const TetHandle t : changed) {
+    const TetVertices& v = mesh.vertices(t);
+    sine = std::min(sine, tetmend::largest_angle_sine(mesh.point(v[0]), mesh.point(v[1]),
+                                                      mesh.point(v[2]), mesh.point(v[3])));
+  }
+  return sine;
+}
+
+}  // namespace
+
+bool improves(std::span<const Quality> now, std::span<const Quality> before) {
+  const std::size_t common = std::min(now.size(), before.size());
+  for (std::size_t i = 0; i < common; ++i) {
+    if (now[i] < before[i]) return false;
+    if (now[i] > before[i] + kQualityTolerance) return true;
+  }
+  return now.size() < before.size();
+}
+
+void Comparison::forget() {
+  before_.clear();
+  now_.clear();
+  sorted_ = true;
+}
+
+void Comparison::look_at(const Transaction& transaction) {
+  transaction.list_qualities(before_, now_);
+  sorted_ = false;
+}
+
+Quality Comparison::worst_before() const {
+  return sorted_ ? before_[0] : *std::min_element(before_.begin(), before_.end());
+}
+
+Quality Comparison::worst_now() const {
+  return sorted_ ? now_[0] : *std::min_element(now_.begin(), now_.end());
+}
+
+std::span<const Quality> Comparison::before() {
+  sort();
+  return before_;
+}
+
+std::span<const Quality> Comparison::now() {
+  sort();
+  return now_;
+}
+
+void Comparison::sort() {
+  if (sorted_) return;
+  std::sort(before_.begin(), before_.end());
+  std::sort(now_.begin(), now_.end());
+  sorted_ = true;
+}
+
+Judge Judge::fair(const Fairness& fairness) {
+  Judge judge(Kind::fair);
+  judge.fairness_ = fairness;
+  return judge;
+}
+
+Judge Judge::reaches(Quality goal) {
+  Judge judge(Kind::reaches);
+  judge.bound_ = goal;
+  return judge;
+}
+
+Judge Judge::lowers_angle(double sine) {
+  Judge judge(Kind::lowers_angle);
+  judge.bound_ = sine;
+  return judge;
+}
+
+Judge Judge::opening(double share) {
+  Judge judge(Kind::opening);
+  judge.bound_ = share;
+  return judge;
+}
+
+std::string_view Judge::promise() const {
+  switch (kind_) {
+    case Kind::strict:
+      return "the quality vector of what changed is better";
+    case Kind::fair:
+      return "the quality vector is better, and the bad tets lack no more in sum or a desperate "
+             "worst tet gained the price of each more bad tet";
+    case Kind::reaches:
+      return "the quality vector is better, or the tet aimed at reaches the goal and no bad tet is "
+             "new or worse";
+    case Kind::lowers_angle:
+      return "the sine of the largest angle gained the price of each more bad tet, and the worst "
+             "tet is no worse";
+    case Kind::opening:
+      return "the worst tet keeps a share of the quality that the worst had";
+  }
+  return "";
+}
+
+double Judge::floor(double worst, double least_gain) const {
+  switch (kind_) {
+    case Kind::strict:
+    case Kind::fair:
+      return worst + least_gain;
+    case Kind::reaches:
+      return std::min(worst + least_gain, static_cast<double>(kBadThreshold));
+    case Kind::lowers_angle:
+      return worst;
+    case Kind::opening:
+      return bound_ * std::max(worst, 0.0);
+  }
+  return worst;
+}
+
+double Judge::deficit_limit(double worst, double lack) const {
+  // deficit() has the exponent of the default; another one is for accepts() alone.
+  const bool asks = kind_ == Kind::fair && fairness_.exponent == Fairness{}.exponent;
+  return asks && worst >= fairness_.desperate ? lack : std::numeric_limits<double>::infinity();
+}
+
+bool Judge::accepts(const Change& change) const {
+  if (change.transaction.empty()) {
+    change.qualities.forget();
+    return false;
+  }
+  change.qualities.look_at(change.transaction);
+  Aim aim;
+  if (kind_ == Kind::reaches) aim.reached = reaches_goal(change, bound_);
+  if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
+  return holds_for(change.qualities, aim);
+}
+
+bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
+  switch (kind_) {
+    case Kind::strict:
+      return is_better(qualities);
+    case Kind::fair:
+      return is_better(qualities) && is_fair(qualities);
+    case Kind::reaches:
+      return is_better(qualities) || (aim.reached && spares_bad(qualities));
+    case Kind::lowers_angle:
+      return lowers_angle(qualities, aim.sine);
+    case Kind::opening:
+      return keeps_share(qualities);
+  }
+  return false;
+}
+
+bool Judge::keeps_share(const Comparison& qualities) const {
+  if (!qualities.has_both()) return true;
+  return qualities.worst_now() >= floor(qualities.worst_before()) - kQualityTolerance;
+}
+
+bool Judge::is_fair(Comparison& qualities) const {
+  if (pays(qualities)) return true;
+  const double before = lack(qualities.before());
+  const double now = lack(qualities.now());
+  return fairness_.more_bad ? now < before : now <= before && count_more_bad(qualities) <= 0;
+}
+
+bool Judge::pays(Comparison& qualities) const {
+  const auto before = qualities.before();
+  const auto now = qualities.now();
+  if (before.empty() || before[0] >= fairness_.desperate) return false;
+  const double gain = now.empty() ? 1 : now[0] - before[0];
+  return gain >= fairness_.price * static_cast<double>(count_more_bad(qualities));
+}
+
+double Judge::lack(std::span<const Quality> qualities) const {
+  double sum = 0;
+  const bool is_default = fairness_.exponent == Fairness{}.exponent;
+  for (const Quality q : qualities) {
+    if (q >= kBadThreshold) break;
+    sum += is_default ? deficit(q) : std::pow(kBadThreshold - q, fairness_.exponent);
+  }
+  return sum;
+}
+
+bool Judge::spares_bad(Comparison& qualities) const {
+  const auto before = qualities.before();
+  const auto now = qualities.now();
+  const std::ptrdiff_t bad = count_bad(before);
+  return count_bad(now) <= bad && static_cast<std::size_t>(bad) <= now.size() &&
+         std::equal(before.begin(), before.begin() + bad, now.begin(),
+                    [](Quality was, Quality is) { return is > was - kQualityTolerance; });
+}
+
+bool Judge::lowers_angle(Comparison& qualities, double sine) const {
+  if (!qualities.has_both() || qualities.worst_now() < qualities.worst_before()) return false;
+  const std::ptrdiff_t more_bad = std::max<std::ptrdiff_t>(1, count_more_bad(qualities));
+  return sine - bound_ >= kPriceOfBad * static_cast<double>(more_bad);
+}
+
+}  // namespace tetmend

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Whether a change is worth keeping. Operators propose; a judge decides, once for each proposal.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kernel/handles.h"
+#include "kernel/quality.h"
+
+namespace tetmend {
+
+class Transaction;
+
+/// Differences below this do not count as progress: they are within reach of rounding, and a run
+/// would crawl.
+inline constexpr Quality kQualityTolerance = 1e-6f;
+
+/// True if the quality vector `now` is better than `before`: both ascending, compared
+/// lexicographically, the shorter better when one continues the other ([chen, 6.1]). The first
+/// entry that differs by more than kQualityTolerance decides, and no earlier entry may be lower at
+/// all, so true also holds in the strict order.
+bool improves(std::span<const Quality> now, std::span<const Quality> before);
+
+/// How much a tet lacks to be good, (0.5 - q)^4, or 0: a sum of it weighs one very bad tet against
+/// several mild ones.
+inline double deficit(double quality) {
+  const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - quality);
+  return (lack * lack) * (lack * lack);
+}
+
+/// The least gain that pays for one more bad tet. Tiny gains, one after the other, would fill the
+/// neighbourhood with bad tets.
+inline constexpr double kPriceOfBad = 0.001;
+
+/// A worst tet below this quality is desperate: its gain may be paid for with more bad tets.
+inline constexpr double kDesperate = 0.2;
+
+/// The qualities of all that a transaction has touched, as they were when it began and as they are
+/// now. One for each worker; empty when nothing was compared.
+class Comparison {
+ public:
+  Comparison() = default;
+  /// In any order.
+  Comparison(std::vector<Quality> before, std::vector<Quality> now)
+      : before_(std::move(before)), now_(std::move(now)), sorted_(false) {}
+
+  void forget();
+  void look_at(const Transaction& transaction);
+  /// There were tets, and there are.
+  bool has_both() const { return !before_.empty() && !now_.empty(); }
+
+  /// Precondition: has_both().
+  Quality worst_before() const;
+  Quality worst_now() const;
+  /// Ascending. Sorted when first asked for: mostly the worst tets decide.
+  std::span<const Quality> before();
+  std::span<const Quality> now();
+
+ private:
+  void sort();
+
+  std::vector<Quality> before_;
+  std::vector<Quality> now_;
+  bool sorted_ = true;
+};
+
+/// What a judge looks at.
+struct Change {
+  const Transaction& transaction;
+  Comparison& qualities;     ///< buffers; filled by the judge
+  TetHandle aimed_at = {};   ///< the tet of the target; invalid if that is a vertex
+  TetVertices corners = {};  ///< its vertices before the change
+};
+
+/// What a fair judge takes for fair.
+struct Fairness {
+  /// What a bad tet lacks counts with this exponent; large: mild ones hardly count.
+  double exponent = 4;
+  double desperate = kDesperate;  ///< a worst tet below this may gain at a price
+  double price = kPriceOfBad;     ///< the least gain for each more bad tet
+  /// True: the sum must become less, however many tets share it, so where nothing is bad, nothing
+  /// is gained. False: the sum must not grow, and only the price pays for more bad tets.
+  bool more_bad = true;
+};
+
+/// Decides whether a change stays, and tells a search beforehand what it will ask for. A value of a
+/// few words; immutable.
+class Judge {
+ public:
+  enum class Kind : std::uint8_t { strict, fair, reaches, lowers_angle, opening };
+
+  /// The quality vector of what changed is better.
+  static Judge strict() { return Judge(Kind::strict); }
+  /// It is better, and the bad tets lack no more in sum, or a desperate worst tet gained the price.
+  /// DEVIATION: the paper's order alone lets an insertion raise the worst tet a little and leave
+  /// more bad tets than it found.
+  static Judge fair(const Fairness& fairness);
+  /// It is better, or the tet aimed at reaches the goal and no bad tet is new or worse.
+  static Judge reaches(Quality goal);
+  /// The sine of the largest angle of what changed is above `sine` by the price, and by as much for
+  /// each more bad tet; the worst tet is no worse.
+  static Judge lowers_angle(double sine);
+  /// The worst tet keeps a share of the quality that the worst had: whoever asks for this judges
+  /// the whole of what follows.
+  static Judge opening(double share = 0.2);
+
+  Kind kind() const { return kind_; }
+  /// One sentence.
+  std::string_view promise() const;
+
+  /// What the worst new tet must exceed when that of the old ones is `worst`, and an operator asks
+  /// for a gain of its own. A search need not look at less.
+  double floor(double worst, double least_gain = 0) const;
+  /// The most that new tets may lack in sum, see deficit(), when the old ones lack `lack`.
+  double deficit_limit(double worst, double lack) const;
+
+  /// Leaves the qualities that it compared in the change. False for a change without edits. Cost:
+  /// linear in the tets that changed, mostly; n log n where the worst do not decide.
+  bool accepts(const Change& change) const;
+
+  /// What a judge may ask beside the qualities.
+  struct Aim {
+    bool reached = false;  ///< the tet aimed at is gone, or as good as the goal
+    double sine = 1;       ///< of the largest angle of what changed; 1 if none is obtuse
+  };
+  /// The promise itself.
+  bool holds_for(Comparison& qualities, const Aim& aim) const;
+
+ private:
+  explicit Judge(Kind kind) : kind_(kind) {}
+
+  bool is_fair(Comparison& qualities) const;
+  bool pays(Comparison& qualities) const;
+  bool keeps_share(const Comparison& qualities) const;
+  bool spares_bad(Comparison& qualities) const;
+  bool lowers_angle(Comparison& qualities, double sine) const;
+  double lack(std::span<const Quality> qualities) const;
+
+  Kind kind_;
+  Fairness fairness_;
+  double bound_ = 0;  // goal, sine or share
+};
+
+}  // namespace tetmend
