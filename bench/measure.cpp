@@ -152,7 +152,7 @@ class Statistics {
   double volume_ = 0;
 };
 
-// --- surfaces
+// --- surfaces ------------------------------------------------------------------------------------
 
 using Corner = std::array<double, 3>;
 

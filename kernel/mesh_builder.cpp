@@ -3,12 +3,13 @@
 //
 //   check indices
 //   slots: as the file has vertices and tets, or along a curve, so that all that follows works on
-//   neighbours in memory; the arrays of the file are released on the way
+//          neighbours in memory; the arrays of the file are released on the way
 //   orient: swap two vertices of every tet if most are negative
-//   match faces, vertex by vertex those of which it is the smallest; where that fails swap two
-//   vertices of single tets that are not positive, if their neighbours ask for it, and match again
+//   match faces: vertex by vertex, those of which it is the smallest; where that fails, swap two
+//                vertices of single tets that are not positive, if their neighbours ask for it, and
+//                match again
 //   surface: named triangles in file order, then boundary faces and label interfaces that no
-//   triangle names
+//            triangle names
 //   constraints: face bits, edge bits, fixed vertices; without those inside regions, if so asked
 #include <algorithm>
 #include <atomic>
@@ -124,8 +125,8 @@ class MeshBuilder {
   TetMesh& mesh_;
   BuildReport& report_;
   const bool drops_interior_;
-  std::vector<char> on_border_;          // by vertex slot, see find_border(); empty unless interior
-                                         // constraints are dropped
+  // By vertex slot, see find_border(); empty unless interior constraints are dropped.
+  std::vector<char> on_border_;
   std::vector<std::uint32_t> slot_of_;   // by the file's vertex number; empty: the same
   std::vector<std::uint32_t> file_tet_;  // by slot; empty: the same
   std::vector<char> swapped_;            // single tets that were put right; empty: none

@@ -100,8 +100,8 @@ class AngleClasses {
   }
 
  private:
-  static constexpr double kCellsPerUnit =
-      512;  // fine enough for one edge a cell, small enough for L1
+  // Fine enough for one edge a cell, small enough for L1.
+  static constexpr double kCellsPerUnit = 512;
 
   static double key_of(double degrees) {
     const double cosine = std::cos(degrees * std::numbers::pi / 180);

@@ -14,12 +14,14 @@ namespace tetmend {
 /// Why an edit was not made. The mesh is unchanged unless `made`.
 enum class EditResult : std::uint8_t {
   made,
-  inverted,  ///< a new tet is not certified positive or, in a folded mesh, has a face that exists
-             ///< elsewhere already; or a move would turn a positive tet over
-  constrained,  ///< a constrained face, edge or vertex, a frozen tet, or a border between labels
-                ///< would vanish, or a fixed vertex would move
-  no_room,      ///< no free slot left in the territory of the workspace
-  not_closed    ///< old and new tets do not have the same outer surface (a mistake of the caller)
+  /// A new tet is not certified positive or, in a folded mesh, has a face that exists elsewhere
+  /// already. Or a move would turn a positive tet over.
+  inverted,
+  /// A constrained face, edge or vertex, a frozen tet, or a border between labels would vanish. Or
+  /// a fixed vertex would move.
+  constrained,
+  no_room,    ///< no free slot left in the territory of the workspace
+  not_closed  ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
 
 /// A vertex, where it is to go, and its link (see star.h).

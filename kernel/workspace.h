@@ -110,8 +110,8 @@ class Workspace {
   std::size_t more_tets_ = 0;
   std::size_t more_vertices_ = 0;
   std::vector<VertexHandle> added_vertices_;
-  bool may_overlap_ =
-      false;  // the mesh had tets of no positive quality when the workspace was made
+  // The mesh had tets of no positive quality when the workspace was made.
+  bool may_overlap_ = false;
 
   // Buffers of Transaction.
   IndexSet cavity_set_;
@@ -119,8 +119,8 @@ class Workspace {
   IndexSet touched_set_;
   FaceTable face_table_;
   struct Gluing {
-    HalfFace twin;  // of a new face: number and face of another new tet if local, else what lies
-                    // outside the cavity
+    // Of a new face: number and face of another new tet if local, else what lies outside.
+    HalfFace twin;
     bool local;
     bool constrained;
   };

@@ -20,9 +20,8 @@ namespace tetmend {
 ///
 /// Refuses as `no_improvement` also when all cavities promise less than half of the quality of the
 /// target; as `constrained` when a cavity would swallow a fixed vertex or a constrained edge.
-/// Parameters: max_tets (64), tries (6), relax (1), desperate (0.2), exponent (4), steps (8). Cost:
-/// the growth of some 30 cavities and the smoothing of one vertex in each, and a relaxation for
-/// each try.
+/// Cost: the growth of some 30 cavities and the smoothing of one vertex in each, and a relaxation
+/// for each try.
 const OperatorInfo& cavity_insertion_info();
 
 }  // namespace tetmend

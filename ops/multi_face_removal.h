@@ -9,8 +9,8 @@ namespace tetmend {
 
 /// Target: a face. The faces that both apexes a and b of its two tets see, connected to it, form a
 /// polygon; its tets are replaced by the best covering of the virtual shell of ab, with a core (ab
-/// appears) or without (re-triangulation) ([chen, 5.4]; [shewchuk_two]). Parameter: max_polygon (8
-/// vertices). Refuses boundary and constrained faces. Cost: O(m^3) for m polygon vertices.
+/// appears) or without (re-triangulation) ([chen, 5.4]; [shewchuk_two]). Refuses boundary and
+/// constrained faces. Cost: O(m^3) for m polygon vertices.
 const OperatorInfo& multi_face_removal_info();
 
 }  // namespace tetmend

@@ -8,8 +8,7 @@ namespace tetmend {
 
 /// Target: a vertex. Moves it to the mean of its neighbours if that improves its ball; if bad tets
 /// remain, climbs from there to where the worst tet of the ball is best ([chen, 6.2];
-/// [freitag_ollivier_gooch]). Refuses fixed vertices. Parameters: laplacian (1), optimise (1),
-/// steps (12).
+/// [freitag_ollivier_gooch]). Refuses fixed vertices.
 const OperatorInfo& smoothing_info();
 
 /// Loads the ball around a vertex, given by its link, into the optimiser.

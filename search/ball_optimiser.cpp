@@ -2,9 +2,8 @@
 // Active-set ascent of the worst quality of a ball.
 //
 //   repeat: active = sines within a band above the worst
-//           direction = shortest vector in the hull of their gradients; stop when it is nearly zero
-//           step = halve from the last step until the worst quality rises; stop when the gain is
-//           small
+//           direction = shortest vector in the hull of their gradients; stop when nearly zero
+//           step = halve from the last step until the worst quality rises; stop if it gains little
 #include "search/ball_optimiser.h"
 
 #include <algorithm>

@@ -275,8 +275,8 @@ class Reader {
   TetPlace* question_;
   MeshData mesh_;
   std::vector<std::string_view> seen_;
-  std::vector<Section>
-      postponed_;  // what came before Vertices, of which the number was not known yet
+  // What came before Vertices, of which the number was not known yet.
+  std::vector<Section> postponed_;
 };
 
 template <class Element>
