@@ -12,7 +12,7 @@ import compare
 import documents
 import report
 
-REPETITIONS = 5
+REPETITIONS = 20
 TEXT = (
     f"The least of {REPETITIONS} repetitions, in time of the processor; by the clock where a name "
     "ends in `manual_time`, for the processor also copies the mesh there. Of a covering search, "

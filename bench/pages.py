@@ -3,8 +3,9 @@
 figures of the tables in docs/results in place.
 
 A figure is a place in a table: {FILE / ROW / COLUMN}, where ROW is what the row begins with, cell
-by cell, and may begin with the heading over the table. {rivals / tire / best rival / COLUMN} is the
-row of the improver, tetmend apart, that leaves the fewest bad tets.
+by cell. If the tables of a file have a heading each, ROW begins with that heading.
+{rivals / tire / best rival / COLUMN} is the row of the improver, tetmend apart, that leaves the
+fewest bad tets.
 """
 
 import argparse
@@ -30,19 +31,22 @@ def best_rival(table: documents.Table) -> list[str]:
     return min(rivals, key=lambda row: int(row[bad].split(", ")[0].replace(",", "")))
 
 
-def rows_of(keys: list[str], heading: str, table: documents.Table) -> list[list[str]]:
+def under_heading(keys: list[str], heading: str, table: documents.Table) -> list[list[str]]:
     if keys == [heading, BEST_RIVAL]:
         return [best_rival(table)]
-    return [row for row in table[1:]
-            if row[:len(keys)] == keys or [heading, *row][:len(keys)] == keys]
+    return [row for row in table[1:] if [heading, *row][:len(keys)] == keys]
 
 
 def figure(place: str, results: Path) -> str:
     """The cell at a place; of a time with its spread, the time."""
     file, *keys, column = place.split(" / ")
-    text = (results / f"{file}.md").read_text()
-    cells = [row[table[0].index(column)] for heading, table in documents.tables(text)
-             if column in table[0] for row in rows_of(keys, heading, table)]
+    tables = [(heading, table)
+              for heading, table in documents.tables((results / f"{file}.md").read_text())
+              if column in table[0]]
+    cells = [row[table[0].index(column)] for heading, table in tables
+             for row in under_heading(keys, heading, table)]
+    cells = cells or [row[table[0].index(column)] for _, table in tables
+                      for row in table[1:] if row[:len(keys)] == keys]
     if len(cells) != 1:
         sys.exit(f"pages: {{{place}}} means {len(cells)} cells of {file}.md, not one")
     return cells[0].split(" ±")[0]

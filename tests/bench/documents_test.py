@@ -175,5 +175,41 @@ class Pages(unittest.TestCase):
             self.assertIn(place, str(refused.exception))
 
 
+class Published(unittest.TestCase):
+    """The documents of this repository."""
+
+    def test_each_document_of_results_says_how_it_was_made(self) -> None:
+        found = sorted((SOURCE / "docs" / "results").glob("*.md"))
+        self.assertGreaterEqual(len(found), 5)
+        for file in found:
+            text = file.read_text()
+            head = documents.HEAD.match(text)
+            self.assertIsNotNone(head, file.name)
+            script = SOURCE / head["command"].split()[0]
+            self.assertTrue(script.exists(), head["command"])
+            self.assertNotIn(" with changes", head["commit"], file.name)
+            self.assertGreaterEqual(len(tables(text)), 1, file.name)
+
+    def test_pages_quote_the_figures_of_these_documents(self) -> None:
+        for template in (SOURCE / "bench" / "pages").glob("*.md"):
+            written = pages.page(template.read_text(), SOURCE / "docs" / "results")
+            self.assertEqual((SOURCE / "docs" / template.name).read_text(), written,
+                             "script/pages writes it anew")
+
+    def test_what_the_page_claims_of_rivals_is_so(self) -> None:
+        text = (SOURCE / "docs" / "results" / "rivals.md").read_text()
+        compared = [table for _, table in documents.tables(text)
+                    if table[0][0] == "improver" and "bad" in table[0]]
+        self.assertGreaterEqual(len(compared), 5)
+        for table in compared:
+            bad, surface = table[0].index("bad"), table[0].index("surface")
+            own = [row for row in table[1:] if row[0].startswith("tetmend")]
+            rival = int(pages.best_rival(table)[bad].replace(",", ""))
+            for row in own:
+                self.assertLess(int(row[bad].replace(",", "")), rival)
+            for row in table[2:]:
+                self.assertTrue(row[surface] == "kept" or row[surface].startswith("over "), row)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
