@@ -77,8 +77,8 @@ struct Journal {
 class EditListener {
  public:
   virtual ~EditListener() = default;
-  /// The last edit of the journal was just made: the mesh holds what it created. A vertex that
-  /// lost its last tet is removed by an edit of its own, right after.
+  /// The last edit of the journal was just made: the mesh holds what it created. A vertex that lost
+  /// its last tet is removed right after, by an edit of its own.
   virtual void edit_made(const TetMesh& mesh, const Journal& journal) = 0;
   /// The last edit that was made and not undone yet was just undone.
   virtual void edit_undone() = 0;

@@ -52,7 +52,7 @@ struct Shell {
 ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
                      const Territory& territory = {});
 
-/// A tet that contains the edge between two vertices, searched in the star of the first; nothing
+/// A tet that contains the edge between two vertices, searched in the star of the first. Nothing
 /// when there is none, or when the search leaves the territory of the workspace, which notes it.
 /// Looks at `hint` first. At a vertex whose star is not connected through faces (touching fans),
 /// only the fan of its stored tet is searched. Cost: about 26 tets without a useful hint

@@ -27,7 +27,7 @@ using Date = std::uint32_t;
 /// What building a mesh from a file's contents found and did.
 struct BuildReport {
   bool mirrored = false;  ///< most tets were negative: two vertices were swapped in every tet
-  /// Negative tets that only listed their vertices the other way round: put right.
+  /// Negative tets that only listed their vertices the other way round: corrected.
   std::size_t reordered_tets = 0;
   std::size_t inverted_tets = 0;  ///< tets of negative volume that were kept
   std::size_t flat_tets = 0;      ///< tets of zero volume (or too close to tell) that were kept
@@ -66,7 +66,7 @@ struct SurfaceTriangle {
 class TetMesh {
  public:
   TetMesh() = default;
-  /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is put right; tets
+  /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is corrected; tets
   /// that are inverted or flat are kept and counted in `report`.
   /// @throws Error when a face has more than two tets, when two tets lie on the same side of a
   ///   face, or when an index is out of range. BuildError names the tet.
@@ -188,15 +188,15 @@ class TetMesh {
   const PropertyTable<VertexHandle>& vertex_properties() const { return vertex_properties_; }
 
   /// Freezes the live tets for which `is_frozen` is true, and thaws all others. No transaction
-  /// removes a frozen tet or moves one of its vertices. Files do not hold it. Gives their number.
-  /// Precondition: no transaction is open. Cost: linear.
+  /// removes a frozen tet or moves one of its vertices. Files do not hold this. Returns the number
+  /// of frozen tets. Precondition: no transaction is open. Cost: linear.
   std::size_t freeze(const std::function<bool(TetHandle)>& is_frozen);
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
   /// before become invalid.
   void collect_garbage();
-  /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each
-  /// slot that there is); slots between them are deleted ones. So a rebuilt mesh gets the handle
-  /// numbers of the one it shows. Handles made before become invalid.
+  /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each of
+  /// them). The slots between them are deleted ones. So a rebuilt mesh gets the handle numbers of
+  /// the one it shows. Handles made before become invalid.
   void scatter(std::span<const std::uint32_t> vertex_slots,
                std::span<const std::uint32_t> tet_slots);
   /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are

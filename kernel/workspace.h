@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one worker needs beside the mesh: free slots, journal, visit marks, scratch buffers.
+// What one worker needs besides the mesh: free slots, journal, visit marks, scratch buffers.
 #pragma once
 
 #include <span>
@@ -14,9 +14,8 @@
 
 namespace tetmend {
 
-/// Scratch of one worker. The mesh holds nothing of the kind, so reading it is safe from any
-/// thread. A workspace belongs to one mesh; garbage collection and sorting of the mesh make it
-/// invalid.
+/// The working memory of one worker. The mesh holds nothing of the kind, so any thread may read it.
+/// A workspace belongs to one mesh; garbage collection and sorting of the mesh make it invalid.
 class Workspace {
  public:
   /// Collects the free slots of the mesh; notes whether it has tets that are not positive. Cost:

@@ -6,7 +6,7 @@
 
 namespace tetmend {
 
-/// Target: a vertex. Moves it to the mean of its neighbours if that improves its ball; if bad tets
+/// Target: a vertex. Moves it to the mean of its neighbours if that improves its ball. If bad tets
 /// remain, climbs from there to where the worst tet of the ball is best ([chen, 6.2];
 /// [freitag_ollivier_gooch]). Refuses fixed vertices.
 const OperatorInfo& smoothing_info();

@@ -51,8 +51,9 @@ struct Interval {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// All values of  p sin x + q cos x  for x in the arc, which is shorter than half a turn: its
-  /// ends, and the top or the bottom of the wave if the slope changes its sign in between.
+  /// All values of p sin x + q cos x for x in the arc, which is shorter than half a turn. They
+  /// range between the ends, or to the top or bottom of the wave if the slope changes its sign in
+  /// between.
   void include_wave(double p, double q, const Arc& arc) {
     include(p * arc.low.sine + q * arc.low.cosine);
     include(p * arc.high.sine + q * arc.high.cosine);

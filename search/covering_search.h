@@ -84,8 +84,8 @@ class BasicCoveringSearch {
     std::uint8_t apex;
     bool valid;
   };
-  // What most searches never ask for is computed when first asked for; it counts for the run whose
-  // number it carries.
+  // Computed when first asked for, which most searches never do; counts for the run whose number it
+  // carries.
   struct Triangle {
     Quality upper;
     Quality lower;
