@@ -87,7 +87,7 @@ void add_check_plugin(CLI::App& app, Invocation& invocation) {
 small meshes of all kinds that the program makes itself, with the parameters at
 their defaults and at the ends of their ranges:
 
-  a refusal leaves the mesh as it was, bit by bit
+  a refusal leaves the mesh as it was, bit for bit
   an accepted attempt leaves a sound mesh with the same surface, volume, labels
   and constraints, and better qualities
   the same attempt always ends the same way, and can be undone

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The subcommands of tetmend. Each adds itself to the parser and leaves what is to be done.
+// The subcommands of tetmend. Each adds itself to the parser and leaves the action to be run.
 #pragma once
 
 #include <functional>

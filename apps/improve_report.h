@@ -18,7 +18,7 @@
 
 namespace tetmend::apps {
 
-/// What is measured of a mesh before and after, to show that nothing got lost.
+/// What is measured of a mesh before and after, to show that nothing was lost.
 struct MeshCheck {
   MeshStatistics statistics;
   std::uint64_t surface_fingerprint = 0;

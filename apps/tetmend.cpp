@@ -120,8 +120,9 @@ int run_and_catch(int argc, char** argv) {
   }
 }
 
-/// glibc raises the size from which it gives memory back at once, up to 32 MB, with each large
-/// array that is freed: of a mesh of a million tets 16 bytes a tet would never be given back.
+/// glibc gives large arrays back at once, but raises the size that counts as large, up to 32 MB,
+/// with each one that is freed. Of a mesh of a million tets, 16 bytes a tet would never be given
+/// back.
 void give_back_memory() {
 #ifdef __GLIBC__
   constexpr int kFrom = 1 << 20;

@@ -306,11 +306,11 @@ def heading(mesh: dict) -> str:
     return f"{mesh['mesh']}, {mesh['before']['tets']:,} tets: quality against time"
 
 
-def write_all(results: dict, folders: list[Path]) -> None:
-    for mesh in results["meshes"]:
-        drawing = chart(mesh)
-        if drawing is None:
-            continue
-        for folder in folders:
-            folder.mkdir(parents=True, exist_ok=True)
-            (folder / f"quality-{mesh['mesh']}.svg").write_text(drawing)
+def file_name(mesh: dict) -> str:
+    return f"quality-{mesh['mesh']}.svg"
+
+
+def all_charts(results: dict) -> dict[str, str]:
+    """By the names of their files."""
+    drawings = {file_name(mesh): chart(mesh) for mesh in results["meshes"]}
+    return {name: drawing for name, drawing in drawings.items() if drawing}

@@ -5,11 +5,9 @@ Every improver runs on the same meshes, in turns, several times; bench/measure j
 """
 
 import argparse
-import datetime
 import json
 import math
 import os
-import platform
 import signal
 import statistics
 import subprocess
@@ -20,26 +18,23 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import charts
+import documents
 import report
 from competitors import Competitor, Phases, competitors, shown_command, version
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "release"
 WORK = ROOT / "build" / "bench"
-SHARED = ROOT.parent / "shared" / "meshes"
+MESHES = os.environ.get("TETMEND_BENCH_MESHES", "")
 
 GNU_TIME = "/usr/bin/time"
-# Of Table 2: how the schedule table2 calls them.
-SCHEMES = {
-    "grummp": "2-3 flip + edge removal",
-    "stellar": "edge removal + multi-face",
-    "shell_flat": "shell transformation, l_max 0",
-    "shell": "shell transformation, l_max 5",
-}
 EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
 
 EPILOG = """\
-Results go to build/bench: results.json, results.md, and one chart for each mesh.
+Results go to build/bench: results.json, results.md, and a chart of quality against time for each
+mesh. With --write FILE a document like docs/results/rivals.md is written too.
+
+TETMEND_BENCH_MESHES names a folder of meshes (.mesh, .meshb, .mesh.xz) that are default meshes too.
 Rivals that Debian does not have are found through environment variables:
   TETMEND_BENCH_MMG3D    the program mmg3d
   TETMEND_BENCH_STELLAR  the program Stellar
@@ -47,9 +42,13 @@ Rivals that Debian does not have are found through environment variables:
   TETMEND_BENCH_OTHER    any other program, called in the same way
   TETMEND_BENCH_PYTHON   a Python with other versions of the modules gmsh and netgen than Debian's
 
-script/bench --schedules [MESH...] compares all schedules of tetmend instead.
-script/bench --micro [OPTION...] runs the micro-benchmarks instead; the options are those of
-Google Benchmark, such as --benchmark_filter=shell.
+Other measurements, each with a --help and a --write of its own:
+  script/bench --schedules [MESH...]   all schedules of tetmend
+  script/bench --growth                time and memory for each tet, 10 thousand to 37 million tets
+  script/bench --cores [MESH]          what more cores would make of a run
+  script/bench --files [MESH]          reading and writing of each format
+  script/bench --micro [OPTION...]     walks, searches, edits, smoothing one by one; the options are
+                                       those of Google Benchmark, such as --benchmark_filter=shell
 """
 
 
@@ -178,24 +177,6 @@ def program_json(name: str, *arguments: str) -> dict:
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
-def one_pass(mesh: Path) -> list[dict]:
-    """Rows of Table 2: one reconnection pass of each scheme."""
-    result, told = WORK / "one_pass.meshb", WORK / "one_pass.json"
-    rows = []
-    for scheme, name in SCHEMES.items():
-        command = [str(BUILD / "bin" / "tetmend"), "improve", str(mesh), "-o", str(result),
-                   "--quiet", "--report", str(told), "--schedule", "table2",
-                   "--set", f"scheme={scheme}"]
-        subprocess.run(command, check=True)
-        measured = program_json("measure", str(mesh), str(result))
-        if not rows:
-            rows.append({"scheme": "input", "seconds": 0, **measured["before"]})
-        seconds = json.loads(told.read_text())["seconds"]["improving"]
-        rows.append({"scheme": name, "seconds": seconds, **measured["after"]})
-    result.unlink()
-    return rows
-
-
 def prepare(mesh: Path, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     program = str(BUILD / "bench" / "prepare")
@@ -241,22 +222,29 @@ def unpacked(packed: Path) -> Path:
     return plain
 
 
+def given_meshes() -> list[Path]:
+    """Those of the folder TETMEND_BENCH_MESHES, the small first."""
+    files = [path for pattern in ("*.mesh", "*.meshb", "*.mesh.xz")
+             for path in Path(MESHES).glob(pattern)] if MESHES else []
+    return sorted(files, key=lambda path: (path.suffix == ".xz", path.name))
+
+
+def plain(mesh: Path) -> Path:
+    return unpacked(mesh) if mesh.suffix == ".xz" else mesh
+
+
 def default_meshes(quick: bool) -> list[Path]:
-    meshes = [own_mesh(), *SHARED.glob("tire.mesh")]
-    if not quick:
-        meshes += [unpacked(packed) for packed in sorted(SHARED.glob("*.mesh.xz"))]
-    return meshes
+    meshes = [own_mesh(), *given_meshes()]
+    return [plain(mesh) for mesh in (meshes[:2] if quick else meshes)]
 
 
 def named_mesh(name: str) -> Path:
     """A file, or one of the default meshes by its name."""
     if Path(name).exists():
         return Path(name).resolve()
-    own = (ROOT / "assets" / "meshes").glob("*.mesh*")
-    candidates = [*own, *SHARED.glob(f"{name}.mesh"), *SHARED.glob(f"{name}.mesh.xz")]
-    for mesh in candidates:
+    for mesh in [*(ROOT / "assets" / "meshes").glob("*.mesh*"), *given_meshes()]:
         if name in (mesh.name, mesh.name.split(".")[0]):
-            return unpacked(mesh) if mesh.suffix == ".xz" else mesh
+            return plain(mesh)
     sys.exit(f"bench: no mesh {name}")
 
 
@@ -267,25 +255,13 @@ def chosen(rows: list[Competitor], only: list[str]) -> list[Competitor]:
     return [row for row in rows if any(name in row.name.lower() for name in wanted)]
 
 
-def machine() -> dict:
-    info = Path("/proc/cpuinfo").read_text() if Path("/proc/cpuinfo").exists() else ""
-    models = [line.split(":")[1].strip() for line in info.splitlines() if "model name" in line]
-    return {
-        "processor": models[0] if models else platform.processor(),
-        "cores": os.cpu_count(),
-        "memory_bytes": os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"),
-        "system": platform.system(),
-        "load_before": os.getloadavg()[0],
-    }
-
-
 # --- the command line
 
 
 def parse(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="script/bench",
-        description=__doc__ + "Then Tables 2 and 3 of the paper, with its own rows beside ours.",
+        description=__doc__,
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -295,9 +271,8 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     add("--only", action="append", default=[], metavar="NAME", help="improvers with NAME in theirs")
     add("--repetitions", type=int, default=3, metavar="N", help="runs of each (default: 3)")
     add("--time-limit", type=float, default=1800, metavar="S", help="seconds a run (default: 1800)")
-    add("--no-tables", action="store_true", help="leave out the tables of the paper")
-    add("--figures", action="store_true", help="put the charts into docs/figures too")
     add("--profile", action="store_true", help="and the functions that take the most time (perf)")
+    documents.add_option(parser)
     return parser.parse_args(arguments)
 
 
@@ -319,30 +294,26 @@ def main() -> None:
     contenders = chosen(everyone, options.only)
     found = [row for row in contenders if row.found]
     meshes = [named_mesh(name) for name in options.meshes] or default_meshes(options.quick)
+    made = documents.stamp("script/bench")
     results = {
-        "date": datetime.date.today().isoformat(),
-        "machine": machine(),
-        "command": " ".join(["script/bench", *sys.argv[1:]]),
+        "date": made.date,
+        "machine": documents.machine(),
+        "command": made.command,
+        "commit": made.commit,
         "repetitions": options.repetitions,
         "missing": [
             {"improver": row.name, "hint": row.hint} for row in contenders if not row.found
         ],
         "meshes": [],
-        "table2": [],
     }
     WORK.mkdir(parents=True, exist_ok=True)
     for mesh in meshes:
         results["meshes"].append(compare(mesh, found, options.repetitions, options.time_limit))
-        if not options.no_tables:
-            rows = one_pass(mesh)
-            results["table2"].append({"mesh": mesh.stem, "rows": rows})
-            progress(f"{mesh.stem}: one reconnection pass of each scheme")
     print(report.text(results))
     (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
-    (WORK / "results.md").write_text(report.markdown(results))
-    folders = [WORK, ROOT / "docs" / "figures"] if options.figures else [WORK]
-    charts.write_all(results, folders)
-    print(f"\nSaved in {WORK.relative_to(ROOT)}: results.json, results.md and the charts.")
+    for file in [WORK / "results.md", *([options.write] if options.write else [])]:
+        documents.write(file, report.page(results), charts.all_charts(results))
+    print(f"\nSaved in {WORK.relative_to(ROOT)}: results.json, results.md, figures.")
     if options.profile:
         profile(meshes[-1])
 

@@ -1,60 +1,80 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Time and memory for each tet from small to very large meshes: prints a Markdown table.
-
-usage: growth.py BUILD_FOLDER WORK_FOLDER [--threads N] [--sizes N,N,...]
+"""Time and memory for each tet from small to very large meshes.
 
 Meshes are lattices with moved points (bench/lattice.cpp), so that only the size changes.
 """
+
 import argparse
 import json
 import subprocess
-from pathlib import Path
 
-HEADER = """| tets | before, bad | after, bad | theta_min | reading, s | building, s | improving, s | writing, s \
-| improving, us a tet | ratio | peak, bytes a tet |
-|---|---|---|---|---|---|---|---|---|---|---|"""
+import compare
+import documents
+import report
+
+HEADING = ["tets", "bad before", "after", "theta_min", "reading s", "building s", "improving s",
+           "writing s", "improving us a tet", "ratio", "peak bytes a tet"]
+TEXT = (
+    "The default schedule on lattices of moved points, so that only the size changes. Times are by "
+    "the clock. *ratio* is that of the improving time for each tet to that on the mesh of a "
+    "million."
+)
+BASE = 1e6  # tets of the mesh that the others are compared with
 
 
-def measure(build: Path, work: Path, size: float, threads: int) -> dict:
-    mesh = work / "lattice.meshb"
-    report = work / "growth.json"
-    improved = work / "lattice-improved.meshb"
-    subprocess.run([build / "bench/lattice", f"{size:.0f}", mesh], check=True)
-    command = [build / "bin/tetmend", "improve", mesh, "-o", improved, "--quiet",
-               "--threads", str(threads), "--report", report]
-    subprocess.run(command, check=True)
+def measure(size: float, threads: int) -> dict:
+    folder = compare.WORK / "growth"
+    folder.mkdir(parents=True, exist_ok=True)
+    mesh, improved, told = (folder / name for name in ("lattice.meshb", "out.meshb", "report.json"))
+    subprocess.run([compare.BUILD / "bench" / "lattice", f"{size:.0f}", mesh], check=True)
+    subprocess.run([compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved, "--quiet",
+                    "--threads", str(threads), "--report", told], check=True)
     mesh.unlink()
     improved.unlink()
-    return json.loads(report.read_text())
+    return json.loads(told.read_text())
 
 
-def row(report: dict, base: float | None) -> tuple[str, float]:
-    before, after, seconds = report["before"], report["after"], report["seconds"]
-    per_tet = 1e6 * seconds["improving"] / before["tets"]
-    cells = [f"{before['tets']:,}", f"{before['n_bad']:,}", f"{after['n_bad']:,}",
-             f"{after['theta_min']:.2f}",
-             *(f"{seconds[name]:.2f}" for name in ("reading", "building", "improving", "writing")),
-             f"{per_tet:.2f}", f"{per_tet / base:.2f}" if base else "",
-             f"{report['peak_memory_bytes'] / before['tets']:.0f}"]
-    return "| " + " | ".join(cells) + " |", per_tet
+def micros_a_tet(told: dict) -> float:
+    return 1e6 * told["seconds"]["improving"] / told["before"]["tets"]
+
+
+def row(told: dict, base: float | None) -> list[str]:
+    """@param base  microseconds for each tet of the mesh that others are compared with"""
+    before, after, seconds = told["before"], told["after"], told["seconds"]
+    times = [f"{seconds[name]:.2f}" for name in ("reading", "building", "improving", "writing")]
+    a_tet = micros_a_tet(told)
+    return [f"{before['tets']:,}", f"{before['n_bad']:,}", f"{after['n_bad']:,}",
+            f"{after['theta_min']:.2f}", *times, f"{a_tet:.2f}",
+            f"{a_tet / base:.2f}" if base else "",
+            f"{told['peak_memory_bytes'] / before['tets']:.0f}"]
+
+
+def table_of(runs: dict[float, dict]) -> documents.Table:
+    """@param runs  what each run reported, by the size that was asked for"""
+    base = micros_a_tet(runs[BASE]) if BASE in runs else None
+    return [HEADING, *(row(told, base if size > BASE else None) for size, told in runs.items())]
+
+
+def page(made: documents.Stamp, table: documents.Table) -> str:
+    parts = [TEXT, documents.markdown_table(table)]
+    return documents.document("Growth with the size of the mesh", made, parts)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("build", type=Path)
-    parser.add_argument("work", type=Path)
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--sizes", default="1e4,1e5,1e6,1e7,3.7e7")
+    parser = argparse.ArgumentParser(prog="script/bench --growth", description=__doc__)
+    parser.add_argument("--threads", type=int, default=1, metavar="N", help="(default: 1)")
+    parser.add_argument("--sizes", default="1e4,1e5,1e6,1e7,3.7e7", metavar="N,N,...",
+                        help="numbers of tets (default: 10 thousand to 37 million)")
+    documents.add_option(parser)
     options = parser.parse_args()
-    options.work.mkdir(parents=True, exist_ok=True)
-    print(HEADER)
-    base = None
+    runs = {}
     for size in map(float, options.sizes.split(",")):
-        line, per_tet = row(measure(options.build, options.work, size, options.threads), base)
-        if abs(size - 1e6) < 1:
-            base = per_tet
-        print(line, flush=True)
+        runs[size] = measure(size, options.threads)
+        compare.progress(f"{size:,.0f} tets: {runs[size]['seconds']['improving']:.2f} s")
+    table = table_of(runs)
+    print(report.text_table(table))
+    if options.write:
+        documents.write(options.write, page(documents.stamp("script/bench --growth"), table))
 
 
 if __name__ == "__main__":

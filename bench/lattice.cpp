@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes a mesh of any size for the measurement of growth.
 //
-//   a cube of n^3 cells, six tets each; every inner point is moved at random; where that turns a
-//   tet over or nearly so, the moves of its points are halved until none is
+//   A cube of n^3 cells, six tets each. Every inner point is moved at random. Where that turns a
+//   tet over, or nearly so, the moves of its points are halved until it does not.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

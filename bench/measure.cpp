@@ -5,7 +5,7 @@
 //   measure MESH            statistics
 //   measure BEFORE AFTER    statistics of both, and what became of the surface
 //
-// It shares the readers with tetmend and nothing else: angles, volumes and surfaces come from plain
+// It shares the readers with tetmend and nothing else. Angles, volumes and surfaces come from plain
 // arrays by formulas of its own, so that a mistake in the kernel's statistics cannot hide here.
 #include <algorithm>
 #include <array>
@@ -33,8 +33,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Points of two surfaces count as the same within this part of the diagonal: programs that scale
-/// a mesh to work on it, or write 15 digits, change the last bits.
+/// Points of two surfaces count as the same within this part of the diagonal. Programs change the
+/// last bits when they scale a mesh to work on it, or write 15 digits.
 constexpr double kSamePoint = 1e-9;
 
 double signed_volume(const MeshData& mesh, const MeshData::Tet& tet) {
@@ -152,7 +152,7 @@ class Statistics {
   double volume_ = 0;
 };
 
-// --- surfaces
+// --- surfaces ------------------------------------------------------------------------------------
 
 using Corner = std::array<double, 3>;
 

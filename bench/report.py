@@ -3,14 +3,26 @@
 
 from collections.abc import Callable
 
+import charts
+import documents
 import paper
-
-Table = list[list[str]]  # the first row is the heading
+from documents import Stamp, Table, markdown_table
 
 QUALITY = ["theta_min", "theta_max", "lambda %", "bad"]
-ELSEWHERE = "paper: its mesh, its machine"
+PAPER_HEADING = ["mesh", "scheme", "tets", "theta_min", "theta_max", "lambda %", "seconds"]
 PHASES = ["reading", "building", "improving", "measuring", "writing"]  # of tetmend
-WORDS = ["improver", "one pass of", "default schedule of", "surface", "measured"]  # aligned left
+WORDS = ["improver", "one pass of", "schedule", "surface"]  # aligned left
+
+
+EXPLANATION = (
+    "*improving s* is what a program says about its work without reading and writing; *whole run "
+    "s* and *peak MB* are those of the process, with Python for Gmsh and Netgen. TetGen's whole "
+    "run includes that it takes the mesh in. Angles in degrees; lambda in percent of the dihedral "
+    "angles outside 30 to 150 degrees; a bad tet has a minimum sine below 0.5. *surface*: kept "
+    "means the same triangles bit for bit; rounded means the same triangles with coordinates "
+    "changed by at most the number given. One program measures all results; it shares no formula "
+    "with tetmend."
+)
 
 
 # --- cells
@@ -111,43 +123,13 @@ def paper_rows(rows: list[paper.PaperRow]) -> Table:
             f"{row.theta_min:g}",
             f"{row.theta_max:g}",
             f"{row.lambda_percent:g}",
-            "",
             f"{row.seconds:,g}",
-            ELSEWHERE,
         ]
         for row in rows
     ]
 
 
-def table_2(results: dict) -> Table:
-    table = [["mesh", "one pass of", "tets", *QUALITY, "seconds", "measured"]]
-    for mesh in results["table2"]:
-        for row in mesh["rows"]:
-            name, time = row["scheme"], row["seconds"]
-            cells = [angle(row["theta_min"]), angle(row["theta_max"]), percent(row["lambda"])]
-            cells += [f"{row['n_bad']:,}", seconds(time) if time else "", "here"]
-            table.append([mesh["mesh"], name, f"{row['tets']:,}", *cells])
-    return table + paper_rows(paper.TABLE_2)
-
-
-def table_3(results: dict) -> Table:
-    table = [["mesh", "default schedule of", "tets", *QUALITY, "seconds", "measured"]]
-    for mesh in results["meshes"]:
-        for row in mesh["rows"]:
-            if not row["ours"] or "after" not in row:
-                continue
-            after, time = row["after"], row["phases"]["improving"]["median"]
-            cells = [f"{after['tets']:,}", *quality(after), seconds(time), "here"]
-            table.append([mesh["mesh"], row["improver"], *cells])
-    return table + paper_rows(paper.TABLE_3)
-
-
 # --- documents
-
-
-def markdown_table(table: Table) -> str:
-    lines = ["| " + " | ".join(row) + " |" for row in table]
-    return "\n".join([lines[0], "|" + "---|" * len(table[0]), *lines[1:]])
 
 
 def text_table(table: Table) -> str:
@@ -164,25 +146,21 @@ def text_table(table: Table) -> str:
     return "\n".join([line(table[0]), rule, *map(line, table[1:])])
 
 
-def machine_line(results: dict) -> str:
+def made_line(results: dict) -> str:
     machine, count = results["machine"], results["repetitions"]
-    memory = machine["memory_bytes"] / 1e9
     runs = f"Median of {count} runs in turns, with half their range in percent."
-    return (
-        f"{results['date']}, {machine['processor']}, {machine['cores']} cores, {memory:.0f} GB, "
-        f"load {machine['load_before']:.1f} at the start. " + (runs if count > 1 else "One run.")
-    )
+    return (f"Load {machine['load_before']:.1f} at the start. "
+            + (runs if count > 1 else "One run of each."))
 
 
-def sections(results: dict, heading: str, render: Callable[[Table], str]) -> list[str]:
+def sections(results: dict, heading: str, render: Callable[[Table], str],
+             after: Callable[[dict], list[str]]) -> list[str]:
+    """@param after  what follows the table of a mesh"""
     parts = []
     if len(own_schedule(results)) > 1:
-        parts += [heading + "The default schedule", render(own_schedule(results))]
+        parts += [heading + "tetmend alone", render(own_schedule(results))]
     for mesh in results["meshes"]:
-        parts += [heading + mesh["mesh"], render(comparison(mesh))]
-    if results["table2"]:
-        parts += [heading + "One reconnection pass [chen, Table 2]", render(table_2(results))]
-        parts += [heading + "Default schedules [chen, Table 3]", render(table_3(results))]
+        parts += [heading + mesh["mesh"], render(comparison(mesh)), *after(mesh)]
     return parts
 
 
@@ -194,7 +172,9 @@ def missing_lines(results: dict) -> list[str]:
 
 
 def text(results: dict) -> str:
-    parts = [machine_line(results), *sections(results, "\n", text_table)]
+    machine = documents.machine_text(results["machine"])
+    parts = [f"{results['date']}, {machine}. {made_line(results)}"]
+    parts += sections(results, "\n", text_table, lambda _: [])
     if results["missing"]:
         parts += ["", *missing_lines(results)]
     return "\n".join(parts)
@@ -207,18 +187,18 @@ def commands_table(results: dict) -> Table:
     return table
 
 
-def markdown(results: dict) -> str:
-    parts = [f"`{results['command']}`: {machine_line(results)}"]
-    parts += [
-        "*improving s* is what the program itself says about its work without reading and writing; "
-        "*whole run s* and *peak MB* are those of the process, with Python for Gmsh and Netgen. "
-        "Angles in degrees; lambda in percent of the dihedral angles outside 30 to 150 degrees; a "
-        "bad tet has a minimum sine below 0.5. "
-        "*surface*: kept means the same triangles bit for bit; rounded means the same triangles "
-        "with coordinates changed by at most the number given."
-    ]
-    parts += sections(results, "### ", markdown_table)
-    parts += ["### Commands", markdown_table(commands_table(results))]
+def chart_of(mesh: dict) -> list[str]:
+    name = charts.file_name(mesh)
+    return [documents.picture(name, charts.heading(mesh))] if charts.chart(mesh) else []
+
+
+def page(results: dict) -> str:
+    """The comparison as a document."""
+    made = Stamp(results["command"], results["commit"], results["date"],
+                 documents.machine_text(results["machine"]))
+    parts = [made_line(results), EXPLANATION]
+    parts += sections(results, "## ", markdown_table, chart_of)
+    parts += ["## Commands", markdown_table(commands_table(results))]
     if results["missing"]:
         parts.append("\n".join(missing_lines(results)))
-    return "\n\n".join(parts) + "\n"
+    return documents.document("tetmend and other improvers", made, parts)

@@ -2,9 +2,11 @@
 // What more cores would make of the default schedule: measured on one thread from the time of each
 // block.
 //
-//   for 1, 2, 4, ... 256 threads with the blocks that the size of the mesh asks for: time, speed-up
-//   for 1, 2, 4, ... 256 blocks with one thread for each: deferred work, work of one thread alone,
-//   critical path, speed-up; the passes in detail for the largest number
+//   for 1, 2, 4, ... 256 threads with the blocks that the size of the mesh asks for:
+//     time, speed-up
+//   for 1, 2, 4, ... 256 blocks with one thread for each:
+//     deferred work, work of one thread alone, critical path, speed-up
+//   the passes in detail for the largest number
 #include <cstdio>
 #include <exception>
 #include <map>

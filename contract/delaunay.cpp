@@ -2,7 +2,8 @@
 // Bowyer-Watson inside a huge tet, with the exact predicates of CGAL's kernel.
 //
 //   for each point: cavity = tets whose circumsphere holds it; replace them by tets from the point
-//   to each face of the cavity; at the end drop the tets at the corners of the huge tet
+//                   to each face of the cavity
+//   in the end: drop the tets at the corners of the huge tet
 #include "contract/delaunay.h"
 
 #include <algorithm>
@@ -35,8 +36,8 @@ std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points
   std::vector<Tet> tets = {huge};
   for (std::uint32_t i = 0; i < n; ++i) {
     std::vector<Tet> kept;
-    std::map<Face, Face>
-        open;  // by sorted vertices: the face counterclockwise as seen from outside
+    // By sorted vertices: the face counterclockwise as seen from outside.
+    std::map<Face, Face> open;
     for (const Tet& t : tets) {
       if (CGAL::side_of_oriented_sphere(p[t[0]], p[t[1]], p[t[2]], p[t[3]], p[i]) !=
           CGAL::ON_POSITIVE_SIDE) {

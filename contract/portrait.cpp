@@ -114,7 +114,7 @@ std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
     const TetMesh rebuilt(mesh.to_data());
     if (rebuilt.tet_count() != mesh.tet_count()) return "tets were lost on the way to a file";
   } catch (const Error& error) {
-    return std::string("the mesh cannot be built anew: ") + error.what();
+    return std::string("the mesh cannot be built again: ") + error.what();
   }
   return "";
 }

@@ -95,8 +95,8 @@ bool is_outside_untouched(const Side& side, const TetMesh& before) {
   return true;
 }
 
-/// The mesh with other points where x is above `bound` and no tet reaches back below it: what
-/// another thread may be changing, and nobody here may look at.
+/// The mesh with other points where x is above `bound` and no tet reaches back below it. Another
+/// thread may be changing these, and nobody here may look at them.
 TetMesh with_other_points_beyond(const TetMesh& start, double bound) {
   TetMesh mesh = start;
   Workspace workspace(mesh);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Trials of one operator on one mesh: a refusal leaves no trace, an accepted attempt leaves a sound
-// and better mesh with the same surface, regions and constraints, and the same attempt ends the
-// same way wherever it is made.
+// Trials of one operator on one mesh. A refusal leaves no trace. An accepted attempt leaves a sound
+// and better mesh with the same surface, regions and constraints. The same attempt ends the same
+// way wherever it is made.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ std::vector<Target> targets(const TetMesh& mesh, TargetKind kind);
 std::vector<Target> sample(const std::vector<Target>& all, std::size_t count, std::size_t turn);
 
 /// Sweeps over one mesh, at most `count` targets each. A twin with buffers of its own gets only the
-/// accepted attempts, traced and inside an outer transaction: it stays equal only if nothing else
-/// leaves a mark, in mesh, free lists or buffers. Cost: a few copies or comparisons of the mesh for
+/// accepted attempts, traced and inside an outer transaction. It stays equal only if nothing else
+/// leaves a mark in mesh, free lists or buffers. Cost: a few copies or comparisons of the mesh for
 /// each attempt, as in the other trials.
 Outcome try_in_sweeps(const Operator& op, const TetMesh& start, unsigned sweeps, std::size_t count);
 
@@ -49,8 +49,8 @@ Outcome try_on_fresh_copies(const Operator& op, const TetMesh& start, std::size_
 Outcome try_in_turns(std::span<const Candidate> candidates, const TetMesh& start, unsigned rounds,
                      std::size_t count);
 
-/// Every target in a territory, the part of the mesh where x is below `bound`: nothing outside may
-/// change, and other points outside, further than tets of the territory can tell, may not show.
+/// Every target in a territory, the part of the mesh where x is below `bound`. Nothing outside may
+/// change. Nor may anything depend on points outside that no tet of the territory touches.
 Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound);
 
 }  // namespace tetmend::contract

@@ -57,7 +57,7 @@ MeshData shell_with_constrained_edge();
 /// Kuhn cube of 2 x 2 x 2 cells: label 1 below, label 2 above.
 MeshData two_regions();
 
-/// Two tets above and two below a middle tet whose upper and lower pair of faces are 2 lift apart:
+/// A middle tet with two tets above and two below. Its upper and lower edge are 2 lift apart: it is
 /// positive for lift > 0, flat for 0, inverted below 0. The other tets are positive for
 /// |lift| < 0.5.
 MeshData middle_tet(double lift);

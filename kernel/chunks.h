@@ -3,7 +3,7 @@
 // has.
 //
 // Where chunks begin depends on sizes only, and results are put together in the order of the
-// chunks: so the number of threads cannot show in any result, sums of rounded numbers included.
+// chunks. So the number of threads cannot show in any result, not even in sums of rounded numbers.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace tetmend {
 
-/// Enough entities to make the start of a task cheap, few enough to keep many cores busy.
+/// Large enough that starting a task costs little, small enough to keep many cores busy.
 inline constexpr std::size_t kChunkSize = std::size_t{1} << 14;
 
 inline std::size_t chunk_count(std::size_t size, std::size_t chunk_size = kChunkSize) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All tets at given edges, found without walks: also where a star does not hang together.
+// All tets at given edges, found without walks: also where a star is not connected.
 #pragma once
 
 #include <array>

@@ -10,9 +10,8 @@
 
 namespace tetmend {
 
-/// One change: a set of tets replaced by another with the same outer surface, a vertex moved, a
-/// vertex added or removed. The data lie in the arrays of the journal; `*_begin` to `*_end` name
-/// the part.
+/// One change: a set of tets replaced by another with the same outer surface, or a vertex moved,
+/// added or removed. The data lie in the arrays of the journal; `*_begin` to `*_end` name the part.
 struct Edit {
   enum class Kind : std::uint8_t { replace_cavity, move_vertex, add_vertex, remove_vertex };
 
@@ -23,8 +22,8 @@ struct Edit {
   std::uint32_t created_begin = 0, created_end = 0;      ///< replace_cavity
   std::uint32_t links_begin = 0, links_end = 0;          ///< replace_cavity
   std::uint32_t qualities_begin = 0, qualities_end = 0;  ///< move_vertex
-  std::uint32_t appended =
-      0;  ///< slots that came from growth, not from the free list: the last ones created
+  /// Slots that came from growth, not from the free list: the last ones created.
+  std::uint32_t appended = 0;
 };
 
 /// Edits in the order in which they happened, with all that undoing them needs.
@@ -58,8 +57,8 @@ struct Journal {
   std::vector<VertexLink> links;
   std::vector<TetQuality> qualities;
   std::vector<RemovedVertex> removed_vertices;  // one for each remove_vertex
-  std::vector<std::vector<std::any>>
-      property_values;  // of removed tets and vertices, if the mesh has properties
+  // Of removed tets and vertices, if the mesh has properties.
+  std::vector<std::vector<std::any>> property_values;
 
   bool empty() const { return edits.empty(); }
   void clear() {
@@ -78,8 +77,8 @@ struct Journal {
 class EditListener {
  public:
   virtual ~EditListener() = default;
-  /// The last edit of the journal was just made: the mesh holds what it created. A vertex that
-  /// lost its last tet is removed by an edit of its own, right after.
+  /// The last edit of the journal was just made: the mesh holds what it created. A vertex that lost
+  /// its last tet is removed right after, by an edit of its own.
   virtual void edit_made(const TetMesh& mesh, const Journal& journal) = 0;
   /// The last edit that was made and not undone yet was just undone.
   virtual void edit_undone() = 0;

@@ -17,8 +17,8 @@ struct ExactOrientation {
 };
 
 /// Sign of volume6(a, b, c, d) in exact arithmetic: -1, 0 or 1. Precondition: finite coordinates.
-/// Cost: a filter of floating-point operations decides nearly always, rationals the rest (CGAL's
-/// filtered kernel).
+/// Cost: floating-point operations decide nearly always, rational numbers the rest (CGAL's filtered
+/// kernel).
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// Exact signs of all live tets. Cost: linear.

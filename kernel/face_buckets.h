@@ -12,7 +12,7 @@
 
 namespace tetmend {
 
-/// Three of the four faces of a tet have its smallest vertex as their smallest, the fourth has its
+/// Of the four faces of a tet, three have its smallest vertex as their smallest, and the fourth its
 /// second smallest. So two lists of tets, by these two vertices, stand for all faces: 4 to 8 bytes
 /// a tet.
 class FaceBuckets {
@@ -89,7 +89,7 @@ class FaceBuckets {
   Grouping by_second_;
 };
 
-/// Two sides that coincide, and where more or other than that was found.
+/// Finds pairs of sides that coincide, and faces with more sides than that.
 class FacePairs {
  public:
   /// Empties the table and makes room for `faces`.

@@ -34,9 +34,9 @@ using TetVertices = std::array<VertexHandle, 4>;  ///< in positive order
 static_assert(!std::is_convertible_v<VertexHandle, TetHandle>);
 static_assert(!std::is_invocable_v<std::equal_to<>, VertexHandle, TetHandle>);
 
-// Numbering inside a tet (v0, v1, v2, v3) with positive volume, that is (v1-v0) . ((v2-v0) x
-// (v3-v0)) > 0: face f lies opposite vertex f, its vertices listed counterclockwise as seen from
-// outside; edge e joins two vertices, edge 5 - e the other two.
+// Numbering inside a tet (v0, v1, v2, v3) of positive volume: (v1-v0) . ((v2-v0) x (v3-v0)) > 0.
+// Face f lies opposite vertex f; its vertices are listed counterclockwise as seen from outside.
+// Edge e joins two vertices, edge 5 - e the other two.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kFaceVertices = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 inline constexpr std::array<std::array<std::uint8_t, 2>, 6> kEdgeVertices = {

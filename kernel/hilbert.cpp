@@ -17,9 +17,9 @@ namespace {
 
 constexpr int kBits = 21;
 
-/// One step along the curve: the bits of the three axes at one level or two, most significant
-/// first, give one digit of the key or two and the way in which the axes are turned and reflected
-/// below.
+/// One step along the curve. The bits of the three axes at one level or two, most significant
+/// first, give one digit of the key or two. They also give the way in which the axes are turned and
+/// reflected below.
 struct Step {
   std::uint8_t digit;
   std::uint8_t next;

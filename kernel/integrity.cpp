@@ -3,8 +3,7 @@
 //
 //   vertices of each tet -> neighbours and their senses -> links of vertices -> surface triangles
 //   -> constraint bits, labels -> vertex flags -> qualities -> counts
-//   a tet whose vertices are wrong is left out of all later checks, so that no bad index is
-//   followed
+//   A tet whose vertices are wrong is left out of all later checks: no bad index is followed.
 #include "kernel/integrity.h"
 
 #include <algorithm>

@@ -3,12 +3,13 @@
 //
 //   check indices
 //   slots: as the file has vertices and tets, or along a curve, so that all that follows works on
-//   neighbours in memory; the arrays of the file are released on the way
+//          neighbours in memory; the arrays of the file are released on the way
 //   orient: swap two vertices of every tet if most are negative
-//   match faces, vertex by vertex those of which it is the smallest; where that fails swap two
-//   vertices of single tets that are not positive, if their neighbours ask for it, and match again
+//   match faces: vertex by vertex, those of which it is the smallest; where that fails, swap two
+//                vertices of single tets that are not positive, if their neighbours ask for it, and
+//                match again
 //   surface: named triangles in file order, then boundary faces and label interfaces that no
-//   triangle names
+//            triangle names
 //   constraints: face bits, edge bits, fixed vertices; without those inside regions, if so asked
 #include <algorithm>
 #include <atomic>
@@ -29,8 +30,8 @@ namespace tetmend {
 
 namespace {
 
-/// Room that is taken before it is needed costs addresses, not memory: an improved mesh may be a
-/// little larger, and arrays that grow would be there twice meanwhile.
+/// Room that is taken before it is needed costs addresses, not memory. An improved mesh may be a
+/// little larger, and arrays that grow would exist twice meanwhile.
 template <class T>
 void resize_with_room(std::vector<T>& values, std::size_t size) {
   values.reserve(size + size / 4);
@@ -124,11 +125,11 @@ class MeshBuilder {
   TetMesh& mesh_;
   BuildReport& report_;
   const bool drops_interior_;
-  std::vector<char> on_border_;          // by vertex slot, see find_border(); empty unless interior
-                                         // constraints are dropped
+  // By vertex slot, see find_border(); empty unless interior constraints are dropped.
+  std::vector<char> on_border_;
   std::vector<std::uint32_t> slot_of_;   // by the file's vertex number; empty: the same
   std::vector<std::uint32_t> file_tet_;  // by slot; empty: the same
-  std::vector<char> swapped_;            // single tets that were put right; empty: none
+  std::vector<char> swapped_;            // single tets that were corrected; empty: none
 };
 
 void MeshBuilder::check_indices() const {
@@ -315,8 +316,8 @@ std::vector<std::uint32_t> MeshBuilder::match(const FaceBuckets& buckets) {
   return trouble;
 }
 
-/// Throws for the first tet, as the file counts them, that is one too many at a face, or that lies
-/// on the same side of a face as another one.
+/// Throws for the first tet, as the file counts them, that is one too many at a face or lies on the
+/// same side of it as another tet.
 void MeshBuilder::check_buckets(const FaceBuckets& buckets,
                                 const std::vector<std::uint32_t>& vertices, bool senses) const {
   std::size_t first = mesh_.cells_.size();

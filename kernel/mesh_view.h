@@ -56,9 +56,8 @@ class MeshView {
   std::span<const std::uint32_t> required_vertices_;
   std::vector<std::size_t> first_tet_;  // of each block, then the number of tets
 
-  // Of a TetMesh only.
-  std::vector<std::uint32_t>
-      order_;  // slots of the vertices as they are listed; empty: 0, 1, 2, ...
+  // Of a TetMesh only: slots of the vertices as they are listed (empty: 0, 1, 2, ...), and so on.
+  std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> number_;  // by slot, the inverse
   std::vector<Label> own_point_labels_;
   std::vector<MeshData::Triangle> own_triangles_;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The shell of an edge: the tets around it, found from a tet that contains the edge, or by a search
-// from one end.
+// The shell of an edge: the tets around it, found from one of them or from an end of the edge.
 //
-//              p_i                 The ring (skirt polygon) p_0 .. p_{m-1} runs around the
-//              supporting edge ab so that each tet
-//             / | \                of the shell is (a, b, p_i, p_{i+1}) with positive volume. The
-//             face (a, b, p_i) is a supporting
-//        p_{i+1}| p_{i-1}          face, (a, p_i) and (b, p_i) are link edges, (a, p_i, p_{i+1})
-//        and (b, p_i, p_{i+1}) link
-//             \ a/                 faces ([chen, Fig. 3]).
+//              b               The supporting edge ab, which runs behind p_i p_{i+1} here, and one
+//            / : \             of the tets around it, (a, b, p_i, p_{i+1}) of positive volume.
+//          /   :   \           Their other vertices p_0 .. p_{m-1} are the ring (skirt polygon).
+//        /     :     \         Seen from b it runs counterclockwise ([chen, Fig. 3]).
+//     p_i ------------ p_{i+1}
+//        \     :     /           supporting face   (a, b, p_i)
+//          \   :   /             link edges        (a, p_i), (b, p_i)
+//            \ : /               link faces        (a, p_i, p_{i+1}), (b, p_i, p_{i+1})
+//              a                 degree            m
 #pragma once
 
 #include <array>
@@ -51,7 +52,7 @@ struct Shell {
 ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
                      const Territory& territory = {});
 
-/// A tet that contains the edge between two vertices, searched in the star of the first; nothing
+/// A tet that contains the edge between two vertices, searched in the star of the first. Nothing
 /// when there is none, or when the search leaves the territory of the workspace, which notes it.
 /// Looks at `hint` first. At a vertex whose star is not connected through faces (touching fans),
 /// only the fan of its stored tet is searched. Cost: about 26 tets without a useful hint

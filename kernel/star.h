@@ -27,8 +27,7 @@ std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v, Workspace& 
 std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
 
 /// Edge (a, b) in the star of a; nothing if there is none in the territory of the workspace.
-/// Precondition: a is a live vertex with a
-/// tet.
+/// Precondition: a is a live vertex with a tet.
 std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
                                     Workspace& workspace);
 

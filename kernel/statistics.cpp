@@ -45,8 +45,8 @@ double share(double part, std::size_t whole) {
   return whole == 0 ? 0 : part / static_cast<double>(whole);
 }
 
-/// The classes of angles. Class 2 j is the open interval below edge j, class 2 j + 1 edge j itself
-/// (give or take kAngleTolerance): bins and bands close their intervals on different sides.
+/// The classes of angles. Class 2 j is the open interval below edge j, and class 2 j + 1 is edge j
+/// itself (give or take kAngleTolerance). Bins and bands close their intervals on different sides.
 class AngleClasses {
  public:
   static constexpr std::size_t kMaxEdges = 48;
@@ -100,8 +100,8 @@ class AngleClasses {
   }
 
  private:
-  static constexpr double kCellsPerUnit =
-      512;  // fine enough for one edge a cell, small enough for L1
+  // Fine enough for one edge a cell, small enough for L1.
+  static constexpr double kCellsPerUnit = 512;
 
   static double key_of(double degrees) {
     const double cosine = std::cos(degrees * std::numbers::pi / 180);

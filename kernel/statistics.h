@@ -10,9 +10,9 @@
 
 namespace tetmend {
 
-/// Statistics of a mesh ([chen, Table 1] and 6.2). Angles in degrees, shares in percent of the
-/// 6 x tets dihedral angles; the angles of an inverted tet are those of its mirror image, an angle
-/// at a degenerate face counts as 0. All 0 for a mesh without tets.
+/// Statistics of a mesh ([chen, Table 1] and 6.2). Angles in degrees, shares in percent of the 6 x
+/// tets dihedral angles. The angles of an inverted tet are those of its mirror image; an angle at a
+/// degenerate face counts as 0. All 0 for a mesh without tets.
 struct MeshStatistics {
   std::size_t tets = 0;
   std::size_t vertices = 0;  ///< live vertices, also those of no tet
@@ -34,8 +34,8 @@ struct MeshStatistics {
   std::array<std::size_t, 36> histogram{};
 };
 
-/// An angle this close to the edge of a bin or a band (degrees) counts as lying on it: where the 60
-/// degrees of a regular grid are counted is not left to rounding.
+/// An angle this close to the edge of a bin or a band (degrees) counts as lying on it. So it is not
+/// left to rounding where the 60 degrees of a regular grid are counted.
 inline constexpr double kAngleTolerance = 1e-9;
 
 /// Computes everything from the points, not from cached qualities. The sums are compensated and run
@@ -44,7 +44,7 @@ inline constexpr double kAngleTolerance = 1e-9;
 MeshStatistics compute_statistics(const TetMesh& mesh);
 
 /// The three indicators by which the schedule gauges progress ([chen, 6.2]), from the cached
-/// qualities of the tets that are not frozen: the others tell nothing about what is left to do.
+/// qualities. Frozen tets are left out: they tell nothing about what is left to do.
 struct QualityIndicators {
   double q_worst = 0;
   std::size_t n_bad = 0;

@@ -14,7 +14,7 @@ using BlockId = std::uint16_t;
 
 /// The tets whose vertices all belong to one block. A tet between blocks belongs to nobody and
 /// stays as it is; only its neighbour across a face of one block changes, and only with that block.
-/// So whoever walks from tet to tet meets a foreign vertex before meeting what others change.
+/// So a walk from tet to tet meets a foreign vertex before it meets what others change.
 class Territory {
  public:
   /// The whole mesh.

@@ -25,16 +25,15 @@ using Date = std::uint32_t;
 
 /// What building a mesh from a file's contents found and did.
 struct BuildReport {
-  bool mirrored =
-      false;  ///< most tets were negative: the order of two vertices was swapped in every tet
-  std::size_t reordered_tets =
-      0;  ///< negative tets that only listed their vertices the other way round: put right
+  bool mirrored = false;  ///< most tets were negative: two vertices were swapped in every tet
+  /// Negative tets that only listed their vertices the other way round: corrected.
+  std::size_t reordered_tets = 0;
   std::size_t inverted_tets = 0;  ///< tets of negative volume that were kept
   std::size_t flat_tets = 0;      ///< tets of zero volume (or too close to tell) that were kept
-  std::size_t loose_triangles =
-      0;  ///< named triangles that are no face of any tet: kept for output, no constraint
-  std::size_t loose_edges =
-      0;  ///< named edges that are no edge of any tet: kept for output; its vertices are fixed
+  /// Named triangles that are no face of any tet: kept for output, but no constraint.
+  std::size_t loose_triangles = 0;
+  /// Named edges that are no edge of any tet: kept for output, and their vertices are fixed.
+  std::size_t loose_edges = 0;
   std::size_t unused_points = 0;      ///< points of no tet: kept
   std::size_t constrained_faces = 0;  ///< interior faces that must survive
   // By InteriorConstraints::dropped.
@@ -66,12 +65,11 @@ struct SurfaceTriangle {
 class TetMesh {
  public:
   TetMesh() = default;
-  /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is put right; tets
+  /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is corrected; tets
   /// that are inverted or flat are kept and counted in `report`.
   /// @throws Error when a face has more than two tets, when two tets lie on the same side of a
-  /// face, or when an index is out of range;
-  ///   BuildError names the tet.
-  /// Cost: linear. `data` is taken apart on the way: move it in where it is not needed any more.
+  ///   face, or when an index is out of range. BuildError names the tet.
+  /// Cost: linear. `data` is taken apart on the way: move it in where it is no longer needed.
   explicit TetMesh(MeshData data, BuildReport* report = nullptr,
                    InteriorConstraints interior = InteriorConstraints::kept);
   /// The same mesh as by the constructor and sort_spatially(), in less time and memory: at its peak
@@ -83,21 +81,16 @@ class TetMesh {
   /// the others.
   MeshData to_data() const;
 
-  // --- sizes
-  // -----------------------------------------------------------------------------------------------------------------------
+  // --- sizes -------------------------------------------------------------------------------------
   std::size_t tet_count() const { return tet_count_; }
   std::size_t vertex_count() const { return vertex_count_; }
-  std::size_t tet_slots() const {
-    return cells_.size();
-  }  ///< live and deleted; bound of TetHandle::index()
-  std::size_t vertex_slots() const {
-    return points_.size();
-  }  ///< live and deleted; bound of VertexHandle::index()
+  /// Live and deleted; bounds of TetHandle::index() and VertexHandle::index().
+  std::size_t tet_slots() const { return cells_.size(); }
+  std::size_t vertex_slots() const { return points_.size(); }
   bool is_deleted(TetHandle t) const { return !cells_[t.index()].vertices[0].is_valid(); }
   bool is_deleted(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexDeleted) != 0; }
 
-  // --- tets
-  // ------------------------------------------------------------------------------------------------------------------------
+  // --- tets --------------------------------------------------------------------------------------
   const TetVertices& vertices(TetHandle t) const { return cells_[t.index()].vertices; }
   const std::array<HalfFace, 4>& neighbours(TetHandle t) const {
     return cells_[t.index()].neighbours;
@@ -167,8 +160,7 @@ class TetMesh {
     return certified_positive(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3]));
   }
 
-  // --- vertices
-  // --------------------------------------------------------------------------------------------------------------------
+  // --- vertices ----------------------------------------------------------------------------------
   const Point& point(VertexHandle v) const { return points_[v.index()]; }
   /// A tet that contains v; invalid for a vertex of no tet.
   TetHandle tet_of(VertexHandle v) const { return vertex_tet_[v.index()]; }
@@ -185,27 +177,25 @@ class TetMesh {
   /// Date at which v itself moved last.
   Date moved(VertexHandle v) const { return vertex_dates_[v.index()].moved; }
 
-  // --- surface and constraints
-  // -----------------------------------------------------------------------------------------------------
+  // --- surface and constraints -------------------------------------------------------------------
   std::span<const SurfaceTriangle> surface_triangles() const { return surface_; }
 
-  // --- properties
-  // ------------------------------------------------------------------------------------------------------------------
+  // --- properties --------------------------------------------------------------------------------
   PropertyTable<TetHandle>& tet_properties() { return tet_properties_; }
   const PropertyTable<TetHandle>& tet_properties() const { return tet_properties_; }
   PropertyTable<VertexHandle>& vertex_properties() { return vertex_properties_; }
   const PropertyTable<VertexHandle>& vertex_properties() const { return vertex_properties_; }
 
   /// Freezes the live tets for which `is_frozen` is true, and thaws all others. No transaction
-  /// removes a frozen tet or moves one of its vertices. Files do not hold it. Gives their number.
-  /// Precondition: no transaction is open. Cost: linear.
+  /// removes a frozen tet or moves one of its vertices. Files do not hold this. Returns the number
+  /// of frozen tets. Precondition: no transaction is open. Cost: linear.
   std::size_t freeze(const std::function<bool(TetHandle)>& is_frozen);
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
   /// before become invalid.
   void collect_garbage();
-  /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each
-  /// slot that there is); slots between them are deleted ones. So a rebuilt mesh gets the handle
-  /// numbers of the one it shows. Handles made before become invalid.
+  /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each of
+  /// them). The slots between them are deleted ones. So a rebuilt mesh gets the handle numbers of
+  /// the one it shows. Handles made before become invalid.
   void scatter(std::span<const std::uint32_t> vertex_slots,
                std::span<const std::uint32_t> tet_slots);
   /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are
@@ -249,8 +239,8 @@ class TetMesh {
 
   // Scans for bad tets need not ask whether a slot is in use.
   static constexpr Quality kDeletedQuality = std::numeric_limits<Quality>::infinity();
-  using TetFlags = std::uint16_t;  // bits 0-3: face f is constrained; bits 4-9: edge e is
-                                   // constrained; bit 10: touched; bit 11: frozen
+  // Bits 0-3: face f is constrained; bits 4-9: edge e is; bit 10: touched; bit 11: frozen.
+  using TetFlags = std::uint16_t;
   static constexpr TetFlags kTetTouched = 0x400;
   static constexpr TetFlags kTetFrozen = 0x800;
   static constexpr TetFlags kTetConstraints = 0x3FF | kTetFrozen;

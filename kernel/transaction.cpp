@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Edits with their checks, and the way back.
 //
-//   replace_cavity: check old tets, vertices and constraints -> evaluate new tets -> glue faces ->
-//   save -> take slots -> fill -> link undo: the edits in reverse; slots go back to where they came
-//   from, in reverse, so that free lists agree as well
+//   replace_cavity: check old tets, vertices and constraints -> evaluate new tets -> glue faces
+//                   -> save -> take slots -> fill -> link
+//   undo: the edits in reverse; slots go back to where they came from, in reverse too, so that the
+//         free lists are what they were
 #include "kernel/transaction.h"
 
 #include <algorithm>
@@ -64,8 +65,7 @@ void Transaction::note(const Edit& edit) {
   }
 }
 
-// --- replace_cavity
-// ------------------------------------------------------------------------------------------------------------------
+// --- replace_cavity ------------------------------------------------------------------------------
 
 /// Fills cavity_set_ and constrained_edges_; refuses a cavity with a frozen tet, or with a
 /// constrained face or a label border inside.
@@ -380,8 +380,7 @@ void Transaction::remove_isolated(const Edit& replaced) {
   }
 }
 
-// --- vertices
-// ------------------------------------------------------------------------------------------------------------------------
+// --- vertices ------------------------------------------------------------------------------------
 
 VertexHandle Transaction::add_vertex(const Point& point) {
   assert(!kept_);
@@ -480,8 +479,7 @@ void Transaction::note_move(const VertexMove& move, const Point& before,
   note(edit);
 }
 
-// --- the way back
-// --------------------------------------------------------------------------------------------------------------------
+// --- the way back --------------------------------------------------------------------------------
 
 void Transaction::undo() {
   auto& edits = workspace_.journal_.edits;
@@ -599,8 +597,7 @@ void Transaction::undo_remove(const Edit& edit) {
   ++workspace_.vertex_count(mesh_);
 }
 
-// --- comparison and commit
-// -----------------------------------------------------------------------------------------------------------
+// --- comparison and commit -----------------------------------------------------------------------
 
 void Transaction::compare(std::vector<Quality>& before, std::vector<Quality>& now) const {
   list_qualities(before, now);

@@ -14,12 +14,14 @@ namespace tetmend {
 /// Why an edit was not made. The mesh is unchanged unless `made`.
 enum class EditResult : std::uint8_t {
   made,
-  inverted,  ///< a new tet is not certified positive or, in a folded mesh, has a face that exists
-             ///< elsewhere already; or a move would turn a positive tet over
-  constrained,  ///< a constrained face, edge or vertex, a frozen tet, or a border between labels
-                ///< would vanish, or a fixed vertex would move
-  no_room,      ///< no free slot left in the territory of the workspace
-  not_closed    ///< old and new tets do not have the same outer surface (a mistake of the caller)
+  /// A new tet is not certified positive or, in a folded mesh, has a face that exists elsewhere
+  /// already. Or a move would turn a positive tet over.
+  inverted,
+  /// A constrained face, edge or vertex, a frozen tet, or a border between labels would vanish. Or
+  /// a fixed vertex would move.
+  constrained,
+  no_room,    ///< no free slot left in the territory of the workspace
+  not_closed  ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
 
 /// A vertex, where it is to go, and its link (see star.h).
@@ -30,7 +32,7 @@ struct VertexMove {
 };
 
 /// A scope for edits. Transactions nest: one opened while another is open on the same workspace is
-/// its child. Undo restores every slot of the mesh bit by bit, handle numbers included. The
+/// its child. Undo restores every slot of the mesh bit for bit, handle numbers included. The
 /// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
 /// journal. Tets and vertices given to a transaction must lie in the territory of the workspace.
 class Transaction {
@@ -43,10 +45,11 @@ class Transaction {
   const TetMesh& mesh() const { return mesh_; }
 
   /// Replaces the tets `old` by new ones that fill the same cavity. Vertices that no tet needs any
-  /// more are deleted; new tets take over the label, the constraints and, where possible, the slots
-  /// of the old. New tets must be certified positive. Preconditions: old tets are live and
-  /// distinct. created vertices are live, and those not in `old` have no tet yet. Cost: linear in
-  /// the number of tets; allocates only when a buffer or the mesh outgrows its largest size so far.
+  /// longer are deleted; new tets take over the label, the constraints and, where possible, the
+  /// slots of the old. New tets must be certified positive. Preconditions: old tets are live and
+  /// distinct; new vertices are live, and those that are not in `old` have no tet yet. Cost: linear
+  /// in the number of tets; allocates only when a buffer or the mesh outgrows its largest size so
+  /// far.
   EditResult replace_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created);
 
   /// Handles of the tets that the last successful replace_cavity created, in the order given to it.

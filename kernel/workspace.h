@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one worker needs beside the mesh: free slots, journal, visit marks, scratch buffers.
+// What one worker needs besides the mesh: free slots, journal, visit marks, scratch buffers.
 #pragma once
 
 #include <span>
@@ -14,9 +14,8 @@
 
 namespace tetmend {
 
-/// Scratch of one worker. The mesh holds nothing of the kind, so reading it is safe from any
-/// thread. A workspace belongs to one mesh; garbage collection and sorting of the mesh make it
-/// invalid.
+/// The working memory of one worker. The mesh holds nothing of the kind, so any thread may read it.
+/// A workspace belongs to one mesh; garbage collection and sorting of the mesh make it invalid.
 class Workspace {
  public:
   /// Collects the free slots of the mesh; notes whether it has tets that are not positive. Cost:
@@ -110,8 +109,8 @@ class Workspace {
   std::size_t more_tets_ = 0;
   std::size_t more_vertices_ = 0;
   std::vector<VertexHandle> added_vertices_;
-  bool may_overlap_ =
-      false;  // the mesh had tets of no positive quality when the workspace was made
+  // The mesh had tets of no positive quality when the workspace was made.
+  bool may_overlap_ = false;
 
   // Buffers of Transaction.
   IndexSet cavity_set_;
@@ -119,8 +118,8 @@ class Workspace {
   IndexSet touched_set_;
   FaceTable face_table_;
   struct Gluing {
-    HalfFace twin;  // of a new face: number and face of another new tet if local, else what lies
-                    // outside the cavity
+    // Of a new face: number and face of another new tet if local, else what lies outside.
+    HalfFace twin;
     bool local;
     bool constrained;
   };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Growth of cavities.
 //
-//   offer: take the target -> repeat: the worst outer face; note the state if it is the best so
-//   far;
-//          take the tet behind the face, if there is one and it may be taken
+//   offer: take the target
+//          repeat: find the worst outer face; note the state if it is the best so far;
+//                  take the tet behind the face, if there is one and it may be taken
 #include "ops/cavity.h"
 
 #include <algorithm>

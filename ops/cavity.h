@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The cavity of a new vertex: which tets give way to those between the vertex and the outer faces
-// of the cavity.
+// The cavity of a new vertex: the tets that are replaced by tets between the vertex and the outer
+// faces of the cavity.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@
 
 namespace tetmend {
 
-/// Finds the cavity whose worst new tet is best, for one place of the vertex after the other, and
-/// keeps the best place with its cavity ([klingner_shewchuk]).
+/// For one place of the vertex after another, finds the cavity whose worst new tet is best. Keeps
+/// the best place with its cavity ([klingner_shewchuk]).
 ///
 /// DEVIATION: the source collects all tets that the vertex might see and then cuts that graph. Here
 /// the cavity grows one tet at a time, always through the outer face that makes the worst tet with
-/// the vertex, and the state with the best worst tet is taken. That is the same optimum without the
-/// graph: as long as a state is part of the best cavity and has a worse face than that, the tet
-/// behind the face is part of it too. Faces that the vertex does not see make tets of negative
-/// quality and are left behind in the same way.
+/// the vertex. The state with the best worst tet is taken. That is the same optimum without the
+/// graph: a state that is part of the best cavity, but has a worse face, must take in the tet
+/// behind that face as well. Faces that the vertex does not see make tets of negative quality and
+/// are crossed in the same way.
 class VertexCavity {
  public:
   struct Limits {
@@ -39,15 +39,15 @@ class VertexCavity {
   /// which must not be negative.
   void begin(TetHandle target, double least, const Limits& limits);
 
-  /// `accepted` when the vertex at that point has a better cavity than all before, which takes
-  /// their place; otherwise they stay. `deferred` when the search meets the border of the
-  /// territory. A cavity crosses no boundary, constrained face or border of a frozen tet. Cost:
-  /// n log n for the n tets that it looks at, `max_tets` at most; ends early when a face that
-  /// cannot be crossed bounds all that could follow.
+  /// `accepted` when the vertex at that point has a better cavity than all before, which is then
+  /// kept instead. `deferred` when the search meets the border of the territory. A cavity crosses
+  /// no boundary, constrained face or border of a frozen tet. Cost: n log n for the n tets that it
+  /// looks at, `max_tets` at most; ends early when a face that cannot be crossed bounds all that
+  /// could follow.
   Verdict offer(const TetMesh& mesh, Workspace& workspace, const Point& point);
 
-  /// The best so far: place, tets that give way, the target first, and outer faces as faces of
-  /// these tets.
+  /// The best so far: the place, the tets to be replaced (the target first), and the outer faces as
+  /// faces of these tets.
   const Point& point() const { return point_; }
   std::span<const TetHandle> tets() const { return tets_; }
   std::span<const HalfFace> faces() const { return faces_; }
@@ -82,9 +82,9 @@ class VertexCavity {
   double bound_ = 0;         // worst of the faces that cannot be crossed
 };
 
-/// Whether the outer faces of a cavity form one closed surface without handles or pinches. Those
-/// around positive tets of which a point sees all do; in a folded mesh a cavity may enclose tets.
-/// Cost: quadratic.
+/// Whether the outer faces of a cavity form one closed surface without handles or pinches. They do
+/// if the tets are positive and a point sees all the faces, except in a folded mesh, where a cavity
+/// may enclose tets. Cost: quadratic.
 bool is_sphere(const TetMesh& mesh, std::span<const HalfFace> faces);
 
 }  // namespace tetmend

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+//          2               Sites for the vertex: the centroids of the tet, its faces and its edges;
+//         / \              in the plane, these four.
+//        *   *
+//       /  *  \              at each site: cavity -> best place in it -> cavity there -> ...
+//      /       \             at the most promising places: fill the cavity with the tets between
+//     0----*----1              the vertex and its outer faces -> relax -> take the first that is
+//                              worth it
 #include "ops/cavity_insertion.h"
 
 #include <algorithm>

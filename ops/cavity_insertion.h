@@ -6,23 +6,23 @@
 
 namespace tetmend {
 
-/// Target: a tet, which gives way to a new vertex together with the tets around whose removal makes
-/// the worst new tet best ([klingner_shewchuk]; see VertexCavity). Places for the vertex are the
-/// centroid of the tet and those of its faces and edges. At each, the vertex moves to the best
-/// place in its cavity and the cavity is chosen anew. The `tries` most promising of these are made,
-/// one after the other, until one stands the test: with `relax`, after the tets around were
-/// smoothed and reconnected (see relaxation.h). The test is that of edge_split, but for the
-/// `exponent` in the sum of what the bad tets lack: with 4, as there, a hard place is given up that
-/// needs mild bad tets on the way; without any such test, or with a larger `desperate`, it breeds
-/// them.
+/// Target: a tet. Replaces it by tets at a new vertex, together with those tets around it whose
+/// removal makes the worst new tet best ([klingner_shewchuk]; see VertexCavity). Places for the
+/// vertex are the centroids of the tet, its faces and its edges. At each, the vertex moves to the
+/// best place in its cavity, and the cavity is chosen again. The `tries` most promising places are
+/// tried one after the other until one is worth it. With `relax`, the tets around are smoothed and
+/// reconnected before that is judged (see relaxation.h). The rule is that of edge_split with an
+/// `exponent` of its own for what bad tets lack. With 4, as there, places are given up that need
+/// mild bad tets on the way. Without the rule, or with a larger `desperate`, more and more such
+/// tets appear.
 ///
-/// DEVIATION: the source tries one place for a vertex; others are what makes stubborn tets go.
+/// DEVIATION: the source tries one place for a vertex; stubborn tets need others.
 ///
 /// Refuses as `no_improvement` also when all cavities promise less than half of the quality of the
-/// target; as `constrained` when a cavity would swallow a fixed vertex or a constrained edge.
-/// Parameters: max_tets (64), tries (6), relax (1), desperate (0.2), exponent (4), steps (8). Cost:
-/// the growth of some 30 cavities and the smoothing of one vertex in each, and a relaxation for
-/// each try.
+/// target. Refuses as `constrained` when a cavity would swallow a fixed vertex or a constrained
+/// edge.
+/// Cost: the growth of some 30 cavities and the smoothing of one vertex in each, and a relaxation
+/// for each try.
 const OperatorInfo& cavity_insertion_info();
 
 }  // namespace tetmend

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+//      q-----p              q-----p      The ball of v, as a picture in the plane: v goes to w. The
+//     / \   / \            / '-.   \     tets at the edge vw vanish; every other one gets w for v.
+//    /   \ /   \          /     '-. \    Then w moves to the best place in its new ball.
+//   r-----v-----w   ->   r-----------w
+//    \   / \   /          \     .-' /
+//     \ /   \ /            \ .-'   /
+//      s-----t              s-----t
 #include "ops/edge_contraction.h"
 
 #include <algorithm>

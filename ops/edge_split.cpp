@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+//         b                   b          One tet (a, b, p, q) of the shell: the new vertex v on the
+//       / | \               / | \        edge ab makes two of it, (a, v, p, q) and (v, b, p, q).
+//     /   |   \           /   |   \      The shell becomes the ball of v, in which v then moves to
+//   p . . | . . q  ->   p --- v --- q    the best place.
+//     \   |   /           \   |   /
+//       \ | /               \ | /
+//         a                   a
 #include "ops/edge_split.h"
 
 #include <algorithm>

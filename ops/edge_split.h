@@ -7,12 +7,11 @@
 namespace tetmend {
 
 /// Target: an edge. Puts a vertex at its midpoint, splits the tets of its shell and moves the
-/// vertex to where the worst new tet is best
-/// ([chen, 6.3]). With `relax`, the tets around the new vertex are then reconnected and its
-/// neighbours smoothed before the outcome is judged. Refuses boundary and constrained edges, and
-/// splits that pay for a better worst tet with many new bad ones,
-/// so that the mesh does not grow for nothing. Cost: the smoothing of one vertex, with `relax` of
-/// about 30 and of their shells.
+/// vertex to where the worst new tet is best ([chen, 6.3]). With `relax`, the tets around the new
+/// vertex are then reconnected and its neighbours smoothed before the outcome is judged. Refuses
+/// boundary and constrained edges, and splits that pay for a better worst tet with many new bad
+/// ones, so that the mesh does not grow for nothing. Cost: the smoothing of one vertex, with
+/// `relax` of about 30 and of their shells.
 const OperatorInfo& edge_split_info();
 
 }  // namespace tetmend

@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: MIT
+//        r                    r          Seen along ab. The face p q r parts the tets of its two
+//       / \                  /|\         apexes a and b. Afterwards the edge ab runs through it,
+//      /   \                / | \        with the three tets
+//     / a,b \      ->      /  ab \         (a, b, p, q), (a, b, q, r), (a, b, r, p).
+//    /       \            / /   \ \
+//   p---------q          p---------q
 #include "ops/flip_2_3.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 
 namespace tetmend {
 
-/// Target: a face. Replaces its two tets by three around the edge between their apexes ([chen, Fig.
-/// 1a]). Refuses boundary and constrained faces.
+/// Target: a face. Replaces its two tets by three around the edge between their apexes
+/// ([chen, Fig. 1a]). Refuses boundary and constrained faces.
 const OperatorInfo& flip_2_3_info();
 
 }  // namespace tetmend

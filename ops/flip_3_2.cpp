@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: MIT
+//        r                    r          Seen along the edge ab. Its three tets give way to the two
+//       /|\                  / \         at the triangle of the ring,
+//      / | \                /   \          (a, p, q, r), (p, q, r, b).
+//     /  ab \      ->      / a,b \
+//    / /   \ \            /       \
+//   p---------q          p---------q
 #include "ops/flip_3_2.h"
 
 #include <algorithm>

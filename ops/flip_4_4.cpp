@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+//   s-------r         s-------r         s-------r     Seen along the edge ab. A diagonal of the
+//   | \   / |         |    .' |         | '.    |     ring takes its place: pr, with the tets
+//   |  ab   |   ->    |  .'   |    or   |   '.  |       (a, p, q, r), (p, q, r, b),
+//   | /   \ |         |.'     |         |     '.|       (a, p, r, s), (p, r, s, b),
+//   p-------q         p-------q         p-------q     or qs.
 #include "ops/flip_4_4.h"
 
 #include <algorithm>

@@ -7,9 +7,9 @@
 namespace tetmend {
 
 /// Target: a tet. Moves its free vertices together to where the tets around them lack less
-/// (PatchOptimiser): for tets that no vertex can better alone. Refuses as `constrained` a tet
-/// without a free vertex, as `not_applicable` one around which all is good or too much to be looked
-/// at. Parameters: rings (0), desperate (0.2), least_gain (0.001), steps (20).
+/// (PatchOptimiser). This is for tets that no vertex can improve alone. Refuses as `constrained` a
+/// tet without a free vertex. Refuses as `not_applicable` a tet around which all is good, or with
+/// too many tets around it.
 const OperatorInfo& joint_smoothing_info();
 
 }  // namespace tetmend

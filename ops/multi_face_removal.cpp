@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-//            a             A sandwiched face F forms a tet with a above and one with b below.
-//            Across an edge pq of F, the tets
-//          / | \           beyond (a, p, q) and (b, p, q) may share their fourth vertex w: then (p,
-//          w, q) is sandwiched as well,
-//     p --- F --- q ..w    and w enters the polygon between p and q. A vertex enters once, so the
-//     faces stay a disc without
-//          \ | /           inner vertices.
-//            b
+//            a             A sandwiched face F makes a tet with a above it and one with b below.
+//          / | \           Across an edge pq of F, the tets beyond (a, p, q) and (b, p, q) may
+//     p --- F --- q ..w    share their fourth vertex w. Then (p, w, q) is sandwiched as well, and
+//          \ | /           w enters the polygon between p and q. A vertex enters once, so the faces
+//            b             stay a disc without inner vertices.
 #include "ops/multi_face_removal.h"
 
 #include <algorithm>

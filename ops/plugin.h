@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Operators from elsewhere. A plugin is a shared library that registers operators; it needs the
-// headers of tetmend and no library, for the program that loads it has the code.
+// Operators from elsewhere. A plugin is a shared library that registers operators. It needs the
+// headers of tetmend and no library: the program that loads it has the code.
 //
 //   #include "ops/plugin.h"
 //   TETMEND_PLUGIN(registry) {
@@ -27,8 +27,9 @@ struct PluginAbi {
   friend bool operator==(const PluginAbi&, const PluginAbi&) = default;
 };
 
-/// To be raised when plugins must be built anew although no size changed: when a virtual function
-/// of Operator or TraceSink comes, goes or changes place, when members change places or meaning.
+/// To be raised when plugins must be built again although no size has changed: when virtual
+/// functions of Operator or TraceSink are added, removed or moved, or when members change places or
+/// meaning.
 inline constexpr std::uint32_t kPluginAbiVersion = 4;
 
 /// Checksum of the sizes of all that host and plugin share: it differs between versions of tetmend
@@ -74,12 +75,13 @@ struct Plugin {
   std::vector<const OperatorInfo*> operators;  ///< what it added, in its order; at least one
 };
 
-/// Loads a plugin and adds its operators, with `file` as their origin, to the registry: all or,
-/// when anything goes wrong, none. A library that was loaded stays until the program ends, so that
-/// no operator and no exception can outlive its code. The program must have been linked with
+/// Loads a plugin and adds its operators, with `file` as their origin, to the registry: all of
+/// them, or none if anything goes wrong. A library that was loaded stays until the program ends, so
+/// that no operator and no exception can outlive its code. The program must have been linked with
 /// tetmend_plugin_host (CMake).
-/// @throws Error when the file is no shared library, no plugin, was built for another ABI, needs
-/// what this program does not have, throws, adds nothing, or adds a name that is there already.
+/// @throws Error when the file is no shared library or no plugin, was built for another ABI, or
+/// needs what this program does not have. Also when it throws, adds nothing, or adds a name that is
+/// taken.
 Plugin load_plugin(const std::filesystem::path& file, Registry& registry);
 
 }  // namespace tetmend

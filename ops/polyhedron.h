@@ -12,25 +12,25 @@
 
 namespace tetmend {
 
-/// A set of tets that are connected through faces that no constraint keeps; so it lies in one
-/// region, and whatever fills its surface may take its place.
+/// A set of tets that are connected through faces without constraints. So it lies in one region,
+/// and whatever fills its surface may replace it.
 class Polyhedron {
  public:
   static constexpr std::size_t kMaxVertices = SideTable::kMaxPoints;
 
   /// One tet.
   void start(const TetMesh& mesh, TetHandle t);
-  /// The ball of a vertex, given by its link; the vertex is not among vertices(). False, with
-  /// nothing of use, if there are too many.
+  /// The ball of a vertex, given by its link; the vertex is not among vertices(). False if there
+  /// are too many; the content is then undefined.
   bool start_at_ball(const TetMesh& mesh, std::span<const HalfFace> link);
 
-  /// Adds the vertex behind the surface that makes most tets with it, of equal ones the nearest to
-  /// the first tet, and all tets between vertices of the polyhedron that can be reached. False if
-  /// there is no such vertex, or `limit` vertices are there already, or it belongs to another
-  /// worker's territory (which is noted). Cost: linear in tets times vertices.
+  /// Adds the vertex behind the surface that makes most tets with it, and of equal ones the nearest
+  /// to the first tet. Then adds all tets between vertices of the polyhedron that can be reached.
+  /// False if there is no such vertex, if there are `limit` vertices already, or if it belongs to
+  /// another worker's territory (which is noted). Cost: linear in tets times vertices.
   bool grow(const TetMesh& mesh, Workspace& workspace, std::size_t limit);
 
-  /// Whether the tets are certified positive and part space: those of a folded mesh need not. The
+  /// Whether the tets are certified positive and do not overlap: those of a folded mesh may. The
   /// table has the vertices. Precondition: no ball. Cost: quadratic.
   bool is_embedded(const TetMesh& mesh, const SideTable& table) const;
 

@@ -3,8 +3,8 @@
 //
 //   reduce(e, f, level):
 //     loop: transform the shell of e; done when e or f is gone; give up at the last level
-//           for each supporting face of e with a promising link edge e': reduce(e', face, level +
-//           1)
+//           for each supporting face of e with a promising link edge e':
+//             reduce(e', face, level + 1)
 //             when the shell of e became smaller: next round of the loop
 //           give up when no face helped
 #include "ops/recursive_shell_transformation.h"

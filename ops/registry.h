@@ -15,8 +15,8 @@ namespace tetmend {
 class Registry {
  public:
   /// @param origin file of the plugin that the operator comes from; empty for tetmend itself
-  /// @throws Error if an operator of that name is there, or if name, help, parameters or `make` do
-  /// not make sense. `info` must outlive the registry.
+  /// @throws Error if there is an operator of that name, or if name, help, parameters or `make`
+  /// make no sense. `info` must outlive the registry.
   void add(const OperatorInfo& info, std::string_view origin = {});
 
   /// In the order of registration.

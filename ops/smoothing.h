@@ -7,10 +7,9 @@
 
 namespace tetmend {
 
-/// Target: a vertex. Moves it to the mean of its neighbours if that improves its ball; if bad tets
+/// Target: a vertex. Moves it to the mean of its neighbours if that improves its ball. If bad tets
 /// remain, climbs from there to where the worst tet of the ball is best ([chen, 6.2];
-/// [freitag_ollivier_gooch]). Refuses fixed vertices. Parameters: laplacian (1), optimise (1),
-/// steps (12).
+/// [freitag_ollivier_gooch]). Refuses fixed vertices.
 const OperatorInfo& smoothing_info();
 
 /// What operators on the ball of a vertex remember: its link, and its best place in there.

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+//      q-----p              q-----p      A cavity, as a picture in the plane: the tets whose
+//     / '-.   \            / \   / \     circumspheres hold v give way to those between v and the
+//    /     '-. \          /   \ /   \    outer faces of the cavity.
+//   r-----------o   ->   r-----v-----o
+//    \     .-' /          \   / \   /      walk to the tet that holds v -> add neighbours
+//     \ .-'   /            \ /   \ /       -> drop tets until v sees all outer faces
+//      s-----t              s-----t
 #include "ops/vertex_insertion.h"
 
 #include <algorithm>

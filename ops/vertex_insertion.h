@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all operators that insert a vertex into a tet share: the cavity of the new vertex, that is
-// the tets that give way to those between the vertex and the outer faces of the cavity.
+// What all operators that insert a vertex into a tet share: the cavity of the new vertex. Its tets
+// are replaced by tets between the vertex and the outer faces of the cavity.
 #pragma once
 
 #include "kernel/index_set.h"
@@ -15,17 +15,17 @@ struct VertexInsertionState {
 };
 
 /// Target: a tet. Inserts a vertex at a place that the derived class names, as in Delaunay
-/// refinement ([chen, 2.3]): the tets around whose circumspheres hold the vertex give way, except
-/// where the vertex would not see the faces behind them; the cavity crosses no constrained face and
-/// holds `max_tets` at most. With `smooth`, the vertex then moves to where the worst new tet is
-/// best.
+/// refinement ([chen, 2.3]). It replaces the tets around whose circumspheres hold the vertex,
+/// except where the vertex would not see the faces behind them. The cavity crosses no constrained
+/// face and holds `max_tets` at most. With `smooth`, the vertex then moves to where the worst new
+/// tet is best.
 ///
 /// Refuses as `not_applicable` a target that is not certified positive, or whose vertex lies more
-/// than 64 tets away; as `constrained` when boundary or a constrained face parts the target from
-/// the vertex, or when the cavity would swallow a fixed vertex; as `no_improvement` when the target
-/// would stay, or the worst tet would be no
-/// better, or only at the price of many new bad tets (as edge_split). Cost: the way to the vertex,
-/// the square of the size of the cavity at worst, and the smoothing of one vertex.
+/// than 64 tets away. Refuses as `constrained` when boundary or a constrained face parts the target
+/// from the vertex, or when the cavity would swallow a fixed vertex. Refuses as `no_improvement`
+/// when the target would stay, or when the worst tet would be no better, or only at the price of
+/// many new bad tets (as edge_split). Cost: the way to the vertex, the square of the size of the
+/// cavity at worst, and the smoothing of one vertex.
 class VertexInsertion : public OperatorOf<VertexInsertionState> {
  public:
   VertexInsertion(const OperatorInfo& info, const ParameterValues& values);

@@ -1,4 +1,11 @@
 // SPDX-License-Identifier: MIT
+//      q-----p              q-----p      The ball of v, as a picture in the plane: it is
+//     / \   / \            /|\    |\     filled with the best tets between the vertices of
+//    /   \ /   \          / | \   | \    its surface.
+//   r-----v-----o   ->   r  |  \  |  o
+//    \   / \   /          \ |   \ | /
+//     \ /   \ /            \|    \|/
+//      s-----t              s-----t
 #include "ops/vertex_removal.h"
 
 #include "kernel/star.h"

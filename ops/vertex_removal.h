@@ -7,10 +7,10 @@
 namespace tetmend {
 
 /// Target: a vertex. Replaces its ball by the best tetrahedralisation between the vertices around
-/// it ([chen, 2.3]): where edge contraction connects them all to one of them, this connects them in
-/// any way. Refuses fixed vertices; as `not_applicable` more than 32 neighbours, and all vertices
-/// of a mesh that had inverted tets. Parameters: max_nodes (500) of the search, desperate as in
-/// edge_split. Cost: cubic in the neighbours for the tables, and the search.
+/// it ([chen, 2.3]). Edge contraction connects them all to one of them; this connects them in any
+/// way. Refuses fixed vertices. Refuses as `not_applicable` more than 32 neighbours, and all
+/// vertices of a mesh that had inverted tets. Cost: cubic in the neighbours for the tables, and the
+/// search.
 const OperatorInfo& vertex_removal_info();
 
 }  // namespace tetmend

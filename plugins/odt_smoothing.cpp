@@ -4,7 +4,7 @@
 // ([alliez_variational]).
 //
 // Where `smoothing` asks for the best worst tet, ODT asks for a good shape of the whole ball. The
-// guard of every operator holds all the same: a move is made only if the worst tet gains.
+// judge of every operator decides all the same: a move stays only if the worst tet gains.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -91,8 +91,8 @@ class OdtSmoothing final : public OperatorOf<State> {
   }
 
   /// From p to the mean of the circumcentres, weighted by volume. The circumcentre of a tet lies at
-  /// p + (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (12 V); times V, nothing is divided by the
-  /// volume of a single tet, which may be flat.
+  /// p + (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / (12 V). Weighted by V, it needs no division by
+  /// the volume of a single tet, which may be 0.
   static Point way_to_optimum(const TetMesh& mesh, std::span<const HalfFace> link, const Point& p) {
     Point sum = Point::Zero();
     double volume = 0;

@@ -14,9 +14,9 @@
 namespace tetmend {
 
 /// Owns an interpreter with the language itself and the parts of its library that are safe and
-/// repeatable: assert, error, ipairs, pairs (in the order of the keys), select, tonumber, tostring,
-/// type, unpack, table, string (no patterns) and math (no random numbers). Not there: io, os,
-/// require, load, debug, coroutine, metatables, pcall, garbage collection.
+/// repeatable. These are assert, error, ipairs, pairs (in the order of the keys), select, tonumber,
+/// tostring, type, unpack, table, string (no patterns) and math (no random numbers). There is no
+/// io, os, require, load, debug, coroutine, metatables, pcall or garbage collection.
 ///
 /// Reading an unknown global name is an error that names the valid ones; words that were given to
 /// the script cannot be overwritten.

@@ -11,7 +11,7 @@
 
 namespace tetmend {
 
-// Options hold the operators to use by name and the parameters of the pass. A pass passes over what
+// Options hold the operators to use by name and the parameters of the pass. A pass leaves out what
 // has not changed since it last looked there with the same options.
 struct LocalReconnection {
   Selection on = {};

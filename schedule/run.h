@@ -69,7 +69,7 @@ struct PassRecord {
 };
 
 /// State that passes share. A neighbourhood that has not changed since a pass last looked at it is
-/// not tried again: each sweep of a pass has a date, commits write it to the vertices that they
+/// not tried again. Each sweep of a pass has a date; commits write it to the vertices that they
 /// change, and a pass remembers the date of its last sweep.
 ///
 /// Passes use the threads of the caller's oneTBB arena. The mesh is divided into blocks by its size

@@ -16,7 +16,7 @@ namespace tetmend {
 
 namespace {
 
-/// Whoever only declares is done long before: about a second.
+/// About a second: a script that only declares is done long before.
 constexpr std::size_t kMostWatchesToDescribe = 50000;
 
 constexpr const char* kQualityTable = "tetmend quality";

@@ -40,7 +40,7 @@ struct Selection {
   std::string describe() const;
 };
 
-/// A selection bound to a mesh, which must outlive it as must the selection.
+/// A selection bound to a mesh. Both must outlive it.
 class SelectionTest {
  public:
   /// @throws Error when neither property nor measure has the name, with the valid ones.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One sweep over many targets, on all threads: each block of the mesh is worked off by one thread,
-// what crosses a border is tried again with shifted blocks, and what is left then by one thread
-// alone.
+// One sweep over many targets, on all threads. One thread works off each block of the mesh. What
+// crosses a border is tried again with shifted blocks, and one thread alone tries what is left
+// then.
 #pragma once
 
 #include <algorithm>

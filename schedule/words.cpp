@@ -62,42 +62,38 @@ constexpr std::array<WordInfo, 18> kWords = {{
     {"apply", "apply(what, {...})",
      "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
      "value, order = \"sine\", \"angle\" (largest first), \"longest\" or \"shortest\", most_edges "
-     "= 6 "
-     "(of a tet, the first in that order)}, first_of{...}, all_of{...} or "
-     "sequence{...}. An operator on edges, faces or vertices is tried on those of the tet",
+     "= 6 (of a tet, the first in that order)}, first_of{...}, all_of{...} or sequence{...}. An "
+     "operator on edges, faces or vertices is tried on those of the tet",
      kOnlyOn, kApplyNumbers},
     {"attempt", "attempt(what, {vertex, ...}, {vertex, vertex, vertex, vertex})",
-     "tries one operator once: `what` as for apply, without order; at the vertex, or at the edge, "
-     "face or tet of these vertices, by their numbers in the mesh as it would be written now, from "
-     "0. An edge or face is seen from the tet of the last four vertices, if they are given: what "
-     "is tried in which order may depend on it"},
+     "tries one operator once; `what` is as for apply, without order. The target is the vertex, or "
+     "the edge, face or tet of these vertices, by their numbers (from 0) in the mesh as it would "
+     "be written now. An edge or face is seen from the tet of the last four vertices, if they are "
+     "given: that may decide what is tried first"},
     {"first_of", "first_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until the tet is gone"},
     {"sequence", "sequence{operator, what, ..., desperate = 0.2, theta_max = 180}",
      "for apply: one attempt of several parts. The operator may make things worse; the others then "
-     "work on the bad tets among all that has changed. What came of it stays only if it is better "
-     "as a whole, and if the bad tets lack less in sum, unless its worst tet was below "
-     "`desperate`: then a gain of 0.001 pays for one more bad tet. With a theta_max below 180 "
-     "degrees it is for tets with a larger angle: what follows works on such tets as well, and it "
-     "stays if the worst tet gets no worse and the sine of the largest angle gains 0.001, and as "
-     "much for each more bad tet"},
+     "work on the bad tets among all that has changed. The result stays only if it is better as a "
+     "whole and the bad tets lack less in sum. If the worst tet was below `desperate`, a gain of "
+     "0.001 pays for one more bad tet instead. With a theta_max below 180 degrees it is for tets "
+     "with a larger angle, and what follows works on such tets as well. The result then stays if "
+     "the worst tet gets no worse and the sine of the largest angle gains 0.001, and as much for "
+     "each more bad tet"},
     {"quality", "quality()",
      "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
      "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
      "are read, which must be before the next pass"},
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
-     "the "
-     "least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. And "
-     "how "
-     "many bad tets of the mesh now are held by what: frozen, surface, constraint, no_free_vertex, "
-     "search. Takes as long as a short pass"},
+     "the least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. "
+     "Also the numbers of bad tets by what holds them: frozen, surface, constraint, "
+     "no_free_vertex, search. Takes as long as a short pass"},
     {"is_progress", "is_progress(before, now)",
      "true if the quality `now` is noticeably better: the worst by 0.005, the number of bad tets "
-     "by "
-     "5 %, or their mean by 0.005 with no more of them"},
+     "by 5 %, or their mean by 0.005 with no more of them"},
     {"operators", "operators()", "the names of all operators, those of plugins as well"},
     {"log", "log(...)", "notes values in the report and shows them"},
     {"print", "print(...)", "the same as log"},

@@ -10,8 +10,8 @@
 
 namespace tetmend {
 
-/// Tools and tallies of one thread. The whole mesh is its territory unless its workspace has
-/// entered another.
+/// Tools and counts of one thread. The whole mesh is its territory unless its workspace has entered
+/// another.
 class Worker {
  public:
   /// `workspace` is the one with the free slots of the mesh, or a Workspace::without_slots().

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Branch and bound over the dihedral angles at the edges of a triangle.
 //
-//        p            Angles t1 t2 t3 at the edges of the base, of lengths l1 l2 l3, name an apex
-//        p:
-//       /|\           three planes meet in it. It lies above the base if  sum l_i cot t_i > 0.  At
-//      / | \          corner k the base and the two sides i, j make a spherical triangle with the
-//     /  3  \         angles t_i, t_j and s_k, the dihedral angle at the edge p k; by the law of
-//    / /   \ \        cosines, with c_k the angle of the base at k,
-//   1---------2         cos s_k = sin t_i sin t_j cos c_k - cos t_i cos t_j.
+//        p            The angles t1 t2 t3 at the edges of the base, of lengths l1 l2 l3, name an
+//       /|\           apex p: three planes meet there. It lies above the base if
+//      / | \            sum l_i cot t_i > 0.
+//     /  3  \         At corner k the base and the two sides i, j make a spherical triangle with
+//    / /   \ \        the angles t_i, t_j and s_k, the dihedral angle at the edge p k. By the law
+//   1---------2       of cosines, with c_k the angle of the base at k,
+//                       cos s_k = sin t_i sin t_j cos c_k - cos t_i cos t_j.
 //
-//   boxes of (t1, t2, t3), the whole range first: drop a box that cannot hold an apex | stop if its
-//   middle is one | halve it
+//   boxes of (t1, t2, t3), the whole range first:
+//     drop a box that cannot hold an apex | stop if its middle is one | halve it
 #include "search/apex_search.h"
 
 #include <algorithm>
@@ -51,8 +51,9 @@ struct Interval {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// All values of  p sin x + q cos x  for x in the arc, which is shorter than half a turn: its
-  /// ends, and the top or the bottom of the wave if the slope changes its sign in between.
+  /// All values of p sin x + q cos x for x in the arc, which is shorter than half a turn. They
+  /// range between the ends, or to the top or bottom of the wave if the slope changes its sign in
+  /// between.
   void include_wave(double p, double q, const Arc& arc) {
     include(p * arc.low.sine + q * arc.low.cosine);
     include(p * arc.high.sine + q * arc.high.cosine);

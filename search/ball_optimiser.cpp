@@ -2,9 +2,8 @@
 // Active-set ascent of the worst quality of a ball.
 //
 //   repeat: active = sines within a band above the worst
-//           direction = shortest vector in the hull of their gradients; stop when it is nearly zero
-//           step = halve from the last step until the worst quality rises; stop when the gain is
-//           small
+//           direction = shortest vector in the hull of their gradients; stop when nearly zero
+//           step = halve from the last step until the worst quality rises; stop if it gains little
 #include "search/ball_optimiser.h"
 
 #include <algorithm>
@@ -186,8 +185,9 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
   const double signed_square = v6 * std::abs(v6);
   const double band_square = band * std::abs(band);
   for (unsigned e = 0; e < 6 && count < kMaxActive; ++e) {
-    // e < 3: edge from p to corner e, shared by the faces opposite the other two corners; else the
-    // edge opposite corner e - 3, shared by the face opposite that corner and the one opposite p.
+    // For e < 3, the edge from p to corner e, shared by the faces opposite the other two corners.
+    // Else the edge opposite corner e - 3, shared by the face opposite that corner and the one
+    // opposite p.
     const unsigned f = e < 3 ? (e + 1) % 3 : 3;
     const unsigned g = e < 3 ? (e + 2) % 3 : e - 3;
     const double length2 = e < 3 ? to[e].squaredNorm() : far2[e - 3];

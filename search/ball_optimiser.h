@@ -13,9 +13,9 @@
 namespace tetmend {
 
 /// Maximises the smallest minimum sine over a ball, given by the triangles of its link. A steepest
-/// ascent for a non-smooth function: the direction is the shortest vector in the convex hull of the
-/// gradients of the sines that are nearly as small as the smallest
-/// ([freitag_ollivier_gooch]).
+/// ascent for a function that is not smooth ([freitag_ollivier_gooch]). The direction is the
+/// shortest vector in the convex hull of some gradients: those of the sines that are nearly as
+/// small as the smallest.
 class BallOptimiser {
  public:
   struct Limits {
@@ -42,7 +42,8 @@ class BallOptimiser {
   /// Sum of deficit() over the tets, likewise.
   double total_deficit() const;
 
-  /// Ascends from p; returns the best quality and moves p there. At least worst(p) of the start.
+  /// Ascends from p, moves p to the best place, and returns the quality there: at least that of the
+  /// start.
   double optimise(Point& p, const Limits& limits) { return optimise_from(p, worst(p), limits); }
   /// The same where `reached` is known to be worst(p). Precondition: quality() is for p.
   double optimise_from(Point& p, double reached, const Limits& limits);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Optimal covering mesh: pockets by growing length, then the core as an optimal cycle.
 //
-//   pocket(i, d) = best over k of pocket(i, k) + pocket(i+k, d-k) + triangle(i, i+k, i+d) [chen,
-//   Eq. 1, Alg. 2] full reduction = pocket(0, m-1) core: shortest path around the ring; an arc i ->
-//   i+d costs pocket(i, d) + core side (i, i+d), an arc of length 1 the old tet
+//   pocket(i, d) = best over k of pocket(i, k) + pocket(i+k, d-k) + triangle(i, i+k, i+d)
+//                                                                       [chen, Eq. 1, Alg. 2]
+//   full reduction = pocket(0, m-1)
+//   core = shortest path around the ring: an arc i -> i+d costs pocket(i, d) + core side (i, i+d),
+//          an arc of length 1 the old tet
 #include "search/covering_search.h"
 
 #include <cmath>
@@ -208,8 +210,8 @@ bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Value
   const bool is_virtual = problem.old_sides.empty();
   ab2_ = (b_ - a_).squaredNorm();
   for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = from_a_[i].cross(from_b_[i]).squaredNorm();
-  std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing>
-      side_quality;  // [i][d], 0 = no arc
+  // [i][d], 0: no arc.
+  std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing> side_quality;
   unsigned longest = is_virtual ? 1 : 0;
   for (unsigned i = 0; i < size_; ++i) {
     side_quality[i][1] = is_virtual ? side(i, wrap(i + 1)) : problem.old_sides[i];

@@ -2,14 +2,13 @@
 // The best covering mesh of a shell by dynamic programming ([chen, Alg. 1-3]). A pure unit: points
 // in, triangles and core out.
 //
-//        p_2 ------- p_1          A covering triangulates pockets of the ring (each triangle p_i
-//        p_k p_j gives the tets
-//       /  \  pocket /  \         (a, p_i, p_k, p_j) and (p_i, p_k, p_j, b)) and may leave a core,
-//       whose sides p_i p_j
-//     p_3   \   .---'   p_0       give the tets (a, b, p_i, p_j). Without a core the edge ab is
-//     gone: full reduction.
-//       \    '-'  core  /         All tets positive is sufficient for a proper tiling.
-//        p_4 ------- p_5
+//         p_2 ------- p_1         A shell, seen along its edge ab. A covering cuts pockets off the
+//        / pocket .--'  \         ring and triangulates them: a triangle (p_i, p_k, p_j) gives the
+//       /    .--'        \        tets (a, p_i, p_k, p_j) and (p_i, p_k, p_j, b). What is left of
+//     p_3--'     ab      p_0      the ring is the core, each side (p_i, p_j) of which gives the tet
+//       \                /        (a, b, p_i, p_j). Without a core the edge ab is gone: full
+//        \     core     /         reduction. Tets that are all positive fill the shell without
+//         p_4 ------- p_5         overlap.
 #pragma once
 
 #include <array>
@@ -27,13 +26,13 @@ inline constexpr unsigned kMaxSearchRing = 16;
 struct CoveringProblem {
   Point a;
   Point b;
-  std::span<const Point>
-      ring;  ///< 3 to kMaxSearchRing points; (a, b, ring[i], ring[i+1]) positive in a real shell
+  /// 3 to kMaxSearchRing points; (a, b, ring[i], ring[i+1]) is positive in a real shell.
+  std::span<const Point> ring;
   /// Qualities of the tets (a, b, ring[i], ring[i+1]) as they are. Empty for the virtual shell of a
   /// face removal, where no tet contains ab and each side of the core is a new tet.
   std::span<const Quality> old_sides;
-  Quality floor = 0;  ///< every new tet must be better than this; loss-free with the worst quality
-                      ///< of the old tets
+  /// Every new tet must be better than this. The worst quality of the old tets loses nothing.
+  Quality floor = 0;
   /// Ancestor edges, as bits: no chord may end at a locked ring vertex, no pocket may use a locked
   /// ring edge (i, i+1).
   std::uint32_t locked_vertices = 0;
@@ -85,8 +84,8 @@ class BasicCoveringSearch {
     std::uint8_t apex;
     bool valid;
   };
-  // What most searches never ask for is computed when first asked for; it counts for the run whose
-  // number it carries.
+  // Computed when first asked for, which most searches never do; counts for the run whose number it
+  // carries.
   struct Triangle {
     Quality upper;
     Quality lower;

@@ -4,13 +4,13 @@
 //
 //   The search keeps a front, the faces with a tet on one side only. It fills the one with the
 //   fewest apexes left, in the order of the quality of the tet, until no face is open or one has no
-//   apex. Which tets are still possible is known for each open face at each step: not those that
-//   are no better than the best filling so far, nor those that overlap one that has been placed or
-//   cross the surface.
+//   apex. At each step it is known for each open face which tets are still possible: those that are
+//   better than the best filling so far, overlap no tet that has been placed, and do not cross the
+//   surface.
 //
-//   What comes out tiles the polyhedron, whatever the tests of overlap may have missed by rounding:
-//   all tets are positive and every face has both its sides, so that the tets around a point are
-//   counted once inside the surface and nowhere else.
+//   The result tiles the polyhedron, whatever the tests of overlap may have missed by rounding. All
+//   tets are positive and every face has both its sides, so each point inside the surface lies in
+//   one tet, and no other point does.
 #pragma once
 
 #include <array>
@@ -51,10 +51,10 @@ class PolyhedronSearch {
   unsigned size() const { return table_.size(); }
   const SideTable& table() const { return table_; }
 
-  /// Finds the tetrahedralisation whose worst tet is best, without points beside those added. False
-  /// if there is none above the floor, or the nodes were spent before one was found. Precondition:
-  /// the surface bounds a set of tets that do not overlap. Cost: exponential, bounded by the nodes;
-  /// a node costs about the number of open faces.
+  /// Finds the tetrahedralisation whose worst tet is best, without points other than those added.
+  /// False if there is none above the floor, or the nodes were spent before one was found.
+  /// Precondition: the surface bounds a set of tets that do not overlap. Cost: exponential, bounded
+  /// by the nodes; a node costs about the number of open faces.
   bool run(const PolyhedronProblem& problem);
 
   /// Of the last run, if it was successful.

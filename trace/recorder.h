@@ -63,7 +63,7 @@ enum class TraceEnd : std::uint8_t { complete, limit_reached };
 
 /// A file that is being written is FILE.part, and can be read up to the last chunk; finish() gives
 /// it its name. Cost: linear in the mesh at the beginning, about 100 bytes in memory and 10 in the
-/// file for each attempt. Trouble with the file ends the trace, not the run: finish() tells.
+/// file for each attempt. Trouble with the file ends the trace, not the run: finish() reports it.
 class TraceRecorder final : public TraceSink {
  public:
   /// @throws Error when the file cannot be written.

@@ -17,8 +17,8 @@ namespace tetmend {
 inline constexpr std::size_t kTraceMagicSize = 12;
 inline constexpr std::uint32_t kTraceVersion = 1;
 
-/// Writes frames one by one into FILE.part, each at once, so that a crash costs only what was not
-/// handed over yet. finish() gives the file its name; without it FILE.part stays.
+/// Writes frames into FILE.part, each at once. So a crash costs only what was not handed over yet.
+/// finish() gives the file its name; without it FILE.part stays.
 class FrameWriter {
  public:
   /// @throws Error when the file cannot be written.

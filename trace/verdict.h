@@ -8,8 +8,7 @@
 namespace tetmend {
 
 enum class Verdict : std::uint8_t {
-  accepted,  ///< the mesh is better now; from a stage of an attempt: nothing speaks against going
-             ///< on
+  accepted,        ///< the mesh is better now; from a stage of an attempt: go on
   not_applicable,  ///< the target is gone or is not of the kind that the operator works on
   constrained,     ///< boundary or constraint in the way
   no_improvement,  ///< nothing better was found

@@ -37,9 +37,9 @@ struct FlatDrawing {
   std::string caption;
 };
 
-/// The skirt polygon as it is at a place in the trace: before the edit of the call with the old
-/// tets and the chords that the search may use; after it with the covering that was made or tried;
-/// after a refusal without a candidate with the best complete triangulation, dashed.
+/// The skirt polygon as it is at a place in the trace. Before the edit of the call it has the old
+/// tets and the chords that the search may use, after it the covering that was made or tried. After
+/// a refusal without a candidate it has the best complete triangulation, dashed.
 /// Precondition: the study has a picture.
 FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool refused,
                          const ColourMap& map);

@@ -39,9 +39,9 @@ struct LivePlan {
   std::filesystem::path trace;  ///< file to record into; empty: none
 };
 
-/// All member functions are for one other thread, or several. The calls of the schedule are made by
-/// one thread, so that the mesh at rest is that between two calls; the mesh that comes out is the
-/// same as that of `tetmend improve`, byte for byte. A job that is held costs nothing.
+/// All member functions are for one other thread, or several. One thread makes all calls of the
+/// schedule, so that a mesh that rests is that between two calls. The result is the same as that of
+/// `tetmend improve`, byte for byte. A job that is held costs nothing.
 class LiveJob final : private TraceSink, private ProgressListener {
  public:
   /// Begins to work on `mesh`, which it sorts first.

@@ -15,8 +15,8 @@
 
 namespace tetmend::viewer {
 
-/// A covering of the polygon by triangles, each of which stands for a tet with a and one with b,
-/// and maybe a core, each side of which stands for a tet with both. Numbers are places in the ring.
+/// A covering of the polygon: triangles, and maybe a core. Each triangle stands for a tet with a
+/// and one with b, and each side of the core for a tet with both. Numbers are places in the ring.
 struct FlatCovering {
   struct Triangle {
     std::array<unsigned, 3> corners{};

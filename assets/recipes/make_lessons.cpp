@@ -76,8 +76,8 @@ MeshData two_shells() {
   return mesh;
 }
 
-/// Side by side: a good shell of five (0 to 6); three tets whose edge passes beside the triangle of
-/// their ring (7 to 11); two shells that only the recursion can improve (12 to 18).
+/// Side by side: a good shell of five (vertices 0 to 6), three tets whose edge passes beside the
+/// triangle of their ring (7 to 11), and two shells that only the recursion can improve (12 to 18).
 MeshData pieces() {
   MeshData mesh;
   add_piece(mesh, 0,
@@ -103,12 +103,12 @@ MeshData pieces() {
   return mesh;
 }
 
-// --- telling -------------------------------------------------------------------------------------
+// --- the texts -----------------------------------------------------------------------------------
 
 /// Collects the steps of a lesson while the trace is played.
-class Teller {
+class LessonWriter {
  public:
-  explicit Teller(const TraceFile& file) : file_(file), replay_(file) {}
+  explicit LessonWriter(const TraceFile& file) : file_(file), replay_(file) {}
 
   const std::vector<LessonStep>& steps() const { return steps_; }
   const Call& call(std::uint32_t number) const { return file_.calls()[number]; }
@@ -120,7 +120,7 @@ class Teller {
   std::string reason(const Call& c) const { return std::string(file_.reason(c)); }
 
   /// The first call from `from` on for which the condition holds.
-  /// @throws Error when there is none: the lesson does not fit to what tetmend does.
+  /// @throws Error when there is none: the lesson does not fit what tetmend does.
   template <class Condition>
   std::uint32_t find(std::uint32_t from, const Condition& holds) const {
     for (std::uint32_t c = from; c < file_.calls().size(); ++c) {
@@ -193,94 +193,94 @@ std::string qualities(const Call& c) {
                      c.worst_before, c.worst_after);
 }
 
-void tell_core(Teller& teller) {
-  const Call& removal = teller.call(0);
-  const Call& transformation = teller.call(1);
-  const auto ring = teller.around(0, 0, 1);
-  const std::uint64_t found = teller.after(transformation, EventKind::candidate_found);
-  const std::uint64_t replaced = teller.after(transformation, EventKind::replace_cavity);
-  const auto core = teller.around(replaced, 0, 1);
-  const Cavity cavity = teller.cavity(replaced);
-  teller.say(0, fmt::format("{} tets share the edge 0 1: they are its shell, and it is their "
+void write_core(LessonWriter& lesson) {
+  const Call& removal = lesson.call(0);
+  const Call& transformation = lesson.call(1);
+  const auto ring = lesson.around(0, 0, 1);
+  const std::uint64_t found = lesson.after(transformation, EventKind::candidate_found);
+  const std::uint64_t replaced = lesson.after(transformation, EventKind::replace_cavity);
+  const auto core = lesson.around(replaced, 0, 1);
+  const Cavity cavity = lesson.cavity(replaced);
+  lesson.say(0, fmt::format("{} tets share the edge 0 1: they are its shell, and it is their "
                             "supporting edge. The vertices around it, {}, are the skirt polygon. "
                             "Each of them makes a supporting face with the edge. The worst tet has "
                             "quality {:.4f}.",
-                            ring.size(), join(ring), teller.worst(0)));
-  teller.say(removal.events.begin + 1,
+                            ring.size(), join(ring), lesson.worst(0)));
+  lesson.say(removal.events.begin + 1,
              "Edge removal is tried first. It fills the shell with tets that do not have the edge: "
              "the whole skirt polygon is triangulated, and each triangle makes one tet with vertex "
              "0 and one with vertex 1.");
-  teller.say(removal.events.end,
+  lesson.say(removal.events.end,
              fmt::format("The answer is \"{}\": {}. Every triangulation of the whole skirt polygon "
                          "has a tet that is no better than the worst of the shell.",
-                         teller.verdict(removal), teller.reason(removal)));
-  teller.say(transformation.events.begin + 1,
+                         lesson.verdict(removal), lesson.reason(removal)));
+  lesson.say(transformation.events.begin + 1,
              "Shell transformation has more to choose from: a part of the skirt polygon, the core, "
              "may stay without triangles, and there the supporting edge stays.");
-  teller.say(found, fmt::format("The best covering is found. Triangles cut off the skirt vertices "
+  lesson.say(found, fmt::format("The best covering is found. Triangles cut off the skirt vertices "
                                 "{}; the core polygon is {}.",
                                 join(without(ring, core)), join(core)));
-  teller.say(replaced, fmt::format("{} tets give way to {}. The supporting faces at {} are gone. "
+  lesson.say(replaced, fmt::format("{} tets give way to {}. The supporting faces at {} are gone. "
                                    "The edge is still there, with {} supporting faces instead of "
                                    "{}: the shell is partially reduced.",
                                    cavity.removed.size(), cavity.created.size(),
                                    join(without(ring, core)), core.size(), ring.size()));
-  teller.say(transformation.events.end,
+  lesson.say(transformation.events.end,
              fmt::format("The quality vector is better, so the change is kept: {}. The recursion "
                          "goes on from here: see the next lesson.",
                          qualities(transformation)));
 }
 
-void tell_two_shells(Teller& teller) {
+void write_two_shells(LessonWriter& lesson) {
   const auto is = [&](std::string_view name, unsigned level) {
-    return [&teller, name, level](const Call& c) {
-      return teller.name(c) == name && c.level == level && teller.verdict(c) == "accepted";
+    return [&lesson, name, level](const Call& c) {
+      return lesson.name(c) == name && c.level == level && lesson.verdict(c) == "accepted";
     };
   };
   constexpr std::string_view kRecursive = "recursive_shell_transformation";
   constexpr std::string_view kPlain = "shell_transformation";
-  const Call& root = teller.call(0);
-  const Call& first = teller.call(1);
-  const std::uint32_t inner_number = teller.find(2, is(kRecursive, 1));
-  const Call& inner = teller.call(inner_number);
-  const Call& second = teller.call(teller.find(inner_number, is(kPlain, 1)));
-  const Call& third = teller.call(teller.find(inner.subtree_end, is(kPlain, 0)));
+  const Call& root = lesson.call(0);
+  const Call& first = lesson.call(1);
+  const std::uint32_t inner_number = lesson.find(2, is(kRecursive, 1));
+  const Call& inner = lesson.call(inner_number);
+  const Call& second = lesson.call(lesson.find(inner_number, is(kPlain, 1)));
+  const Call& third = lesson.call(lesson.find(inner.subtree_end, is(kPlain, 0)));
   const std::uint32_t a = inner.target()[0].index();
   const std::uint32_t b = inner.target()[1].index();
-  const auto ring = teller.around(0, 0, 1);
-  const auto reduced = teller.around(first.events.end, 0, 1);
-  const auto last = teller.around(inner.events.end, 0, 1);
+  const auto ring = lesson.around(0, 0, 1);
+  const auto reduced = lesson.around(first.events.end, 0, 1);
+  const auto last = lesson.around(inner.events.end, 0, 1);
 
-  teller.say(0, fmt::format("Two shells that overlap, as in Figure 5 of the paper: that of the "
+  lesson.say(0, fmt::format("Two shells that overlap, as in Figure 5 of the paper: that of the "
                             "edge 0 1 with {} tets, and that of the edge {} {}. The edge 0 1 is to "
                             "be removed: the worst tet has quality {:.4f}.",
-                            ring.size(), a, b, teller.worst(0)));
-  teller.say(root.events.begin + 1,
+                            ring.size(), a, b, lesson.worst(0)));
+  lesson.say(root.events.begin + 1,
              "The recursive shell transformation of the edge 0 1 begins, on level 0.");
-  teller.say(first.events.begin + 1, "First it transforms the shell of 0 1 by itself.");
-  teller.say(first.events.end,
+  lesson.say(first.events.begin + 1, "First it transforms the shell of 0 1 by itself.");
+  lesson.say(first.events.end,
              fmt::format("That reduces the shell from {} tets to {}: the supporting face at {} is "
                          "gone, the core {} stays, and so does the edge.",
                          ring.size(), reduced.size(), join(without(ring, reduced)), join(reduced)));
-  teller.say(inner.events.begin + 1,
+  lesson.say(inner.events.begin + 1,
              fmt::format("A supporting face goes when one of its link edges does. The face of 0 1 "
                          "and {0} has the link edge {1} {0}, at which the shell is not convex. The "
                          "procedure calls itself for that edge, on level 1.",
                          b, a));
-  teller.say(second.events.begin + 1,
+  lesson.say(second.events.begin + 1,
              fmt::format("The shell of {} {} has {} tets. It is transformed in the same way.", a, b,
-                         teller.around(second.events.begin, a, b).size()));
-  teller.say(inner.events.end,
+                         lesson.around(second.events.begin, a, b).size()));
+  lesson.say(inner.events.end,
              fmt::format("It is fully reduced: {0} {1} is gone, and with it the supporting face at "
                          "{1}. The shell of 0 1 has {2} tets now: {3}.",
                          a, b, last.size(), qualities(second)));
-  teller.say(third.events.begin + 1,
+  lesson.say(third.events.begin + 1,
              "Back on level 0, the shell of 0 1 is smaller than before and transformed again.");
-  teller.say(
+  lesson.say(
       third.events.end,
       fmt::format("With {} tets around it the edge 0 1 gives way to {}: a 3-2 flip.", last.size(),
-                  teller.cavity(teller.after(third, EventKind::replace_cavity)).created.size()));
-  teller.say(root.events.end,
+                  lesson.cavity(lesson.after(third, EventKind::replace_cavity)).created.size()));
+  lesson.say(root.events.end,
              fmt::format("The quality vector of all that changed is compared once more for the "
                          "whole recursion, and it is better: {}.",
                          qualities(root)));
@@ -313,18 +313,18 @@ constexpr std::array<Refusal, 7> kRefusals = {{
      "This is no answer yet: the attempt is made again when the mesh is divided in another way."},
 }};
 
-void tell_refusals(Teller& teller) {
-  teller.say(0,
+void write_refusals(LessonWriter& lesson) {
+  lesson.say(0,
              "Three small pieces, and one attempt for each reason to refuse. A refusal leaves no "
              "trace in the mesh.");
   for (const Refusal& refusal : kRefusals) {
-    const Call& call = teller.call(teller.find(
-        0, [&](const Call& c) { return c.depth == 0 && teller.verdict(c) == refusal.verdict; }));
-    teller.say(call.events.begin + 1,
-               fmt::format("{} at the edge {} {}. {}", teller.name(call), call.target()[0].index(),
+    const Call& call = lesson.call(lesson.find(
+        0, [&](const Call& c) { return c.depth == 0 && lesson.verdict(c) == refusal.verdict; }));
+    lesson.say(call.events.begin + 1,
+               fmt::format("{} at the edge {} {}. {}", lesson.name(call), call.target()[0].index(),
                            call.target()[1].index(), refusal.before));
-    teller.say(call.events.end, fmt::format("The answer is \"{}\": {}. {}", refusal.verdict,
-                                            teller.reason(call), refusal.after));
+    lesson.say(call.events.end, fmt::format("The answer is \"{}\": {}. {}", refusal.verdict,
+                                            lesson.reason(call), refusal.after));
   }
 }
 
@@ -336,7 +336,7 @@ struct Recipe {
   MeshData mesh;
   std::string_view schedule;
   std::function<void(Run&)> after_schedule;
-  void (*tell)(Teller&);
+  void (*write)(LessonWriter&);
 };
 
 /// An attempt by a worker that does not have the vertex `foreign`.
@@ -364,13 +364,13 @@ std::vector<Recipe> recipes() {
        "attempt('edge_removal', {0, 1})\n"
        "attempt('shell_transformation', {0, 1})\n",
        {},
-       tell_core},
+       write_core},
       {"2-two-shells",
        "The recursion over two shells",
        two_shells(),
        "attempt({'recursive_shell_transformation', max_level = 1}, {0, 1})\n",
        {},
-       tell_two_shells},
+       write_two_shells},
       {"3-refusals", "Refusals, one for each reason", pieces(),
        "attempt('flip_3_2', {0, 1})\n"
        "attempt('shell_transformation', {2, 3})\n"
@@ -378,7 +378,7 @@ std::vector<Recipe> recipes() {
        "attempt('flip_3_2', {7, 8})\n"
        "attempt({'recursive_shell_transformation', max_level = 0}, {12, 13})\n"
        "attempt({'recursive_shell_transformation', budget = 1}, {12, 13})\n",
-       [](Run& run) { attempt_without(run, 9); }, tell_refusals},
+       [](Run& run) { attempt_without(run, 9); }, write_refusals},
   };
 }
 
@@ -416,13 +416,13 @@ void make_lesson(const Recipe& recipe, const std::filesystem::path& folder) {
   write_mesh(file("mesh"), recipe.mesh);
   record(recipe, file("mesh"), file("trace"));
   const TraceFile trace(file("trace"));
-  Teller teller(trace);
-  recipe.tell(teller);
+  LessonWriter lesson(trace);
+  recipe.write(lesson);
   nlohmann::ordered_json json = {{"title", recipe.title},
                                  {"mesh", file("mesh").filename().string()},
                                  {"trace", file("trace").filename().string()},
                                  {"steps", nlohmann::ordered_json::array()}};
-  for (const LessonStep& step : teller.steps()) {
+  for (const LessonStep& step : lesson.steps()) {
     json["steps"].push_back({{"at", step.at}, {"text", step.text}});
   }
   write_text(file("json"), json.dump(2) + "\n");

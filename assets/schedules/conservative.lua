@@ -13,7 +13,7 @@ for _ = 1, max_rounds do
   before = now
 end
 
--- The dear form once more for what is left.
+-- The costly form, once, for what is left.
 if before.n_bad > 0 then
   begin_round()
   local_reconnection{reflex_only = false}

@@ -1,13 +1,14 @@
 -- Algorithm 6 of Chen et al., Tetrahedral Mesh Improvement by Shell Transformation.
-description "Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of points, each followed by smoothing, until rounds bring little; then dearer operators for the worst tets"
+description "Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of points, each followed by smoothing, until rounds bring little; then costly operators for the worst tets"
 
 local max_rounds     = parameter{"max_rounds", default = 30, low = 0, high = 10000, help = "rounds in all"}
 local least_progress = parameter{"least_progress", default = 0.4, low = 0, high = 1,
                                  help = "least share of the bad tets that a plain round must remove"}
 local last_sweeps    = parameter{"last_sweeps", default = 3, low = 0, high = 1000,
-                                 help = "most sweeps of dearer operators over the worst tets in the last round"}
+                                 help = "most sweeps of costly operators over the worst tets in the last round"}
 
--- DEVIATION: Algorithm 5 tries all edges; which ones makes little difference but to the time (docs/deviations.md).
+-- DEVIATION: Algorithm 5 tries all edges. The choice matters little for the mesh, but much for the time
+-- (docs/deviations.md).
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.25, at_least = 100}
 local worst = {below = 0, at_least = 32}
@@ -27,7 +28,8 @@ local function plain_round()
   smooth{}
 end
 
--- DEVIATION: of the paper is only the recursion. For so few tets a new mild bad one is no reason to refuse.
+-- DEVIATION: only the recursion is in the paper. With so few tets, a new mild bad one is no reason to
+-- refuse.
 local function sweep_worst()
   return local_reconnection{on = dire, reflex_only = false}
        + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = dire})

@@ -1,8 +1,8 @@
 -- The best mesh that the fixed surface allows, for the time it takes.
-description "The rounds of Algorithm 6, then insertion by cavity, small polyhedra and several operators as one attempt for the bad tets that remain, the worst first, until nothing helps"
+description "The rounds of Algorithm 6; then insertion by cavity, small polyhedra and sequences of operators for the bad tets that remain, until nothing helps"
 
 local max_rounds   = parameter{"max_rounds", default = 12, low = 0, high = 10000,
-                               help = "rounds of dear operators on the bad tets that remain"}
+                               help = "rounds of costly operators on the bad tets that remain"}
 local max_failed   = parameter{"max_failed", default = 2, low = 1, high = 1000,
                                help = "such rounds in sequence without progress that end the run"}
 local min_dihedral = parameter{"min_dihedral", default = 30, low = 0, high = 30,
@@ -12,7 +12,7 @@ local time_limit   = parameter{"time_limit", default = 0, low = 0, high = 1e9,
 
 local worst = {below = 0.5, worst = 100}
 local few   = {below = 0.5, worst = 24}
--- As in the default schedule: which edges are tried there decides about the time alone.
+-- As in the default schedule: the choice of edges matters for the time alone.
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.25, at_least = 100}
 local hard  = {below = 0.35}
@@ -74,7 +74,7 @@ local function first_dear_round()
   mend(quick)
 end
 
--- A steep exponent: a new mild bad tet hardly counts against a worse one that goes.
+-- A steep exponent: a new mild bad tet hardly counts against a worse one that vanishes.
 local function insertion_round()
   begin_round()
   local_reconnection{on = dire, reflex_only = false}
@@ -83,13 +83,13 @@ local function insertion_round()
   mend()
 end
 
--- Moves the vertices of a tet until it is as good as the goal; no other gets bad for it.
+-- Moves the vertices of a tet until it is as good as the goal. No other tet becomes bad.
 local function lift(goal, on)
   return apply({"joint_smoothing", goal = goal}, {on = on})
        + apply({"joint_smoothing", goal = goal, rings = 1}, {on = on})
 end
 
--- Lowers angles above 148 degrees, in spite of a few more tets just below 30.
+-- Lowers angles above 148 degrees, even if a few more tets fall just below 30.
 local function lower(opening, follow_up)
   return apply(sequence{opening, "recursive_shell_transformation", "smoothing", follow_up, follow_up,
                         {"joint_smoothing", goal = 0.535}, theta_max = 148}, {on = obtuse})
@@ -107,7 +107,7 @@ local function worst_tets(i)
   apply(open_by("edge_removal", 0.35), {on = worst})
 end
 
--- Fewer bad tets, never for a worse one: with the exponent 1 the many mild ones count. Returns
+-- Fewer bad tets, but none that is worse: with the exponent 1 the many mild ones count. Returns
 -- whether that was worth the time.
 local function all_bad_tets()
   local n_bad = quality().n_bad
@@ -116,7 +116,8 @@ local function all_bad_tets()
   return quality().n_bad < 0.88 * n_bad
 end
 
--- Every form of every operator for the few that decide about the angles; returns how often it helped.
+-- Every form of every operator, for the few tets that decide about the angles. Returns how often one
+-- helped.
 local openings = {"edge_split", "edge_removal", "flip_2_3", "edge_contraction"}
 local follow_ups = {"joint_smoothing", all_of{"joint_smoothing", "cavity_insertion"},
                     {"joint_smoothing", rings = 1}}
@@ -167,7 +168,7 @@ while rounds < max_rounds and not is_enough() do
   if not is_progress(before, quality()) then break end
 end
 
--- Smoothing of mild tets trades a few against each other; the last word is with the dear operators.
+-- Smoothing trades a few mild tets against each other, so the costly operators come last.
 if max_rounds > 0 and not is_enough() then
   worst_tets(1)
   while all_bad_tets() and not is_enough() do end

@@ -4,9 +4,8 @@
 //   make a lattice of tets in a box, with a hole: the body
 //   for each step:
 //     while a part of the step is left:
-//       let the body move by that part, and the springs between the vertices pull the mesh along
-//       if a tet turns over: try again with half the part
-//       build the mesh anew of the moved points
+//       let the body move by that part, and the springs between the vertices pull the mesh along if
+//       a tet turns over: try again with half the part build the mesh again from the moved points
 //       improve the bad tets and what is around them; no other tet is touched
 //     print a line
 //   with --plain: each step at once, and no improvement

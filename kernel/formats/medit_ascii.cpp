@@ -24,8 +24,7 @@ namespace {
 constexpr std::array<std::string_view, 5> kEptSections = {"Vertices", "Edges", "Triangles",
                                                           "Tetrahedra", "RequiredVertices"};
 
-// Volume elements that the library has no use for. To pass over them would tear holes into the
-// mesh.
+// Volume elements that the library cannot use. To skip them would tear holes into the mesh.
 constexpr std::array<std::string_view, 17> kForeignVolumes = {
     "Hexahedra",   "Hexaedra",   "Prisms",      "Pyramids",     "Polyhedra",    "TetrahedraP2",
     "PrismsP2",    "PyramidsP2", "HexahedraQ2", "TetrahedraP3", "TetrahedraP4", "HexahedraQ3",
@@ -275,8 +274,8 @@ class Reader {
   TetPlace* question_;
   MeshData mesh_;
   std::vector<std::string_view> seen_;
-  std::vector<Section>
-      postponed_;  // what came before Vertices, of which the number was not known yet
+  // What came before Vertices, of which the number was not known yet.
+  std::vector<Section> postponed_;
 };
 
 template <class Element>

@@ -35,7 +35,7 @@ enum Keyword : std::int32_t {
   end_of_mesh = 54
 };
 
-// Volume elements that the library has no use for, linear and of higher order.
+// Volume elements that the library cannot use, linear and of higher order.
 constexpr std::array<std::int32_t, 16> kForeignVolumes = {9,  10, 30, 33, 46,  49,  86,  87,
                                                           96, 97, 98, 99, 100, 101, 102, 103};
 

@@ -14,8 +14,8 @@ namespace tetmend::formats {
 /// keeps the same sections as `read_medit_ascii`. @throws Error
 MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question = nullptr);
 
-/// Version 2, or 3 when the file grows beyond 2 GiB, or 4 when a count needs more than 31 bits; in
-/// the byte order of this machine, as the format wants it. @throws Error
+/// Version 2, or 3 when the file grows beyond 2 GiB, or 4 when a count needs more than 31 bits. The
+/// byte order is that of this machine, as the format wants it. @throws Error
 void write_medit_binary(const std::filesystem::path& file, const MeshView& mesh);
 
 }  // namespace tetmend::formats

@@ -24,15 +24,15 @@ std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1.
-/// Points, tets, triangles, edges and their reference labels are kept, of MEDIT files required
-/// vertices too; anything else in the file is passed over, except for volume elements that are no
-/// linear tets: those are an error.
-/// @throws Error for a missing, empty or truncated file, a wrong count, a vertex number out of
-/// range or repeated within an element, text in a number, a coordinate that is not finite, a label
-/// beyond 32 bits, a count that cannot fit into the file (before memory is taken for it), an
-/// unknown extension (with the valid ones). The message begins with "FILE:LINE: " (ASCII) or "FILE:
-/// byte N: " (binary) when it is about the content, and has the offending word and what was
-/// expected.
+/// Points, tets, triangles, edges and their reference labels are kept, and the required vertices of
+/// MEDIT files. Volume elements other than linear tets are an error; anything else in the file is
+/// skipped.
+/// @throws Error for a missing, empty or truncated file and for an unknown extension (with the
+/// valid ones). Also for wrong content: a wrong count, or one that cannot fit into the file (before
+/// memory is taken for it); a vertex number out of range or repeated within an element; text in a
+/// number; a coordinate that is not finite; a label beyond 32 bits. The message begins with
+/// "FILE:LINE: " (ASCII) or "FILE: byte N: " (binary) when it is about the content, and has the
+/// offending word and what was expected.
 /// Cost: linear in the size of the file, which is held in memory while it is read.
 MeshData read_mesh(const std::filesystem::path& file);
 
@@ -41,7 +41,7 @@ MeshData read_mesh(const std::filesystem::path& file);
 /// @throws Error as read_mesh().
 std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 
-/// Writes a mesh in the format of the extension; a TetGen path (`.node` or `.ele`) writes `.node`,
+/// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file. Doubles are written so
 /// that reading gives the same bits. Required vertices are kept by MEDIT only. The file appears
 /// under its name only when complete: a temporary file beside it is renamed, so a failure leaves an

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Walls that make tets bad.
 //
-//   walls of bad tets and walls next to them: where no tet is bad, none is forced
-//   -> arguments: one of the tets on these walls is bad in every mesh
-//   -> as many of them as cannot speak of the same tet: the least number of bad tets
+//   walls of bad tets and walls next to them: where no tet is bad, none is forced -> arguments: one
+//   of the tets on these walls is bad in every mesh -> as many of them as cannot be about the same
+//   tet: the least number of bad tets
 #include "schedule/limit/surface_limit.h"
 
 #include <algorithm>
@@ -240,8 +240,8 @@ bool meets(const std::vector<HalfFace>& walls, const WallSet& set) {
                      [&](HalfFace wall) { return set.contains(wall.code()); });
 }
 
-/// How many arguments, taken greedily, speak of different tets: no two have a common wall, and none
-/// has a wall whose tet may also stand on a wall of another.
+/// How many arguments, taken greedily, are about different tets: no two have a common wall, and
+/// none has a wall whose tet may also stand on a wall of another.
 std::size_t count_independent(const std::vector<Argument>& arguments) {
   WallSet walls;
   WallSet partners;

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the walls of a mesh allow at best, and why each bad tet of the mesh is still there.
+//
+// A wall is a face that must stay. Two facts carry the proofs. Each side of a wall has one tet; its
+// apex is a point, and the three dihedral angles at the wall say which (search/apex_search.h). And
+// the angles at an edge between two walls add up to the angle between the walls. Either one tet
+// fills it alone, and its vertices are known; or several share it, and the one on the next wall has
+// at most what the first leaves (wall_probe.h). Only places that cannot mean the same tet are
+// counted. A wall that only stands in the way, as the far side of a thin plate does, is not looked
+// at.
 #pragma once
 
 #include <array>
@@ -39,9 +47,10 @@ struct SurfaceLimit {
 };
 
 /// Proves that tets are bad in every mesh with the same walls, one wall and its neighbours at a
-/// time (see WallProbe). More may be forced than is found. n_forced and the bounds depend on the
-/// walls and the order of their vertices, not on the tets between them nor on the number of
-/// threads. Cost: one pass over the walls and their sectors (0.07 s for 125 thousand), and up to a
+/// time (see WallProbe). More may be forced than is found: a wall that only stands in the way, as
+/// the far side of a thin plate does, is not looked at. n_forced and the bounds depend on the walls
+/// and the order of their vertices, but not on the tets between them or the number of threads.
+/// Cost: one pass over the walls and their sectors (0.07 s for 125 thousand), and up to a
 /// millisecond for each bad tet on a wall.
 SurfaceLimit compute_surface_limit(const TetMesh& mesh);
 

@@ -26,9 +26,9 @@ class WallProbe {
   HalfFace wall() const { return wall_; }
   const Sector& sector(unsigned i) const { return sectors_[i]; }
 
-  /// Whose tets an argument is about, besides the tet on the wall itself: bit i for the tet on the
-  /// next wall around edge i, kBeyond for those on the next walls around the other edges of
-  /// determined tets.
+  /// The tets that an argument is about, besides the tet on the wall itself. Bit i stands for the
+  /// tet on the next wall around edge i, kBeyond for those on the next walls around the other edges
+  /// of determined tets.
   using Scope = std::bitset<4>;
   static constexpr std::size_t kBeyond = 3;
 

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Walls, the faces that every operation keeps, and the sectors between them.
 //
-//        walls around an edge, seen along it         Every mesh with the same walls has exactly one
-//               \  sector  /                         tet on each side of a wall that is not
-//               outside,
-//                \        /                          and fills each sector with tets at the edge
-//                 \______/____ wall                  whose angles add up to that of the sector.
-//                 / edge
+//     walls around an edge, seen along it     Every mesh with the same walls has exactly one tet
+//            \  sector  /                     on each side of a wall, unless that is outside. It
+//             \        /                      fills each sector with tets at the edge, whose angles
+//              \______/____ wall              add up to that of the sector.
+//              / edge
 #pragma once
 
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
-/// A triangle of the boundary, a constrained face, or a face between a frozen tet and one that is
-/// not.
+/// A triangle of the boundary, a constrained face, or a face at which frozen tets end.
 inline bool is_wall(const TetMesh& mesh, HalfFace f) {
   const HalfFace twin = mesh.twin(f);
   return twin.is_outside() || mesh.is_constrained(f) ||

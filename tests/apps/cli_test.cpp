@@ -458,7 +458,7 @@ TEST_CASE("the tables of docs/operators.md are those that the program prints") {
   const std::string tables = page.substr(first + begin.size(), last - first - begin.size());
   const Outcome outcome = run_program({"operators", "--markdown"});
   CHECK(outcome.status == 0);
-  CHECK_MESSAGE(tables == outcome.out, "script/operator-tables writes them anew");
+  CHECK_MESSAGE(tables == outcome.out, "script/operator-tables writes them");
 }
 
 TEST_CASE("a full disk behind standard output is an error") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A part of a mesh is improved and the rest stays bit by bit; interior constraints are dropped on
-// demand.
+// A part of a mesh is improved and the rest stays as it is, bit for bit; interior constraints are
+// dropped on demand.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -121,7 +121,7 @@ const std::vector<Case> kCases = {
 
 }  // namespace
 
-TEST_CASE("protected tets come out bit by bit, the others improved") {
+TEST_CASE("protected tets come out bit for bit, the others improved") {
   for (const Case& one : kCases) {
     const TempFolder folder;
     const auto out = folder / "out.mesh";

@@ -4,7 +4,9 @@
 experiments_test.py BUILD_FOLDER SOURCE_FOLDER
 """
 
+import itertools
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -21,13 +23,15 @@ class Experiments(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.output = Path(folder.name)
 
-    def run_experiment(self, name: str, *meshes: str) -> list[dict]:
+    def run_experiment(self, name: str, *arguments: str) -> list[dict]:
+        """@param arguments  meshes, then options"""
         program = str(SOURCE / "bench" / "experiments" / f"{name}.py")
-        command = [sys.executable, "-B", program, *meshes, "-o", str(self.output)]
+        command = [sys.executable, "-B", program, *arguments, "-o", str(self.output)]
+        meshes = list(itertools.takewhile(lambda word: not word.startswith("-"), arguments))
         subprocess.run([*command, "--build", str(BUILD)], check=True, capture_output=True)
         document = json.loads((self.output / f"{name}.json").read_text())
         self.assertIn("|", (self.output / f"{name}.md").read_text())
-        self.assertEqual([mesh["mesh"] for mesh in document["meshes"]], list(meshes))
+        self.assertEqual([mesh["mesh"] for mesh in document["meshes"]], meshes)
         return [mesh["rows"] for mesh in document["meshes"]]
 
     def curves(self, picture: str) -> int:
@@ -44,12 +48,22 @@ class Experiments(unittest.TestCase):
     def test_figure_13_shows_what_a_folded_sheet_costs(self) -> None:
         [rows] = self.run_experiment("figure13", "folded_sheet")
         self.assertGreater(rows["respected"]["after"]["n_bad"], rows["ignored"]["after"]["n_bad"])
-        self.assertEqual(self.curves("figure13-folded_sheet.svg"), 3)
+        self.assertEqual(self.curves("figures/figure13-folded_sheet.svg"), 3)
 
     def test_figure_12_has_a_curve_for_each_schedule(self) -> None:
         self.run_experiment("figure12", "folded_sheet", "two_materials")
         self.assertGreaterEqual(self.curves("figure12a-folded_sheet.svg"), 2)
         self.assertEqual(self.curves("figure12b.svg"), 3)
+
+    def test_a_document_is_written_whole_with_its_pictures(self) -> None:
+        file = self.output / "elsewhere" / "angles.md"
+        self.run_experiment("figure12", "folded_sheet", "--write", str(file))
+        text = file.read_text()
+        self.assertIn("Command: `script/experiment figure12 folded_sheet`", text)
+        pictures = re.findall(r"\]\((\S+\.svg)\)", text)
+        self.assertEqual(len(pictures), 2)
+        for picture in pictures:
+            self.assertTrue((file.parent / picture).exists(), picture)
 
     def passes_of(self, schedule: str) -> list[str]:
         report = self.output / "report.json"

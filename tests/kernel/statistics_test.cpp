@@ -30,8 +30,8 @@ std::uint32_t grid_index(int i, int j, int k, int n) {
   return static_cast<std::uint32_t>((k * (n + 1) + j) * (n + 1) + i);
 }
 
-/// The unit cube as n^3 cells of six Kuhn tets each: one for every order in which a path from the
-/// low to the high corner of a cell can walk along x, y and z.
+/// The unit cube as n^3 cells of six Kuhn tets each. There is one for every order in which a path
+/// from the low to the high corner of a cell can walk along x, y and z.
 MeshData kuhn_cube(int n) {
   MeshData data;
   for (int k = 0; k <= n; ++k) {
@@ -428,7 +428,7 @@ TEST_CASE("any quality measure can be summarized over a mesh") {
   CHECK(summarize(mesh, find_quality_measure("min_angle")).worst == doctest::Approx(s.theta_min));
 }
 
-TEST_CASE("statistics are bit by bit the same for every number of threads") {
+TEST_CASE("statistics are the same, bit for bit, for every number of threads") {
   const TetMesh mesh(jittered(kuhn_cube(17), 0.03));  // 29478 tets: two chunks, the second not full
   REQUIRE(mesh.tet_slots() > kChunkSize);
   const auto all_of = [&](int threads) {

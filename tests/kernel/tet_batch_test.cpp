@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tets side by side against tets one by one, bit by bit.
+// Tets side by side against tets one by one, bit for bit.
 #include "kernel/tet_batch.h"
 
 #include <array>

@@ -120,7 +120,7 @@ TEST_CASE("labels, named triangles and edges and required vertices survive a rou
   }
 }
 
-TEST_CASE("a mirrored mesh is put right") {
+TEST_CASE("a mirrored mesh is corrected") {
   const MeshData data = zoo_data("ball_60");
   MeshData mirrored = data;
   for (MeshData::Tet& t : mirrored.tets) std::swap(t.vertices[0], t.vertices[1]);
@@ -134,7 +134,7 @@ TEST_CASE("a mirrored mesh is put right") {
   CHECK(tet_sets(mesh.to_data()) == tet_sets(data));
 }
 
-TEST_CASE("single tets that list their vertices in the wrong sense are put right") {
+TEST_CASE("single tets that list their vertices in the wrong sense are corrected") {
   MeshData data = zoo_data("ball_60");
   for (const std::size_t t : {3, 4, 100})
     std::swap(data.tets[t].vertices[1], data.tets[t].vertices[3]);
@@ -161,7 +161,7 @@ TEST_CASE("an inverted tet and a flat tet are kept and reported") {
   CHECK(flat.quality(TetHandle(0)) == 0);
 }
 
-TEST_CASE("a tet in the wrong sense is put right although another one is really inverted or flat") {
+TEST_CASE("a tet in the wrong sense is corrected although another one is really inverted or flat") {
   for (const char* name : {"inverted_tet", "flat_tet", "tangled_ball_60"}) {
     CAPTURE(name);
     const MeshData data = zoo_data(name);
@@ -179,7 +179,7 @@ TEST_CASE("a tet in the wrong sense is put right although another one is really 
   }
 }
 
-TEST_CASE("a flat tet in the wrong sense is put right by its neighbours") {
+TEST_CASE("a flat tet in the wrong sense is corrected by its neighbours") {
   MeshData data = zoo_data("flat_tet");
   std::swap(data.tets[0].vertices[0], data.tets[0].vertices[1]);
   BuildReport report;

@@ -19,9 +19,9 @@ Verdict insert(LoneWorker& worker, const Corners& tet, const ParameterSettings& 
 
 const ParameterSettings kUnsmoothed = {{"smooth", 0}};
 
-// 2 ------------- 01 ------------- 3     A short edge 0-1 near the middle of a long edge 2-3 that
-// it
-//                                        nearly touches: one of the few tets that four pieces beat.
+// 2 ------------- 01 ------------- 3     A short edge 0-1 near the middle of a long edge 2-3, which
+//                                        it nearly touches: one of the few tets that four pieces
+//                                        beat.
 MeshData needle() {
   MeshData data;
   data.points = {{-2, 0, 0}, {-2, 0, -1}, {-32, -1, -1}, {40, 1, 0}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every registered operator promises, tried on every mesh of the zoo: a refusal leaves no
-// trace, an accepted attempt leaves a sound and better mesh with the same surface, regions and
+// What every registered operator promises, tried on every mesh of the zoo. A refusal leaves no
+// trace; an accepted attempt leaves a sound and better mesh with the same surface, regions and
 // constraints.
 #include "contract/contract.h"
 

@@ -11,10 +11,9 @@ using namespace tetmend::test;
 
 namespace {
 
-//          1             The edge 0-1 stands on the middle of the triangle 2 3 4; the three tets
-//          are
-//        / | \           0 1 2 3, 0 1 3 4, 0 1 4 2. After the flip, the triangle parts one tet
-//       2--|--3          above from one below. `lift` moves the triangle up along the edge.
+//          1             The edge 0-1 stands on the middle of the triangle 2 3 4. The three tets
+//        / | \           are 0 1 2 3, 0 1 3 4 and 0 1 4 2. After the flip, the triangle parts one
+//       2--|--3          tet above from one below. `lift` moves the triangle up along the edge.
 //        \ 4 /
 //          0
 MeshData three_tets(double height, double lift = 0) {

@@ -115,7 +115,7 @@ TEST_CASE("the polygon stops growing at its largest size") {
   CHECK(six.mesh.tet_count() == 6);
 }
 
-TEST_CASE("a sandwich whose faces are cut badly is cut anew without an edge between the apexes") {
+TEST_CASE("a sandwich whose faces are cut badly is cut again without an edge between the apexes") {
   // A long rhombus, cut along its long diagonal, with apexes too far away for an edge between them.
   MeshData data;
   data.points = {{0, 0, -1.1}, {0, 0, 1.1}, {1.1, 0, 0}, {0, 0.8, 0}, {-1.1, 0, 0}, {0, -0.8, 0}};

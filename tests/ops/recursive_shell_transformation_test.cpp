@@ -30,7 +30,7 @@ MeshData piece(std::vector<Point> points, const std::vector<std::array<std::uint
 }
 
 // Two overlapping shells ([chen, Fig. 5]). Edge 0 1 can be removed only after its face (0, 1, 4)
-// is, and that goes with the link edge 0 4, whose shell has a tet of its own, (5, 0, 4, 2).
+// is. That face vanishes with the link edge 0 4, whose shell has a tet of its own, (5, 0, 4, 2).
 MeshData two_shells() {
   return piece(
       {{-0.52, -0.44, 0.73},

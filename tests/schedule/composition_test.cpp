@@ -308,7 +308,7 @@ TEST_CASE("applying reconnection by hand gives the mesh of local reconnection") 
   CHECK(by_pass.to_data().tets == by_hand.to_data().tets);
 }
 
-TEST_CASE("a pass made again does nothing unless it is told to try all anew") {
+TEST_CASE("a pass made again does nothing unless it is told to try everything again") {
   TetMesh mesh(delaunay_ball(200, 4));
   Run run(mesh, kRegistry);
   ApplyPass pass{.what = op("edge_removal"), .on = {.below = Selection::kAll}, .sweeps = 100};

@@ -145,7 +145,7 @@ Corners unordered(Corners all) {
   return all;
 }
 
-struct Portrait {
+struct Content {
   std::map<Label, long double> volumes;
   long double absolute = 0;
   std::map<Label, std::multiset<Corners>> surfaces;  // of each region, outwards
@@ -157,8 +157,8 @@ struct Portrait {
   std::size_t bad = 0;
 };
 
-Portrait portrait(const MeshData& data) {
-  Portrait p;
+Content content_of(const MeshData& data) {
+  Content p;
   for (const auto& triangle : data.triangles)
     p.triangles.emplace_back(corners(data, triangle.vertices), triangle.label);
   for (const auto& edge : data.edges)
@@ -207,7 +207,7 @@ Portrait portrait(const MeshData& data) {
   return p;
 }
 
-void check_kept(const Portrait& now, const Portrait& before) {
+void check_kept(const Content& now, const Content& before) {
   REQUIRE(now.volumes.size() == before.volumes.size());
   for (const auto& [label, volume] : before.volumes) {
     REQUIRE(now.volumes.contains(label));
@@ -260,12 +260,12 @@ double free_deficit(const TetMesh& mesh) {
 TEST_CASE("the schedule keeps each region, and all that a file names, in any number of blocks") {
   for (const NamedMesh& named : meshes()) {
     CAPTURE(named.name);
-    const Portrait before = portrait(named.data);
+    const Content before = content_of(named.data);
     for (const std::size_t blocks : {1, 2, 7}) {
       CAPTURE(blocks);
       TetMesh mesh = TetMesh::sorted(named.data);
       improve_in_blocks(mesh, blocks);
-      const Portrait now = portrait(mesh.to_data());
+      const Content now = content_of(mesh.to_data());
       check_kept(now, before);
       CHECK(now.bad < before.bad);
     }
@@ -303,10 +303,10 @@ TEST_CASE("without interior constraints regions and surface are kept all the sam
   for (const NamedMesh& named : meshes()) {
     CAPTURE(named.name);
     TetMesh mesh = TetMesh::sorted(named.data, nullptr, InteriorConstraints::dropped);
-    const Portrait before = portrait(mesh.to_data());
-    CHECK(before.surfaces == portrait(named.data).surfaces);
+    const Content before = content_of(mesh.to_data());
+    CHECK(before.surfaces == content_of(named.data).surfaces);
     improve_in_blocks(mesh, 2);
-    check_kept(portrait(mesh.to_data()), before);
+    check_kept(content_of(mesh.to_data()), before);
   }
 }
 
@@ -326,7 +326,7 @@ TEST_CASE("a sharply folded sheet is kept at a price that a run without it does 
 TEST_CASE("frozen tets go through the schedule untouched, and the others get better") {
   for (const NamedMesh& named : meshes()) {
     CAPTURE(named.name);
-    const Portrait before = portrait(named.data);
+    const Content before = content_of(named.data);
     for (const std::size_t blocks : {1, 5}) {
       CAPTURE(blocks);
       TetMesh mesh = TetMesh::sorted(named.data);
@@ -344,7 +344,7 @@ TEST_CASE("frozen tets go through the schedule untouched, and the others get bet
       const double deficit_before = free_deficit(mesh);
       improve_in_blocks(mesh, blocks);
       CHECK(frozen_cells(mesh) == cells);
-      check_kept(portrait(mesh.to_data()), before);
+      check_kept(content_of(mesh.to_data()), before);
       // Among so many fixed vertices a better worst tet may be paid for with mild bad ones.
       CHECK(quality_indicators(mesh).q_worst >= free_before.q_worst);
       CHECK(free_deficit(mesh) < 0.9 * deficit_before);

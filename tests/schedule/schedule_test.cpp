@@ -202,7 +202,7 @@ TEST_CASE("a mesh whose tets are all bad and all on the boundary comes to an end
   CHECK(run.round <= 5);
 }
 
-TEST_CASE("every schedule that comes along improves a mesh, keeps its surface and ends") {
+TEST_CASE("every builtin schedule improves a mesh, keeps its surface and ends") {
   for (const std::string_view name : builtin_schedule_names()) {
     CAPTURE(name);
     const Schedule schedule = Schedule::builtin(name);

@@ -145,7 +145,7 @@ TEST_CASE("a pass tells how many attempts it accepted and made") {
                                 std::to_string(outcome.records[0].attempts()));
 }
 
-TEST_CASE("quality tells the figures of the mesh, the dear ones until the next pass") {
+TEST_CASE("quality tells the figures of the mesh, the costly ones until the next pass") {
   const MeshStatistics truth = compute_statistics(TetMesh(delaunay_ball(150, 7)));
   CHECK(note("quality().n_bad") == std::to_string(truth.n_bad));
   CHECK(note("quality().tets") == std::to_string(truth.tets));

@@ -67,7 +67,7 @@ TestShell make_octahedron(double even, double odd) {
                     {Point(even, 0, 0), Point(0, odd, 0), Point(-even, 0, 0), Point(0, -odd, 0)});
 }
 
-/// The ear p_4 is almost in one plane with ab and p_0, and ab is so short that the tets of a full
+/// The ear p_4 is almost in one plane with ab and p_0. ab is so short that the tets of a full
 /// reduction are flat: the rest is best left as it is ([chen, Figure 4]).
 TestShell make_eared_shell() {
   return make_shell(

@@ -17,8 +17,8 @@
 
 namespace tetmend::test {
 
-/// Sets one byte of a file at a time: to write the file anew for each would take a hundred times as
-/// long.
+/// Sets one byte of a file at a time: to write the whole file for each would take a hundred times
+/// as long.
 class ByteSetter {
  public:
   explicit ByteSetter(const std::filesystem::path& file) : fd_(::open(file.c_str(), O_WRONLY)) {}

@@ -99,7 +99,7 @@ inline MeshData awkward_mesh() {
   return mesh;
 }
 
-/// Bit by bit: -0.0 is not 0.0.
+/// Bit for bit: -0.0 is not 0.0.
 inline bool same_points(const MeshData& a, const MeshData& b) {
   if (a.points.size() != b.points.size()) return false;
   for (std::size_t i = 0; i < a.points.size(); ++i) {

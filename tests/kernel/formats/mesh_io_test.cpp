@@ -33,7 +33,7 @@ constexpr std::string_view kVtkAscii =
 
 }  // namespace
 
-TEST_CASE("a mesh written in any format is read back bit by bit") {
+TEST_CASE("a mesh written in any format is read back bit for bit") {
   const TempFolder folder;
   for (const MeshFormat& format : mesh_formats()) {
     CAPTURE(format.extension);

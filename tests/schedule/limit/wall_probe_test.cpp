@@ -82,8 +82,8 @@ TEST_CASE("a tet alone allows exactly its own angles") {
 }
 
 TEST_CASE("a tet that fills one sector must leave nothing or enough at the other edges") {
-  // Two tets of 20 degrees at the edge 0 1. Vertex 3 lies in the middle between 2 and 4, so that
-  // one tet 0 1 2 4 would leave nothing at 0 2 where the next wall is 0 2 3.
+  // Two tets of 20 degrees at the edge 0 1. Vertex 3 lies in the middle between 2 and 4. So one tet
+  // 0 1 2 4 would leave nothing at the edge 0 2, where the next wall is 0 2 3.
   MeshData data;
   data.points = {{0, 0, -0.5}, {0, 0, 0.5}};
   for (const double degrees : {0.0, 20.0, 40.0}) {

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: MIT
+"""What the bench writes for readers: the form of its documents, tables from known figures, and
+pages that quote them. Runs no measurement.
+
+documents_test.py SOURCE_FOLDER
+"""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv[1])
+sys.path.insert(0, str(SOURCE / "bench"))
+import cores  # noqa: E402
+import documents  # noqa: E402
+import files  # noqa: E402
+import growth  # noqa: E402
+import micro  # noqa: E402
+import pages  # noqa: E402
+import report  # noqa: E402
+
+MADE = documents.Stamp("script/bench --quick", "0123abc", "2026-11-22", "AMD EPYC, 2 cores, 25 GB")
+MEASURED = {"tets": 1000, "theta_min": 0.0012, "theta_max": 179.5, "lambda": 5.25, "n_bad": 1234,
+            "inverted": 0, "flat": 0}
+BETTER = {**MEASURED, "tets": 900, "theta_min": 30.0, "theta_max": 149.0, "lambda": 0.0, "n_bad": 7}
+
+
+def times(median: float) -> dict:
+    return {"median": median, "min": 0.9 * median, "max": 1.1 * median}
+
+
+def compared(name: str, ours: bool, after: dict) -> dict:
+    phases = {phase: times(0.5) for phase in report.PHASES} if ours else {"improving": times(2)}
+    return {"improver": name, "short": name, "ours": ours, "command": f"{name} input.mesh",
+            "version": "1.0", "status": "ok", "phases": phases, "whole_seconds": times(3),
+            "peak_bytes": 87_000_000, "after": after,
+            "surface": {"surface": "identical", "lost": 0, "distance": 0}}
+
+
+COMPARISON = {
+    "date": MADE.date, "commit": MADE.commit, "command": MADE.command, "repetitions": 3,
+    "machine": {"processor": "AMD EPYC", "cores": 2, "memory_bytes": 25e9, "load_before": 0.1},
+    "missing": [{"improver": "MMG", "hint": "Needs MMG"}],
+    "meshes": [{"mesh": "cube", "before": MEASURED, "rows": [
+        compared("tetmend, 1 thread", True, BETTER),
+        compared("Some", False, {**BETTER, "n_bad": 90}),
+        compared("Other", False, {**BETTER, "n_bad": 80, "flat": 3})]}],
+}
+PRINTED = """\
+cube.mesh: 5 tets
+
+blocks by the size of the mesh
+threads                      1       2
+smoothing                 1.00    1.99
+all: speed-up             1.00    1.96
+
+pass                     alone %  deferred %   seconds
+smoothing                   0.58        43.7      0.44
+
+one thread for each block
+  blocks   alone %  deferred %  critical s  speed-up    n_bad   q_worst
+       1     93.22         0.0        1.51       1.0     4315    0.2768
+"""
+
+
+def tables(text: str) -> list[documents.Table]:
+    return [table for _, table in documents.tables(text)]
+
+
+class Documents(unittest.TestCase):
+    def test_the_first_lines_say_command_commit_date_and_machine(self) -> None:
+        found = documents.HEAD.match(documents.document("Title", MADE, ["Text."]))
+        self.assertEqual(found["title"], "Title")
+        self.assertEqual(documents.Stamp(found["command"], found["commit"], found["date"],
+                                         found["machine"]), MADE)
+
+    def test_a_command_is_shown_without_folders_and_files_of_this_machine(self) -> None:
+        arguments = ["/home/me/part.mesh", "tire", "--write", "docs/x.md", "-o", "/tmp/x",
+                     "--build=/tmp/b", "--threads", "2"]
+        self.assertEqual(documents.typed("script/bench", arguments),
+                         "script/bench part.mesh tire --threads 2")
+
+    def test_what_was_written_as_a_table_is_read_as_that_table(self) -> None:
+        table = [["mesh", "bad"], ["cube", "1,234"], ["tire", ""]]
+        text = documents.document("T", MADE, ["## Here", documents.markdown_table(table), "End."])
+        self.assertEqual(list(documents.tables(text)), [("Here", table)])
+
+    def test_prose_is_wrapped_and_tables_are_not(self) -> None:
+        wide = [["a" * 120, "b"], ["c", "d"]]
+        text = documents.document("T", MADE, ["word " * 50, documents.markdown_table(wide)])
+        self.assertEqual(tables(text), [wide])
+        self.assertTrue(all(len(line) <= 100 for line in text.splitlines() if line[0:1] != "|"))
+
+    def test_pictures_lie_in_a_folder_beside_the_document(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "results" / "page.md"
+            documents.write(file, documents.picture("x.svg", "X"), {"x.svg": "<svg/>"})
+            self.assertEqual(file.read_text(), "![X](figures/x.svg)")
+            self.assertEqual((file.parent / "figures" / "x.svg").read_text(), "<svg/>")
+
+
+class Tables(unittest.TestCase):
+    def test_a_comparison_has_all_improvers_their_commands_and_what_is_missing(self) -> None:
+        text = report.page(COMPARISON)
+        self.assertIsNotNone(documents.HEAD.match(text))
+        own, cube, commands = tables(text)
+        self.assertEqual(own[1][4:8], ["0.0012 -> 30.00", "179.50 -> 149.00", "5.25 -> 0",
+                                       "1,234 -> 7"])
+        self.assertEqual(cube[1], ["(input)", "1,000", "0.0012", "179.50", "5.25", "1,234",
+                                   "", "", "", ""])
+        self.assertEqual(cube[3], ["Some", "900", "30.00", "149.00", "0", "90", "kept",
+                                   "2.00 ±10 %", "3.00 ±10 %", "87"])
+        self.assertEqual(cube[4][5], "80, 3 inverted or flat")
+        self.assertEqual(commands[2], ["Some", "`Some input.mesh`", "1.0"])
+        self.assertIn("not run: MMG", text)
+        self.assertIn("![cube, 1,000 tets: quality against time](figures/quality-cube.svg)", text)
+
+    def test_growth_compares_larger_meshes_with_that_of_a_million(self) -> None:
+        def told(tets: int, improving: float) -> dict:
+            seconds = {"reading": 0.1, "building": 0.2, "improving": improving, "writing": 0.3}
+            return {"before": {"tets": tets, "n_bad": 9}, "after": {"n_bad": 1, "theta_min": 30.0},
+                    "seconds": seconds, "peak_memory_bytes": 80 * tets}
+
+        runs = {1e5: told(100_000, 0.1), 1e6: told(1_000_000, 2.0), 1e7: told(10_000_000, 30.0)}
+        [table] = tables(growth.page(MADE, growth.table_of(runs)))
+        self.assertEqual([row[8:] for row in table[1:]],
+                         [["1.00", "", "80"], ["2.00", "", "80"], ["3.00", "1.50", "80"]])
+
+    def test_the_tables_of_scaling_keep_all_their_figures(self) -> None:
+        threads, passes, blocks = tables(cores.page(MADE, {"cube": PRINTED}))
+        self.assertEqual(threads, [["threads", "1", "2"], ["smoothing", "1.00", "1.99"],
+                                   ["all: speed-up", "1.00", "1.96"]])
+        self.assertEqual(passes[1], ["smoothing", "0.58", "43.7", "0.44"])
+        self.assertEqual(blocks[1], ["1", "93.22", "0.0", "1.51", "1.0", "4315", "0.2768"])
+
+    def test_a_row_of_files_has_the_speed_of_reading(self) -> None:
+        seconds = {"reading": 0.1, "building": 0.2, "writing": 0.4}
+        self.assertEqual(files.row("MEDIT", 45_400_000, 2, seconds),
+                         ["MEDIT", "45.4", "2", "0.100", "0.200", "0.400", "454"])
+
+    def test_the_least_of_repeated_micro_benchmarks_counts_by_the_right_clock(self) -> None:
+        def ran(name: str, cpu: float, real: float, kind: str = "iteration") -> dict:
+            return {"name": name, "run_type": kind, "cpu_time": cpu, "real_time": real,
+                    "time_unit": "ns"}
+
+        told = {"benchmarks": [ran("walk", 200, 900), ran("walk", 100, 950),
+                               ran("flip/manual_time", 9e6, 500),
+                               ran("walk_mean", 1, 1, "aggregate")]}
+        self.assertEqual(micro.table_of(told)[1:], [["`walk`", "0.1"],
+                                                    ["`flip/manual_time`", "0.5"]])
+
+
+class Pages(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = Path(folder.name)
+        (self.results / "rivals.md").write_text(report.page(COMPARISON))
+
+    def test_a_figure_is_taken_from_its_place_in_a_table(self) -> None:
+        template = ("- All {rivals / cube / (input) / bad} and\n  {rivals / cube /\n  Some / bad}."
+                    "\n- {rivals / Some / command}\n\n| {rivals / cube / Some / improving s} |\n")
+        self.assertEqual(pages.page(template, self.results),
+                         "- All 1,234 and 90.\n- `Some input.mesh`\n\n| 2.00 |\n")
+
+    def test_the_best_rival_is_that_with_the_fewest_bad_tets(self) -> None:
+        template = "{rivals / cube / best rival / improver}, {rivals / cube / best rival / bad}"
+        self.assertEqual(pages.page(template, self.results), "Other, 80, 3 inverted or flat\n")
+
+    def test_a_place_that_means_no_cell_or_several_is_an_error(self) -> None:
+        for place in ["rivals / cube / Nobody / bad", "rivals / cube / bad"]:
+            with self.assertRaises(SystemExit) as refused:
+                pages.page(f"{{{place}}}", self.results)
+            self.assertIn(place, str(refused.exception))
+
+
+class Published(unittest.TestCase):
+    """The documents of this repository."""
+
+    def test_each_document_of_results_says_how_it_was_made(self) -> None:
+        found = sorted((SOURCE / "docs" / "results").glob("*.md"))
+        self.assertGreaterEqual(len(found), 5)
+        for file in found:
+            text = file.read_text()
+            head = documents.HEAD.match(text)
+            self.assertIsNotNone(head, file.name)
+            script = SOURCE / head["command"].split()[0]
+            self.assertTrue(script.exists(), head["command"])
+            self.assertNotIn(" with changes", head["commit"], file.name)
+            self.assertGreaterEqual(len(tables(text)), 1, file.name)
+
+    def test_pages_quote_the_figures_of_these_documents(self) -> None:
+        for template in (SOURCE / "bench" / "pages").glob("*.md"):
+            written = pages.page(template.read_text(), SOURCE / "docs" / "results")
+            self.assertEqual((SOURCE / "docs" / template.name).read_text(), written,
+                             "script/pages writes it anew")
+
+    def test_what_the_page_claims_of_rivals_is_so(self) -> None:
+        text = (SOURCE / "docs" / "results" / "rivals.md").read_text()
+        compared = [table for _, table in documents.tables(text)
+                    if table[0][0] == "improver" and "bad" in table[0]]
+        self.assertGreaterEqual(len(compared), 5)
+        for table in compared:
+            bad, surface = table[0].index("bad"), table[0].index("surface")
+            own = [row for row in table[1:] if row[0].startswith("tetmend")]
+            rival = int(pages.best_rival(table)[bad].replace(",", ""))
+            for row in own:
+                self.assertLess(int(row[bad].replace(",", "")), rival)
+            for row in table[2:]:
+                self.assertTrue(row[surface] == "kept" or row[surface].startswith("over "), row)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
