@@ -8,7 +8,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "contract/contract.h"
-#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/tet_mesh_io.h"
 #include "ops/plugin.h"
 
 namespace tetmend::apps {
@@ -22,9 +22,7 @@ struct Options {
 std::vector<contract::Ground> load_grounds(const Options& options) {
   std::vector<contract::Ground> grounds = contract::grounds();
   for (const std::filesystem::path& file : options.meshes) {
-    BuildReport report;
-    grounds.push_back(
-        {file.string(), build_mesh(file, read_mesh(file), MeshOrder::of_file, report)});
+    grounds.push_back({file.string(), read_tet_mesh(file)});
   }
   return grounds;
 }
