@@ -52,8 +52,7 @@ bool check_operator(const Registry& registry, std::string_view name,
 
 int run_check_plugin(const Options& options) {
   for (const std::filesystem::path& file : options.meshes) check_mesh_extension(file);
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   const Plugin plugin = load_plugin(options.plugin, registry);
   const std::vector<contract::Ground> grounds = load_grounds(options);
   std::size_t broken = 0;

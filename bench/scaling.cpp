@@ -44,8 +44,7 @@ struct Measured {
 
 /// @param blocks 0: as the size of the mesh asks for
 Measured measure(TetMesh mesh, std::size_t blocks) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   Run run(mesh, registry);
   if (blocks > 0) run.set_block_count(blocks);
   improve(run);

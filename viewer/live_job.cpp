@@ -121,7 +121,6 @@ void LiveJob::run_schedule() {
     shown_.before = before;
   }
   begin_trace();
-  register_builtin_operators(registry_);
   Run run(mesh_, registry_);
   run.set_listener(this);
   run.set_cancel_flag(&cancel_);

@@ -95,7 +95,7 @@ class LiveJob final : private TraceSink, private ProgressListener {
   TetMesh mesh_;
   LivePlan plan_;
   std::unique_ptr<TraceRecorder> recorder_;
-  Registry registry_;
+  Registry registry_ = Registry::builtin();
   struct Call {
     std::string_view operator_name;
     Point place;

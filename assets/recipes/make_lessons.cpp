@@ -390,8 +390,7 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
 
 void record(const Recipe& recipe, const std::filesystem::path& mesh_file,
             const std::filesystem::path& trace_file) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   TetMesh mesh(recipe.mesh);
   const Schedule schedule(fmt::format("{}.lua", recipe.name), std::string(recipe.schedule));
   TraceRecorder recorder(trace_file, mesh,

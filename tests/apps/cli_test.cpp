@@ -431,8 +431,7 @@ TEST_CASE("surfaces are written in each format, of the boundary, bad tets and co
 }
 
 TEST_CASE("operators are listed with their parameters, schedules with a line") {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   const Outcome all = run_program({"operators"});
   CHECK(all.status == 0);
   for (const OperatorInfo* info : registry.operators()) {

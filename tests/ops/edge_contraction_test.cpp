@@ -22,8 +22,7 @@ struct Worker {
   explicit Worker(const MeshData& data)
       : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
   Verdict attempt(VertexHandle v, const ParameterSettings& settings = {}) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, *scratch};
     const Verdict verdict =

@@ -320,8 +320,7 @@ TEST_CASE("a target gives back the handle that it was made of") {
 }
 
 TEST_CASE("an attempt takes no memory from the heap once the buffers have grown") {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   std::size_t accepted = 0;
   for (const OperatorInfo* info : registry.operators()) {
     std::vector<ParameterSettings> all = {{}};

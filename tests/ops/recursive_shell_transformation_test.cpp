@@ -92,8 +92,7 @@ struct Worker {
   }
   Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {},
                   std::string_view name = "recursive_shell_transformation") {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, *scratch};
     const Verdict verdict =
@@ -122,8 +121,7 @@ TEST_CASE("in target mode the tet goes where no shell gets better on the way, or
   Worker worker(delaunay_ball(200, 4));
   const auto attempt = [&](TetHandle t, unsigned e, const ParameterSettings& settings) {
     const TetVertices corners = worker.mesh.vertices(t);
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = worker.mesh;
     OperatorContext context{worker.mesh, worker.workspace, *worker.scratch};
     const Verdict verdict = registry.make("recursive_shell_transformation", settings)
@@ -154,8 +152,7 @@ TEST_CASE("without the filter more link edges are tried") {
   const auto tried = [](const ParameterSettings& settings) {
     Worker worker(three_shells());
     TextTrace trace;
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     OperatorContext context{worker.mesh, worker.workspace, *worker.scratch, &trace};
     registry.make("recursive_shell_transformation", settings)
         ->attempt(context, Target::of(*worker.edge(0, 1)));

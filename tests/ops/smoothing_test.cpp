@@ -39,8 +39,7 @@ struct Worker {
   explicit Worker(const MeshData& data)
       : mesh(data), workspace(mesh), scratch(std::make_unique<Scratch>()) {}
   Verdict attempt(std::uint32_t v, const ParameterSettings& settings = {}) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, *scratch};
     const Verdict verdict =

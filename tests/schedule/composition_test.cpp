@@ -18,12 +18,7 @@ using namespace tetmend::test;
 
 namespace {
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-const Registry kRegistry = builtin_operators();
+const Registry kRegistry = Registry::builtin();
 
 Composition op(const std::string& name, ParameterSettings settings = {}) {
   return {.operator_name = name, .settings = std::move(settings)};

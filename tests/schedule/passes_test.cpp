@@ -28,12 +28,7 @@ namespace {
 
 const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-const Registry kRegistry = builtin_operators();
+const Registry kRegistry = Registry::builtin();
 
 struct NamedPass {
   std::string name;

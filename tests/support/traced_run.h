@@ -103,8 +103,7 @@ inline std::map<std::uint64_t, std::uint64_t> record(
     const std::set<std::uint64_t>& wanted = {},
     const Schedule& schedule = Schedule::builtin("shell"), bool finish = true,
     TraceClock clock = TraceClock::real) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   TraceRecorder recorder(file, mesh,
                          {.program = "test",
                           .input = "mesh",

@@ -45,8 +45,7 @@ TEST_CASE("a trace file holds every call of a run with its target, verdict and v
   const Schedule schedule("brief", kBrief);
   record(mesh, folder / "trace", {}, {}, schedule);
   TextTrace text;
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   Run run(again, registry);
   run.set_trace(&text);
   improve(run, schedule);

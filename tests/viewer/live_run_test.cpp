@@ -63,8 +63,7 @@ void check_sound(const TetMesh& mesh, const LiveRun::Input& before) {
 
 TEST_CASE("a live run gives the mesh of a plain run, bit for bit, as often as it is made") {
   TetMesh plain = test::asset_mesh("sheet.mesh");
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   Run direct(plain, registry);
   improve(direct);
   plain.collect_garbage();
