@@ -8,8 +8,8 @@
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
-#include "viewer/call_highlight.h"
-#include "viewer/tet_values.h"
+#include "viewer/debugger/call_highlight.h"
+#include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
 

@@ -6,7 +6,7 @@
 
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/traced_run.h"
-#include "viewer/debugger.h"
+#include "viewer/debugger/debugger.h"
 
 namespace tetmend::test {
 

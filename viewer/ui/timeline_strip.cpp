@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "viewer/icicle.h"
+#include "viewer/debugger/icicle.h"
 #include "viewer/ui/flat_canvas.h"
 
 namespace tetmend::viewer::ui {
