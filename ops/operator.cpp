@@ -89,9 +89,9 @@ void report_end(OperatorContext& context, Verdict verdict) {
   if (verdict == Verdict::accepted || verdict == Verdict::no_improvement) {
     std::sort(scratch.before.begin(), scratch.before.end());
     std::sort(scratch.now.begin(), scratch.now.end());
-    context.trace->attempt_ends(to_string(verdict), scratch.before, scratch.now);
+    context.trace->attempt_ends(verdict, scratch.before, scratch.now);
   } else {
-    context.trace->attempt_ends(to_string(verdict), {}, {});
+    context.trace->attempt_ends(verdict, {}, {});
   }
 }
 

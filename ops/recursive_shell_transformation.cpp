@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "ops/shell_search.h"
+#include "trace/algorithm.h"
 
 namespace tetmend {
 
@@ -128,7 +129,8 @@ ShellLocks Recursion::locks(const Shell& shell, int level) const {
 Verdict Recursion::transform(const Shell& shell, int level) {
   if (context_.trace == nullptr) return try_transform(shell, level);
   const std::array<VertexHandle, 2> edge = {shell.a, shell.b};
-  context_.trace->attempt_begins({"shell_transformation", edge, static_cast<unsigned>(level)});
+  context_.trace->attempt_begins(
+      {operator_name(Algorithm::shell_transformation), edge, static_cast<unsigned>(level)});
   const Verdict verdict = try_transform(shell, level);
   report_end(context_, verdict);
   return verdict;
@@ -216,9 +218,9 @@ Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle
   if (context_.trace == nullptr) return reduce_next();
   const std::array<VertexHandle, 2> edge = {end, p};
   context_.trace->attempt_begins(
-      {"recursive_shell_transformation", edge, static_cast<unsigned>(level + 1)});
+      {operator_name(Algorithm::recursion), edge, static_cast<unsigned>(level + 1)});
   const Verdict verdict = reduce_next();
-  context_.trace->attempt_ends(to_string(verdict), {}, {});
+  context_.trace->attempt_ends(verdict, {}, {});
   return verdict;
 }
 

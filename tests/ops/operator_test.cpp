@@ -169,9 +169,9 @@ struct Recorder final : TraceSink {
     for (const VertexHandle v : event.target) text.append(" ").append(std::to_string(v.index()));
     events.push_back(text + " level " + std::to_string(event.level));
   }
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override {
-    events.push_back(std::string(verdict) + " " + std::to_string(before.size()) + " " +
+    events.push_back(std::string(to_string(verdict)) + " " + std::to_string(before.size()) + " " +
                      std::to_string(now.size()));
   }
 };

@@ -40,13 +40,12 @@ struct Attempts final : TraceSink {
     if (event.level == 0) names.emplace_back(event.operator_name);
     targets.emplace_back(event.target.begin(), event.target.end());
   }
-  void attempt_ends(std::string_view verdict, std::span<const Quality>,
-                    std::span<const Quality>) override {
-    verdicts.emplace_back(verdict);
+  void attempt_ends(Verdict verdict, std::span<const Quality>, std::span<const Quality>) override {
+    verdicts.push_back(verdict);
   }
   std::vector<std::string> names;
   std::vector<std::vector<VertexHandle>> targets;
-  std::vector<std::string> verdicts;
+  std::vector<Verdict> verdicts;
 };
 
 /// Works off the worst tet inside a ball.
@@ -95,9 +94,9 @@ TEST_CASE("first_of ends with the first accepted attempt, all_of when the tet is
       all_of({op("smoothing"), op("smoothing", {{"laplacian", 0}})});
   const Attempts first = attempts_at_worst(one, smoothing_twice_first);
   const Attempts all = attempts_at_worst(two, smoothing_twice_all);
-  REQUIRE(std::count(all.verdicts.begin(), all.verdicts.end(), "accepted") > 0);
-  CHECK(std::count(first.verdicts.begin(), first.verdicts.end(), "accepted") == 1);
-  CHECK(first.verdicts.back() == "accepted");
+  REQUIRE(std::count(all.verdicts.begin(), all.verdicts.end(), Verdict::accepted) > 0);
+  CHECK(std::count(first.verdicts.begin(), first.verdicts.end(), Verdict::accepted) == 1);
+  CHECK(first.verdicts.back() == Verdict::accepted);
   CHECK(all.names.size() > first.names.size());
 }
 
@@ -132,7 +131,7 @@ TEST_CASE("a sequence that is refused leaves no trace, though its parts were acc
   run.set_trace(&attempts);
   apply(run, pass);
   CHECK(mesh == before);
-  CHECK(std::count(attempts.verdicts.begin(), attempts.verdicts.end(), "accepted") > 0);
+  CHECK(std::count(attempts.verdicts.begin(), attempts.verdicts.end(), Verdict::accepted) > 0);
   // The report counts sequences, not their parts.
   const auto openings = std::count(attempts.names.begin(), attempts.names.end(), "flip_2_3");
   CHECK(run.records.back().attempts() == static_cast<std::size_t>(openings));
@@ -149,7 +148,7 @@ TEST_CASE("a sequence works off the bad tets that its opening leaves, the worst 
     if (names[i] != "joint_smoothing") continue;
     // Before it, an accepted opening or another tet of the same sequence.
     REQUIRE(i > 0);
-    CHECK((names[i - 1] == "joint_smoothing" || attempts.verdicts[i - 1] == "accepted"));
+    CHECK((names[i - 1] == "joint_smoothing" || attempts.verdicts[i - 1] == Verdict::accepted));
   }
 }
 

@@ -52,7 +52,7 @@ class Witness final : public TraceSink {
     recorder_.candidate_found();
     look();
   }
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override {
     recorder_.attempt_ends(verdict, before, now);
     look();

@@ -55,7 +55,7 @@ json call_state(Document& document, std::uint32_t number) {
           {"operator", file.name(call.operator_name)},
           {"target", target},
           {"level", call.level},
-          {"verdict", outcome_text(file, call, debugger.position())},
+          {"verdict", outcome_text(call, debugger.position())},
           {"degree_before", facts.degree_before},
           {"degree_after", facts.degree_after},
           {"line", code.line}};

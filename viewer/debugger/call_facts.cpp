@@ -119,25 +119,41 @@ std::string format_target(const Call& call) {
   return text;
 }
 
-std::string short_name(std::string_view operator_name) {
-  if (operator_name == "recursive_shell_transformation") return "recursion";
-  if (operator_name == "shell_transformation") return "shell";
-  if (operator_name == "multi_face_removal") return "face removal";
-  std::string name(operator_name);
+std::string short_name(const TraceFile& file, const Call& call) {
+  switch (call.algorithm) {
+    case Algorithm::recursion:
+      return "recursion";
+    case Algorithm::shell_transformation:
+      return "shell";
+    case Algorithm::multi_face_removal:
+      return "face removal";
+    case Algorithm::edge_removal:
+    case Algorithm::other:
+      break;
+  }
+  std::string name(file.name(call.operator_name));
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-Outcome outcome_of(const TraceFile& file, const Call& call) {
-  const std::string_view verdict = file.name(call.verdict);
-  if (verdict.empty()) return Outcome::unfinished;
-  if (call.accepted) return Outcome::accepted;
-  if (verdict == "no improvement") {
-    return call.candidate_found ? Outcome::rejected : Outcome::no_improvement;
+Outcome outcome_of(const Call& call) {
+  if (!call.verdict) return Outcome::unfinished;
+  switch (*call.verdict) {
+    case Verdict::accepted:
+      return Outcome::accepted;
+    case Verdict::no_improvement:
+      return call.candidate_found ? Outcome::rejected : Outcome::no_improvement;
+    case Verdict::inverted:
+      return Outcome::rejected;
+    case Verdict::depth_spent:
+    case Verdict::budget_spent:
+      return Outcome::limit;
+    case Verdict::constrained:
+      return Outcome::constrained;
+    case Verdict::not_applicable:
+    case Verdict::deferred:
+      break;
   }
-  if (verdict == "inverted") return Outcome::rejected;
-  if (verdict == "depth spent" || verdict == "budget spent") return Outcome::limit;
-  if (verdict == "constrained") return Outcome::constrained;
   return Outcome::other;
 }
 
@@ -161,10 +177,8 @@ Colour outcome_colour(Outcome outcome) {
   return {};
 }
 
-std::string outcome_text(const TraceFile& file, const Call& call, std::uint64_t position) {
-  if (position < call.events.end) return "under way";
-  const std::string_view verdict = file.name(call.verdict);
-  return verdict.empty() ? "cut off" : std::string(verdict);
+std::string outcome_text(const Call& call, std::uint64_t position) {
+  return std::string(position < call.events.end ? "under way" : call.verdict_text());
 }
 
 }  // namespace tetmend::viewer

@@ -36,14 +36,14 @@ std::uint32_t root_of(const TraceFile& file, std::uint32_t call);
 
 /// "edge 3 17"
 std::string format_target(const Call& call);
-/// Names of operators, shortened for narrow columns: "recursion", "face removal".
-std::string short_name(std::string_view operator_name);
+/// Name of the operator, shortened for narrow columns: "recursion", "face removal".
+std::string short_name(const TraceFile& file, const Call& call);
 
 /// How a call ended, as colours tell it.
 enum class Outcome { unfinished, accepted, no_improvement, limit, constrained, rejected, other };
-Outcome outcome_of(const TraceFile& file, const Call& call);
+Outcome outcome_of(const Call& call);
 Colour outcome_colour(Outcome outcome);
 /// "accepted", "no improvement", ...; "under way" for a call that has not ended at that position.
-std::string outcome_text(const TraceFile& file, const Call& call, std::uint64_t position);
+std::string outcome_text(const Call& call, std::uint64_t position);
 
 }  // namespace tetmend::viewer

@@ -218,7 +218,7 @@ std::string explain_end(const TraceFile& file, const CallStudy& study) {
   if (text.empty()) return text;
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   text += '.';
-  if (call.accepted && call.worst_before != 0) {
+  if (call.accepted() && call.worst_before != 0) {
     text +=
         fmt::format(" Worst quality {:.4f}, before {:.4f}.", call.worst_after, call.worst_before);
   } else if (study.undone) {
@@ -226,8 +226,8 @@ std::string explain_end(const TraceFile& file, const CallStudy& study) {
     text += fmt::format(" Tried: worst quality {:.4f}, as against {:.4f}. Undone.",
                         has_vectors ? call.worst_after : worst_of(study.after),
                         has_vectors ? call.worst_before : worst_of(study.before));
-  } else if (!call.accepted && !call.candidate_found && study.picture &&
-             file.name(call.verdict) == "no improvement") {
+  } else if (!call.accepted() && !call.candidate_found && study.picture &&
+             call.verdict == Verdict::no_improvement) {
     const ShellPicture& s = *study.picture;
     text += s.full.triangles.empty()
                 ? " No complete triangulation of the polygon gives positive tets."

@@ -54,19 +54,15 @@ bool has_target(const Call& call, std::span<const std::uint32_t> numbers) {
          });
 }
 
-bool is_cut_off(const TraceFile& file, const Call& call) {
-  return file.name(call.verdict).empty();
-}
-
 /// Where the call makes the condition hold.
 std::optional<std::uint64_t> stop_at(const TraceFile& file, const Condition& c, const Call& call) {
   bool holds = false;
   switch (c.kind) {
     case Kind::accepted:
-      if (call.accepted) return call.events.end;
+      if (call.accepted()) return call.events.end;
       return std::nullopt;
     case Kind::refused:
-      if (!call.accepted && !is_cut_off(file, call)) return call.events.end;
+      if (call.verdict && !call.accepted()) return call.events.end;
       return std::nullopt;
     case Kind::deeper:
       holds = call.level > c.numbers[0];

@@ -30,7 +30,7 @@ std::string Debugger::last_event() const {
     case EventKind::attempt_begins:
       return fmt::format("call {} begins", call());
     case EventKind::attempt_ends:
-      return fmt::format("call {} ends: {}", call(), file_.name(event.name));
+      return fmt::format("call {} ends: {}", call(), to_string(event.verdict));
     case EventKind::replace_cavity:
       return fmt::format("{} tets are replaced by {}", event.removed.size(), event.created.size());
     case EventKind::move_vertex:

@@ -34,8 +34,9 @@ constexpr std::array<std::string_view, 15> kRecursion = {
     "fail"};
 constexpr Pseudocode kRecursionCode = {"Algorithm 4: remove edge e, or face f at e", kRecursion};
 
-bool is_shell(std::string_view name) {
-  return name == "shell_transformation" || name == "edge_removal";
+bool is_shell(const Call& call) {
+  return call.algorithm == Algorithm::shell_transformation ||
+         call.algorithm == Algorithm::edge_removal;
 }
 
 EventKind last_kind(const TraceFile& file, std::uint64_t position) {
@@ -44,9 +45,9 @@ EventKind last_kind(const TraceFile& file, std::uint64_t position) {
   return cursor.next().kind;
 }
 
-unsigned line_of_end(const TraceFile& file, const Call& call) {
-  if (call.accepted) return 8;
-  return file.name(call.verdict) == "no improvement" && !call.candidate_found ? 4 : 7;
+unsigned line_of_end(const Call& call) {
+  if (call.accepted()) return 8;
+  return call.verdict == Verdict::no_improvement && !call.candidate_found ? 4 : 7;
 }
 
 unsigned line_of_shell(const TraceFile& file, const Call& call, std::uint64_t position) {
@@ -56,7 +57,7 @@ unsigned line_of_shell(const TraceFile& file, const Call& call, std::uint64_t po
     case EventKind::candidate_found:
       return 6;
     case EventKind::attempt_ends:
-      return line_of_end(file, call);
+      return line_of_end(call);
     case EventKind::undo:
       return 7;
     default:
@@ -68,9 +69,9 @@ unsigned line_of_shell(const TraceFile& file, const Call& call, std::uint64_t po
 unsigned line_of_recursion(const TraceFile& file, std::uint32_t number, std::uint64_t position) {
   const Call& call = file.calls()[number];
   if (position < call.events.end) return 1;
-  if (call.accepted) return 5;
+  if (call.accepted()) return 5;
   const bool recursed = call.subtree_end > number + 2;  // more in it than its own transformation
-  return file.name(call.verdict) == "depth spent" && !recursed ? 7 : 15;
+  return call.verdict == Verdict::depth_spent && !recursed ? 7 : 15;
 }
 
 }  // namespace
@@ -86,16 +87,15 @@ const Pseudocode& recursion_code() {
 CodePlace code_place(const TraceFile& file, std::span<const std::uint32_t> stack, std::size_t i,
                      std::uint64_t position) {
   const Call& call = file.calls()[stack[i]];
-  const std::string_view name = file.name(call.operator_name);
   const bool is_innermost = i + 1 == stack.size();
-  if (is_shell(name)) {
+  if (is_shell(call)) {
     return {&kShellCode, is_innermost ? line_of_shell(file, call, position) : 1};
   }
-  if (name != "recursive_shell_transformation") return {};
+  if (call.algorithm != Algorithm::recursion) return {};
   if (is_innermost) return {&kRecursionCode, line_of_recursion(file, stack[i], position)};
   const Call& inner = file.calls()[stack[i + 1]];
   const bool is_done = inner.events.end <= position;
-  if (is_shell(file.name(inner.operator_name))) return {&kRecursionCode, is_done ? 4U : 3U};
+  if (is_shell(inner)) return {&kRecursionCode, is_done ? 4U : 3U};
   return {&kRecursionCode, is_done ? 13U : 12U};
 }
 

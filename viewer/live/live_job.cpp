@@ -221,13 +221,13 @@ void LiveJob::candidate_found() {
   if (recorder_) recorder_->candidate_found();
 }
 
-void LiveJob::attempt_ends(std::string_view verdict, std::span<const Quality> before,
+void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
                            std::span<const Quality> now) {
   if (recorder_) recorder_->attempt_ends(verdict, before, now);
   if (--depth_ > 0) return;
   ++attempts_;
   ++pass_.attempts;
-  if (verdict != to_string(Verdict::accepted)) return come_to(Event::refused_call);
+  if (verdict != Verdict::accepted) return come_to(Event::refused_call);
   ++accepted_;
   ++pass_.accepted;
   last_accepted_ = call_;

@@ -12,7 +12,7 @@ namespace {
 
 bool is_refused(const Debugger& debugger) {
   const Call& call = debugger.file().calls()[debugger.call()];
-  return !call.accepted && debugger.position() >= call.events.end;
+  return !call.accepted() && debugger.position() >= call.events.end;
 }
 
 void show_blended(ViewSettings& view, std::span<const FlatDrawing> drawings, float side) {

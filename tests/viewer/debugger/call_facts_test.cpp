@@ -44,11 +44,11 @@ TEST_CASE("a call is under way until its last event") {
   const test::HandmadeTrace trace;
   const TraceFile file(trace.path());
   const Call& shell = file.calls()[1];
-  CHECK(outcome_text(file, shell, 5) == "under way");
-  CHECK(outcome_text(file, shell, 6) == "no improvement");
-  CHECK(outcome_of(file, shell) == Outcome::rejected);
-  CHECK(outcome_of(file, file.calls()[0]) == Outcome::no_improvement);
-  CHECK(outcome_of(file, file.calls()[2]) == Outcome::limit);
+  CHECK(outcome_text(shell, 5) == "under way");
+  CHECK(outcome_text(shell, 6) == "no improvement");
+  CHECK(outcome_of(shell) == Outcome::rejected);
+  CHECK(outcome_of(file.calls()[0]) == Outcome::no_improvement);
+  CHECK(outcome_of(file.calls()[2]) == Outcome::limit);
   CHECK(format_target(shell) == "edge 0 1");
   CHECK(root_of(file, 2) == 0);
 }

@@ -52,14 +52,14 @@ TEST_CASE(
     if (!study.after.empty()) {
       CHECK(volume(study.after) == doctest::Approx(volume(study.before)));
     }
-    if (call.accepted && call.worst_before != 0) {
+    if (call.accepted() && call.worst_before != 0) {
       ++accepted;
       CHECK_FALSE(study.undone);
       CHECK(worst(study.before) <= call.worst_before);
     }
     if (study.undone) {
       ++undone;
-      CHECK_FALSE(call.accepted);
+      CHECK_FALSE(call.accepted());
     }
   }
   CHECK(accepted > 4);
@@ -73,7 +73,7 @@ TEST_CASE("the covering of a shell transformation is what the mesh has afterward
   unsigned partial = 0;
   for (std::uint32_t k = 0; k < s.file.calls().size(); ++k) {
     const Call& call = s.file.calls()[k];
-    if (!call.accepted || s.file.name(call.operator_name) != "shell_transformation") continue;
+    if (!call.accepted() || call.algorithm != Algorithm::shell_transformation) continue;
     const CallStudy study = study_call(s.file, s.replay, k);
     REQUIRE(study.picture);
     REQUIRE(study.covering);
@@ -97,7 +97,7 @@ TEST_CASE("a refusal is explained with the numbers of its shell") {
   bool undone = false;
   for (std::uint32_t k = 0; k < s.file.calls().size() && !(told && undone); ++k) {
     const Call& call = s.file.calls()[k];
-    if (call.accepted || s.file.name(call.verdict) != "no improvement") continue;
+    if (call.accepted() || call.verdict != Verdict::no_improvement) continue;
     const CallStudy study = study_call(s.file, s.replay, k);
     const std::string text = explain_end(s.file, study);
     CHECK(text.find('.') != std::string::npos);

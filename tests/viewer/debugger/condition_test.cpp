@@ -64,7 +64,7 @@ TEST_CASE("a run finds accepted calls at their end, and faces only where a face 
   std::vector<std::uint64_t> accepted;
   const Call* face = nullptr;
   for (const Call& call : file.calls()) {
-    if (call.accepted) accepted.push_back(call.events.end);
+    if (call.accepted()) accepted.push_back(call.events.end);
     if (face == nullptr && call.target_size == 3) face = &call;
   }
   std::sort(accepted.begin(), accepted.end());

@@ -42,7 +42,7 @@ TEST_CASE("the polygon has the old tets before the edit and the new covering aft
   unsigned seen = 0;
   for (std::uint32_t k = 0; k < file.calls().size() && seen < 20; ++k) {
     const Call& call = file.calls()[k];
-    if (!call.accepted || file.name(call.operator_name) != "shell_transformation") continue;
+    if (!call.accepted() || call.algorithm != Algorithm::shell_transformation) continue;
     ++seen;
     const CallStudy study = study_call(file, replay, k);
     const std::size_t m = study.picture->ring.size();

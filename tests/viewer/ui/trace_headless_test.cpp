@@ -30,7 +30,7 @@ std::uint32_t find_cure(const std::filesystem::path& trace) {
   const auto is_bad = [](const viewer::LocalTet& tet) { return tet.quality < 0.45F; };
   const auto is_good = [](const viewer::LocalTet& tet) { return tet.quality > 0.5F; };
   for (std::uint32_t k = 0; k < debugger.file().calls().size(); ++k) {
-    if (!debugger.file().calls()[k].accepted) continue;
+    if (!debugger.file().calls()[k].accepted()) continue;
     debugger.enter(k);
     const viewer::CallStudy& study = *debugger.study();
     if (std::any_of(study.before.begin(), study.before.end(), is_bad) &&
