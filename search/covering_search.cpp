@@ -298,6 +298,21 @@ bool BasicCoveringSearch<Worst>::run(const CoveringProblem& problem, Covering& b
   return true;
 }
 
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::explore(const CoveringProblem& problem) {
+  begin(problem);
+  if (fill_pockets(problem)) return;
+  for (unsigned d = 3; d < size_; ++d) {  // not looked at: without ears there are none
+    for (unsigned i = 0; i < size_; ++i) pockets_[i][d].valid = false;
+  }
+}
+
+template <unsigned Worst>
+auto BasicCoveringSearch<Worst>::pocket(unsigned i, unsigned d) const -> std::optional<Ranking> {
+  const Pocket& pocket = pockets_[i][d];
+  return pocket.valid ? std::optional(pocket.values.v) : std::nullopt;
+}
+
 template class BasicCoveringSearch<1>;
 template class BasicCoveringSearch<3>;
 template class BasicCoveringSearch<2 * kMaxSearchRing>;

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "kernel/quality.h"
@@ -64,13 +65,24 @@ class BasicCoveringSearch {
   /// memory.
   bool run(const CoveringProblem& problem, Covering& best);
 
+  /// The worst qualities of some tets, ascending, padded with +infinity: what is ranked.
+  using Ranking = std::array<Quality, Worst>;
+  /// Finds the best triangulation of each pocket as run() does, and no covering: for whoever shows
+  /// what a search sees. pocket() reads them. Cost: as run().
+  void explore(const CoveringProblem& problem);
+  /// The best triangulation of the pocket that goes from ring vertex i over d sides; nothing if none
+  /// is above the floor, or if its chord is locked.
+  /// Preconditions: explore() was called last, and 2 <= d <= m - 2, or i = 0 and d = m - 1 for the
+  /// whole ring of size m.
+  std::optional<Ranking> pocket(unsigned i, unsigned d) const;
+
   /// Triangles and core sides that the last run evaluated.
   unsigned evaluations() const { return evaluations_; }
 
  private:
   /// The worst qualities in ascending order, padded with +infinity.
   struct Values {
-    std::array<Quality, Worst> v;
+    Ranking v;
     static Values best() {
       Values values;
       values.v.fill(std::numeric_limits<Quality>::infinity());

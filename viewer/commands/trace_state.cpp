@@ -28,12 +28,17 @@ json shell_state(const CallStudy& study) {
   json ring = json::array();
   for (const VertexHandle v : s.ring) ring.push_back(v.index());
   json result = {{"a", s.a.index()}, {"b", s.b.index()}, {"ring", ring}, {"floor", s.floor}};
+  json locked = json::array();
+  for (std::size_t i = 0; i < s.ring.size(); ++i) {
+    if (((s.locks.vertices >> i) & 1u) != 0) locked.push_back(s.ring[i].index());
+  }
+  result["locked"] = locked;
   json chords = json::array();
   for (const Chord& chord : chords_of(s)) {
     chords.push_back({{"from", s.ring[chord.from].index()},
                       {"to", s.ring[chord.to].index()},
-                      {"on", chord.on},
-                      {"back", chord.back}});
+                      {"on", chord.on[0]},
+                      {"back", chord.back[0]}});
   }
   result["chords"] = chords;
   if (study.covering) result["covering"] = covering_state(*study.covering);

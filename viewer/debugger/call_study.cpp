@@ -98,9 +98,22 @@ class Study {
       const SlotShell shell = find_slot_shell(mesh(), target[0], target[1]);
       const bool drawable =
           shell.closed && shell.ring.size() >= 3 && shell.ring.size() <= kMostDrawn;
-      if (drawable) study_.picture = picture_of_shell(mesh(), shell);
+      if (drawable) study_.picture = picture_of_shell(mesh(), shell, ancestors());
     }
     if (target.size() == 3 && around_.size() == 2) draw_sandwich();
+  }
+
+  /// The edges that the recursive calls around this one are to remove, if it is a step of theirs.
+  std::vector<std::array<VertexHandle, 2>> ancestors() const {
+    std::vector<std::array<VertexHandle, 2>> edges;
+    unsigned level = call_.level;
+    for (std::uint32_t c = call_.parent; c != kNoCall && level > 0; c = file_.calls()[c].parent) {
+      const Call& caller = file_.calls()[c];
+      if (caller.algorithm != Algorithm::recursion || caller.level >= level) continue;
+      edges.push_back({caller.target()[0], caller.target()[1]});
+      level = caller.level;
+    }
+    return edges;
   }
 
   void draw_sandwich() {
@@ -206,6 +219,18 @@ Quality worst_of(const std::vector<LocalTet>& tets) {
   return worst;
 }
 
+/// What the search had to offer at best.
+std::string explain_search(const ShellPicture& s) {
+  if (s.pockets.empty()) return "";
+  const std::string locks = locks_text(s);
+  return fmt::format("{}{} {}", locks.empty() ? "" : " ", locks,
+                     s.full.triangles.empty()
+                         ? "No complete triangulation of the polygon gives positive tets."
+                         : fmt::format("The best complete triangulation has worst quality {:.4f}, "
+                                       "the old tets {:.4f}.",
+                                       s.full.worst, s.floor));
+}
+
 }  // namespace
 
 CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call) {
@@ -226,15 +251,9 @@ std::string explain_end(const TraceFile& file, const CallStudy& study) {
     text += fmt::format(" Tried: worst quality {:.4f}, as against {:.4f}. Undone.",
                         has_vectors ? call.worst_after : worst_of(study.after),
                         has_vectors ? call.worst_before : worst_of(study.before));
-  } else if (!call.accepted() && !call.candidate_found && study.picture &&
-             call.verdict == Verdict::no_improvement) {
-    const ShellPicture& s = *study.picture;
-    text += s.full.triangles.empty()
-                ? " No complete triangulation of the polygon gives positive tets."
-                : fmt::format(
-                      " The best complete triangulation has worst quality {:.4f}, the old "
-                      "tets {:.4f}.",
-                      s.full.worst, s.floor);
+  } else if (call.verdict == Verdict::no_improvement && !call.candidate_found &&
+             call.algorithm != Algorithm::other && study.picture) {
+    text += explain_search(*study.picture);
   }
   return text;
 }

@@ -48,11 +48,11 @@ class PolygonDrawer {
   void chords() {
     const std::vector<Chord> chords = chords_of(shell_);
     for (auto chord = chords.rbegin(); chord != chords.rend(); ++chord) {  // the best on top
-      const bool usable = chord->best() > static_cast<double>(shell_.floor);
+      const bool usable = chord->best()[0] > shell_.floor;
       const std::string tip =
           fmt::format("chord {} - {}: worst quality of its pockets {:.4f} and {:.4f}{}",
-                      shell_.ring[chord->from].index(), shell_.ring[chord->to].index(), chord->on,
-                      chord->back, usable ? "" : "; not better than the old tets");
+                      shell_.ring[chord->from].index(), shell_.ring[chord->to].index(),
+                      chord->on[0], chord->back[0], usable ? "" : "; not better than the old tets");
       drawing_.strokes.push_back({place(chord->from), place(chord->to),
                                   faint(kChordColour, usable ? 0.9 : 0.35), 1.5, !usable, tip});
     }

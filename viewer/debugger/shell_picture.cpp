@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tetmend::viewer {
 
@@ -36,41 +40,37 @@ void add_triangle(const SlotMesh& mesh, const ShellPicture& s, unsigned i, unsig
   covering.worst = std::min(covering.worst, worst);
 }
 
-/// [chen, Alg. 1 and 2]: pockets by growing length. Fills s.pockets and s.full.
-void fill_pockets(const SlotMesh& mesh, ShellPicture& s) {
-  const std::size_t m = s.ring.size();
-  s.pockets.assign(m * m, 0);
-  std::vector<std::size_t> apex(m * m, m);
-  for (std::size_t i = 0; i < m; ++i) {
-    s.pockets[i * m + (i + 1) % m] = std::numeric_limits<double>::infinity();
-  }
-  for (std::size_t d = 2; d < m; ++d) {
-    for (std::size_t i = 0; i < m; ++i) {
-      const std::size_t j = (i + d) % m;
-      for (std::size_t step = 1; step < d; ++step) {
-        const std::size_t k = (i + step) % m;
-        double worst = std::min(s.pocket(i, k), s.pocket(k, j));
-        if (worst <= 0) continue;
-        worst = std::min(worst, over_triangle(mesh, s, i, k, j));
-        if (worst <= s.pocket(i, j)) continue;
-        s.pockets[i * m + j] = worst;
-        apex[i * m + j] = k;
-      }
+/// What the search of the operators finds in the polygon. Its floor is 0, so that pockets that are
+/// no better than the old tets are seen as well: those that are better are the same for any floor.
+void search_pockets(const SlotMesh& mesh, std::span<const Quality> old_sides, ShellPicture& s) {
+  const auto m = static_cast<unsigned>(s.ring.size());
+  if (m > kMaxSearchRing) return;
+  std::vector<Point> ring;
+  for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
+  CoveringProblem problem;
+  problem.a = mesh.point(s.a);
+  problem.b = mesh.point(s.b);
+  problem.ring = ring;
+  problem.old_sides = old_sides;
+  problem.locked_vertices = s.locks.vertices;
+  problem.locked_edges = s.locks.edges;
+  problem.allow_core = false;
+  const auto search = std::make_unique<CoveringSearch>();
+  Covering full;
+  if (search->run(problem, full)) {
+    s.full.worst = kBest;
+    for (const auto& [i, k, j] : std::span(full.triangles).first(full.triangle_count)) {
+      add_triangle(mesh, s, i, k, j, s.full);
     }
   }
-  s.full.worst = kBest;
-  std::vector<std::array<std::size_t, 2>> open = {{0, m - 1}};
-  while (!open.empty()) {
-    const auto [i, j] = open.back();
-    open.pop_back();
-    const std::size_t k = apex[i * m + j];
-    if (k == m) continue;  // neighbours, or no triangulation at all
-    add_triangle(mesh, s, static_cast<unsigned>(i), static_cast<unsigned>(k),
-                 static_cast<unsigned>(j), s.full);
-    open.push_back({i, k});
-    open.push_back({k, j});
+  search->explore(problem);
+  s.pockets.assign(std::size_t{m} * m, {});
+  for (unsigned i = 0; i < m; ++i) {
+    for (unsigned d = 2; d + 1 < m; ++d) {
+      const auto pocket = search->pocket(i, d);
+      if (pocket) s.pockets[i * m + (i + d) % m] = *pocket;
+    }
   }
-  if (s.full.triangles.empty()) s.full.worst = 0;
 }
 
 unsigned place_in(const std::vector<VertexHandle>& ring, VertexHandle v) {
@@ -87,17 +87,35 @@ glm::dvec2 ShellPicture::place(std::size_t i) const {
 
 std::vector<Chord> chords_of(const ShellPicture& picture) {
   std::vector<Chord> chords;
+  if (picture.pockets.empty()) return chords;
   const auto m = static_cast<unsigned>(picture.ring.size());
   for (unsigned i = 0; i < m; ++i) {
     for (unsigned j = i + 2; j < m; ++j) {
       if (i == 0 && j + 1 == m) continue;  // a side
       const Chord chord{i, j, picture.pocket(i, j), picture.pocket(j, i)};
-      if (chord.best() > 0) chords.push_back(chord);
+      if (chord.best()[0] > 0) chords.push_back(chord);
     }
   }
   std::stable_sort(chords.begin(), chords.end(),
                    [](const Chord& x, const Chord& y) { return x.best() > y.best(); });
   return chords;
+}
+
+std::string locks_text(const ShellPicture& picture) {
+  const std::size_t m = picture.ring.size();
+  std::vector<std::string> locked;
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto here = picture.ring[i].index();
+    if (((picture.locks.vertices >> i) & 1u) != 0)
+      locked.push_back(fmt::format("chords at {}", here));
+    if (((picture.locks.edges >> i) & 1u) != 0) {
+      locked.push_back(
+          fmt::format("pockets at the side {} {}", here, picture.ring[(i + 1) % m].index()));
+    }
+  }
+  if (locked.empty()) return {};
+  return fmt::format("Locked, as a caller is to remove an edge there: {}.",
+                     fmt::join(locked, ", "));
 }
 
 FlatCovering covering_of(const SlotMesh& mesh, const ShellPicture& picture,
@@ -131,16 +149,22 @@ FlatCovering covering_of(const SlotMesh& mesh, const ShellPicture& picture,
   return covering;
 }
 
-ShellPicture picture_of_shell(const SlotMesh& mesh, const SlotShell& shell) {
+ShellPicture picture_of_shell(const SlotMesh& mesh, const SlotShell& shell,
+                              std::span<const std::array<VertexHandle, 2>> ancestors) {
   ShellPicture s;
   s.a = shell.a;
   s.b = shell.b;
   s.ring = shell.ring;
   std::vector<TetVertices> tets;
-  for (const TetHandle t : shell.tets) tets.push_back(mesh.vertices(t));
+  std::vector<Quality> sides;
+  for (const TetHandle t : shell.tets) {
+    tets.push_back(mesh.vertices(t));
+    sides.push_back(mesh.quality(t));
+  }
   s.before = covering_of(mesh, s, tets);
   s.floor = s.before.worst;
-  fill_pockets(mesh, s);
+  s.locks = lock_ancestors(s.a, s.b, s.ring, ancestors);
+  search_pockets(mesh, sides, s);
   return s;
 }
 
@@ -156,7 +180,7 @@ ShellPicture picture_of_sandwich(const SlotMesh& mesh, VertexHandle a, VertexHan
     add_triangle(mesh, s, place_in(s.ring, p), place_in(s.ring, q), place_in(s.ring, r), s.before);
   }
   s.floor = s.before.worst;
-  fill_pockets(mesh, s);
+  search_pockets(mesh, {}, s);
   return s;
 }
 

@@ -6,11 +6,14 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "kernel/quality.h"
+#include "search/covering_search.h"
+#include "search/shell_locks.h"
 #include "viewer/debugger/slot_shell.h"
 
 namespace tetmend::viewer {
@@ -31,6 +34,9 @@ struct FlatCovering {
   Quality worst = 0;
 };
 
+/// The worst qualities of a triangulation, ascending, padded with +infinity. All 0 if there is none.
+using PocketRanking = CoveringSearch::Ranking;
+
 /// The polygon p_1 .. p_m of [chen, Fig. 3] as a regular one, p_1 on top, counterclockwise.
 struct ShellPicture {
   VertexHandle a, b;
@@ -38,31 +44,41 @@ struct ShellPicture {
   /// Of the old mesh: the worst tet that may be replaced.
   Quality floor = 0;
   FlatCovering before;
-  /// Pocket from place i on to place j: the worst quality of its best triangulation, M_q(i, j) of
-  /// [chen, Alg. 2]; 0 if it has none, infinite between neighbours. At i * m + j.
-  std::vector<double> pockets;
+  /// What the search must leave alone for the sake of its callers.
+  ShellLocks locks;
+  /// Pocket from place i on to place j, M_q(i, j) of [chen, Alg. 2]: its best triangulation with
+  /// positive tets as the operators' search ranks it. At i * m + j; empty for a polygon with more
+  /// corners than are searched.
+  std::vector<PocketRanking> pockets;
   /// The best triangulation of the whole polygon; without triangles if there is none.
   FlatCovering full;
 
-  double pocket(std::size_t i, std::size_t j) const { return pockets[i * ring.size() + j]; }
+  const PocketRanking& pocket(std::size_t i, std::size_t j) const {
+    return pockets[i * ring.size() + j];
+  }
   /// In the unit circle, y upwards.
   glm::dvec2 place(std::size_t i) const;
 };
 
-/// A diagonal of the polygon, and the worst quality of the pockets at its two sides.
+/// A diagonal of the polygon, and the pockets at its two sides.
 struct Chord {
   unsigned from = 0, to = 0;  ///< places in the ring, from < to
-  double on = 0;              ///< of the pocket from `from` on to `to`
-  double back = 0;            ///< of the one from `to` on to `from`
+  PocketRanking on{};         ///< of the pocket from `from` on to `to`
+  PocketRanking back{};       ///< of the one from `to` on to `from`
 
-  double best() const { return std::max(on, back); }
+  const PocketRanking& best() const { return std::max(on, back); }
 };
-/// Those that have a pocket, best first.
+/// Those that have a pocket, best first, as the search ranks them.
 std::vector<Chord> chords_of(const ShellPicture& picture);
 
-/// Of a closed shell. Cost: cubic in the degree.
+/// In a sentence, what the search must leave alone; empty without locks.
+std::string locks_text(const ShellPicture& picture);
+
+/// Of a closed shell, with the pockets that a search finds whose callers are to remove the edges
+/// `ancestors`. Cost: cubic in the degree.
 /// Precondition: at least three in the ring, and at most kMostDrawn.
-ShellPicture picture_of_shell(const SlotMesh& mesh, const SlotShell& shell);
+ShellPicture picture_of_shell(const SlotMesh& mesh, const SlotShell& shell,
+                              std::span<const std::array<VertexHandle, 2>> ancestors = {});
 inline constexpr std::size_t kMostDrawn = 32;
 
 /// Of the triangles between two vertices a and b: what multi-face removal takes together. `ring`

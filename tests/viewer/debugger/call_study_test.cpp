@@ -91,6 +91,34 @@ TEST_CASE("the covering of a shell transformation is what the mesh has afterward
   CHECK(partial > 0);
 }
 
+TEST_CASE("what a step of a recursion made respects the locks and uses pockets of its picture") {
+  Studied s;
+  std::size_t locked = 0;
+  std::size_t chords = 0;
+  for (std::uint32_t k = 0; k < s.file.calls().size(); ++k) {
+    const Call& call = s.file.calls()[k];
+    if (call.algorithm != Algorithm::shell_transformation || call.level == 0) continue;
+    const CallStudy study = study_call(s.file, s.replay, k);
+    if (!study.picture) continue;
+    const ShellPicture& picture = *study.picture;
+    if (picture.locks.any()) ++locked;
+    if (!study.covering || !call.accepted()) continue;
+    const auto m = static_cast<unsigned>(picture.ring.size());
+    for (const auto& triangle : study.covering->triangles) {
+      for (unsigned n = 0; n < 3; ++n) {
+        const unsigned i = triangle.corners[n];
+        const unsigned j = triangle.corners[(n + 1) % 3];
+        if ((i + 1) % m == j || (j + 1) % m == i) continue;
+        ++chords;
+        CHECK(((picture.locks.vertices >> i) & 1u) == 0);
+        CHECK(std::max(picture.pocket(i, j), picture.pocket(j, i))[0] > picture.floor);
+      }
+    }
+  }
+  CHECK(locked > 0);
+  CHECK(chords > 0);
+}
+
 TEST_CASE("a refusal is explained with the numbers of its shell") {
   Studied s;
   bool told = false;

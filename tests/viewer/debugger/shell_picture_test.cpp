@@ -22,25 +22,37 @@ ShellPicture picture(const test::ShellShape& shape) {
   return picture_of_shell(mesh, find_slot_shell(mesh, kA, kB));
 }
 
+/// What the operators would search in the shell of a picture.
+struct ShellProblem {
+  ShellProblem(const SlotMesh& mesh, const ShellPicture& s) {
+    for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
+    for (const auto& side : s.before.core) sides.push_back(side.quality);
+    problem.a = mesh.point(s.a);
+    problem.b = mesh.point(s.b);
+    problem.ring = ring;
+    problem.old_sides = sides;
+    problem.locked_vertices = s.locks.vertices;
+    problem.locked_edges = s.locks.edges;
+  }
+
+  std::vector<Point> ring;
+  std::vector<Quality> sides;
+  CoveringProblem problem;
+};
+
 /// Worst quality of the best complete triangulation, by the search of the operators.
 double best_removal(const SlotMesh& mesh, const ShellPicture& s) {
-  std::vector<Point> ring;
-  for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
-  CoveringProblem problem;
-  problem.a = mesh.point(s.a);
-  problem.b = mesh.point(s.b);
-  problem.ring = ring;
-  const std::vector<Quality> sides(ring.size(), 0.1F);
-  problem.old_sides = sides;
-  problem.allow_core = false;
+  ShellProblem shell(mesh, s);
+  shell.problem.allow_core = false;
   CoveringSearch search;
   Covering covering;
-  if (!search.run(problem, covering)) return 0;
+  if (!search.run(shell.problem, covering)) return 0;
   double worst = 1;
   for (unsigned n = 0; n < covering.triangle_count; ++n) {
     const auto& [i, k, j] = covering.triangles[n];
-    worst = std::min({worst, minimum_sine(problem.a, ring[i], ring[k], ring[j]),
-                      minimum_sine(ring[i], ring[k], ring[j], problem.b)});
+    worst =
+        std::min({worst, minimum_sine(shell.problem.a, shell.ring[i], shell.ring[k], shell.ring[j]),
+                  minimum_sine(shell.ring[i], shell.ring[k], shell.ring[j], shell.problem.b)});
   }
   return worst;
 }
@@ -76,14 +88,52 @@ TEST_CASE("the old mesh is a core of all sides, and its worst tet the floor") {
   CHECK(s.floor == worst);
 }
 
-TEST_CASE("a pocket is never better than the pockets in it, and neighbours have no tets between") {
-  const ShellPicture s = picture({.degree = 8, .jitter = 0.2});
-  for (std::size_t i = 0; i < 8; ++i) {
-    CHECK(std::isinf(s.pocket(i, (i + 1) % 8)));
-    const double ear = s.pocket(i, (i + 2) % 8);
-    const double longer = s.pocket(i, (i + 3) % 8);
-    CHECK(longer <= std::max(ear, s.pocket((i + 1) % 8, (i + 3) % 8)));
+TEST_CASE("pockets above the old tets are those of the operators' search, with its locks") {
+  std::size_t usable = 0;
+  std::size_t others = 0;
+  for (unsigned degree = 4; degree <= 9; ++degree) {
+    const SlotMesh mesh{
+        TetMesh(test::shell_mesh({.degree = degree, .squash = 0.7, .jitter = 0.2}))};
+    const SlotShell shell = find_slot_shell(mesh, kA, kB);
+    const std::vector<std::array<VertexHandle, 2>> ancestors = {{kA, shell.ring[1]},
+                                                                {shell.ring[3], shell.ring[2]}};
+    const ShellPicture s = picture_of_shell(mesh, shell, ancestors);
+    CHECK(s.locks.vertices == 0b10);
+    CHECK(s.locks.edges == 0b100);
+    ShellProblem same(mesh, s);
+    same.problem.floor = s.floor;
+    CoveringSearch search;
+    search.explore(same.problem);
+    for (unsigned i = 0; i < degree; ++i) {
+      for (unsigned d = 2; d + 1 < degree; ++d) {
+        const PocketRanking& drawn = s.pocket(i, (i + d) % degree);
+        const auto found = search.pocket(i, d);
+        REQUIRE(found.has_value() == (drawn[0] > s.floor));
+        if (found) CHECK(*found == drawn);
+        ++(found ? usable : others);
+      }
+    }
   }
+  CHECK(usable > 10);
+  CHECK(others > 10);
+}
+
+TEST_CASE("locks are told in a sentence that names the corners") {
+  const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
+  const SlotShell shell = find_slot_shell(mesh, kA, kB);
+  CHECK(locks_text(picture_of_shell(mesh, shell)).empty());
+  const std::vector<std::array<VertexHandle, 2>> ancestors = {{kB, VertexHandle(4)},
+                                                              {VertexHandle(5), VertexHandle(6)}};
+  CHECK(locks_text(picture_of_shell(mesh, shell, ancestors)) ==
+        "Locked, as a caller is to remove an edge there: chords at 4, pockets at the side 5 6.");
+}
+
+TEST_CASE("a polygon with more corners than are searched is drawn without chords") {
+  const ShellPicture s = picture({.degree = kMaxSearchRing + 1});
+  CHECK(s.before.core.size() == kMaxSearchRing + 1);
+  CHECK(s.pockets.empty());
+  CHECK(s.full.triangles.empty());
+  CHECK(chords_of(s).empty());
 }
 
 TEST_CASE(
