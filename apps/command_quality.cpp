@@ -9,9 +9,9 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/report.h"
 #include "apps/threads.h"
 #include "kernel/formats/tet_mesh_io.h"
-#include "schedule/report.h"
 
 namespace tetmend::apps {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mesh statistics as text and as JSON.
-#include "schedule/report.h"
+#include "apps/report.h"
 
 #include <algorithm>
 #include <array>
@@ -11,18 +11,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/files.h"
+
 namespace tetmend {
 
 namespace {
 
 constexpr std::size_t kWidth = 80;
 
-/// 1234567 as 1,234,567.
-std::string grouped(std::size_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
-  return digits;
-}
+using apps::grouped;
 
 /// Fixed notation; scientific where that would leave fewer than two digits of a small number, or
 /// print more than the table has room for.

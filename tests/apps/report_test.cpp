@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Texts and JSON of mesh statistics.
-#include "schedule/report.h"
+#include "apps/report.h"
 
 #include <algorithm>
 #include <array>
