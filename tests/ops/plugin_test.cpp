@@ -192,7 +192,7 @@ TEST_CASE("an operator that throws in a pass ends it, on any number of threads, 
       Run run(mesh, registry);
       run.set_block_count(8);
       local_reconnection(run, {});
-      LocalReconnection broken;
+      LocalReconnectionOptions broken;
       broken.edge_operator = "throws_at_edges";
       CHECK_THROWS_AS(local_reconnection(run, broken), Error);
       CHECK(to_string(check_integrity(mesh)) == "");

@@ -121,7 +121,7 @@ TEST_CASE("a sequence succeeds where its parts alone bring nothing more") {
 
 TEST_CASE("a sequence that is refused leaves no trace, though its parts were accepted") {
   TetMesh mesh(delaunay_ball(200, 4));
-  const ApplyPass pass = {.what = sequence({op("flip_2_3"), op("smoothing")}), .again = true};
+  const ApplyOptions pass = {.what = sequence({op("flip_2_3"), op("smoothing")}), .again = true};
   Run run(mesh, kRegistry);
   do {
     apply(run, pass);
@@ -316,7 +316,7 @@ TEST_CASE("applying reconnection by hand gives the mesh of local reconnection") 
 TEST_CASE("a pass made again does nothing unless it is told to try all anew") {
   TetMesh mesh(delaunay_ball(200, 4));
   Run run(mesh, kRegistry);
-  ApplyPass pass{.what = op("edge_removal"), .on = {.below = Selection::kAll}, .sweeps = 100};
+  ApplyOptions pass{.what = op("edge_removal"), .on = {.below = Selection::kAll}, .sweeps = 100};
   apply(run, pass);
   const std::size_t attempts = run.records.back().attempts();
   REQUIRE(attempts > 10);

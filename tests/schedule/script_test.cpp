@@ -68,8 +68,8 @@ TEST_CASE("a script makes its passes in order and the mesh gets better") {
       run("begin_round() local_reconnection{} smooth{} suppress_points{} insert_points{}\n"
           "apply('flip_2_3', {on = 'all'})");
   CHECK(outcome.error == "");
-  CHECK(pass_names(outcome) == std::vector<std::string>{"local_reconnection", "smoothing",
-                                                        "point_suppression", "point_insertion",
+  CHECK(pass_names(outcome) == std::vector<std::string>{"local_reconnection", "smooth",
+                                                        "suppress_points", "insert_points",
                                                         "flip_2_3"});
   CHECK(outcome.round == 1);
   CHECK(outcome.records.front().accepted() > 0);
