@@ -13,6 +13,7 @@
 #include "ops/registry.h"
 #include "schedule/limit/surface_limit.h"
 #include "tests/apps/program.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -24,10 +25,6 @@ const std::array<std::string, 3> kAssets = {"bracket.meshb", "two_materials.mesh
 
 std::string asset(const std::string& name) {
   return (kMeshes / name).string();
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// One line, from tetmend, and nothing on stdout.

@@ -9,6 +9,7 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "tests/apps/program.h"
+#include "tests/support/text.h"
 #include "trace/call_tree.h"
 #include "trace/trace_file.h"
 
@@ -18,10 +19,6 @@ using namespace tetmend::test;
 namespace {
 
 const std::string kSheet = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 struct Bench {
   TempFolder folder;

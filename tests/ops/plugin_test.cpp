@@ -14,6 +14,7 @@
 #include "kernel/integrity.h"
 #include "schedule/passes.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 #include "tests/support/threads.h"
 
 using namespace tetmend;
@@ -26,10 +27,6 @@ namespace {
 
 std::string plugin_file(const std::string& name) {
   return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// The complaint about a file that must not be loaded; checks that it names the file and that the

@@ -13,8 +13,10 @@
 
 #include "kernel/error.h"
 #include "ops/smoothing.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
+using tetmend::test::contains;
 
 namespace {
 
@@ -27,10 +29,6 @@ std::string error_of(const Registry& registry, std::string_view name,
     return error.what();
   }
   return "";
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

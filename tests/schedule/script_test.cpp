@@ -15,6 +15,7 @@
 #include "schedule/reference.h"
 #include "schedule/schedule.h"
 #include "schedule/words.h"
+#include "tests/support/text.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -49,10 +50,6 @@ Outcome run(const std::string& script, const ScheduleSettings& settings = {}) {
 std::string note(const std::string& expression) {
   const Outcome outcome = run("log(" + expression + ")");
   return outcome.notes.empty() ? outcome.error : outcome.notes.front();
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::vector<std::string> pass_names(const Outcome& outcome) {
