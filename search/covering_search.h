@@ -97,6 +97,17 @@ class BasicCoveringSearch {
     std::uint8_t apex;
     bool valid;
   };
+  // The core is a cycle of arcs. Arc [i][d] goes from i to i + d; its value is the quality of the
+  // side of the core, or 0 if there is none.
+  using Arcs = std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing>;
+  struct Way {  // the best from the first vertex of a cycle to another
+    Values values;
+    std::uint8_t previous;  // vertices before it
+    std::uint8_t sides;
+    bool valid;
+    bool changed;  // some side is new
+  };
+  using Ways = std::array<Way, kMaxSearchRing + 1>;
   // What most searches never ask for is computed when first asked for; it counts for the run whose
   // number it carries.
   struct Triangle {
@@ -120,6 +131,11 @@ class BasicCoveringSearch {
   bool fill_pockets(const CoveringProblem& problem);
   void fill_pocket(const CoveringProblem& problem, unsigned i, unsigned d);
   bool find_core(const CoveringProblem& problem, Values& values, Covering& covering);
+  unsigned list_arcs(const CoveringProblem& problem, Arcs& arcs);
+  void find_ways(const Arcs& arcs, bool is_virtual, unsigned start, Ways& ways) const;
+  void take_core(const Ways& ways, unsigned start, Covering& covering) const;
+  static bool is_better(const Values& values, unsigned degree, const Values& other,
+                        unsigned other_degree);
   void add_triangles(unsigned i, unsigned d, Covering& covering) const;
   unsigned wrap(unsigned i) const { return i >= size_ ? i - size_ : i; }
 
