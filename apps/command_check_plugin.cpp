@@ -8,7 +8,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "contract/contract.h"
-#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/tet_mesh_io.h"
 #include "ops/plugin.h"
 
 namespace tetmend::apps {
@@ -22,9 +22,7 @@ struct Options {
 std::vector<contract::Ground> load_grounds(const Options& options) {
   std::vector<contract::Ground> grounds = contract::grounds();
   for (const std::filesystem::path& file : options.meshes) {
-    BuildReport report;
-    grounds.push_back(
-        {file.string(), build_mesh(file, read_mesh(file), MeshOrder::of_file, report)});
+    grounds.push_back({file.string(), read_tet_mesh(file)});
   }
   return grounds;
 }
@@ -54,8 +52,7 @@ bool check_operator(const Registry& registry, std::string_view name,
 
 int run_check_plugin(const Options& options) {
   for (const std::filesystem::path& file : options.meshes) check_mesh_extension(file);
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   const Plugin plugin = load_plugin(options.plugin, registry);
   const std::vector<contract::Ground> grounds = load_grounds(options);
   std::size_t broken = 0;

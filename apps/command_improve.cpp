@@ -24,6 +24,7 @@
 #include "kernel/chunks.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/tet_mesh_io.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
 #include "kernel/surface.h"
@@ -88,8 +89,8 @@ TetMesh load(const Options& options, TracePlan& tracing, ProgressLine& progress,
   }
   const Stopwatch watch(report.seconds.building);
   progress.show("building the mesh");
-  TetMesh mesh = build_mesh(options.input, std::move(data), MeshOrder::spatial, report.build,
-                            options.regions.interior());
+  TetMesh mesh = build_tet_mesh(options.input, std::move(data), MeshOrder::spatial, &report.build,
+                                options.regions.interior());
   report.protected_part = protect_regions(mesh, options.regions);
   return mesh;
 }

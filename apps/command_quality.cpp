@@ -9,9 +9,9 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/report.h"
 #include "apps/threads.h"
-#include "kernel/formats/mesh_io.h"
-#include "schedule/report.h"
+#include "kernel/formats/tet_mesh_io.h"
 
 namespace tetmend::apps {
 namespace {
@@ -66,7 +66,7 @@ int run_quality(const Options& options) {
   const ThreadLimit limit(options.threads);
   const auto measures = find_measures(options.measures);
   BuildReport build;
-  const TetMesh mesh = build_mesh(options.file, read_mesh(options.file), MeshOrder::of_file, build);
+  const TetMesh mesh = read_tet_mesh(options.file, MeshOrder::of_file, &build);
   const MeshStatistics statistics = compute_statistics(mesh);
   std::vector<MeasureSummary> extra;
   for (const QualityMeasure* measure : measures) extra.push_back(summarize(mesh, *measure));

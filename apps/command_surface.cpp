@@ -8,7 +8,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/threads.h"
-#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/tet_mesh_io.h"
 #include "kernel/surface.h"
 
 namespace tetmend::apps {
@@ -32,8 +32,7 @@ int run_surface(const Options& options) {
   check_writable(options.output);
   const ThreadLimit limit(options.threads);
   BuildReport build;
-  const TetMesh mesh =
-      build_mesh(options.input, read_mesh(options.input), MeshOrder::of_file, build);
+  const TetMesh mesh = read_tet_mesh(options.input, MeshOrder::of_file, &build);
   const SurfaceMesh surface = options.bad           ? extract_bad_faces(mesh)
                               : options.constraints ? extract_constraints(mesh)
                                                     : extract_boundary(mesh);

@@ -102,7 +102,6 @@ void write_extract(const Options& options, const TraceFile& file) {
   Replay replay(file, 0);
   const CallExtract kit = extract_call(file, replay, *options.extract);
   const Call& call = file.calls()[kit.call];
-  const std::string_view verdict = file.name(call.verdict);
   const std::string_view settings = file.name(call.settings);
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
@@ -110,8 +109,8 @@ void write_extract(const Options& options, const TraceFile& file) {
   write_text(options.output / "call.lua",
              fmt::format("-- Call {} of {}: {} -> {}\nattempt({{\"{}\"{}{}}}, {{{}}}{})\n",
                          kit.call, options.file.filename().string(), describe_call(file, kit.call),
-                         verdict, file.name(call.operator_name), settings.empty() ? "" : ", ",
-                         settings, fmt::join(kit.target, ", "),
+                         call.verdict_text(), file.name(call.operator_name),
+                         settings.empty() ? "" : ", ", settings, fmt::join(kit.target, ", "),
                          kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
   write_text(options.output / "README.txt",
              fmt::format("Repeats call {} of a run of {}\n\n"

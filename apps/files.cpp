@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the subcommands do with files: check their names early, load meshes, say what loading found.
+// What the subcommands do with files: check their names early, say what loading a mesh found.
 #include "apps/files.h"
 
 #include <algorithm>
@@ -48,18 +48,6 @@ std::string mesh_format_list() {
     last = format.name;
   }
   return text + '\n';
-}
-
-TetMesh build_mesh(const std::filesystem::path& file, MeshData data, MeshOrder order,
-                   BuildReport& report, InteriorConstraints interior) {
-  try {
-    return order == MeshOrder::spatial ? TetMesh::sorted(std::move(data), &report, interior)
-                                       : TetMesh(std::move(data), &report, interior);
-  } catch (const BuildError& error) {
-    throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
-  }
 }
 
 std::string grouped(std::size_t count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the subcommands do with files: check their names early, load meshes, say what loading found.
+// What the subcommands do with files: check their names early, say what loading a mesh found.
 #pragma once
 
 #include <filesystem>
@@ -24,12 +24,6 @@ void check_writable(const std::filesystem::path& file);
 
 /// Names and extensions for help, one format a line.
 std::string mesh_format_list();
-
-enum class MeshOrder { of_file, spatial };
-/// Builds the mesh from what was read of `file`.
-/// @throws Error with the line or byte of the tet when the topology is broken.
-TetMesh build_mesh(const std::filesystem::path& file, MeshData data, MeshOrder order,
-                   BuildReport& report, InteriorConstraints interior = InteriorConstraints::kept);
 
 /// What a user should know about the input, one line each; empty for a mesh without peculiarities.
 std::string format_build(const BuildReport& report);

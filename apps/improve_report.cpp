@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/files.h"
-#include "schedule/report.h"
+#include "apps/report.h"
 
 namespace tetmend::apps {
 namespace {
@@ -119,8 +119,8 @@ nlohmann::json to_json(const PassRecord& pass) {
           {"verdicts", verdicts},
           {"items", pass.items},
           {"deferred", pass.deferred},
-          {"seconds_in_scans", pass.split.scans},
-          {"seconds_in_blocks", pass.split.blocks},
+          {"seconds_in_scans", pass.seconds_in_scans},
+          {"seconds_in_blocks", pass.seconds_in_blocks},
           {"q_worst", pass.after.q_worst},
           {"n_bad", pass.after.n_bad},
           {"q_aver", pass.after.q_aver}};

@@ -71,8 +71,7 @@ void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& pl
 Registry load_operators(const std::vector<std::filesystem::path>& plugins) {
   std::vector<path> files = plugins_of_environment();
   files.insert(files.end(), plugins.begin(), plugins.end());
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   std::vector<path> known;
   for (const path& file : files) {
     const path real = std::filesystem::weakly_canonical(file);

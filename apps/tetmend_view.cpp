@@ -11,7 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
-#include "viewer/script.h"
+#include "viewer/commands/script.h"
 #include "viewer/ui/headless.h"
 #include "viewer/ui/window.h"
 

@@ -7,11 +7,18 @@
 //   for 1, 2, 4, ... 256 blocks with one thread for each:
 //     deferred work, work of one thread alone, critical path, speed-up
 //   the passes in detail for the largest number
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <map>
+#include <queue>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -22,13 +29,72 @@
 namespace tetmend {
 namespace {
 
+/// How the time of passes splits up: what more threads would make of it. Measured on one thread.
+struct TimeSplit {
+  static constexpr std::size_t kSpans = 9;  // 1, 2, 4, ... 256 threads
+
+  double total = 0;
+  double scans = 0;                    // over the whole mesh, which split evenly
+  double blocks = 0;                   // sum over all blocks
+  std::array<double, kSpans> spans{};  // of the blocks on 2^i threads, largest block first
+
+  /// All that only one thread can do.
+  double alone() const { return std::max(0.0, total - scans - blocks); }
+  /// Seconds on 2^i threads.
+  double at(std::size_t i) const {
+    return alone() + scans / static_cast<double>(std::size_t{1} << i) + spans[i];
+  }
+  TimeSplit& operator+=(const TimeSplit& other) {
+    total += other.total;
+    scans += other.scans;
+    blocks += other.blocks;
+    for (std::size_t i = 0; i < kSpans; ++i) spans[i] += other.spans[i];
+    return *this;
+  }
+};
+
+/// When the last of some threads is done that take tasks of the given lengths in that order.
+double span_of(std::span<const double> sorted, std::size_t threads) {
+  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
+  for (std::size_t i = 0; i < threads; ++i) free_at.push(0);
+  double last = 0;
+  for (const double seconds : sorted) {
+    const double end = free_at.top() + seconds;
+    free_at.pop();
+    free_at.push(end);
+    last = std::max(last, end);
+  }
+  return last;
+}
+
+/// Hears how long the blocks of each pass took.
+class BlockTimes final : public ProgressListener {
+ public:
+  using Spans = std::array<double, TimeSplit::kSpans>;
+
+  void progress(std::string_view, unsigned, double) override {}
+  void blocks_done(std::span<const double> seconds) override {
+    std::vector<double> sorted(seconds.begin(), seconds.end());
+    std::sort(sorted.begin(), sorted.end(), std::greater<>());
+    for (std::size_t i = 0; i < now_.size(); ++i) now_[i] += span_of(sorted, std::size_t{1} << i);
+  }
+  void pass_done(std::string_view, unsigned, const QualityIndicators&) override {
+    passes.push_back(std::exchange(now_, {}));
+  }
+
+  std::vector<Spans> passes;  // as Run::records
+
+ private:
+  Spans now_{};
+};
+
 struct Totals {
   TimeSplit split;
   std::size_t items = 0;
   std::size_t deferred = 0;
 
-  void add(const PassRecord& pass) {
-    split += pass.split;
+  void add(const PassRecord& pass, const BlockTimes::Spans& spans) {
+    split += {pass.seconds, pass.seconds_in_scans, pass.seconds_in_blocks, spans};
     items += pass.items;
     deferred += pass.deferred;
   }
@@ -46,15 +112,17 @@ struct Measured {
 
 /// @param blocks 0: as the size of the mesh asks for
 Measured measure(TetMesh mesh, std::size_t blocks) {
-  Registry registry;
-  register_builtin_operators(registry);
+  const Registry registry = Registry::builtin();
   Run run(mesh, registry);
   if (blocks > 0) run.set_block_count(blocks);
+  BlockTimes times;
+  run.set_listener(&times);
   improve(run);
   Measured result;
-  for (const PassRecord& pass : run.records) {
-    result.all.add(pass);
-    result.passes[pass.name].add(pass);
+  for (std::size_t i = 0; i < run.records.size(); ++i) {
+    const PassRecord& pass = run.records[i];
+    result.all.add(pass, times.passes[i]);
+    result.passes[pass.name].add(pass, times.passes[i]);
   }
   result.after = quality_indicators(mesh);
   return result;

@@ -1,22 +1,30 @@
-# Fails on an include that goes up the layers, and on folders named utils or common.
+# Fails on an include that goes up the layers or through a wall, and on folders named utils or common.
 #   cmake -DSOURCE_DIR=... -P check_layers.cmake
 #
-# For each layer: the folders that its files may include, besides its own. Folders that are not in `layers` (tests, bench,
-# plugins, python) may include anything.
+# A room is a layer or a folder in one that has walls of its own: the longest of these names that a path begins with.
+# For each room: what its files may include, besides itself. Folders that are no rooms (tests, bench, plugins, python)
+# may include anything.
 cmake_minimum_required(VERSION 3.21)
 if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(layers kernel trace search ops contract schedule viewer apps)
+set(rooms kernel trace search ops contract schedule apps
+          viewer viewer/mesh viewer/debugger viewer/live viewer/commands viewer/gl viewer/ui)
 set(below_kernel "")
 set(below_trace kernel)
 set(below_search kernel)
 set(below_ops kernel trace search)
 set(below_contract kernel trace search ops)
 set(below_schedule kernel trace search ops)
-set(below_viewer kernel trace search schedule)
-set(below_apps kernel trace search ops contract schedule viewer)
+set(below_viewer/mesh kernel)
+set(below_viewer/debugger kernel trace search viewer/mesh)
+set(below_viewer/live kernel trace schedule viewer/mesh)
+set(below_viewer kernel viewer/mesh viewer/debugger viewer/live)
+set(below_viewer/commands kernel schedule viewer/mesh viewer/debugger viewer/live viewer)
+set(below_viewer/gl kernel viewer/mesh viewer)
+set(below_viewer/ui kernel viewer/mesh viewer/debugger viewer/live viewer viewer/commands viewer/gl)
+set(below_apps ${rooms})
 
 set(violations "")
 
@@ -30,11 +38,24 @@ function(report file content pattern text)
   set(violations "${violations}${file}:${line}: ${text}\n" PARENT_SCOPE)
 endfunction()
 
+# Sets `result` to the room that a path lies in, or to its first folder if that is no room.
+function(find_room path result)
+  string(REGEX REPLACE "/.*" "" room "${path}")
+  string(REGEX MATCH "^[^/]+/[^/]+" nested "${path}")
+  if(nested IN_LIST rooms)
+    set(room ${nested})
+  endif()
+  set(${result} ${room} PARENT_SCOPE)
+endfunction()
+
+set(layers ${rooms})
+list(FILTER layers EXCLUDE REGEX "/")
 foreach(layer IN LISTS layers)
-  list(APPEND allowed_${layer} ${layer} ${below_${layer}})
   file(GLOB_RECURSE sources RELATIVE "${SOURCE_DIR}"
        "${SOURCE_DIR}/${layer}/*.h" "${SOURCE_DIR}/${layer}/*.cpp")
   foreach(source IN LISTS sources)
+    find_room(${source} room)
+    set(allowed ${room} ${below_${room}})
     file(READ "${SOURCE_DIR}/${source}" content)
     set(content "\n${content}")
     string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[\"<][^\">\n]+[\">]" includes "${content}")
@@ -43,13 +64,13 @@ foreach(layer IN LISTS layers)
       string(REGEX MATCH "([\"<])([^\">]+)" _ "${include}")
       set(quote "${CMAKE_MATCH_1}")
       set(path "${CMAKE_MATCH_2}")
-      string(REGEX REPLACE "/.*" "" folder "${path}")
-      if(folder IN_LIST allowed_${layer} AND path MATCHES "/" AND NOT path MATCHES "/\\.\\./")
+      find_room("${path}" other)
+      if(other IN_LIST allowed AND path MATCHES "/" AND NOT path MATCHES "/\\.\\./")
         continue()
       endif()
-      if(NOT path MATCHES "(^|/)\\.\\.?/" AND path MATCHES "/" AND IS_DIRECTORY "${SOURCE_DIR}/${folder}")
-        list(JOIN allowed_${layer} ", " words)
-        report(${source} "${content}" "${include}" "${layer} must not include ${path} (only: ${words})")
+      if(NOT path MATCHES "(^|/)\\.\\.?/" AND path MATCHES "/" AND IS_DIRECTORY "${SOURCE_DIR}/${other}")
+        list(JOIN allowed ", " words)
+        report(${source} "${content}" "${include}" "${room} must not include ${path} (only: ${words})")
       elseif(quote STREQUAL "\"")
         report(${source} "${content}" "${include}" "write \"${path}\" from the root of the repository")
       endif()

@@ -79,6 +79,10 @@ class Checker {
   void check_neighbours(TetHandle t);
   void check_links();
   void check_surface();
+  void check_triangles();
+  void match_boundary();
+  void check_boundary_face(HalfFace face, std::uint32_t k);
+  void match_constraints();
   void check_constraints(TetHandle t);
   void check_edge_bits(HalfFace f, HalfFace twin);
   void check_vertex_flags();
@@ -165,54 +169,71 @@ void Checker::check_links() {
   }
 }
 
-/// Outside faces and boundary triangles match one to one; interior triangles are collected.
 void Checker::check_surface() {
+  check_triangles();
+  match_boundary();
+  match_constraints();
+}
+
+/// Each by itself; leaves those that are constraints in interior_.
+void Checker::check_triangles() {
   const auto triangles = mesh_.surface_triangles();
-  std::vector<char> vertices_live(triangles.size(), 1);
   for (std::uint32_t k = 0; k < triangles.size(); ++k) {
     for (const VertexHandle v : triangles[k].vertices) {
       if (is_live(v)) continue;
       report(Finding::Kind::boundary, {}, v, "not in the mesh, but in surface triangle {}", k);
-      vertices_live[k] = 0;
     }
-    if (triangles[k].interior && !triangles[k].loose)
-      interior_.push_back(sorted(triangles[k].vertices));
+    if (!triangles[k].interior || triangles[k].loose) continue;
+    interior_.push_back(sorted(triangles[k].vertices));
   }
   std::sort(interior_.begin(), interior_.end());
   if (std::adjacent_find(interior_.begin(), interior_.end()) != interior_.end()) {
     report(Finding::Kind::constraint, {}, {},
            "two interior surface triangles have the same vertices");
   }
+}
 
+/// Outside faces and boundary triangles match one to one.
+void Checker::match_boundary() {
+  const auto triangles = mesh_.surface_triangles();
   std::vector<std::uint8_t> met(triangles.size(), 0);
   for_each_sound_tet([&](TetHandle t) {
     for (unsigned f = 0; f < 4; ++f) {
-      const HalfFace face(t, f);
-      if (!mesh_.is_boundary(face)) continue;
-      const std::uint32_t k = mesh_.twin(face).surface_triangle();
-      if (k >= triangles.size()) {
-        report(Finding::Kind::boundary, t, {}, "face {} names surface triangle {} of {}", f, k,
-               triangles.size());
-        continue;
-      }
-      if (met[k] < 2) ++met[k];
-      if (triangles[k].interior || triangles[k].loose) {
-        report(Finding::Kind::boundary, t, {}, "face {} names surface triangle {}, which is {}", f,
-               k, triangles[k].interior ? "interior" : "loose");
-      }
-      if (sorted(mesh_.vertices(face)) != sorted(triangles[k].vertices)) {
-        report(Finding::Kind::boundary, t, {},
-               "face {} and surface triangle {} have other vertices", f, k);
-      }
+      if (!mesh_.is_boundary(HalfFace(t, f))) continue;
+      const std::uint32_t k = mesh_.twin(HalfFace(t, f)).surface_triangle();
+      check_boundary_face(HalfFace(t, f), k);
+      if (k < triangles.size() && met[k] < 2) ++met[k];
     }
   });
   for (std::uint32_t k = 0; k < triangles.size(); ++k) {
-    if (triangles[k].interior || triangles[k].loose || !vertices_live[k] || met[k] == 1) continue;
+    if (triangles[k].interior || triangles[k].loose || met[k] == 1) continue;
+    const Face& v = triangles[k].vertices;
+    if (!is_live(v[0]) || !is_live(v[1]) || !is_live(v[2])) continue;  // told before
     report(Finding::Kind::boundary, {}, {}, "surface triangle {} is the face of {} tets", k,
            met[k] == 0 ? "no" : "several");
   }
+}
 
-  // Each interior triangle needs both sides; that the bits of two sides agree is checked by face.
+void Checker::check_boundary_face(HalfFace face, std::uint32_t k) {
+  const auto triangles = mesh_.surface_triangles();
+  const TetHandle t = face.tet();
+  if (k >= triangles.size()) {
+    report(Finding::Kind::boundary, t, {}, "face {} names surface triangle {} of {}", face.face(),
+           k, triangles.size());
+    return;
+  }
+  if (triangles[k].interior || triangles[k].loose) {
+    report(Finding::Kind::boundary, t, {}, "face {} names surface triangle {}, which is {}",
+           face.face(), k, triangles[k].interior ? "interior" : "loose");
+  }
+  if (sorted(mesh_.vertices(face)) != sorted(triangles[k].vertices)) {
+    report(Finding::Kind::boundary, t, {}, "face {} and surface triangle {} have other vertices",
+           face.face(), k);
+  }
+}
+
+/// Each interior triangle needs both sides; that the bits of two sides agree is checked by face.
+void Checker::match_constraints() {
   std::vector<std::uint8_t> sides(interior_.size(), 0);
   for_each_sound_tet([&](TetHandle t) {
     if (!mesh_.has_constraints(t)) return;

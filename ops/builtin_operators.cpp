@@ -20,7 +20,8 @@
 
 namespace tetmend {
 
-void register_builtin_operators(Registry& registry) {
+Registry Registry::builtin() {
+  Registry registry;
   registry.add(shell_transformation_info());
   registry.add(recursive_shell_transformation_info());
   registry.add(multi_face_removal_info());
@@ -37,6 +38,7 @@ void register_builtin_operators(Registry& registry) {
   registry.add(polyhedron_reconnection_info());
   registry.add(vertex_removal_info());
   registry.add(cavity_insertion_info());
+  return registry;
 }
 
 }  // namespace tetmend

@@ -95,9 +95,9 @@ Verdict Operator::try_proposals(OperatorContext& context, Target target, Transac
 void report_end(OperatorContext& context, Verdict verdict) {
   Comparison& comparison = context.states.comparison;
   if (verdict == Verdict::accepted || verdict == Verdict::no_improvement) {
-    context.trace->attempt_ends(to_string(verdict), comparison.before(), comparison.now());
+    context.trace->attempt_ends(verdict, comparison.before(), comparison.now());
   } else {
-    context.trace->attempt_ends(to_string(verdict), {}, {});
+    context.trace->attempt_ends(verdict, {}, {});
   }
 }
 

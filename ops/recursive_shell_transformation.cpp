@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "ops/shell_search.h"
+#include "trace/algorithm.h"
 
 namespace tetmend {
 
@@ -44,10 +45,7 @@ class Recursion {
   enum class State { gone, reduced, found, blocked };
   Verdict reduce(State state, Shell& shell, VertexHandle face, int level);
   Verdict reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level);
-  struct Ancestor {
-    VertexHandle a;
-    VertexHandle b;
-  };
+  using Ancestor = std::array<VertexHandle, 2>;
 
   State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell);
   State relocate(VertexHandle face, Shell& shell);
@@ -97,37 +95,16 @@ Recursion::State Recursion::relocate(VertexHandle face, Shell& shell) {
   return locate(a, b, hint, face, shell);
 }
 
-/// Ancestor edges must get no new supporting face ([chen, 5.3 (2)]).
 ShellLocks Recursion::locks(const Shell& shell, int level) const {
-  ShellLocks result;
-  const auto position = [&](VertexHandle v) {
-    unsigned i = 0;
-    while (i < shell.degree && shell.ring[i] != v) ++i;
-    return i;
-  };
-  for (int n = 0; n < level; ++n) {
-    const auto [x, y] = ancestors_[static_cast<std::size_t>(n)];
-    const bool x_end = x == shell.a || x == shell.b;
-    const bool y_end = y == shell.a || y == shell.b;
-    if (x_end && y_end) continue;
-    if (x_end || y_end) {
-      const unsigned i = position(x_end ? y : x);
-      if (i < shell.degree) result.vertices |= 1u << i;
-      continue;
-    }
-    const unsigned i = position(x);
-    const unsigned j = position(y);
-    if (i == shell.degree || j == shell.degree) continue;
-    if ((i + 1) % shell.degree == j) result.edges |= 1u << i;
-    if ((j + 1) % shell.degree == i) result.edges |= 1u << j;
-  }
-  return result;
+  return lock_ancestors(shell.a, shell.b, std::span(shell.ring).first(shell.degree),
+                        std::span(ancestors_).first(static_cast<std::size_t>(level)));
 }
 
 Verdict Recursion::transform(const Shell& shell, int level) {
   if (context_.trace == nullptr) return try_transform(shell, level);
   const std::array<VertexHandle, 2> edge = {shell.a, shell.b};
-  context_.trace->attempt_begins({"shell_transformation", edge, static_cast<unsigned>(level)});
+  context_.trace->attempt_begins(
+      {operator_name(Algorithm::shell_transformation), edge, static_cast<unsigned>(level)});
   const Verdict verdict = try_transform(shell, level);
   report_end(context_, verdict);
   return verdict;
@@ -199,9 +176,9 @@ Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle
   if (context_.trace == nullptr) return reduce_next();
   const std::array<VertexHandle, 2> edge = {end, p};
   context_.trace->attempt_begins(
-      {"recursive_shell_transformation", edge, static_cast<unsigned>(level + 1)});
+      {operator_name(Algorithm::recursion), edge, static_cast<unsigned>(level + 1)});
   const Verdict verdict = reduce_next();
-  context_.trace->attempt_ends(to_string(verdict), {}, {});
+  context_.trace->attempt_ends(verdict, {}, {});
   return verdict;
 }
 

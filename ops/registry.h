@@ -14,6 +14,9 @@ namespace tetmend {
 
 class Registry {
  public:
+  /// The operators of tetmend itself.
+  static Registry builtin();
+
   /// @param origin file of the plugin that the operator comes from; empty for tetmend itself
   /// @throws Error if there is an operator of that name, or if name, help, parameters or `make`
   /// make no sense. `info` must outlive the registry.
@@ -38,8 +41,5 @@ class Registry {
   std::vector<const OperatorInfo*> infos_;
   std::vector<std::string> origins_;
 };
-
-/// Adds the operators of tetmend itself.
-void register_builtin_operators(Registry& registry);
 
 }  // namespace tetmend

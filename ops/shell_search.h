@@ -5,14 +5,9 @@
 #include "kernel/shell.h"
 #include "ops/operator.h"
 #include "search/covering_search.h"
+#include "search/shell_locks.h"
 
 namespace tetmend {
-
-/// Ancestor edges in the form that a search takes, see CoveringProblem.
-struct ShellLocks {
-  std::uint32_t vertices = 0;
-  std::uint32_t edges = 0;
-};
 
 /// `accepted` for a closed shell in the worker's territory that is small enough to be searched; the
 /// shell is left in `shell`.

@@ -44,7 +44,7 @@ void sweep_vertices(Run& run, PassScope& scope, const Operator& op, const Select
 
 }  // namespace
 
-void local_reconnection(Run& run, const LocalReconnection& options) {
+void local_reconnection(Run& run, const LocalReconnectionOptions& options) {
   PassScope scope(run, "local_reconnection");
   Composition what{.kind = Composition::Kind::all_of};
   if (!options.edge_operator.empty()) {
@@ -61,8 +61,8 @@ void local_reconnection(Run& run, const LocalReconnection& options) {
   }
 }
 
-void smooth(Run& run, const SmoothingPass& options) {
-  PassScope scope(run, "smoothing");
+void smooth(Run& run, const SmoothOptions& options) {
+  PassScope scope(run, "smooth");
   const auto smoothing = run.registry().make("smoothing", options.settings);
   const std::string dates = calendar("smooth", one("smoothing", options.settings), options.on);
   QualityIndicators before = scope.indicators();
@@ -74,23 +74,23 @@ void smooth(Run& run, const SmoothingPass& options) {
   }
 }
 
-void suppress_points(Run& run, const SuppressionPass& options) {
-  PassScope scope(run, "point_suppression");
+void suppress_points(Run& run, const SuppressPointsOptions& options) {
+  PassScope scope(run, "suppress_points");
   const auto contraction = run.registry().make("edge_contraction", options.settings);
   const Date since = run.begin_sweep(
       calendar("suppress_points", one("edge_contraction", options.settings), options.on));
   sweep_vertices(run, scope, *contraction, options.on, since);
 }
 
-void insert_points(Run& run, const InsertionPass& options) {
-  PassScope scope(run, "point_insertion");
+void insert_points(Run& run, const InsertPointsOptions& options) {
+  PassScope scope(run, "insert_points");
   const Composition what = one("edge_split", options.settings, EdgeOrder::longest);
   const TetAttempts attempts(run.registry(), what);
   const Date since = run.begin_sweep(calendar("insert_points", what, options.on));
   sweep_tets(run, scope, attempts, options.on, since, kNewVerticesPerTet);
 }
 
-void apply(Run& run, const ApplyPass& options) {
+void apply(Run& run, const ApplyOptions& options) {
   PassScope scope(run, options.what.name());
   const TetAttempts attempts(run.registry(), options.what);
   const bool by_vertex =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The passes over a mesh: each selects tets and tries operators on them. What schedules are made
-// of.
+// of. Scripts, records and traces call a pass as the function is called here; a pass of apply() has
+// the name of its operators.
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ namespace tetmend {
 
 // Options hold the operators to use by name and the parameters of the pass. A pass leaves out what
 // has not changed since it last looked there with the same options.
-struct LocalReconnection {
+struct LocalReconnectionOptions {
   Selection on = {};
   std::string edge_operator = "recursive_shell_transformation";  ///< empty: none
   ParameterSettings edge_settings = {};
@@ -24,23 +25,23 @@ struct LocalReconnection {
   unsigned sweeps = 2;  ///< new bad tets are tried in the next sweep
 };
 
-struct SmoothingPass {
+struct SmoothOptions {
   Selection on = {};
   ParameterSettings settings = {};
   unsigned cycles = 4;  ///< at most; ends earlier when a cycle brings no progress
 };
 
-struct SuppressionPass {
+struct SuppressPointsOptions {
   Selection on = {};
   ParameterSettings settings = {};
 };
 
-struct InsertionPass {
+struct InsertPointsOptions {
   Selection on = {};
   ParameterSettings settings = {};
 };
 
-struct ApplyPass {
+struct ApplyOptions {
   Composition what;
   Selection on = {};
   unsigned sweeps = 1;  ///< at most; ends earlier when nothing is accepted
@@ -49,22 +50,22 @@ struct ApplyPass {
 
 /// [chen, Alg. 5]: selected tets from the worst up; edges of the tet in the order of their dihedral
 /// angle's sine, then faces, until the tet is gone.
-void local_reconnection(Run& run, const LocalReconnection& options = {});
+void local_reconnection(Run& run, const LocalReconnectionOptions& options = {});
 
 /// [chen, 6.2]: smooths the movable vertices of selected tets, cycle by cycle, while an indicator
 /// improves. A vertex whose ball has not changed since it was last tried is passed over.
-void smooth(Run& run, const SmoothingPass& options = {});
+void smooth(Run& run, const SmoothOptions& options = {});
 
 /// [chen, 6.3]: tries to remove each movable vertex of a selected tet by edge contraction, once.
-void suppress_points(Run& run, const SuppressionPass& options = {});
+void suppress_points(Run& run, const SuppressPointsOptions& options = {});
 
 /// [chen, 6.3]: tries to split the edges of selected tets, worst tets and longest edges first, each
 /// edge once.
-void insert_points(Run& run, const InsertionPass& options = {});
+void insert_points(Run& run, const InsertPointsOptions& options = {});
 
 /// Any operators: on selected tets from the worst up, or, for one operator on vertices, on their
 /// movable vertices in the order of the mesh.
-void apply(Run& run, const ApplyPass& options);
+void apply(Run& run, const ApplyOptions& options);
 
 /// True if `now` is sufficient progress over `before`: q_worst or n_bad or, with n_bad no larger,
 /// q_aver improved noticeably.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <queue>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -23,29 +22,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// When the last of some threads is done that take tasks of the given lengths in that order.
-double span_of(std::span<const double> sorted, std::size_t threads) {
-  std::priority_queue<double, std::vector<double>, std::greater<>> free_at;
-  for (std::size_t i = 0; i < threads; ++i) free_at.push(0);
-  double last = 0;
-  for (const double seconds : sorted) {
-    const double end = free_at.top() + seconds;
-    free_at.pop();
-    free_at.push(end);
-    last = std::max(last, end);
-  }
-  return last;
-}
-
 }  // namespace
-
-TimeSplit& TimeSplit::operator+=(const TimeSplit& other) {
-  total += other.total;
-  scans += other.scans;
-  blocks += other.blocks;
-  for (std::size_t i = 0; i < kSpans; ++i) spans[i] += other.spans[i];
-  return *this;
-}
 
 std::size_t PassRecord::attempts() const {
   return std::accumulate(verdicts.begin(), verdicts.end(), std::size_t{0});
@@ -155,6 +132,10 @@ void Run::report_done(const PassRecord& record) {
   if (listener_ != nullptr) listener_->pass_done(record.name, record.round, record.after);
 }
 
+void Run::report_blocks(std::span<const double> seconds) {
+  if (listener_ != nullptr) listener_->blocks_done(seconds);
+}
+
 PassScope::PassScope(Run& run, std::string_view name)
     : run_(run), start_(std::chrono::steady_clock::now()) {
   record_.name = name;
@@ -168,14 +149,14 @@ PassScope::PassScope(Run& run, std::string_view name)
 
 PassScope::~PassScope() {
   indicators();
-  record_.seconds = record_.split.total = seconds_since(start_);
+  record_.seconds = seconds_since(start_);
   if (run_.trace() != nullptr) run_.trace()->pass_ends(record_.after);
   run_.report_done(record_);
   run_.records.push_back(std::move(record_));
 }
 
 PassScope::Scan::~Scan() {
-  scope_.record_.split.scans += seconds_since(start_);
+  scope_.record_.seconds_in_scans += seconds_since(start_);
 }
 
 const QualityIndicators& PassScope::indicators() {
@@ -211,12 +192,8 @@ void PassScope::take_verdicts(Worker& worker) {
 }
 
 void PassScope::note_blocks(std::span<const double> seconds) {
-  std::vector<double> sorted(seconds.begin(), seconds.end());
-  std::sort(sorted.begin(), sorted.end(), std::greater<>());
-  record_.split.blocks += std::accumulate(sorted.begin(), sorted.end(), 0.0);
-  for (std::size_t i = 0; i < TimeSplit::kSpans; ++i) {
-    record_.split.spans[i] += span_of(sorted, std::size_t{1} << i);
-  }
+  record_.seconds_in_blocks += std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  run_.report_blocks(seconds);
 }
 
 }  // namespace tetmend

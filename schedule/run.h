@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,24 +34,9 @@ class ProgressListener {
   virtual void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) = 0;
   /// What the schedule has to say.
   virtual void noted(std::string_view) {}
-};
-
-/// How the time of passes splits up: what more threads would make of it. Measured on one thread.
-struct TimeSplit {
-  static constexpr std::size_t kSpans = 9;  ///< 1, 2, 4, ... 256 threads
-
-  double total = 0;
-  double scans = 0;                    ///< over the whole mesh, which split evenly
-  double blocks = 0;                   ///< sum over all blocks
-  std::array<double, kSpans> spans{};  ///< of the blocks on 2^i threads, largest block first
-
-  /// All that only one thread can do.
-  double alone() const { return std::max(0.0, total - scans - blocks); }
-  /// Seconds on 2^i threads.
-  double at(std::size_t i) const {
-    return alone() + scans / static_cast<double>(std::size_t{1} << i) + spans[i];
-  }
-  TimeSplit& operator+=(const TimeSplit& other);
+  /// How long each block of a sweep took, in seconds: for who measures how passes scale. A pass
+  /// makes several such sweeps.
+  virtual void blocks_done(std::span<const double> /*seconds*/) {}
 };
 
 /// What one pass did.
@@ -60,8 +46,9 @@ struct PassRecord {
   double seconds = 0;
   std::array<std::size_t, kVerdictCount> verdicts{};  ///< by Verdict
   std::size_t items = 0;                              ///< tets or vertices that were tried
-  std::size_t deferred = 0;  ///< of them, those that had to be tried again with other borders
-  TimeSplit split;
+  std::size_t deferred = 0;      ///< of them, those that had to be tried again with other borders
+  double seconds_in_scans = 0;   ///< over the whole mesh
+  double seconds_in_blocks = 0;  ///< of all threads together
   QualityIndicators after;
 
   std::size_t attempts() const;
@@ -127,6 +114,7 @@ class Run {
   /// Tells the listener, unless another thread is just doing so.
   void report_progress(std::string_view phase, double share);
   void report_done(const PassRecord& record);
+  void report_blocks(std::span<const double> seconds);
 
  private:
   static constexpr unsigned kPartitions = 12;
@@ -188,7 +176,7 @@ class PassScope {
   bool proceed(std::size_t n);
   void take_verdicts(Worker& worker);
   void note_deferred(std::size_t items) { record_.deferred += items; }
-  /// The time of each block of a parallel phase.
+  /// The time of each block of a sweep.
   void note_blocks(std::span<const double> seconds);
 
  private:

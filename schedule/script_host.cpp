@@ -107,10 +107,10 @@ void ScriptHost::add_words() {
   add("description", &ScriptHost::describe);
   add("parameter", &ScriptHost::declare);
   add("begin_round", &ScriptHost::begin_round);
-  add("local_reconnection", &ScriptHost::reconnect);
+  add("local_reconnection", &ScriptHost::local_reconnection);
   add("smooth", &ScriptHost::smooth);
-  add("suppress_points", &ScriptHost::suppress);
-  add("insert_points", &ScriptHost::insert);
+  add("suppress_points", &ScriptHost::suppress_points);
+  add("insert_points", &ScriptHost::insert_points);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
   for (const char* how : {"first_of", "all_of", "sequence"}) {
@@ -216,11 +216,11 @@ int ScriptHost::make_pass(lua_State* lua, const Pass& pass) {
   return 2;
 }
 
-int ScriptHost::reconnect(lua_State* lua) {
+int ScriptHost::local_reconnection(lua_State* lua) {
   begin_work();
   const WordInfo& word = find_word("local_reconnection");
   const ScriptValue value = read_table(lua, 1, word);
-  LocalReconnection options;
+  LocalReconnectionOptions options;
   Composition edges;
   Composition faces;
   if (const ScriptValue* field = value.field("edges")) {
@@ -241,7 +241,7 @@ int ScriptHost::reconnect(lua_State* lua) {
   for (auto& setting : arguments.of_operators[0]) options.edge_settings.push_back(setting);
   for (auto& setting : arguments.of_operators[1]) options.face_settings.push_back(setting);
   options.sweeps = static_cast<unsigned>(numbers.integer("sweeps"));
-  return make_pass(lua, [&] { local_reconnection(*run_, options); });
+  return make_pass(lua, [&] { tetmend::local_reconnection(*run_, options); });
 }
 
 int ScriptHost::smooth(lua_State* lua) {
@@ -249,35 +249,36 @@ int ScriptHost::smooth(lua_State* lua) {
   const WordInfo& word = find_word("smooth");
   Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"smoothing"});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
-  SmoothingPass options;
+  SmoothOptions options;
   options.on = std::move(arguments.on);
   options.settings = std::move(arguments.of_operators[0]);
   options.cycles = static_cast<unsigned>(numbers.integer("cycles"));
   return make_pass(lua, [&] { tetmend::smooth(*run_, options); });
 }
 
-int ScriptHost::suppress(lua_State* lua) {
+int ScriptHost::suppress_points(lua_State* lua) {
   begin_work();
   const WordInfo& word = find_word("suppress_points");
   Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"edge_contraction"});
   return make_pass(lua, [&] {
-    suppress_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
+    tetmend::suppress_points(*run_,
+                             {std::move(arguments.on), std::move(arguments.of_operators[0])});
   });
 }
 
-int ScriptHost::insert(lua_State* lua) {
+int ScriptHost::insert_points(lua_State* lua) {
   begin_work();
   const WordInfo& word = find_word("insert_points");
   Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"edge_split"});
   return make_pass(lua, [&] {
-    insert_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
+    tetmend::insert_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
   });
 }
 
 int ScriptHost::apply(lua_State* lua) {
   begin_work();
   const WordInfo& word = find_word("apply");
-  ApplyPass options;
+  ApplyOptions options;
   options.what = read_composition(run_->registry(), {"apply"}, read_value(lua, 1));
   Arguments arguments = read_arguments(word, read_table(lua, 2, word), {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);

@@ -39,10 +39,10 @@ class ScriptHost {
   int describe(lua_State* lua);
   int declare(lua_State* lua);
   int begin_round(lua_State* lua);
-  int reconnect(lua_State* lua);
+  int local_reconnection(lua_State* lua);
   int smooth(lua_State* lua);
-  int suppress(lua_State* lua);
-  int insert(lua_State* lua);
+  int suppress_points(lua_State* lua);
+  int insert_points(lua_State* lua);
   int apply(lua_State* lua);
   int attempt(lua_State* lua);
   int compose(lua_State* lua, const char* how);

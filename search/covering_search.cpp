@@ -53,6 +53,13 @@ void BasicCoveringSearch<Worst>::Values::add(const Values& other) {
   }
 }
 
+/// Ties go to the smaller degree.
+template <unsigned Worst>
+bool BasicCoveringSearch<Worst>::is_better(const Values& values, unsigned degree,
+                                           const Values& other, unsigned other_degree) {
+  return values.better_than(other) || (!other.better_than(values) && degree < other_degree);
+}
+
 template <unsigned Worst>
 void BasicCoveringSearch<Worst>::begin(const CoveringProblem& problem) {
   size_ = static_cast<unsigned>(problem.ring.size());
@@ -202,70 +209,77 @@ bool BasicCoveringSearch<Worst>::fill_pockets(const CoveringProblem& problem) {
   return true;
 }
 
+/// Lists the qualities of the possible sides of a core, each with the pocket behind it; returns the
+/// number of ring edges that the longest spans.
+template <unsigned Worst>
+unsigned BasicCoveringSearch<Worst>::list_arcs(const CoveringProblem& problem, Arcs& arcs) {
+  const bool is_virtual = problem.old_sides.empty();
+  ab2_ = (b_ - a_).squaredNorm();
+  for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = from_a_[i].cross(from_b_[i]).squaredNorm();
+  unsigned longest = is_virtual ? 1 : 0;
+  for (unsigned i = 0; i < size_; ++i) {
+    arcs[i][1] = is_virtual ? side(i, wrap(i + 1)) : problem.old_sides[i];
+    for (unsigned d = 2; d + 1 < size_; ++d) {
+      arcs[i][d] = pockets_[i][d].valid ? side(i, wrap(i + d)) : 0;
+      if (arcs[i][d] > 0) longest = std::max(longest, d);
+    }
+  }
+  return longest;
+}
+
+/// Fills in the best way from `start` to each vertex of the ring, and around it back to `start`.
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::find_ways(const Arcs& arcs, bool is_virtual, unsigned start,
+                                           Ways& ways) const {
+  ways[0] = {Values::best(), 0, 0, true, is_virtual};
+  for (unsigned t = 1; t <= size_; ++t) {
+    Way& way = ways[t];
+    way.valid = false;
+    for (unsigned d = 1; d <= std::min(t, size_ - 2); ++d) {
+      const Way& from = ways[t - d];
+      const unsigned i = wrap(start + t - d);
+      // An old side may be as bad as it is; a new one was measured against the floor.
+      const bool is_old = d == 1 && !is_virtual;
+      if (!from.valid || !(is_old || arcs[i][d] > 0)) continue;
+      Values values = from.values;
+      if (d > 1) values.add(pockets_[i][d].values);
+      values.add(arcs[i][d]);
+      const auto sides = static_cast<std::uint8_t>(from.sides + 1);
+      if (way.valid && !is_better(values, sides, way.values, way.sides)) continue;
+      way = {values, static_cast<std::uint8_t>(t - d), sides, true, from.changed || d > 1};
+    }
+  }
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::take_core(const Ways& ways, unsigned start,
+                                           Covering& covering) const {
+  unsigned n = covering.degree = ways[size_].sides;
+  covering.triangle_count = 0;
+  for (unsigned t = size_; t > 0; t = ways[t].previous) {
+    const unsigned i = wrap(start + ways[t].previous);
+    covering.core[--n] = static_cast<std::uint8_t>(i);
+    add_triangles(i, t - ways[t].previous, covering);
+  }
+}
+
 /// The best core with at least one pocket. Any cycle meets a window of as many consecutive vertices
 /// as its longest arc spans.
 template <unsigned Worst>
 bool BasicCoveringSearch<Worst>::find_core(const CoveringProblem& problem, Values& best,
                                            Covering& covering) {
-  const bool is_virtual = problem.old_sides.empty();
-  ab2_ = (b_ - a_).squaredNorm();
-  for (unsigned i = 0; i < size_; ++i) normal_ab_[i] = from_a_[i].cross(from_b_[i]).squaredNorm();
-  // [i][d], 0: no arc.
-  std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing> side_quality;
-  unsigned longest = is_virtual ? 1 : 0;
-  for (unsigned i = 0; i < size_; ++i) {
-    side_quality[i][1] = is_virtual ? side(i, wrap(i + 1)) : problem.old_sides[i];
-    for (unsigned d = 2; d + 1 < size_; ++d) {
-      side_quality[i][d] = pockets_[i][d].valid ? side(i, wrap(i + d)) : 0;
-      if (side_quality[i][d] > 0) longest = std::max(longest, d);
-    }
-  }
-  if (longest == 0) return false;
-
-  struct Step {
-    Values values;
-    std::uint8_t previous;
-    std::uint8_t arcs;
-    bool valid;
-    bool changed;  // some arc is new
-  };
+  Arcs arcs;
+  const unsigned longest = list_arcs(problem, arcs);
   bool found = false;
   for (unsigned start = 0; start < longest; ++start) {
-    std::array<Step, kMaxSearchRing + 1> path;
-    path[0] = {Values::best(), 0, 0, true, is_virtual};
-    for (unsigned t = 1; t <= size_; ++t) {
-      path[t].valid = false;
-      for (unsigned d = 1; d <= std::min(t, size_ - 2); ++d) {
-        const Step& from = path[t - d];
-        const unsigned i = wrap(start + t - d);
-        // An old side may be as bad as it is; a new one was measured against the floor.
-        const bool arc = d == 1 && !is_virtual ? true : side_quality[i][d] > 0;
-        if (!from.valid || !arc) continue;
-        Values values = from.values;
-        if (d > 1) values.add(pockets_[i][d].values);
-        values.add(side_quality[i][d]);
-        const auto arcs = static_cast<std::uint8_t>(from.arcs + 1);
-        const bool better = !path[t].valid || values.better_than(path[t].values) ||
-                            (!path[t].values.better_than(values) && arcs < path[t].arcs);
-        if (better)
-          path[t] = {values, static_cast<std::uint8_t>(t - d), arcs, true, from.changed || d > 1};
-      }
-    }
-    const Step& end = path[size_];
-    if (!end.valid || !end.changed || end.arcs < 3) continue;
-    const bool better = !found || end.values.better_than(best) ||
-                        (!best.better_than(end.values) && end.arcs < covering.degree);
-    if (!better) continue;
+    Ways ways;
+    find_ways(arcs, problem.old_sides.empty(), start, ways);
+    const Way& cycle = ways[size_];
+    if (!cycle.valid || !cycle.changed || cycle.sides < 3) continue;
+    if (found && !is_better(cycle.values, cycle.sides, best, covering.degree)) continue;
     found = true;
-    best = end.values;
-    covering.degree = end.arcs;
-    covering.triangle_count = 0;
-    unsigned n = end.arcs;
-    for (unsigned t = size_; t > 0; t = path[t].previous) {
-      const unsigned i = wrap(start + path[t].previous);
-      covering.core[--n] = static_cast<std::uint8_t>(i);
-      if (t - path[t].previous > 1) add_triangles(i, t - path[t].previous, covering);
-    }
+    best = cycle.values;
+    take_core(ways, start, covering);
   }
   return found;
 }
@@ -298,6 +312,21 @@ bool BasicCoveringSearch<Worst>::run(const CoveringProblem& problem, Covering& b
   best.triangle_count = 0;
   add_triangles(0, size_ - 1, best);
   return true;
+}
+
+template <unsigned Worst>
+void BasicCoveringSearch<Worst>::explore(const CoveringProblem& problem) {
+  begin(problem);
+  if (fill_pockets(problem)) return;
+  for (unsigned d = 3; d < size_; ++d) {  // not looked at: without ears there are none
+    for (unsigned i = 0; i < size_; ++i) pockets_[i][d].valid = false;
+  }
+}
+
+template <unsigned Worst>
+auto BasicCoveringSearch<Worst>::pocket(unsigned i, unsigned d) const -> std::optional<Ranking> {
+  const Pocket& pocket = pockets_[i][d];
+  return pocket.valid ? std::optional(pocket.values.v) : std::nullopt;
 }
 
 template class BasicCoveringSearch<1>;

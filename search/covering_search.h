@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "kernel/quality.h"
@@ -63,13 +64,24 @@ class BasicCoveringSearch {
   /// memory.
   bool run(const CoveringProblem& problem, Covering& best);
 
+  /// The worst qualities of some tets, ascending, padded with +infinity: what is ranked.
+  using Ranking = std::array<Quality, Worst>;
+  /// Finds the best triangulation of each pocket as run() does, and no covering: for whoever shows
+  /// what a search sees. pocket() reads them. Cost: as run().
+  void explore(const CoveringProblem& problem);
+  /// The best triangulation of the pocket that goes from ring vertex i over d sides; nothing if none
+  /// is above the floor, or if its chord is locked.
+  /// Preconditions: explore() was called last, and 2 <= d <= m - 2, or i = 0 and d = m - 1 for the
+  /// whole ring of size m.
+  std::optional<Ranking> pocket(unsigned i, unsigned d) const;
+
   /// Triangles and core sides that the last run evaluated.
   unsigned evaluations() const { return evaluations_; }
 
  private:
   /// The worst qualities in ascending order, padded with +infinity.
   struct Values {
-    std::array<Quality, Worst> v;
+    Ranking v;
     static Values best() {
       Values values;
       values.v.fill(std::numeric_limits<Quality>::infinity());
@@ -84,8 +96,19 @@ class BasicCoveringSearch {
     std::uint8_t apex;
     bool valid;
   };
-  // Computed when first asked for, which most searches never do; counts for the run whose number it
-  // carries.
+  // The core is a cycle of arcs. Arc [i][d] goes from i to i + d; its value is the quality of the
+  // side of the core, or 0 if there is none.
+  using Arcs = std::array<std::array<Quality, kMaxSearchRing>, kMaxSearchRing>;
+  struct Way {  // the best from the first vertex of a cycle to another
+    Values values;
+    std::uint8_t previous;  // vertices before it
+    std::uint8_t sides;
+    bool valid;
+    bool changed;  // some side is new
+  };
+  using Ways = std::array<Way, kMaxSearchRing + 1>;
+  // What most searches never ask for is computed when first asked for; it counts for the run whose
+  // number it carries.
   struct Triangle {
     Quality upper;
     Quality lower;
@@ -107,6 +130,11 @@ class BasicCoveringSearch {
   bool fill_pockets(const CoveringProblem& problem);
   void fill_pocket(const CoveringProblem& problem, unsigned i, unsigned d);
   bool find_core(const CoveringProblem& problem, Values& values, Covering& covering);
+  unsigned list_arcs(const CoveringProblem& problem, Arcs& arcs);
+  void find_ways(const Arcs& arcs, bool is_virtual, unsigned start, Ways& ways) const;
+  void take_core(const Ways& ways, unsigned start, Covering& covering) const;
+  static bool is_better(const Values& values, unsigned degree, const Values& other,
+                        unsigned other_degree);
   void add_triangles(unsigned i, unsigned d, Covering& covering) const;
   unsigned wrap(unsigned i) const { return i >= size_ ? i - size_ : i; }
 

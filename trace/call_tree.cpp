@@ -18,11 +18,6 @@ std::string format_target(const Call& call) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-std::string_view format_verdict(const TraceFile& file, const Call& call) {
-  const std::string_view verdict = file.name(call.verdict);
-  return verdict.empty() ? "cut off" : verdict;
-}
-
 bool has_vectors(const Call& call) {
   return call.worst_before != 0 || call.worst_after != 0;
 }
@@ -72,13 +67,13 @@ std::string call_tree_text(const TraceFile& file, std::uint32_t call) {
   for (std::uint32_t k = call; k < root.subtree_end; ++k) {
     const Call& c = file.calls()[k];
     fmt::format_to(out, "{:>9}  {:{}}{} -> {}", k, "", 2 * (c.depth - root.depth),
-                   describe_call(file, k), format_verdict(file, c));
+                   describe_call(file, k), c.verdict_text());
     if (has_vectors(c)) {
-      fmt::format_to(out, ", {}worst {:.4f} -> {:.4f}", c.accepted ? "" : "tried: ", c.worst_before,
-                     c.worst_after);
+      fmt::format_to(out, ", {}worst {:.4f} -> {:.4f}",
+                     c.accepted() ? "" : "tried: ", c.worst_before, c.worst_after);
     }
     if (c.edits > 0) fmt::format_to(out, ", {} edit{}", c.edits, c.edits == 1 ? "" : "s");
-    if (!c.accepted) fmt::format_to(out, ": {}", file.reason(c));
+    if (!c.accepted()) fmt::format_to(out, ": {}", file.reason(c));
     text += '\n';
   }
   return text;
@@ -92,13 +87,13 @@ std::string call_tree_dot(const TraceFile& file, std::uint32_t call) {
     const Call& c = file.calls()[k];
     std::string quality;
     if (has_vectors(c)) {
-      quality = fmt::format("\\n{}{:.4f} to {:.4f}", c.accepted ? "" : "tried: ", c.worst_before,
+      quality = fmt::format("\\n{}{:.4f} to {:.4f}", c.accepted() ? "" : "tried: ", c.worst_before,
                             c.worst_after);
     }
     std::string label = in_quotes(fmt::format("{}: {}", k, describe_call(file, k)));
     label.pop_back();
     fmt::format_to(out, "  c{} [label={}\\n{}{}\", fillcolor=\"{}\"];\n", k, label,
-                   format_verdict(file, c), quality, c.accepted ? "#c8e6c9" : "#ffcdd2");
+                   c.verdict_text(), quality, c.accepted() ? "#c8e6c9" : "#ffcdd2");
     if (k != call) fmt::format_to(out, "  c{} -> c{};\n", c.parent, k);
   }
   return text + "}\n";
@@ -116,10 +111,10 @@ void write_slices(const TraceFile& file, const std::function<void(std::string_vi
   }
   for (std::uint32_t k = 0; k < file.calls().size(); ++k) {
     const Call& call = file.calls()[k];
-    writer.slice(file.name(call.operator_name), "call", call.events,
-                 fmt::format(R"("call":{},"target":{},"level":{},"verdict":{})", k,
-                             in_quotes(format_target(call)), call.level,
-                             in_quotes(format_verdict(file, call))));
+    writer.slice(
+        file.name(call.operator_name), "call", call.events,
+        fmt::format(R"("call":{},"target":{},"level":{},"verdict":{})", k,
+                    in_quotes(format_target(call)), call.level, in_quotes(call.verdict_text())));
   }
   write("\n]}\n");
 }

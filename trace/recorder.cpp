@@ -199,7 +199,7 @@ void TraceRecorder::candidate_found() {
   wrote_event();
 }
 
-void TraceRecorder::attempt_ends(std::string_view verdict, std::span<const Quality> before,
+void TraceRecorder::attempt_ends(Verdict verdict, std::span<const Quality> before,
                                  std::span<const Quality> now) {
   if (!active_) return;
   if (is_written()) {

@@ -90,7 +90,7 @@ class TraceRecorder final : public TraceSink {
   void visit_ends() override;
   void attempt_begins(const AttemptEvent& event) override;
   void candidate_found() override;
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override;
   void edit_made(const TetMesh& mesh, const Journal& journal) override;
   void edit_undone() override;

@@ -17,11 +17,11 @@ void TextTrace::attempt_begins(const AttemptEvent& event) {
   ++depth_;
 }
 
-void TextTrace::attempt_ends(std::string_view verdict, std::span<const Quality> before,
+void TextTrace::attempt_ends(Verdict verdict, std::span<const Quality> before,
                              std::span<const Quality> now) {
   --depth_;
   auto out = std::back_inserter(text_);
-  fmt::format_to(out, "{:{}}-> {}", "", 2 * depth_, verdict);
+  fmt::format_to(out, "{:{}}-> {}", "", 2 * depth_, to_string(verdict));
   if (!before.empty() && !now.empty()) {
     fmt::format_to(out, ", {} tets {:.4f} -> {} tets {:.4f}", before.size(), before[0], now.size(),
                    now[0]);

@@ -13,7 +13,7 @@ class TextTrace final : public TraceSink {
  public:
   const std::string& text() const { return text_; }
   void attempt_begins(const AttemptEvent& event) override;
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override;
 
  private:

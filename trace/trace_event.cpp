@@ -87,11 +87,11 @@ void EventEncoder::candidate_found() {
   put_kind(EventKind::candidate_found);
 }
 
-void EventEncoder::attempt_ends(std::string_view verdict, std::span<const Quality> before,
+void EventEncoder::attempt_ends(Verdict verdict, std::span<const Quality> before,
                                 std::span<const Quality> now, std::uint64_t ticks) {
   put_kind(EventKind::attempt_ends);
   put_time(ticks);
-  put_name(verdict);
+  put_name(to_string(verdict));
   put_qualities(before);
   put_qualities(now);
 }
@@ -167,13 +167,14 @@ void EventDecoder::get_time(TraceEvent& event) {
   event.seconds = static_cast<double>(ticks_ * EventEncoder::kTickNanoseconds) * 1e-9;
 }
 
-std::uint32_t EventDecoder::get_name() {
+auto EventDecoder::get_name() -> const Name& {
   const std::uint64_t number = in_.get();
   if (number < chunk_names_.size()) return chunk_names_[number];
   if (number > chunk_names_.size()) throw ByteReader::Damage();
   const std::string text = in_.get_text();
   const auto found = std::find(names_->begin(), names_->end(), text);
-  chunk_names_.push_back(static_cast<std::uint32_t>(found - names_->begin()));
+  chunk_names_.push_back(
+      {static_cast<std::uint32_t>(found - names_->begin()), algorithm_of(text), verdict_of(text)});
   if (found == names_->end()) names_->push_back(text);
   return chunk_names_.back();
 }
@@ -221,7 +222,7 @@ void EventDecoder::next(TraceEvent& event) {
   }
   switch (event.kind) {
     case EventKind::pass_begins:
-      event.name = get_name();
+      event.name = get_name().number;
       event.number = in_.get32();
       break;
     case EventKind::pass_ends:
@@ -233,17 +234,23 @@ void EventDecoder::next(TraceEvent& event) {
       get_vertices(event);
       event.quality = in_.get_raw<Quality>();
       break;
-    case EventKind::attempt_begins:
-      event.name = get_name();
+    case EventKind::attempt_begins: {
+      const Name& name = get_name();
+      event.name = name.number;
+      event.algorithm = name.algorithm;
       get_vertices(event);
       event.number = in_.get32();
-      event.settings = get_name();
+      event.settings = get_name().number;
       break;
-    case EventKind::attempt_ends:
-      event.name = get_name();
+    }
+    case EventKind::attempt_ends: {
+      const std::optional<Verdict> verdict = get_name().verdict;
+      if (!verdict) throw ByteReader::Damage();
+      event.verdict = *verdict;
       get_qualities(event.before);
       get_qualities(event.after);
       break;
+    }
     case EventKind::replace_cavity:
       get_cavity(event);
       break;

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kernel/edit.h"
 #include "kernel/statistics.h"
 #include "kernel/tet_mesh.h"
+#include "trace/algorithm.h"
 #include "trace/byte_stream.h"
 #include "trace/trace_sink.h"
 
@@ -46,7 +48,9 @@ constexpr bool changes_mesh(EventKind kind) {
 /// One event. Which members mean something depends on the kind; the others are left as they were.
 struct TraceEvent {
   EventKind kind{};
-  std::uint32_t name = 0;              ///< of pass, operator or verdict: see TraceFile::name()
+  std::uint32_t name = 0;              ///< of pass or operator: see TraceFile::name()
+  Algorithm algorithm{};               ///< of an attempt
+  Verdict verdict{};                   ///< likewise
   std::uint32_t settings = 0;          ///< of the operator; likewise
   std::uint32_t number = 0;            ///< round of a pass, level of an attempt
   double seconds = 0;                  ///< since the trace began; not of edits and candidates
@@ -78,8 +82,8 @@ class EventEncoder {
   void visit_ends(std::uint64_t ticks);
   void attempt_begins(const AttemptEvent& event, std::uint64_t ticks);
   void candidate_found();
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
-                    std::span<const Quality> now, std::uint64_t ticks);
+  void attempt_ends(Verdict verdict, std::span<const Quality> before, std::span<const Quality> now,
+                    std::uint64_t ticks);
   /// The last edit of the journal.
   void edit(const TetMesh& mesh, const Journal& journal);
   void undo();
@@ -109,8 +113,15 @@ class EventDecoder {
   bool at_end() const { return in_.at_end(); }
 
  private:
+  /// A name of this chunk, and what it is the name of.
+  struct Name {
+    std::uint32_t number;  ///< in the list of the file
+    Algorithm algorithm;
+    std::optional<Verdict> verdict;
+  };
+
   void get_time(TraceEvent& event);
-  std::uint32_t get_name();
+  const Name& get_name();
   void get_vertices(TraceEvent& event);
   void get_qualities(std::vector<Quality>& qualities);
   void get_cavity(TraceEvent& event);
@@ -119,7 +130,7 @@ class EventDecoder {
   ByteReader in_{{}};
   std::uint64_t ticks_ = 0;
   std::vector<std::string>* names_ = nullptr;
-  std::vector<std::uint32_t> chunk_names_;  // numbers in the list of the file
+  std::vector<Name> chunk_names_;
 };
 
 }  // namespace tetmend

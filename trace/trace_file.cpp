@@ -85,17 +85,57 @@ void TraceFile::index_chunk(std::size_t offset) {
   }
 }
 
+EventRange TraceFile::begin_of(const TraceEvent& event) const {
+  return {events_, 0, event.seconds, 0};
+}
+
 void TraceFile::close(EventRange& range, double seconds) const {
   range.end = events_ + 1;
   range.end_seconds = seconds;
 }
 
+void TraceFile::begin_visit(const TraceEvent& event) {
+  if (event.vertices.size() != 4) throw ByteReader::Damage();
+  Visit& visit = visits_.emplace_back();
+  visit.events = begin_of(event);
+  visit.quality = event.quality;
+  visit.first_call = static_cast<std::uint32_t>(calls_.size());
+  std::copy_n(event.vertices.begin(), 4, visit.tet.begin());
+  visit_open_ = true;
+}
+
+void TraceFile::begin_call(const TraceEvent& event) {
+  if (event.vertices.size() > 4) throw ByteReader::Damage();
+  const auto number = static_cast<std::uint32_t>(calls_.size());
+  Call& call = calls_.emplace_back();
+  call.events = begin_of(event);
+  call.operator_name = event.name;
+  call.algorithm = event.algorithm;
+  call.settings = event.settings;
+  call.parent = open_.empty() ? kNoCall : open_.back();
+  call.level = static_cast<std::uint16_t>(event.number);
+  call.depth = static_cast<std::uint16_t>(open_.size());
+  call.target_size = static_cast<std::uint8_t>(event.vertices.size());
+  std::copy(event.vertices.begin(), event.vertices.end(), call.target_vertices.begin());
+  open_.push_back(number);
+}
+
+void TraceFile::end_call(const TraceEvent& event) {
+  if (open_.empty()) throw ByteReader::Damage();
+  Call& call = calls_[open_.back()];
+  open_.pop_back();
+  close(call.events, event.seconds);
+  call.subtree_end = static_cast<std::uint32_t>(calls_.size());
+  call.verdict = event.verdict;
+  if (!event.before.empty()) call.worst_before = event.before.front();
+  if (!event.after.empty()) call.worst_after = event.after.front();
+}
+
 void TraceFile::index_event(const TraceEvent& event) {
   const auto calls = static_cast<std::uint32_t>(calls_.size());
-  const EventRange begin = {events_, 0, event.seconds, 0};
   switch (event.kind) {
     case EventKind::pass_begins:
-      passes_.push_back({begin, event.name, event.number, {}, calls, 0});
+      passes_.push_back({begin_of(event), event.name, event.number, {}, calls, 0});
       pass_open_ = true;
       break;
     case EventKind::pass_ends:
@@ -106,10 +146,7 @@ void TraceFile::index_event(const TraceEvent& event) {
       pass_open_ = false;
       break;
     case EventKind::visit_begins:
-      if (event.vertices.size() != 4) throw ByteReader::Damage();
-      visits_.push_back({begin, {}, event.quality, calls, 0});
-      std::copy_n(event.vertices.begin(), 4, visits_.back().tet.begin());
-      visit_open_ = true;
+      begin_visit(event);
       break;
     case EventKind::visit_ends:
       if (!visit_open_) throw ByteReader::Damage();
@@ -117,36 +154,16 @@ void TraceFile::index_event(const TraceEvent& event) {
       visits_.back().last_call = calls;
       visit_open_ = false;
       break;
-    case EventKind::attempt_begins: {
-      Call& call = calls_.emplace_back();
-      call.events = begin;
-      call.operator_name = event.name;
-      call.settings = event.settings;
-      call.parent = open_.empty() ? kNoCall : open_.back();
-      call.level = static_cast<std::uint16_t>(event.number);
-      call.depth = static_cast<std::uint16_t>(open_.size());
-      if (event.vertices.size() > 4) throw ByteReader::Damage();
-      call.target_size = static_cast<std::uint8_t>(event.vertices.size());
-      std::copy(event.vertices.begin(), event.vertices.end(), call.target_vertices.begin());
-      open_.push_back(calls);
+    case EventKind::attempt_begins:
+      begin_call(event);
       break;
-    }
+    case EventKind::attempt_ends:
+      end_call(event);
+      break;
     case EventKind::candidate_found:
       if (open_.empty()) throw ByteReader::Damage();
       calls_[open_.back()].candidate_found = true;
-      break;
-    case EventKind::attempt_ends: {
-      if (open_.empty()) throw ByteReader::Damage();
-      Call& call = calls_[open_.back()];
-      open_.pop_back();
-      close(call.events, event.seconds);
-      call.subtree_end = calls;
-      call.verdict = event.name;
-      call.accepted = name(event.name) == "accepted";
-      if (!event.before.empty()) call.worst_before = event.before.front();
-      if (!event.after.empty()) call.worst_after = event.after.front();
-      break;
-    }
+      return;
     case EventKind::replace_cavity:
     case EventKind::move_vertex:
     case EventKind::add_vertex:
@@ -156,7 +173,7 @@ void TraceFile::index_event(const TraceEvent& event) {
     case EventKind::undo:
       return;
   }
-  if (event.kind != EventKind::candidate_found) seconds_ = event.seconds;
+  seconds_ = event.seconds;
 }
 
 /// What the trace does not see end ends with it.
@@ -192,37 +209,36 @@ std::uint32_t TraceFile::call_at(std::uint64_t event) const {
 }
 
 std::string_view TraceFile::reason(const Call& call) const {
-  const std::string_view verdict = name(call.verdict);
-  if (verdict.empty()) return "the trace ends before the call does";
-  if (verdict == "accepted") {
-    return call.worst_after > 0 || call.worst_before != 0
-               ? "the quality vector of all that changed is better"
-               : "what the call was for is done";
-  }
+  if (!call.verdict) return "the trace ends before the call does";
   const bool tried = call.candidate_found;
   const auto number = static_cast<std::uint32_t>(&call - calls_.data());
   const bool calls_others = call.subtree_end > number + 1;
-  if (verdict == "not applicable") {
-    return tried ? "the candidate does not fit into its cavity"
-                 : "the target is gone or is not of the kind that the operator works on";
+  switch (*call.verdict) {
+    case Verdict::accepted:
+      return call.worst_after > 0 || call.worst_before != 0
+                 ? "the quality vector of all that changed is better"
+                 : "what the call was for is done";
+    case Verdict::not_applicable:
+      return tried ? "the candidate does not fit into its cavity"
+                   : "the target is gone or is not of the kind that the operator works on";
+    case Verdict::constrained:
+      if (calls_others) return "what is left to transform lies on the boundary or on a constraint";
+      return tried ? "the candidate would remove a constrained face, edge or vertex"
+                   : "the target lies on the boundary or on a constraint";
+    case Verdict::no_improvement:
+      if (calls_others) return "what the calls in it reached is not enough";
+      return tried ? "the quality vector with the candidate is not better"
+                   : "no candidate is better than what is there";
+    case Verdict::inverted:
+      return "a tet of the candidate is not certified positive";
+    case Verdict::depth_spent:
+      return "nothing helped up to the deepest level allowed";
+    case Verdict::budget_spent:
+      return "the call used up its transformations";
+    case Verdict::deferred:
+      return "another worker's part of the mesh is in the way; to be tried again";
   }
-  if (verdict == "constrained") {
-    if (calls_others) return "what is left to transform lies on the boundary or on a constraint";
-    return tried ? "the candidate would remove a constrained face, edge or vertex"
-                 : "the target lies on the boundary or on a constraint";
-  }
-  if (verdict == "no improvement") {
-    if (calls_others) return "what the calls in it reached is not enough";
-    return tried ? "the quality vector with the candidate is not better"
-                 : "no candidate is better than what is there";
-  }
-  if (verdict == "inverted") return "a tet of the candidate is not certified positive";
-  if (verdict == "depth spent") return "nothing helped up to the deepest level allowed";
-  if (verdict == "budget spent") return "the call used up its transformations";
-  if (verdict == "deferred") {
-    return "another worker's part of the mesh is in the way; to be tried again";
-  }
-  return verdict;
+  return "";
 }
 
 // --- one event after the other -------------------------------------------------------------------

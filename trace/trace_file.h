@@ -34,7 +34,6 @@ struct Call {
   EventRange events;
   std::uint32_t operator_name = 0;  ///< see TraceFile::name()
   std::uint32_t settings = 0;       ///< likewise; "" for a call by an operator
-  std::uint32_t verdict = 0;        ///< likewise; "" if the trace ends before
   std::uint32_t parent = kNoCall;
   std::uint32_t subtree_end = 0;
   std::uint32_t edits = 0;       ///< made by itself, not by calls in it; also those undone
@@ -42,10 +41,14 @@ struct Call {
   std::uint16_t depth = 0;       ///< number of calls around it
   std::uint8_t target_size = 0;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   bool candidate_found = false;  ///< it knew what to do
-  bool accepted = false;
+  Algorithm algorithm = Algorithm::other;
+  std::optional<Verdict> verdict;  ///< nothing if the trace ends before
   std::array<VertexHandle, 4> target_vertices;
   Quality worst_before = 0, worst_after = 0;  ///< of the vectors; refused: of what was tried
 
+  bool accepted() const { return verdict == Verdict::accepted; }
+  /// "no improvement", ...; "cut off" if the trace ends before.
+  std::string_view verdict_text() const { return verdict ? to_string(*verdict) : "cut off"; }
   std::span<const VertexHandle> target() const { return {target_vertices.data(), target_size}; }
 };
 
@@ -87,7 +90,7 @@ class TraceFile {
   std::span<const TracedPass> passes() const { return passes_; }
   std::span<const Visit> visits() const { return visits_; }
   std::span<const Call> calls() const { return calls_; }
-  /// Text of a name of a pass, an operator or a verdict.
+  /// Name of a pass or an operator, or settings.
   std::string_view name(std::uint32_t name) const { return names_[name]; }
   /// The innermost call that `event` belongs to, its first and last event included; kNoCall.
   std::uint32_t call_at(std::uint64_t event) const;
@@ -103,6 +106,10 @@ class TraceFile {
   void read_chunks();
   void index_chunk(std::size_t offset);
   void index_event(const TraceEvent& event);
+  void begin_visit(const TraceEvent& event);
+  void begin_call(const TraceEvent& event);
+  void end_call(const TraceEvent& event);
+  EventRange begin_of(const TraceEvent& event) const;
   void close(EventRange& range, double seconds) const;
   void close_all();
 

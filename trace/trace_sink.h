@@ -10,6 +10,7 @@
 #include "kernel/handles.h"
 #include "kernel/quality.h"
 #include "kernel/statistics.h"
+#include "trace/verdict.h"
 
 namespace tetmend {
 
@@ -29,9 +30,9 @@ struct AttemptEvent {
 class TraceSink : public EditListener {
  public:
   virtual void attempt_begins(const AttemptEvent& event) = 0;
-  /// `verdict` is the name of the verdict. The quality vectors (ascending) are those of
-  /// what changed, or would have: empty when nothing was compared.
-  virtual void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  /// The quality vectors (ascending) are those of what changed, or would have: empty when nothing
+  /// was compared.
+  virtual void attempt_ends(Verdict verdict, std::span<const Quality> before,
                             std::span<const Quality> now) = 0;
   /// The innermost attempt knows what to do, and is about to do it.
   virtual void candidate_found() {}

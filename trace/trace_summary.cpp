@@ -61,10 +61,9 @@ TraceSummary summarize(const TraceFile& file) {
     if (op.levels.size() <= call.level) op.levels.resize(call.level + 1u);
     for (TraceSummary::Tally* tally : {&op.all, &op.levels[call.level]}) {
       ++tally->calls;
-      tally->accepted += call.accepted ? 1 : 0;
+      tally->accepted += call.accepted() ? 1 : 0;
     }
-    const std::string_view verdict = file.name(call.verdict);
-    ++op.verdicts[std::string(verdict.empty() ? "cut off" : verdict)];
+    ++op.verdicts[call.verdict_text()];
     op.own_seconds += call.events.seconds() - inner[c];
     std::uint32_t around = call.parent;
     while (around != kNoCall && calls[around].operator_name != call.operator_name) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trace/trace_file.h"
@@ -19,8 +20,8 @@ struct TraceSummary {
   };
   struct Operator {
     Tally all;
-    std::map<std::string, std::size_t> verdicts;  ///< by name
-    std::vector<Tally> levels;                    ///< by level of recursion
+    std::map<std::string_view, std::size_t> verdicts;  ///< by Call::verdict_text()
+    std::vector<Tally> levels;                         ///< by level of recursion
     double seconds = 0;      ///< of calls that are in no other call of the operator
     double own_seconds = 0;  ///< without calls in them
   };

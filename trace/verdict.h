@@ -2,7 +2,9 @@
 // The answer of an operator.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace tetmend {
@@ -40,6 +42,15 @@ constexpr std::string_view to_string(Verdict verdict) {
       return "deferred";
   }
   return "";
+}
+
+/// The inverse; nothing for a text that is no verdict.
+constexpr std::optional<Verdict> verdict_of(std::string_view text) {
+  for (std::size_t i = 0; i < kVerdictCount; ++i) {
+    const auto verdict = static_cast<Verdict>(i);
+    if (to_string(verdict) == text) return verdict;
+  }
+  return std::nullopt;
 }
 
 }  // namespace tetmend

@@ -7,23 +7,13 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
-#include "viewer/call_highlight.h"
-#include "viewer/tet_values.h"
+#include "kernel/formats/tet_mesh_io.h"
+#include "viewer/debugger/call_highlight.h"
+#include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
 
 namespace {
-
-TetMesh read_tet_mesh(const std::filesystem::path& file) {
-  MeshData data = read_mesh(file);
-  try {
-    return TetMesh(std::move(data));
-  } catch (const BuildError& error) {
-    throw Error(fmt::format("{}: {}", locate_tet(file, error.tet()), error.what()));
-  } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
-  }
-}
 
 bool is_alike(const Ball& a, const Ball& b) {
   constexpr double kShare = 0.02;

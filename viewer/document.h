@@ -13,12 +13,12 @@
 
 #include "kernel/statistics.h"
 #include "kernel/tet_mesh.h"
-#include "viewer/debugger.h"
-#include "viewer/live_run.h"
-#include "viewer/measured_mesh.h"
-#include "viewer/scene.h"
-#include "viewer/selection.h"
-#include "viewer/view_settings.h"
+#include "viewer/debugger/debugger.h"
+#include "viewer/live/live_run.h"
+#include "viewer/mesh/measured_mesh.h"
+#include "viewer/mesh/scene.h"
+#include "viewer/mesh/selection.h"
+#include "viewer/mesh/view_settings.h"
 
 namespace tetmend::viewer {
 

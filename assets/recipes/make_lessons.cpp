@@ -116,7 +116,6 @@ class LessonWriter {
   void say(std::uint64_t at, std::string text) { steps_.push_back({at, std::move(text)}); }
 
   std::string name(const Call& c) const { return std::string(file_.name(c.operator_name)); }
-  std::string verdict(const Call& c) const { return std::string(file_.name(c.verdict)); }
   std::string reason(const Call& c) const { return std::string(file_.reason(c)); }
 
   /// The first call from `from` on for which the condition holds.
@@ -213,7 +212,7 @@ void write_core(LessonWriter& lesson) {
   lesson.say(removal.events.end,
              fmt::format("The answer is \"{}\": {}. Every triangulation of the whole skirt polygon "
                          "has a tet that is no better than the worst of the shell.",
-                         lesson.verdict(removal), lesson.reason(removal)));
+                         removal.verdict_text(), lesson.reason(removal)));
   lesson.say(transformation.events.begin + 1,
              "Shell transformation has more to choose from: a part of the skirt polygon, the core, "
              "may stay without triangles, and there the supporting edge stays.");
@@ -232,13 +231,13 @@ void write_core(LessonWriter& lesson) {
 }
 
 void write_two_shells(LessonWriter& lesson) {
-  const auto is = [&](std::string_view name, unsigned level) {
-    return [&lesson, name, level](const Call& c) {
-      return lesson.name(c) == name && c.level == level && lesson.verdict(c) == "accepted";
+  const auto is = [](Algorithm algorithm, unsigned level) {
+    return [algorithm, level](const Call& c) {
+      return c.algorithm == algorithm && c.level == level && c.accepted();
     };
   };
-  constexpr std::string_view kRecursive = "recursive_shell_transformation";
-  constexpr std::string_view kPlain = "shell_transformation";
+  constexpr Algorithm kRecursive = Algorithm::recursion;
+  constexpr Algorithm kPlain = Algorithm::shell_transformation;
   const Call& root = lesson.call(0);
   const Call& first = lesson.call(1);
   const std::uint32_t inner_number = lesson.find(2, is(kRecursive, 1));
@@ -288,27 +287,28 @@ void write_two_shells(LessonWriter& lesson) {
 
 /// What there is to say about each reason to refuse.
 struct Refusal {
-  std::string_view verdict;
+  Verdict verdict;
   std::string_view before;  ///< at the target
   std::string_view after;   ///< once it was refused
 };
 
 constexpr std::array<Refusal, 7> kRefusals = {{
-    {"not applicable", "Five tets share the edge.", "A 3-2 flip is for edges of three tets only."},
-    {"constrained", "The edge lies on the boundary.",
+    {Verdict::not_applicable, "Five tets share the edge.",
+     "A 3-2 flip is for edges of three tets only."},
+    {Verdict::constrained, "The edge lies on the boundary.",
      "The surface must stay as it is. Constrained faces and edges inside the mesh are kept in the "
      "same way."},
-    {"no improvement", "The shell of the edge is good already.",
+    {Verdict::no_improvement, "The shell of the edge is good already.",
      "All coverings of the shell were searched."},
-    {"inverted", "Three tets share the edge, but it passes beside the triangle of its ring.",
+    {Verdict::inverted, "Three tets share the edge, but it passes beside the triangle of its ring.",
      "One of the two new tets would be turned inside out."},
-    {"depth spent", "The operator may not call itself here: its parameter max_level is 0.",
+    {Verdict::depth_spent, "The operator may not call itself here: its parameter max_level is 0.",
      "Its own shell alone cannot be improved, and the shells beside it are not tried."},
-    {"budget spent",
+    {Verdict::budget_spent,
      "The same edge. The operator may call itself, but has one shell transformation to spend: its "
      "parameter budget is 1.",
      "It was spent on its own shell, without result. For the link edges nothing was left."},
-    {"deferred",
+    {Verdict::deferred,
      "Threads share a mesh by its vertices, and here one vertex of the shell belongs to another.",
      "This is no answer yet: the attempt is made again when the mesh is divided in another way."},
 }};
@@ -319,11 +319,11 @@ void write_refusals(LessonWriter& lesson) {
              "trace in the mesh.");
   for (const Refusal& refusal : kRefusals) {
     const Call& call = lesson.call(lesson.find(
-        0, [&](const Call& c) { return c.depth == 0 && lesson.verdict(c) == refusal.verdict; }));
+        0, [&](const Call& c) { return c.depth == 0 && c.verdict == refusal.verdict; }));
     lesson.say(call.events.begin + 1,
                fmt::format("{} at the edge {} {}. {}", lesson.name(call), call.target()[0].index(),
                            call.target()[1].index(), refusal.before));
-    lesson.say(call.events.end, fmt::format("The answer is \"{}\": {}. {}", refusal.verdict,
+    lesson.say(call.events.end, fmt::format("The answer is \"{}\": {}. {}", call.verdict_text(),
                                             lesson.reason(call), refusal.after));
   }
 }
@@ -390,8 +390,7 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
 
 void record(const Recipe& recipe, const std::filesystem::path& mesh_file,
             const std::filesystem::path& trace_file) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   TetMesh mesh(recipe.mesh);
   const Schedule schedule(fmt::format("{}.lua", recipe.name), std::string(recipe.schedule));
   TraceRecorder recorder(trace_file, mesh,

@@ -59,8 +59,7 @@ BENCHMARK(ball_optimiser);
 /// mesh; the time is that of one vertex.
 void smoothing(benchmark::State& state) {
   const std::vector<VertexHandle> vertices = bench::bad_vertices(bench::example_mesh());
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   const auto operation = registry.make("smoothing");
   OperatorStates states;
   double moved = 0;

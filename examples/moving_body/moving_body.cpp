@@ -247,8 +247,7 @@ bool report(int step, const MeshData& data, const Effort& effort, double seconds
 }
 
 int run(int steps, bool plain, const std::filesystem::path& output) {
-  tetmend::Registry registry;
-  tetmend::register_builtin_operators(registry);
+  tetmend::Registry registry = tetmend::Registry::builtin();
   Scene scene = make_scene();
   bool is_valid = true;
   fmt::print("step parts theta_min theta_max  n_bad inverted    tets touched seconds\n");

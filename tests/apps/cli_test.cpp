@@ -13,6 +13,7 @@
 #include "ops/registry.h"
 #include "schedule/limit/surface_limit.h"
 #include "tests/apps/program.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -24,10 +25,6 @@ const std::array<std::string, 3> kAssets = {"bracket.meshb", "two_materials.mesh
 
 std::string asset(const std::string& name) {
   return (kMeshes / name).string();
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// One line, from tetmend, and nothing on stdout.
@@ -431,8 +428,7 @@ TEST_CASE("surfaces are written in each format, of the boundary, bad tets and co
 }
 
 TEST_CASE("operators are listed with their parameters, schedules with a line") {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   const Outcome all = run_program({"operators"});
   CHECK(all.status == 0);
   for (const OperatorInfo* info : registry.operators()) {

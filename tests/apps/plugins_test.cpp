@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -27,10 +28,6 @@ class Setting {
 
 std::string plugin_file(const std::string& name) {
   return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// How often `part` is in the text.

@@ -12,6 +12,7 @@
 #include "kernel/integrity.h"
 #include "kernel/surface.h"
 #include "tests/apps/program.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -22,10 +23,6 @@ const std::filesystem::path kMeshes = std::filesystem::path(TETMEND_SOURCE_DIR) 
 
 std::string asset(const std::string& name) {
   return (kMeshes / name).string();
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// Label and corners, coordinate by coordinate.

@@ -9,6 +9,7 @@
 
 #include "schedule/schedule.h"
 #include "tests/apps/program.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -16,10 +17,6 @@ using namespace tetmend::test;
 namespace {
 
 const std::string kSheet = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// One line on stderr, as every error has it.
 bool is_complaint(const Outcome& outcome) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
@@ -89,9 +90,9 @@ TEST_CASE("the first lesson leaves a core of four where edge removal fails") {
   CHECK(degrees_during("1-core.json") == std::vector<std::size_t>{6, 4});
   const TraceFile file(read_lesson(kLessons / "1-core.json").trace);
   REQUIRE(file.calls().size() == 2);
-  CHECK(file.name(file.calls()[0].operator_name) == "edge_removal");
-  CHECK(!file.calls()[0].accepted);
-  CHECK(file.calls()[1].accepted);
+  CHECK(file.calls()[0].algorithm == Algorithm::edge_removal);
+  CHECK(!file.calls()[0].accepted());
+  CHECK(file.calls()[1].accepted());
 }
 
 TEST_CASE("the second lesson removes an edge as Figure 5 does: 5 tets around it, 4, 3, none") {
@@ -101,17 +102,19 @@ TEST_CASE("the second lesson removes an edge as Figure 5 does: 5 tets around it,
 TEST_CASE("the third lesson has every reason to refuse, tells of each, and leaves the mesh alone") {
   const Lesson lesson = read_lesson(kLessons / "3-refusals.json");
   const TraceFile file(lesson.trace);
-  std::set<std::string_view> seen;
+  std::set<std::optional<Verdict>> seen;
   for (const Call& call : file.calls()) {
-    if (call.depth == 0) seen.insert(file.name(call.verdict));
+    if (call.depth == 0) seen.insert(call.verdict);
   }
   for (std::size_t v = 0; v < kVerdictCount; ++v) {
-    const std::string_view verdict = to_string(static_cast<Verdict>(v));
-    CAPTURE(verdict);
-    CHECK(seen.contains(verdict) == (verdict != "accepted"));
+    const auto verdict = static_cast<Verdict>(v);
+    const std::string answer = fmt::format("The answer is \"{}\"", to_string(verdict));
+    CAPTURE(answer);
+    const bool is_refusal = verdict != Verdict::accepted;
+    CHECK(seen.contains(verdict) == is_refusal);
     CHECK(std::ranges::count_if(lesson.steps, [&](const LessonStep& step) {
-            return step.text.starts_with("The answer is \"" + std::string(verdict) + "\"");
-          }) == (verdict == "accepted" ? 0 : 1));
+            return step.text.starts_with(answer);
+          }) == (is_refusal ? 1 : 0));
   }
   Replay replay(file);
   replay.seek(file.event_count());

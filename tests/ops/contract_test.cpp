@@ -16,12 +16,6 @@ using namespace tetmend::contract;
 
 namespace {
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-
 std::vector<Candidate> operators_with_defaults(const Registry& registry) {
   std::vector<Candidate> all;
   for (const OperatorInfo* info : registry.operators()) {
@@ -61,28 +55,28 @@ void check_all(const std::vector<Candidate>& candidates, bool must_succeed, Try&
 }  // namespace
 
 TEST_CASE("each operator keeps its contract in sweeps over every mesh of the zoo") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   check_all(operators_with_defaults(registry), true, [](const Operator& op, const TetMesh& mesh) {
     return try_in_sweeps(op, mesh, 3, 1500);
   });
 }
 
 TEST_CASE("each operator keeps its contract on fresh copies of every mesh of the zoo") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   check_all(operators_with_defaults(registry), true, [](const Operator& op, const TetMesh& mesh) {
     return try_on_fresh_copies(op, mesh, 200);
   });
 }
 
 TEST_CASE("each operator keeps its contract with each parameter at the ends of its range") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   check_all(
       operators_at_their_limits(registry), false,
       [](const Operator& op, const TetMesh& mesh) { return try_in_sweeps(op, mesh, 1, 120); });
 }
 
 TEST_CASE("operators keep the contract when they work one after the other on the same mesh") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   const auto candidates = operators_with_defaults(registry);
   for (const Ground& ground : grounds()) {
     const Outcome outcome = try_in_turns(candidates, ground.mesh, 2, 250);

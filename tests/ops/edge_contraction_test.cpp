@@ -21,8 +21,7 @@ namespace {
 struct Worker {
   explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   Verdict attempt(VertexHandle v, const ParameterSettings& settings = {}) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};
     const Verdict verdict =

@@ -25,8 +25,7 @@ struct Worker {
     return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
   }
   Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {}) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};
     const Verdict verdict =

@@ -17,8 +17,7 @@ namespace {
 
 std::string trace_of(const MeshData& data, std::string_view name, Target target,
                      const ParameterSettings& settings = {}) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   TetMesh mesh(data);
   Workspace workspace(mesh);
   OperatorStates states;

@@ -42,8 +42,7 @@ struct Worker {
   }
   Verdict attempt(const std::vector<std::uint32_t>& corners, const ParameterSettings& settings = {},
                   std::string_view name = "multi_face_removal") {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     REQUIRE(face(corners).has_value());
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};

@@ -176,9 +176,9 @@ struct Recorder final : TraceSink {
     for (const VertexHandle v : event.target) text.append(" ").append(std::to_string(v.index()));
     events.push_back(text + " level " + std::to_string(event.level));
   }
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override {
-    events.push_back(std::string(verdict) + " " + std::to_string(before.size()) + " " +
+    events.push_back(std::string(to_string(verdict)) + " " + std::to_string(before.size()) + " " +
                      std::to_string(now.size()));
   }
 };
@@ -390,8 +390,7 @@ TEST_CASE("a target gives back the handle that it was made of") {
 }
 
 TEST_CASE("an attempt takes no memory from the heap once the buffers have grown") {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   std::size_t accepted = 0;
   for (const OperatorInfo* info : registry.operators()) {
     std::vector<ParameterSettings> all = {{}};

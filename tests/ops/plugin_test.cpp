@@ -14,6 +14,7 @@
 #include "kernel/integrity.h"
 #include "schedule/passes.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 #include "tests/support/threads.h"
 
 using namespace tetmend;
@@ -28,20 +29,10 @@ std::string plugin_file(const std::string& name) {
   return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
 }
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// The complaint about a file that must not be loaded; checks that it names the file and that the
 /// registry is as before.
 std::string complaint_about(const std::string& file) {
-  Registry registry = builtin_operators();
+  Registry registry = Registry::builtin();
   const std::size_t count = registry.operators().size();
   std::string complaint;
   try {
@@ -97,7 +88,7 @@ std::map<std::string, int> endings(const Operator& op) {
 }  // namespace
 
 TEST_CASE("a plugin's operator works like a built-in one and knows where it comes from") {
-  Registry registry = builtin_operators();
+  Registry registry = Registry::builtin();
   const std::string file = plugin_file("sound");
   const Plugin plugin = load_plugin(file, registry);
   CHECK(plugin.file == file);
@@ -188,7 +179,7 @@ TEST_CASE(
 }
 
 TEST_CASE("an operator that throws in a pass ends it, on any number of threads, mesh in order") {
-  Registry registry = builtin_operators();
+  Registry registry = Registry::builtin();
   load_plugin(plugin_file("throwing"), registry);
   for (const int threads : {1, 3}) {
     CAPTURE(threads);
@@ -198,7 +189,7 @@ TEST_CASE("an operator that throws in a pass ends it, on any number of threads, 
       Run run(mesh, registry);
       run.set_block_count(8);
       local_reconnection(run, {});
-      LocalReconnection broken;
+      LocalReconnectionOptions broken;
       broken.edge_operator = "throws_at_edges";
       CHECK_THROWS_AS(local_reconnection(run, broken), Error);
       CHECK(to_string(check_integrity(mesh)) == "");
@@ -233,7 +224,7 @@ TEST_CASE("an operator that lies cannot harm the mesh") {
 }
 
 TEST_CASE("the contract tells what is wrong with each operator, and finds nothing in a sound one") {
-  Registry registry = builtin_operators();
+  Registry registry = Registry::builtin();
   for (const std::string name : {"sound", "odt_smoothing", "throwing", "lying"}) {
     load_plugin(plugin_file(name), registry);
   }

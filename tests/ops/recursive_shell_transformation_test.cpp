@@ -93,8 +93,7 @@ struct Worker {
   }
   Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {},
                   std::string_view name = "recursive_shell_transformation") {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};
     const Verdict verdict =
@@ -122,8 +121,7 @@ TEST_CASE("without the filter more link edges are tried") {
   const auto tried = [](const ParameterSettings& settings) {
     Worker worker(three_shells());
     TextTrace trace;
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     OperatorContext context{worker.mesh, worker.workspace, worker.states, &trace};
     registry.make("recursive_shell_transformation", settings)
         ->attempt(context, Target::of(*worker.edge(0, 1)));

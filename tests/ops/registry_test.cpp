@@ -13,16 +13,12 @@
 
 #include "kernel/error.h"
 #include "ops/smoothing.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
+using tetmend::test::contains;
 
 namespace {
-
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
 
 /// The message of the error that making the operator ends in; empty if there is none.
 std::string error_of(const Registry& registry, std::string_view name,
@@ -35,14 +31,10 @@ std::string error_of(const Registry& registry, std::string_view name,
   return "";
 }
 
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("the builtin operators are listed in the order of registration, with help") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   REQUIRE(registry.operators().size() >= 2);
   CHECK(registry.operators()[0]->name == "shell_transformation");
   CHECK(registry.operators()[1]->name == "recursive_shell_transformation");
@@ -67,7 +59,7 @@ TEST_CASE("the builtin operators are listed in the order of registration, with h
 }
 
 TEST_CASE("an unknown operator is an error that lists the valid names") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   const std::string message = error_of(registry, "edge_removel");
   CHECK(contains(message, "'edge_removel'"));
   for (const OperatorInfo* info : registry.operators()) CHECK(contains(message, info->name));
@@ -75,17 +67,17 @@ TEST_CASE("an unknown operator is an error that lists the valid names") {
 }
 
 TEST_CASE("registering a name twice is an error that gives the name") {
-  Registry registry = builtin_operators();
+  Registry registry = Registry::builtin();
   CHECK_THROWS_WITH_AS(registry.add(smoothing_info()), "operator 'smoothing' is registered twice",
                        Error);
-  CHECK(registry.operators().size() == builtin_operators().operators().size());
+  CHECK(registry.operators().size() == Registry::builtin().operators().size());
 }
 
 TEST_CASE("an operator knows the plugin that it comes from, and a clash names both sides") {
   static const OperatorInfo kInfo = {
       "polish", TargetKind::vertex, "help", {}, smoothing_info().make};
   static const OperatorInfo kSame = kInfo;
-  Registry registry = builtin_operators();
+  Registry registry = Registry::builtin();
   registry.add(kInfo, "a.so");
   CHECK(registry.origin("polish") == "a.so");
   CHECK(registry.origin("smoothing").empty());
@@ -95,7 +87,7 @@ TEST_CASE("an operator knows the plugin that it comes from, and a clash names bo
   CHECK_THROWS_WITH_AS(registry.add(smoothing_info(), "a.so"),
                        "operator 'smoothing' is registered twice: by tetmend itself and by a.so",
                        Error);
-  CHECK(registry.operators().size() == builtin_operators().operators().size() + 1);
+  CHECK(registry.operators().size() == Registry::builtin().operators().size() + 1);
   // A plugin's function that makes something else than it said.
   CHECK(contains(error_of(registry, "polish"), "'polish' of a.so cannot be made: "));
 }
@@ -146,7 +138,7 @@ TEST_CASE("an operator that cannot be used is not registered, and the error says
 }
 
 TEST_CASE("an unknown parameter is an error that lists the valid ones") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   const std::string message = error_of(registry, "recursive_shell_transformation", {{"depth", 3}});
   CHECK(contains(message, "recursive_shell_transformation"));
   CHECK(contains(message, "'depth'"));
@@ -155,7 +147,7 @@ TEST_CASE("an unknown parameter is an error that lists the valid ones") {
 }
 
 TEST_CASE("a value outside the range is an error that gives the range") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   const std::string name = "recursive_shell_transformation";
   for (const double value : {-1.0, 16.0, 1e9, std::numeric_limits<double>::infinity()}) {
     CHECK(contains(error_of(registry, name, {{"max_level", value}}), "is outside 0 to 15"));
@@ -166,7 +158,7 @@ TEST_CASE("a value outside the range is an error that gives the range") {
 }
 
 TEST_CASE("a fraction for a whole number or a flag is an error") {
-  const Registry registry = builtin_operators();
+  const Registry registry = Registry::builtin();
   const std::string name = "recursive_shell_transformation";
   CHECK(contains(error_of(registry, name, {{"max_level", 2.5}}), "max_level = 2.5 is not a whole"));
   CHECK(contains(error_of(registry, name, {{"reflex_only", 0.5}}), "is not a whole"));

@@ -32,8 +32,7 @@ struct Worker {
   /// Attempts the operator at the edge between two vertices; the mesh stays sound, after a refusal
   /// the same.
   Verdict attempt(const std::string& name, std::uint32_t a, std::uint32_t b) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     REQUIRE(has_edge(a, b));
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};

@@ -38,8 +38,7 @@ MeshData octahedron(const Point& centre) {
 struct Worker {
   explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
   Verdict attempt(std::uint32_t v, const ParameterSettings& settings = {}) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};
     const Verdict verdict =

@@ -12,8 +12,7 @@ using namespace tetmend;
 using namespace tetmend::contract;
 
 TEST_CASE("operators change nothing outside the territory, and nothing when they refuse or defer") {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   for (const OperatorInfo* info : registry.operators()) {
     CAPTURE(info->name);
     const auto op = registry.make(info->name);

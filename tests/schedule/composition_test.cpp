@@ -18,12 +18,7 @@ using namespace tetmend::test;
 
 namespace {
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-const Registry kRegistry = builtin_operators();
+const Registry kRegistry = Registry::builtin();
 
 Composition op(const std::string& name, ParameterSettings settings = {}) {
   return {.operator_name = name, .settings = std::move(settings)};
@@ -45,13 +40,12 @@ struct Attempts final : TraceSink {
     if (event.level == 0) names.emplace_back(event.operator_name);
     targets.emplace_back(event.target.begin(), event.target.end());
   }
-  void attempt_ends(std::string_view verdict, std::span<const Quality>,
-                    std::span<const Quality>) override {
-    verdicts.emplace_back(verdict);
+  void attempt_ends(Verdict verdict, std::span<const Quality>, std::span<const Quality>) override {
+    verdicts.push_back(verdict);
   }
   std::vector<std::string> names;
   std::vector<std::vector<VertexHandle>> targets;
-  std::vector<std::string> verdicts;
+  std::vector<Verdict> verdicts;
 };
 
 /// Works off the worst tet inside a ball.
@@ -100,9 +94,9 @@ TEST_CASE("first_of ends with the first accepted attempt, all_of when the tet is
       all_of({op("smoothing"), op("smoothing", {{"laplacian", 0}})});
   const Attempts first = attempts_at_worst(one, smoothing_twice_first);
   const Attempts all = attempts_at_worst(two, smoothing_twice_all);
-  REQUIRE(std::count(all.verdicts.begin(), all.verdicts.end(), "accepted") > 0);
-  CHECK(std::count(first.verdicts.begin(), first.verdicts.end(), "accepted") == 1);
-  CHECK(first.verdicts.back() == "accepted");
+  REQUIRE(std::count(all.verdicts.begin(), all.verdicts.end(), Verdict::accepted) > 0);
+  CHECK(std::count(first.verdicts.begin(), first.verdicts.end(), Verdict::accepted) == 1);
+  CHECK(first.verdicts.back() == Verdict::accepted);
   CHECK(all.names.size() > first.names.size());
 }
 
@@ -127,7 +121,7 @@ TEST_CASE("a sequence succeeds where its parts alone bring nothing more") {
 
 TEST_CASE("a sequence that is refused leaves no trace, though its parts were accepted") {
   TetMesh mesh(delaunay_ball(200, 4));
-  const ApplyPass pass = {.what = sequence({op("flip_2_3"), op("smoothing")}), .again = true};
+  const ApplyOptions pass = {.what = sequence({op("flip_2_3"), op("smoothing")}), .again = true};
   Run run(mesh, kRegistry);
   do {
     apply(run, pass);
@@ -137,7 +131,7 @@ TEST_CASE("a sequence that is refused leaves no trace, though its parts were acc
   run.set_trace(&attempts);
   apply(run, pass);
   CHECK(mesh == before);
-  CHECK(std::count(attempts.verdicts.begin(), attempts.verdicts.end(), "accepted") > 0);
+  CHECK(std::count(attempts.verdicts.begin(), attempts.verdicts.end(), Verdict::accepted) > 0);
   // The report counts sequences, not their parts.
   const auto openings = std::count(attempts.names.begin(), attempts.names.end(), "flip_2_3");
   CHECK(run.records.back().attempts() == static_cast<std::size_t>(openings));
@@ -154,7 +148,7 @@ TEST_CASE("a sequence works off the bad tets that its opening leaves, the worst 
     if (names[i] != "joint_smoothing") continue;
     // Before it, an accepted opening or another tet of the same sequence.
     REQUIRE(i > 0);
-    CHECK((names[i - 1] == "joint_smoothing" || attempts.verdicts[i - 1] == "accepted"));
+    CHECK((names[i - 1] == "joint_smoothing" || attempts.verdicts[i - 1] == Verdict::accepted));
   }
 }
 
@@ -311,7 +305,7 @@ TEST_CASE("applying reconnection by hand gives the mesh of local reconnection") 
 TEST_CASE("a pass made again does nothing unless it is told to try everything again") {
   TetMesh mesh(delaunay_ball(200, 4));
   Run run(mesh, kRegistry);
-  ApplyPass pass{.what = op("edge_removal"), .on = {.below = Selection::kAll}, .sweeps = 100};
+  ApplyOptions pass{.what = op("edge_removal"), .on = {.below = Selection::kAll}, .sweeps = 100};
   apply(run, pass);
   const std::size_t attempts = run.records.back().attempts();
   REQUIRE(attempts > 10);

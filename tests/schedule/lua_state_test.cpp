@@ -8,8 +8,10 @@
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
+using tetmend::test::contains;
 
 namespace {
 
@@ -37,10 +39,6 @@ Spoken run(const std::string& text, LuaState::Limits limits = {}) {
     spoken.error = error.what();
   }
   return spoken;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

@@ -28,12 +28,7 @@ namespace {
 
 const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-const Registry kRegistry = builtin_operators();
+const Registry kRegistry = Registry::builtin();
 
 struct NamedPass {
   std::string name;
@@ -42,9 +37,9 @@ struct NamedPass {
 
 const std::vector<NamedPass> kPasses = {
     {"local_reconnection", [](Run& run) { local_reconnection(run, {}); }},
-    {"smoothing", [](Run& run) { smooth(run, {}); }},
-    {"point_suppression", [](Run& run) { suppress_points(run, {}); }},
-    {"point_insertion", [](Run& run) { insert_points(run, {}); }},
+    {"smooth", [](Run& run) { smooth(run, {}); }},
+    {"suppress_points", [](Run& run) { suppress_points(run, {}); }},
+    {"insert_points", [](Run& run) { insert_points(run, {}); }},
 };
 
 using Face = std::array<VertexHandle, 3>;
@@ -220,13 +215,13 @@ TEST_CASE("a pass that has found nothing makes no attempt the next time") {
 TEST_CASE("a pass with other settings tries what another has given up") {
   TetMesh mesh(two_materials());
   Run run(mesh, kRegistry);
-  LocalReconnection plain;
+  LocalReconnectionOptions plain;
   plain.edge_operator = "edge_removal";
   plain.sweeps = 20;
   local_reconnection(run, plain);
   local_reconnection(run, plain);
   CHECK(run.records.back().attempts() == 0);
-  LocalReconnection other;
+  LocalReconnectionOptions other;
   local_reconnection(run, other);
   CHECK(run.records.back().accepted() > 0);
 }
@@ -288,10 +283,10 @@ TEST_CASE("an unknown operator or setting is an error before anything is tried")
   TetMesh mesh(two_materials());
   const TetMesh before = mesh;
   Run run(mesh, kRegistry);
-  LocalReconnection unknown;
+  LocalReconnectionOptions unknown;
   unknown.edge_operator = "edge_magic";
   CHECK_THROWS_AS(local_reconnection(run, unknown), Error);
-  SmoothingPass smoothing;
+  SmoothOptions smoothing;
   smoothing.settings = {{"magic", 1}};
   CHECK_THROWS_AS(smooth(run, smoothing), Error);
   CHECK(mesh == before);
@@ -302,7 +297,7 @@ TEST_CASE("reconnection works with edges alone, with faces alone and with neithe
     for (const bool faces : {false, true}) {
       TetMesh mesh(two_materials());
       Run run(mesh, kRegistry);
-      LocalReconnection options;
+      LocalReconnectionOptions options;
       if (!edges) options.edge_operator.clear();
       if (!faces) options.face_operator.clear();
       local_reconnection(run, options);
@@ -342,7 +337,7 @@ TEST_CASE("one reconnection pass: recursion beats no recursion and the classic o
     const auto lambda = [&](const std::string& edge_operator, const ParameterSettings& settings) {
       TetMesh mesh(read_mesh(file));
       Run run(mesh, kRegistry);
-      LocalReconnection options;
+      LocalReconnectionOptions options;
       options.edge_operator = edge_operator;
       options.edge_settings = settings;
       local_reconnection(run, options);

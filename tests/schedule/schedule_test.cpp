@@ -22,12 +22,7 @@ namespace {
 
 const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-const Registry kRegistry = builtin_operators();
+const Registry kRegistry = Registry::builtin();
 
 MeshData asset(const std::string& file) {
   return read_mesh(kSource / "assets/meshes" / file);

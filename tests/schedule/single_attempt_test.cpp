@@ -16,8 +16,7 @@ namespace {
 /// The trace of a script on a shell of three tets around the edge 0 1, the ring 2 3 4.
 std::string trace_of(const std::string& script) {
   TetMesh mesh(shell_mesh({.degree = 3, .height = 1.4142135623730951}));
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   Run run(mesh, registry);
   TextTrace trace;
   run.set_trace(&trace);

@@ -19,12 +19,7 @@ using namespace tetmend::test;
 
 namespace {
 
-Registry builtin_operators() {
-  Registry registry;
-  register_builtin_operators(registry);
-  return registry;
-}
-const Registry kRegistry = builtin_operators();
+const Registry kRegistry = Registry::builtin();
 
 struct Item {
   VertexHandle vertex;

@@ -123,6 +123,34 @@ std::vector<Triangle> triangles_of(const Covering& covering) {
 const std::vector<Triangle> kDiagonal02 = {{0, 1, 2}, {0, 2, 3}};
 const std::vector<Triangle> kDiagonal13 = {{0, 1, 3}, {1, 2, 3}};
 
+/// Worst qualities of all triangulations of the chain i .. i + d, each ascending and padded.
+std::vector<CoveringSearch::Ranking> all_rankings(const TestShell& s, unsigned i, unsigned d) {
+  const auto m = static_cast<unsigned>(s.ring.size());
+  CoveringSearch::Ranking none;
+  none.fill(std::numeric_limits<Quality>::infinity());
+  if (d == 1) return {none};
+  std::vector<CoveringSearch::Ranking> all;
+  const Point& p = s.ring[i];
+  const Point& q = s.ring[(i + d) % m];
+  for (unsigned k = 1; k < d; ++k) {
+    const Point& apex = s.ring[(i + k) % m];
+    const auto upper = static_cast<Quality>(minimum_sine(s.a, p, apex, q));
+    const auto lower = static_cast<Quality>(minimum_sine(p, apex, q, s.b));
+    if (upper <= 0 || lower <= 0) continue;
+    for (const auto& left : all_rankings(s, i, k)) {
+      for (const auto& right : all_rankings(s, (i + k) % m, d - k)) {
+        std::vector<Quality> values = {upper, lower};
+        values.insert(values.end(), left.begin(), left.end());
+        values.insert(values.end(), right.begin(), right.end());
+        std::sort(values.begin(), values.end());
+        std::copy_n(values.begin(), none.size(), none.begin());
+        all.push_back(none);
+      }
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 TEST_CASE("A long edge of degree 3 is removed by the only triangle") {
@@ -339,5 +367,55 @@ TEST_CASE("Shells of all sizes from 1e-6 to 1e6 get the same covering") {
       CHECK(core_of(covering) == core_of(expected));
       CHECK(triangles_of(covering) == triangles_of(expected));
     }
+  }
+}
+
+TEST_CASE("A search that is explored tells of each pocket the best of all its triangulations") {
+  CoveringSearch search;
+  std::size_t seen = 0;
+  for (const TestShell& shell :
+       {make_eared_shell(), make_octahedron(0.8, 1), make_round_shell(7, 1, 0.6)}) {
+    const auto m = static_cast<unsigned>(shell.ring.size());
+    search.explore(shell.problem(0));
+    for (unsigned i = 0; i < m; ++i) {
+      for (unsigned d = 2; d < (i == 0 ? m : m - 1); ++d) {
+        CAPTURE(i);
+        CAPTURE(d);
+        const auto rankings = all_rankings(shell, i, d);
+        const auto pocket = search.pocket(i, d);
+        REQUIRE(pocket.has_value() == !rankings.empty());
+        if (!pocket) continue;
+        ++seen;
+        const auto best = *std::max_element(rankings.begin(), rankings.end());
+        for (std::size_t n = 0; n < best.size(); ++n) {
+          CHECK(static_cast<double>((*pocket)[n]) == doctest::Approx(static_cast<double>(best[n])));
+        }
+      }
+    }
+  }
+  CHECK(seen > 30);
+}
+
+TEST_CASE("An explored search has no pocket below its floor, nor at a locked vertex or side") {
+  const TestShell shell = make_round_shell(6, 1);
+  CoveringSearch search;
+  CoveringProblem problem = shell.problem(0);
+  search.explore(problem);
+  REQUIRE(search.pocket(1, 2));
+  REQUIRE(search.pocket(0, 5));
+  problem.locked_vertices = 0b001000;
+  search.explore(problem);
+  CHECK_FALSE(search.pocket(1, 2));  // its chord is 1 3
+  CHECK_FALSE(search.pocket(3, 2));
+  CHECK(search.pocket(2, 2));  // 3 is inside
+  problem.locked_vertices = 0;
+  problem.locked_edges = 0b000100;
+  search.explore(problem);
+  CHECK_FALSE(search.pocket(1, 2));  // has the side 2 3
+  CHECK(search.pocket(3, 2));
+  CHECK_FALSE(search.pocket(0, 5));
+  search.explore(shell.problem(0.95f));
+  for (unsigned i = 0; i < 6; ++i) {
+    for (unsigned d = 2; d < (i == 0 ? 6 : 5); ++d) CHECK_FALSE(search.pocket(i, d));
   }
 }

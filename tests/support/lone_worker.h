@@ -28,8 +28,7 @@ class LoneWorker {
 
   /// Checks that the mesh is sound afterwards and, after a refusal, what it was before.
   Verdict attempt(std::string_view name, Target target, const ParameterSettings& settings = {}) {
-    Registry registry;
-    register_builtin_operators(registry);
+    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
     OperatorContext context{mesh, workspace, states};
     const Verdict verdict = registry.make(name, settings)->attempt(context, target);

@@ -52,7 +52,7 @@ class Witness final : public TraceSink {
     recorder_.candidate_found();
     look();
   }
-  void attempt_ends(std::string_view verdict, std::span<const Quality> before,
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override {
     recorder_.attempt_ends(verdict, before, now);
     look();
@@ -103,8 +103,7 @@ inline std::map<std::uint64_t, std::uint64_t> record(
     const std::set<std::uint64_t>& wanted = {},
     const Schedule& schedule = Schedule::builtin("shell"), bool finish = true,
     TraceClock clock = TraceClock::real) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   TraceRecorder recorder(file, mesh,
                          {.program = "test",
                           .input = "mesh",

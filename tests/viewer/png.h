@@ -7,7 +7,7 @@
 
 #include <stb_image.h>
 
-#include "viewer/image.h"
+#include "viewer/mesh/image.h"
 
 namespace tetmend::test {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tests/support/zoo.h"
-#include "viewer/commands.h"
+#include "viewer/commands/commands.h"
 
 namespace tetmend::test {
 

@@ -6,7 +6,7 @@
 
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/traced_run.h"
-#include "viewer/debugger.h"
+#include "viewer/debugger/debugger.h"
 
 namespace tetmend::test {
 
@@ -23,13 +23,13 @@ inline void record_by_hand(const std::filesystem::path& file) {
   const std::array link_edge = {VertexHandle(0), VertexHandle(2)};
   recorder.pass_begins("reconnect", 1);
   recorder.visit_begins(mesh.vertices(TetHandle(0)), 0.25F);
-  recorder.attempt_begins({"recursive_shell_transformation", edge, 0, ""});
-  recorder.attempt_begins({"shell_transformation", edge, 0, ""});
+  recorder.attempt_begins({operator_name(Algorithm::recursion), edge, 0, ""});
+  recorder.attempt_begins({operator_name(Algorithm::shell_transformation), edge, 0, ""});
   recorder.candidate_found();
-  recorder.attempt_ends("no improvement", {}, {});
-  recorder.attempt_begins({"recursive_shell_transformation", link_edge, 1, ""});
-  recorder.attempt_ends("depth spent", {}, {});
-  recorder.attempt_ends("no improvement", {}, {});
+  recorder.attempt_ends(Verdict::no_improvement, {}, {});
+  recorder.attempt_begins({operator_name(Algorithm::recursion), link_edge, 1, ""});
+  recorder.attempt_ends(Verdict::depth_spent, {}, {});
+  recorder.attempt_ends(Verdict::no_improvement, {}, {});
   recorder.visit_ends();
   recorder.pass_ends({});
   recorder.finish();

@@ -2,8 +2,8 @@
 // OpenGL without a display: a context of EGL that belongs to no window, and a picture to draw into.
 #pragma once
 
-#include "viewer/camera.h"
-#include "viewer/image.h"
+#include "viewer/mesh/camera.h"
+#include "viewer/mesh/image.h"
 
 namespace tetmend::viewer::gl {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "viewer/commands.h"
-#include "viewer/file_list.h"
+#include "viewer/commands/commands.h"
+#include "viewer/commands/file_list.h"
 
 namespace tetmend::viewer::ui {
 

@@ -4,7 +4,7 @@
 
 #include <imgui.h>
 
-#include "viewer/flat_drawing.h"
+#include "viewer/debugger/flat_drawing.h"
 
 namespace tetmend::viewer::ui {
 

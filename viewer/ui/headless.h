@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "viewer/commands.h"
+#include "viewer/commands/commands.h"
 
 namespace tetmend::viewer {
 

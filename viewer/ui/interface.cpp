@@ -9,7 +9,7 @@
 #include <imgui.h>
 
 #include "kernel/error.h"
-#include "viewer/lesson_guide.h"
+#include "viewer/debugger/lesson_guide.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "viewer/commands.h"
+#include "viewer/commands/commands.h"
 #include "viewer/ui/file_browser.h"
 
 namespace tetmend::viewer::ui {

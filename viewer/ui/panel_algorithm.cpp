@@ -2,7 +2,7 @@
 // The algorithm of the paper that the call at hand follows, with its line.
 #include <imgui.h>
 
-#include "viewer/paper_lines.h"
+#include "viewer/debugger/paper_lines.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {

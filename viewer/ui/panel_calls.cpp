@@ -10,7 +10,7 @@ namespace tetmend::viewer::ui {
 namespace {
 
 std::string quality_text(const Call& call, const CallFacts& facts) {
-  if (call.accepted && call.worst_before != 0) {
+  if (call.accepted() && call.worst_before != 0) {
     return fmt::format("{:.3f} -> {:.3f}", call.worst_before, call.worst_after);
   }
   if (facts.degree_after == 0) return fmt::format("{:.3f} -> gone", facts.quality_before);
@@ -37,7 +37,7 @@ std::string degree_text(const CallFacts& facts) {
 /// A dot in the colour of the outcome; hollow while the call is under way.
 void outcome_dot(const Debugger& debugger, const Call& call) {
   const bool is_done = debugger.position() >= call.events.end;
-  const ImU32 colour = to_imgui(outcome_colour(outcome_of(debugger.file(), call)));
+  const ImU32 colour = to_imgui(outcome_colour(outcome_of(call)));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float size = ImGui::GetFontSize();
   const ImVec2 middle = {at.x + size / 2, at.y + size / 2};
@@ -65,8 +65,7 @@ void draw_row(Session& session, const CallRow& row) {
   outcome_dot(debugger, call);
   ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
   const std::string name =
-      fmt::format("{} {} {}", call.level, short_name(debugger.file().name(call.operator_name)),
-                  numbers_of(call));
+      fmt::format("{} {} {}", call.level, short_name(debugger.file(), call), numbers_of(call));
   if (ImGui::Selectable(
           name.c_str(), debugger.call() == row.call,
           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
@@ -74,11 +73,11 @@ void draw_row(Session& session, const CallRow& row) {
   }
   if (ImGui::IsItemHovered()) {
     const std::string tried =
-        call.accepted || call.worst_before == 0
+        call.accepted() || call.worst_before == 0
             ? ""
             : fmt::format("\ntried: {:.4f} -> {:.4f}", call.worst_before, call.worst_after);
-    ImGui::SetTooltip("call %u, %s%s", row.call,
-                      outcome_text(debugger.file(), call, debugger.end()).c_str(), tried.c_str());
+    ImGui::SetTooltip("call %u, %s%s", row.call, outcome_text(call, debugger.end()).c_str(),
+                      tried.c_str());
   }
   const CallFacts& facts = debugger.facts(row.call);
   ImGui::TableNextColumn();

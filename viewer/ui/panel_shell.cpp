@@ -12,7 +12,7 @@ namespace {
 
 bool is_refused(const Debugger& debugger) {
   const Call& call = debugger.file().calls()[debugger.call()];
-  return !call.accepted && debugger.position() >= call.events.end;
+  return !call.accepted() && debugger.position() >= call.events.end;
 }
 
 void show_blended(ViewSettings& view, std::span<const FlatDrawing> drawings, float side) {
@@ -28,6 +28,8 @@ void list_chords(const ShellPicture& shell) {
   ImGui::SetNextItemOpen(true, ImGuiCond_Once);
   if (!ImGui::TreeNodeEx("chords and their pockets", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
   const std::vector<Chord> chords = chords_of(shell);
+  if (shell.pockets.empty()) return ImGui::TextDisabled("too many corners to be searched");
+  if (shell.locks.any()) wrapped_text(locks_text(shell));
   if (chords.empty()) return ImGui::TextDisabled("no chord has a pocket");
   constexpr float kRows = 5.2F;  // with the head; more can be scrolled to
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
@@ -38,11 +40,12 @@ void list_chords(const ShellPicture& shell) {
   ImGui::TableSetupColumn("worst q, one side");
   ImGui::TableSetupColumn("other side");
   ImGui::TableHeadersRow();
-  const auto quality = [&](double pocket) {
+  const auto quality = [&](const PocketRanking& pocket) {
+    const auto worst = static_cast<double>(pocket[0]);
     ImGui::TableNextColumn();
-    if (pocket <= 0) return ImGui::TextDisabled("none");
-    if (pocket > static_cast<double>(shell.floor)) return ImGui::Text("%.4f, better", pocket);
-    ImGui::TextDisabled("%.4f", pocket);
+    if (worst <= 0) return ImGui::TextDisabled("none");
+    if (pocket[0] > shell.floor) return ImGui::Text("%.4f, better", worst);
+    ImGui::TextDisabled("%.4f", worst);
   };
   for (const Chord& chord : chords) {
     ImGui::TableNextRow();

@@ -53,9 +53,8 @@ void show_breadcrumb(Session& session) {
   if (stack.empty()) ImGui::TextDisabled("outside of all calls");
   for (std::size_t i = 0; i < stack.size(); ++i) {
     const Call& call = debugger.file().calls()[stack[i]];
-    const std::string name =
-        fmt::format("{}{} {}", i == 0 ? "" : "> ",
-                    short_name(debugger.file().name(call.operator_name)), format_target(call));
+    const std::string name = fmt::format("{}{} {}", i == 0 ? "" : "> ",
+                                         short_name(debugger.file(), call), format_target(call));
     const float width = ImGui::CalcTextSize(name.c_str()).x;
     if (i > 0 && ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width < right) {
       ImGui::SameLine();
@@ -72,10 +71,9 @@ void show_end(Debugger& debugger) {
   const CallStudy* study = debugger.study();
   if (study == nullptr) return;
   const Call& call = debugger.file().calls()[study->call];
-  const std::string verdict = outcome_text(debugger.file(), call, debugger.position());
-  const Colour colour =
-      outcome_colour(debugger.position() < call.events.end ? Outcome::unfinished
-                                                           : outcome_of(debugger.file(), call));
+  const std::string verdict = outcome_text(call, debugger.position());
+  const Colour colour = outcome_colour(debugger.position() < call.events.end ? Outcome::unfinished
+                                                                             : outcome_of(call));
   ImGui::ColorButton("##verdict", ImGui::ColorConvertU32ToFloat4(to_imgui(colour)),
                      ImGuiColorEditFlags_NoTooltip,
                      {ImGui::GetFontSize(), 0.8F * ImGui::GetFontSize()});

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "viewer/icicle.h"
+#include "viewer/debugger/icicle.h"
 #include "viewer/ui/flat_canvas.h"
 
 namespace tetmend::viewer::ui {
@@ -143,7 +143,7 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
   const float left = band.corner.x + band.size.x * static_cast<float>(bar.left);
   const float right = band.corner.x + band.size.x * static_cast<float>(bar.right);
   const float top = band.corner.y + height * static_cast<float>(bar.row);
-  Colour colour = outcome_colour(outcome_of(debugger.file(), call));
+  Colour colour = outcome_colour(outcome_of(call));
   if (bar.count > 1) colour.alpha = 120;
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled({left, top}, {std::max(right - 1, left + 1), top + height - 1},
@@ -154,8 +154,7 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
   }
   if (bar.count > 1) return;
   write_inside(left, right, top,
-               fmt::format("{} {}", short_name(debugger.file().name(call.operator_name)),
-                           format_target(call)),
+               fmt::format("{} {}", short_name(debugger.file(), call), format_target(call)),
                IM_COL32_WHITE);
 }
 
@@ -180,9 +179,8 @@ void draw_icicles(Session& session, const Band& band, const CallWindow& window) 
   if (bar == nullptr) return;
   const Call& call = debugger.file().calls()[bar->call];
   ImGui::SetTooltip("call %u: %s %s, level %u, %s%s", bar->call,
-                    short_name(debugger.file().name(call.operator_name)).c_str(),
-                    format_target(call).c_str(), call.level,
-                    outcome_text(debugger.file(), call, debugger.end()).c_str(),
+                    short_name(debugger.file(), call).c_str(), format_target(call).c_str(),
+                    call.level, outcome_text(call, debugger.end()).c_str(),
                     bar->count > 1 ? fmt::format(", and {} more", bar->count - 1).c_str() : "");
   if (ImGui::IsItemClicked()) run_from_window(find_command("enter"), session, {bar->call});
 }

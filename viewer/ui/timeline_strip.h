@@ -2,7 +2,7 @@
 // The strip under the picture of a trace: passes, curves of quality, and the calls as icicles.
 #pragma once
 
-#include "viewer/commands.h"
+#include "viewer/commands/commands.h"
 
 namespace tetmend::viewer::ui {
 

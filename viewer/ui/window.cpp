@@ -18,7 +18,7 @@
 #include <imgui.h>
 
 #include "kernel/error.h"
-#include "viewer/controller.h"
+#include "viewer/commands/controller.h"
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/ui/interface.h"

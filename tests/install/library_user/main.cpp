@@ -13,8 +13,7 @@
 int main(int argc, char** argv) try {
   if (argc != 4) return 2;
   tetmend::TetMesh mesh = tetmend::TetMesh::sorted(tetmend::read_mesh(argv[1]));
-  tetmend::Registry registry;
-  tetmend::register_builtin_operators(registry);
+  tetmend::Registry registry = tetmend::Registry::builtin();
   const tetmend::Plugin plugin = tetmend::load_plugin(argv[3], registry);
   tetmend::Run run(mesh, registry);
   tetmend::improve(run);

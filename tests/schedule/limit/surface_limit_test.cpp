@@ -56,8 +56,7 @@ MeshData flat_ball(std::uint64_t seed) {
 }
 
 void improve_in_place(TetMesh& mesh) {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   Run run(mesh, registry);
   improve(run);
 }

@@ -51,8 +51,7 @@ std::size_t count_denied(const TetMesh& mesh) {
 }  // namespace
 
 TEST_CASE("walls allow the angles of every mesh between them, before and after improvement") {
-  Registry registry;
-  register_builtin_operators(registry);
+  Registry registry = Registry::builtin();
   for (const NamedMesh& named : zoo()) {
     CAPTURE(named.name);
     TetMesh mesh(named.data);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/commands/controller.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <doctest/doctest.h>
+
+#include "kernel/formats/mesh_io.h"
+#include "tests/kernel/formats/fixtures.h"
+#include "tests/viewer/session.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+using test::TestSession;
+
+TEST_CASE("a drag turns the camera and selects nothing, a click selects") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  Controller controller(s.session);
+  const double yaw = s.document.view.camera.yaw;
+  controller.press(Button::left, 200, 150, false);
+  controller.move(240, 150);
+  controller.release(240, 150, 1);
+  CHECK(s.document.view.camera.yaw != yaw);
+  CHECK(std::holds_alternative<std::monostate>(s.document.selection()));
+  controller.press(Button::left, 200, 150, false);
+  controller.move(201, 150);
+  controller.release(201, 150, 2);
+  CHECK_FALSE(std::holds_alternative<std::monostate>(s.document.selection()));
+}
+
+TEST_CASE("a right drag and a drag with Shift move the target") {
+  TestSession s(test::one_tet());
+  Controller controller(s.session);
+  for (const bool shift : {false, true}) {
+    const Camera before = s.document.view.camera;
+    controller.press(shift ? Button::left : Button::right, 10, 10, shift);
+    controller.move(60, 10);
+    controller.release(60, 10, 0);
+    CHECK(s.document.view.camera.yaw == before.yaw);
+    CHECK(s.document.view.camera.target != before.target);
+  }
+}
+
+TEST_CASE("a double click comes closer to what it picks") {
+  TestSession s(test::kuhn_cube(4, 0, 1));
+  Controller controller(s.session);
+  const double distance = s.document.view.camera.distance;
+  for (const double time : {5.0, 5.2}) {
+    controller.press(Button::left, 200, 150, false);
+    controller.release(200, 150, time);
+  }
+  CHECK(s.document.view.camera.distance < distance / 2);
+}
+
+TEST_CASE("a key runs its command, and an error becomes a message") {
+  TestSession s(test::one_tet());
+  Controller controller(s.session);
+  controller.key("X");
+  CHECK(s.document.view.scene.cuts[0].on);
+  controller.key("Ctrl+V");  // nothing there
+  CHECK(s.document.message.is_error);
+  const Message message = s.document.message;
+  controller.key("Ctrl+Alt+Nonsense");
+  CHECK(s.document.message.text == message.text);
+}
+
+TEST_CASE("a mesh or a view that is dropped is taken") {
+  TestSession s(test::one_tet());
+  Controller controller(s.session);
+  const test::TempFolder folder;
+  write_mesh(folder / "two.mesh", test::two_tets());
+  controller.drop(folder / "two.mesh");
+  CHECK(s.document.mesh().tet_count() == 2);
+  std::ofstream(folder / "view.json") << R"({"peel": 4})";
+  controller.drop(folder / "view.json");
+  CHECK(s.document.view.scene.peel == 4);
+  controller.drop(folder / "missing.json");
+  CHECK(s.document.message.is_error);
+}
+
+TEST_CASE("ten thousand random events leave a document that can be drawn") {
+  TestSession s(test::two_regions());
+  const test::TempFolder folder;
+  write_mesh(folder / "a.mesh", test::delaunay_ball(60, 2));
+  write_mesh(folder / "b.mesh", test::two_regions());
+  Controller controller(s.session);
+  test::Random random(7);
+  std::vector<std::string_view> keys;
+  for (const Command& command : commands()) {
+    // Pictures would be written into the folder of the tests.
+    if (!command.keys.empty() && command.name != "screenshot") keys.push_back(command.keys);
+  }
+  for (int i = 0; i < 10000; ++i) {
+    const double x = random.real(-50, 450);
+    const double y = random.real(-50, 350);
+    switch (random.index(8)) {
+      case 0:
+        controller.press(static_cast<Button>(random.index(3)), x, y, random.index(2) == 0);
+        break;
+      case 1:
+        controller.release(x, y, i * 0.1);
+        break;
+      case 2:
+      case 3:
+        controller.move(x, y);
+        break;
+      case 4:
+        controller.scroll(random.real(-3, 3), x, y);
+        break;
+      case 5:
+        s.run("brush", {random.real(-0.2, 1.2), random.real(-0.2, 1.2)});
+        break;
+      case 6:
+        controller.key(keys[random.index(keys.size())]);
+        break;
+      default:
+        if (random.index(50) == 0) controller.drop(folder / (i % 2 == 0 ? "a.mesh" : "b.mesh"));
+    }
+    const Scene& scene = s.document.scene();
+    REQUIRE(scene.surface.size() == 3 * scene.surface_tets.size());
+    REQUIRE(std::isfinite(glm::length(s.document.view.camera.eye())));
+    REQUIRE(s.document.view.camera.distance > 0);
+  }
+  CHECK(state_of(s.document)["tets"] > 0);
+}

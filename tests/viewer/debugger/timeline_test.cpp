@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/debugger/timeline.h"
+
+#include <doctest/doctest.h>
+
+#include "kernel/statistics.h"
+#include "tests/viewer/traces.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+
+TEST_CASE("the curves are those of the mesh at each sample") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  const Timeline timeline = make_timeline(file, replay, 60);
+  CHECK(replay.position() == 0);
+  REQUIRE(timeline.samples.size() > 60);
+  CHECK(timeline.samples.size() < 130);
+  CHECK(timeline.samples.front().position == 0);
+  CHECK(timeline.samples.back().position == file.event_count());
+  CHECK(timeline.samples.front().n_bad > timeline.samples.back().n_bad);
+  for (const Timeline::Sample& sample : timeline.samples) {
+    replay.seek(sample.position);
+    const QualityIndicators truth = quality_indicators(to_tet_mesh(replay.mesh()));
+    CHECK(sample.n_bad == truth.n_bad);
+    CHECK(sample.q_worst == truth.q_worst);
+  }
+}
+
+TEST_CASE("equal numbers of changes mean equal meshes, and each change makes another mesh") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  const Timeline timeline = make_timeline(file, replay);
+  REQUIRE(timeline.changes.size() > 50);
+  CHECK(timeline.changes_before(0) == 0);
+  CHECK(timeline.changes_before(file.event_count()) == timeline.changes.size());
+  replay.seek(0);
+  std::uint64_t last = replay.mesh().fingerprint();
+  for (std::size_t i = 0; i < 50; ++i) {
+    replay.seek(timeline.changes[i] - 1);
+    CHECK(replay.mesh().fingerprint() == last);
+    replay.seek(timeline.changes[i]);
+    CHECK(replay.mesh().fingerprint() != last);
+    last = replay.mesh().fingerprint();
+  }
+}
+
+TEST_CASE("the sample of a position is the last one that is not after it") {
+  Timeline timeline;
+  timeline.samples = {{0, 9, 0.1}, {10, 5, 0.2}, {20, 1, 0.3}};
+  CHECK(timeline.at(0).n_bad == 9);
+  CHECK(timeline.at(9).n_bad == 9);
+  CHECK(timeline.at(10).n_bad == 5);
+  CHECK(timeline.at(99).n_bad == 1);
+}

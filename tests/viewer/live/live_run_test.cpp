@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/live/live_run.h"
+
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/integrity.h"
+#include "kernel/surface.h"
+#include "tests/kernel/formats/fixtures.h"
+#include "tests/support/traced_run.h"
+#include "tests/viewer/session.h"
+#include "trace/trace_file.h"
+#include "viewer/commands/script.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+using test::TestSession;
+
+namespace {
+
+constexpr double kForever = 600;
+
+LiveRun::Input measured(TetMesh mesh) {
+  const MeshStatistics statistics = compute_statistics(mesh);
+  return {std::move(mesh), statistics};
+}
+
+LiveRun::Input asset(const std::string& name) {
+  return measured(
+      TetMesh(read_mesh(std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes" / name)));
+}
+
+/// A schedule that never ends, on a mesh where it always has something to try.
+struct Endless {
+  Endless() {
+    test::write_text(file, "while true do apply('smoothing', {on = 'all', again = true}) end");
+    run.choose_schedule(file.string());
+    run.start(mesh, LiveRun::From::file, "cube");
+  }
+  test::TempFolder folder;
+  std::filesystem::path file = folder / "endless.lua";
+  LiveRun::Input mesh = measured(TetMesh(test::kuhn_cube(16, 0.3, 1)));
+  LiveRun run;
+};
+
+/// The mesh of a run that is held or over.
+TetMesh last_mesh(LiveRun& run) {
+  const auto snapshot = run.take_snapshot();
+  REQUIRE(snapshot);
+  return snapshot->mesh;
+}
+
+void check_sound(const TetMesh& mesh, const LiveRun::Input& before) {
+  CHECK(to_string(check_integrity(mesh)) == "");
+  CHECK(surface_fingerprint(mesh) == surface_fingerprint(before.mesh));
+  CHECK(count_not_positive(mesh) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a live run gives the mesh of a plain run, bit for bit, as often as it is made") {
+  TetMesh plain = test::asset_mesh("sheet.mesh");
+  Registry registry = Registry::builtin();
+  Run direct(plain, registry);
+  improve(direct);
+  plain.collect_garbage();
+
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  for (int i = 0; i < 2; ++i) {
+    CAPTURE(i);
+    run.start(mesh, LiveRun::From::file, "sheet.mesh");
+    CHECK(run.wait(kForever) == LiveState::finished);
+    CHECK(last_mesh(run) == plain);
+  }
+  const LiveProgress progress = run.progress();
+  REQUIRE(progress.passes.size() == direct.records.size());
+  std::size_t attempts = 0;
+  for (std::size_t i = 0; i < progress.passes.size(); ++i) {
+    CHECK(progress.passes[i].name == direct.records[i].name);
+    CHECK(progress.passes[i].round == direct.records[i].round);
+    CHECK(progress.passes[i].attempts == direct.records[i].attempts());
+    CHECK(progress.passes[i].accepted == direct.records[i].accepted());
+    CHECK(progress.passes[i].after.n_bad == direct.records[i].after.n_bad);
+    attempts += direct.records[i].attempts();
+  }
+  CHECK(progress.attempts == attempts);
+}
+
+TEST_CASE("a run from what is shown starts with the result of the one before") {
+  const test::TempFolder folder;
+  test::write_text(folder / "sweep.lua", "local_reconnection{sweeps = 1}");
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.choose_schedule((folder / "sweep.lua").string());
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  run.wait(kForever);
+  const LiveRun::Input first = measured(last_mesh(run));
+  CHECK(first.statistics.n_bad < mesh.statistics.n_bad);
+  run.start(first, LiveRun::From::shown, "sheet.mesh");
+  run.wait(kForever);
+  const TetMesh second = last_mesh(run);
+  CHECK(quality_indicators(second).n_bad < first.statistics.n_bad);
+  run.start(first, LiveRun::From::file, "sheet.mesh");
+  run.wait(kForever);
+  CHECK(last_mesh(run) == first.mesh);
+}
+
+TEST_CASE("a paused run does nothing until it goes on") {
+  Endless endless;
+  LiveRun& run = endless.run;
+  run.ask(Demand::pause);
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  const TetMesh before = last_mesh(run);
+  const LiveProgress then = run.progress();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK(run.state() == LiveState::paused);
+  CHECK(run.progress().attempts == then.attempts);
+  CHECK(run.progress().seconds == then.seconds);
+  CHECK(run.take_snapshot() == nullptr);
+
+  run.ask(Demand::go_on);
+  run.ask(Demand::to_next_pass);
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  CHECK(run.progress().attempts > then.attempts);
+  CHECK_FALSE(last_mesh(run) == before);
+}
+
+TEST_CASE("a step ends after the next call that changes the mesh, or after the pass") {
+  Endless endless;
+  LiveRun& run = endless.run;
+  run.ask(Demand::pause);
+  run.wait(kForever);
+  for (int i = 0; i < 5; ++i) {
+    const LiveProgress before = run.progress();
+    run.ask(Demand::to_next_accepted);
+    REQUIRE(run.wait(kForever) == LiveState::paused);
+    const LiveProgress now = run.progress();
+    CHECK(now.accepted == before.accepted + 1);
+    REQUIRE(now.last_accepted);
+    CHECK(now.last_accepted->operator_name == "smoothing");
+    CHECK(now.last_accepted->after >= now.last_accepted->before);
+  }
+  for (int i = 0; i < 2; ++i) {
+    const LiveProgress before = run.progress();
+    run.ask(Demand::to_next_pass);
+    REQUIRE(run.wait(kForever) == LiveState::paused);
+    CHECK(run.progress().passes.size() == before.passes.size() + 1);
+  }
+}
+
+TEST_CASE("a run that is paused or stopped anywhere has a sound mesh with the old surface") {
+  // Large enough to be worked on in blocks, where the counts of the mesh lag behind.
+  const LiveRun::Input mesh = measured(TetMesh(test::kuhn_cube(24, 0.3, 1)));
+  LiveRun run;
+  run.start(mesh, LiveRun::From::file, "cube");
+  for (int i = 0; i < 20; ++i) run.ask(Demand::to_next_accepted), run.wait(kForever);
+  check_sound(last_mesh(run), mesh);
+  run.ask(Demand::to_next_pass);
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  run.ask(Demand::to_next_accepted);
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  check_sound(last_mesh(run), mesh);
+  run.ask(Demand::stop);
+  run.ask(Demand::pause);  // too late
+  CHECK(run.wait(kForever) == LiveState::stopped);
+  check_sound(last_mesh(run), mesh);
+  CHECK_THROWS_AS(run.ask(Demand::go_on), Error);
+}
+
+TEST_CASE("a run ends with its owner, whatever it does") {
+  { const Endless at_work; }
+  {
+    Endless paused;
+    paused.run.ask(Demand::pause);
+    paused.run.wait(kForever);
+  }
+  Endless looping;
+  looping.run.forget();
+  test::write_text(looping.file, "quality() while true do end");  // no pass, no call
+  looping.run.start(looping.mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(looping.run.is_active());
+}
+
+TEST_CASE("a mistake in a schedule is told with its line, and the mesh so far stays") {
+  const test::TempFolder folder;
+  const std::filesystem::path file = folder / "bad.lua";
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  test::write_text(file, "parameter{'n', default = 1}\nsmooth{}\nsmooth{cycels = 1}\n");
+  run.choose_schedule(file.string());
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(run.wait(kForever) == LiveState::failed);
+  CHECK(run.progress().error.find("bad.lua:3: smooth has no parameter 'cycels'") !=
+        std::string::npos);
+  CHECK(run.progress().passes.size() == 1);
+  check_sound(last_mesh(run), mesh);
+
+  // The file is read again; what cannot even be read starts nothing.
+  test::write_text(file, "smooth{}\n");
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(run.wait(kForever) == LiveState::finished);
+  test::write_text(file, "smooth{\n");
+  CHECK_THROWS_WITH_AS(run.start(mesh, LiveRun::From::file, "sheet.mesh"),
+                       doctest::Contains("bad.lua:2"), Error);
+  CHECK(run.state() == LiveState::finished);
+}
+
+TEST_CASE("parameters are checked when they are set, and kept for schedules that have them") {
+  LiveRun run;
+  CHECK_THROWS_WITH_AS(run.set("rounds", "3"), doctest::Contains("max_rounds"), Error);
+  CHECK_THROWS_WITH_AS(run.set("max_rounds", "-1"), doctest::Contains("0 to 10000"), Error);
+  CHECK_THROWS_AS(run.choose_schedule("shall"), Error);
+  CHECK(run.schedule_name() == "shell");
+  run.set("max_rounds", "7");
+  run.set("max_rounds", "0");
+  const auto rounds = [&] { return run.value_of(run.info().parameters.front()); };
+  REQUIRE(run.info().parameters.front().name == "max_rounds");
+  CHECK(rounds() == "0");
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  run.set("max_rounds", "5");  // for the next run
+  CHECK(run.wait(kForever) == LiveState::finished);
+  CHECK(run.progress().passes.empty());
+  run.choose_schedule("grummp");
+  run.choose_schedule("shell");
+  CHECK((rounds() == "5" || rounds() == "30"));
+}
+
+TEST_CASE("a run that is recorded leaves a complete trace, also when it is stopped") {
+  const test::TempFolder folder;
+  Endless endless;
+  endless.run.forget();
+  endless.run.trace = folder / "run.trace";
+  endless.run.start(endless.mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK_THROWS_AS(endless.run.start(endless.mesh, LiveRun::From::file, "sheet.mesh"), Error);
+  endless.run.ask(Demand::to_next_pass);
+  endless.run.wait(kForever);
+  CHECK(endless.run.progress().trace == "");
+  endless.run.ask(Demand::stop);
+  REQUIRE(endless.run.wait(kForever) == LiveState::stopped);
+  const LiveProgress progress = endless.run.progress();
+  CHECK(progress.trace == (folder / "run.trace").string());
+  const TraceFile trace(progress.trace);
+  CHECK(trace.calls().size() == progress.attempts);  // smoothing calls no other operator
+  CHECK(trace.header().schedule == endless.file.string());
+  endless.run.trace = folder / "missing" / "run.trace";
+  endless.run.start(endless.mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(endless.run.wait(kForever) == LiveState::failed);
+  CHECK(endless.run.progress().error.find("missing") != std::string::npos);
+}
+
+TEST_CASE("the document shows a run, and opening another mesh ends it") {
+  TestSession s(test::one_tet());
+  const test::TempFolder folder;
+  s.document.open(TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh");
+  const MeshStatistics before = s.document.statistics();
+  // A run that waits for the script, however slow the script is.
+  test::write_text(folder / "endless.lua",
+                   "while true do apply('smoothing', {on = 'all', again = true}) end");
+  run_script(s.session, "local endless = '" + (folder / "endless.lua").string() + "'" + R"lua(
+    expect(live_schedule("shell").max_rounds == "30", "the default")
+    live_set("max_rounds", 2)
+    expect(live_schedule().max_rounds == "2", "what was set")
+    live_run()
+    local run = live_wait()
+    expect(run.state == "finished" and #run.passes > 0, "a run to its end")
+    expect(run.passes[#run.passes].n_bad == state().bad, "the mesh that is shown is the last")
+    live_schedule(endless)
+    live_run()
+    live_step_pass()
+    expect(live_wait().state == "paused", "a pause after a pass")
+    live_step()
+    expect(live_wait().accepted > 0, "a step")
+    live_continue()
+    live_pause()
+    live_wait()
+    live_stop()
+    expect(live_wait().state == "stopped", "the end")
+  )lua",
+             "test");
+  CHECK(s.document.statistics().q_worst > before.q_worst);
+  REQUIRE(s.document.statistics_before());
+  CHECK(s.document.statistics_before()->n_bad == before.n_bad);
+  s.run("save", {(folder / "better.mesh").string()});
+  CHECK(TetMesh(read_mesh(folder / "better.mesh")).tet_count() == s.document.statistics().tets);
+
+  s.run("live_run", {"shown"});
+  CHECK(s.document.statistics_before()->n_bad == s.document.statistics().n_bad);
+  s.document.open(TETMEND_SOURCE_DIR "/assets/meshes/two_materials.mesh");
+  CHECK(s.document.live.state() == LiveState::idle);
+  CHECK_THROWS_WITH_AS(s.run("live_pause"), doctest::Contains("no run is at work"), Error);
+  CHECK_THROWS_WITH_AS(s.run("live_run", {"here"}), doctest::Contains("file, shown"), Error);
+}
+
+TEST_CASE(
+    "the trace of a recorded run opens in the debugger, and the run can be made again there") {
+  TestSession s(test::delaunay_ball(100, 1));
+  const test::TempFolder folder;
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record"), Error);
+  s.run("live_run");
+  s.run("live_wait");
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record"), Error);
+  CHECK(s.document.debugger() == nullptr);
+
+  s.run("live_record", {(folder / "run.trace").string()});
+  const std::size_t bad_before = s.document.live.input()->statistics.n_bad;
+  s.run("live_run");
+  const nlohmann::json run = s.run("live_wait");
+  REQUIRE(run["state"] == "finished");
+  const TetMesh result = s.document.mesh();
+  s.run("live_debug");
+  REQUIRE(s.document.debugger() != nullptr);
+  CHECK(s.document.debugger()->position() == 0);
+  s.run("to_end");
+  CHECK(s.document.statistics().n_bad == run["passes"].back()["n_bad"]);
+  CHECK(s.document.statistics().tets == result.tet_count());
+  CHECK(s.document.statistics().q_worst == doctest::Approx(compute_statistics(result).q_worst));
+
+  s.run("to_begin");
+  s.run("live_run");  // into the file that is open here
+  const nlohmann::json again = s.run("live_wait");
+  CHECK(s.document.debugger() == nullptr);
+  // The same mesh with other numbers.
+  REQUIRE(s.document.statistics_before());
+  CHECK(s.document.statistics_before()->n_bad == bad_before);
+  CHECK(again["passes"].back()["n_bad"] < bad_before);
+  s.run("live_debug");
+  CHECK(s.document.debugger() != nullptr);
+}
+
+TEST_CASE("a run at work is not debugged") {
+  Endless endless;
+  endless.run.forget();
+  TestSession s(test::kuhn_cube(16, 0.3, 1));
+  s.run("live_schedule", {endless.file.string()});
+  s.run("live_record", {(endless.folder / "run.trace").string()});
+  s.run("live_run");
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("still at work"), Error);
+  s.run("live_stop");
+  REQUIRE(s.run("live_wait")["state"] == "stopped");
+  s.run("live_debug");
+  CHECK(s.document.debugger() != nullptr);
+}
+
+TEST_CASE("a run that fails says so in the status line") {
+  TestSession s(test::delaunay_ball(100, 1));
+  const test::TempFolder folder;
+  test::write_text(folder / "bad.lua", "smooth{}\nerror('no way')\n");
+  s.run("live_schedule", {(folder / "bad.lua").string()});
+  s.run("live_run");
+  CHECK(s.run("live_wait")["state"] == "failed");
+  CHECK(s.document.message.is_error);
+  CHECK(s.document.message.text.find("bad.lua:2: no way") != std::string::npos);
+}

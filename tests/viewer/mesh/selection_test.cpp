@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/mesh/selection.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "tests/viewer/session.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+using test::TestSession;
+
+namespace {
+
+std::string value_of(const Rows& rows, const std::string& name) {
+  for (const auto& row : rows) {
+    if (row.first == name) return row.second;
+  }
+  return "(no row)";
+}
+
+}  // namespace
+
+TEST_CASE("the ray through the middle of every visible triangle hits its tet") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  const Camera& camera = s.document.view.camera;
+  const Scene& scene = s.document.scene();
+  int seen = 0;
+  for (std::size_t i = 0; i < scene.surface_tets.size(); ++i) {
+    const auto* v = &scene.surface[3 * i];
+    const glm::dvec3 middle =
+        glm::dvec3(v[0].position + v[1].position + v[2].position) / 3.0 + scene.origin;
+    const glm::dvec3 normal(v[0].normal[0], v[0].normal[1], v[0].normal[2]);
+    if (glm::dot(normal, middle - camera.eye()) >= 0) continue;  // on the far side
+    const auto pixel = camera.project(middle, s.document.canvas);
+    REQUIRE(pixel);
+    const auto hit = cast(scene, camera.ray(pixel->x, pixel->y, s.document.canvas));
+    REQUIRE(hit);
+    CHECK(hit->tet == scene.surface_tets[i]);
+    ++seen;
+  }
+  CHECK(seen == 3 * 8);
+}
+
+TEST_CASE("a click beside the mesh selects nothing") {
+  TestSession s(test::one_tet());
+  CHECK(s.run("pick", {200, 150})["kind"] != "nothing");
+  CHECK(s.run("pick", {1, 1})["kind"] == "nothing");
+}
+
+TEST_CASE("a click near a corner takes the vertex, near an edge the edge, else the tet") {
+  TestSession s(test::one_tet());
+  const TetMesh& mesh = s.document.mesh();
+  const Camera& camera = s.document.view.camera;
+  const Hit middle = {TetHandle(0), glm::dvec3(0)};
+  const auto c = corners(mesh, TetHandle(0));
+  const auto take = [&](const glm::dvec3& p, PickKind kind) {
+    return refine(mesh, {TetHandle(0), p}, kind, camera, s.document.canvas);
+  };
+  CHECK(std::get<VertexHandle>(take(c[1], PickKind::nearest)) == mesh.vertices(TetHandle(0))[1]);
+  const auto edge = std::get<TetEdge>(take((c[0] + c[1]) / 2.0, PickKind::nearest));
+  CHECK(edge.edge() == 0);
+  CHECK(std::holds_alternative<TetHandle>(take((c[0] + c[1] + c[2]) / 3.0, PickKind::nearest)));
+  CHECK(std::holds_alternative<TetHandle>(take(c[1], PickKind::tet)));
+  CHECK(std::holds_alternative<TetEdge>(take(middle.point, PickKind::edge)));
+  CHECK(std::holds_alternative<VertexHandle>(take(middle.point, PickKind::vertex)));
+}
+
+TEST_CASE("an edge is described by its shell, in the words of the paper") {
+  TestSession s(test::shell_mesh({.degree = 6}));
+  s.run("select_edge", {0, 1});
+  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  CHECK(value_of(rows, "supporting edge") == "0 - 1");
+  CHECK(value_of(rows, "shell") == "closed");
+  CHECK(value_of(rows, "degree (tets)") == "6");
+  CHECK(value_of(rows, "supporting faces") == "6");
+  CHECK(value_of(rows, "link faces") == "12");
+  CHECK(value_of(rows, "skirt polygon").size() == 11);  // six numbers of one digit
+  const Highlight& shown = s.document.highlighted();
+  CHECK(shown.faces.size() / 3 == 6 * 4);
+  CHECK(std::count_if(shown.lines.begin(), shown.lines.end(),
+                      [](const Line& line) { return line.colour == kSkirtColour; }) == 6);
+}
+
+TEST_CASE("the shell of a boundary edge is open") {
+  TestSession s(test::shell_mesh({.degree = 6, .open = true}));
+  s.run("select_edge", {0, 1});
+  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  CHECK(value_of(rows, "shell").starts_with("open"));
+  CHECK(value_of(rows, "degree (tets)") == "5");
+}
+
+TEST_CASE("a tet is described by its number, region, quality and six angles") {
+  TestSession s(test::one_tet());
+  s.run("select_tet", {0});
+  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  CHECK(value_of(rows, "tet") == "0");
+  CHECK(value_of(rows, "min sine") == "0.9428");
+  CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& row) {
+          return row.first.starts_with("angle") && row.second == "70.53°";
+        }) == 6);
+}
+
+TEST_CASE("a vertex is described by its ball") {
+  TestSession s(test::shell_mesh({.degree = 5}));
+  s.run("select_vertex", {0});
+  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  CHECK(value_of(rows, "ball (tets)") == "5");
+  CHECK(value_of(rows, "one-ring") == "6 vertices");
+}
+
+TEST_CASE("what is not in the mesh cannot be selected") {
+  TestSession s(test::shell_mesh({.degree = 5}));
+  CHECK_THROWS_WITH_AS(s.run("select_tet", {99}), doctest::Contains("from 0 to 4"), Error);
+  CHECK_THROWS_WITH_AS(s.run("select_edge", {2, 4}), doctest::Contains("no edge 2 - 4"), Error);
+  CHECK_THROWS_WITH_AS(s.run("select_edge", {2, 2}), doctest::Contains("no edge 2 - 2"), Error);
+  CHECK_THROWS_AS(s.run("select_vertex", {1.5}), Error);
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Pictures and scripts of traces without a display, by the real program.
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+#include "tests/viewer/png.h"
+#include "tests/viewer/traces.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+Outcome run_script(const TempFolder& folder, const std::filesystem::path& trace,
+                   const std::string& text) {
+  ::unsetenv("DISPLAY");
+  std::ofstream(folder / "script.lua") << text;
+  return run_program({"--script", (folder / "script.lua").string(), trace.string()});
+}
+
+/// An accepted call that has bad tets before, and none after.
+std::uint32_t find_cure(const std::filesystem::path& trace) {
+  viewer::Debugger debugger(trace);
+  const auto is_bad = [](const viewer::LocalTet& tet) { return tet.quality < 0.45F; };
+  const auto is_good = [](const viewer::LocalTet& tet) { return tet.quality > 0.5F; };
+  for (std::uint32_t k = 0; k < debugger.file().calls().size(); ++k) {
+    if (!debugger.file().calls()[k].accepted()) continue;
+    debugger.enter(k);
+    const viewer::CallStudy& study = *debugger.study();
+    if (std::any_of(study.before.begin(), study.before.end(), is_bad) &&
+        std::all_of(study.after.begin(), study.after.end(), is_good)) {
+      return k;
+    }
+  }
+  return kNoCall;
+}
+
+}  // namespace
+
+TEST_CASE("the picture is red where the bad tet is, and not after the step that removes it") {
+  const TracedBall trace;
+  const TempFolder folder;
+  const std::uint32_t call = find_cure(trace.path());
+  REQUIRE(call != kNoCall);
+  const Outcome outcome = run_script(folder, trace.path(),
+                                     fmt::format(R"lua(
+    size(300, 240)
+    enter({})
+    expect(view().isolate, "isolated")
+    fit()
+    deselect()
+    expect(red_pixels() > 100, "red before")
+    step_out()
+    deselect()
+    expect(state().trace.call.verdict == "accepted", "accepted")
+    expect(red_pixels() == 0, "no red after")
+    back_out()
+    step_into()
+    deselect()
+    expect(red_pixels() > 100, "red again on the way back")
+  )lua",
+                                                 call));
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
+TEST_CASE("--at shows the mesh after so many events, and the report tells the place") {
+  ::unsetenv("DISPLAY");
+  const TracedBall trace;
+  const TempFolder folder;
+  const std::string report = (folder / "report.json").string();
+  const std::string picture = (folder / "out.png").string();
+  const auto red_at = [&](std::uint64_t event) {
+    const Outcome outcome =
+        run_program({"--render", picture, "--size", "320x240", "--at", std::to_string(event),
+                     "--report", report, trace.path().string()});
+    CHECK(outcome.err == "");
+    REQUIRE(outcome.status == 0);
+    const auto state = nlohmann::json::parse(read_text(report));
+    CHECK(state["trace"]["position"] == event);
+    return viewer::count_red(read_png(picture));
+  };
+  const std::uint64_t end = TraceFile(trace.path()).event_count();
+  CHECK(red_at(0) > 4 * red_at(end));
+  const Outcome beyond =
+      run_program({"--render", picture, "--at", std::to_string(end + 1), trace.path().string()});
+  CHECK(beyond.status == 1);
+  CHECK(beyond.err.find("events") != std::string::npos);
+}
+
+TEST_CASE("panels of a trace are drawn in both themes: tree, polygon, timeline") {
+  const TracedBall trace;
+  const TempFolder folder;
+  const Outcome outcome =
+      run_script(folder, trace.path(),
+                 fmt::format(R"lua(
+    size(1300, 850)
+    panels()
+    enter({})
+    -- The curve of bad tets in the strip: red on the background of the panels.
+    expect(red_pixels(520, 640, 60) > 10, "curve")
+    theme("dark")
+    expect(pixel(20, 840).red < 80, "dark")
+    blend(0.5)
+    step_out()
+    screenshot("{}")
+  )lua",
+                             find_cure(trace.path()), (folder / "a.png").string()));
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+  CHECK(read_png(folder / "a.png").width == 1300);
+}

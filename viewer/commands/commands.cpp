@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/commands/commands.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "viewer/commands/command_group.h"
+
+namespace tetmend::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kGestures = {
+    {{"drag", "orbit"},
+     {"right drag, or Shift + drag", "pan"},
+     {"wheel", "zoom to the mouse"},
+     {"click", "pick"},
+     {"double click", "pick and fit"},
+     {"drag over the histogram", "filter; click there: filter off"},
+     {"drop a file", "open it; a .json file is a view"}}};
+
+}  // namespace
+
+std::span<const Command> commands() {
+  static const std::vector<Command> kAll = [] {
+    std::vector<Command> list;
+    for (const auto group : {file_commands(), view_commands(), show_commands(), select_commands(),
+                             trace_commands(), live_commands(), script_commands()}) {
+      list.insert(list.end(), group.begin(), group.end());
+    }
+    return list;
+  }();
+  return kAll;
+}
+
+const Command& find_command(std::string_view name) {
+  return *std::find_if(commands().begin(), commands().end(),
+                       [&](const Command& c) { return c.name == name; });
+}
+
+const Command* command_for_keys(std::string_view keys) {
+  for (const Command& command : commands()) {
+    if (!keys.empty() && command.keys == keys) return &command;
+  }
+  return nullptr;
+}
+
+void run_from_window(const Command& command, Session& session, const json& arguments) {
+  try {
+    command.run(session, arguments);
+  } catch (const Error& error) {
+    session.document.message = {error.what(), true};
+  }
+}
+
+std::string command_reference() {
+  std::string text = "| Key | Effect |\n|---|---|\n";
+  for (const auto& gesture : kGestures) {
+    text += fmt::format("| {} | {} |\n", gesture.first, gesture.second);
+  }
+  for (const Command& c : commands()) {
+    if (!c.keys.empty()) text += fmt::format("| `{}` | {} |\n", c.keys, c.help);
+  }
+  text += "\n| Word | Effect |\n|---|---|\n";
+  for (const Command& c : commands()) text += fmt::format("| `{}` | {} |\n", c.usage, c.help);
+  return text;
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> mouse_gestures() {
+  return kGestures;
+}
+
+}  // namespace tetmend::viewer

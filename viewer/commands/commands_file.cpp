@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Commands about files, the clipboard and the program.
+#include <algorithm>
+#include <array>
+
+#include "viewer/commands/command_group.h"
+#include "viewer/mesh/image.h"
+
+namespace tetmend::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+json open(Session& s, const json& a) {
+  if (a.empty()) {
+    s.document.question = FileQuestion::open;
+  } else {
+    s.document.open(Arguments("open", a).text(0));
+  }
+  return nullptr;
+}
+
+json save(Session& s, const json& a) {
+  need_mesh(s.document);
+  if (a.empty()) {
+    s.document.question = FileQuestion::save;
+  } else {
+    s.document.save(Arguments("save", a).text(0));
+  }
+  return nullptr;
+}
+
+json compare(Session& s, const json& a) {
+  s.document.compare_with(Arguments("compare", a).text(0));
+  return nullptr;
+}
+
+json reload(Session& s, const json&) {
+  need_mesh(s.document);
+  s.document.open(std::string(s.document.file()));
+  return nullptr;
+}
+
+json screenshot(Session& s, const json& a) {
+  const std::string file = a.empty() ? "tetmend-view.png" : Arguments("screenshot", a).text(0);
+  write_png(file, s.host.render(s.document));
+  s.document.message = {"wrote " + file, false};
+  return nullptr;
+}
+
+json copy_view(Session& s, const json&) {
+  s.host.set_clipboard(to_json(s.document.view).dump(2));
+  s.document.message = {"the view is on the clipboard, as JSON", false};
+  return nullptr;
+}
+
+json paste_view(Session& s, const json&) {
+  apply_json_text(s.document.view, s.host.clipboard());
+  s.document.message = {"view taken from the clipboard", false};
+  return nullptr;
+}
+
+json quit(Session& s, const json&) {
+  s.document.quit = true;
+  return nullptr;
+}
+
+constexpr std::string_view kFile = "File";
+
+constexpr std::array kCommands = {
+    Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh or a trace", &open},
+    Command{"save", "Ctrl+S", kFile, "save(\"FILE\")", "Save the mesh as it is shown", &save},
+    Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
+    Command{"compare", "", "", "compare(\"FILE\")",
+            "Show the statistics of another mesh beside: the state before", &compare},
+    Command{"screenshot", "P", kFile, "screenshot(\"FILE.png\")",
+            "Write the picture; without a name to tetmend-view.png", &screenshot},
+    Command{"copy_view", "Ctrl+C", kFile, "copy_view()", "Copy the view as JSON", &copy_view},
+    Command{"paste_view", "Ctrl+V", kFile, "paste_view()", "Take the view from the clipboard",
+            &paste_view},
+    Command{"quit", "Ctrl+Q", kFile, "quit()", "Quit", &quit},
+};
+
+}  // namespace
+
+std::span<const Command> file_commands() {
+  return kCommands;
+}
+
+}  // namespace tetmend::viewer

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Commands for scripts: what they look at.
+#include <algorithm>
+#include <array>
+
+#include "viewer/commands/command_group.h"
+
+namespace tetmend::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+json state(Session& s, const json&) {
+  return state_of(s.document);
+}
+
+json locate(Session& s, const json&) {
+  if (std::holds_alternative<std::monostate>(s.document.selection())) {
+    throw Error("locate: nothing is selected");
+  }
+  const Ball ball = ball_around(s.document.mesh(), s.document.selection());
+  const auto pixel = s.document.view.camera.project(ball.centre, s.document.canvas);
+  if (!pixel) throw Error("locate: the selection lies behind the camera");
+  return {{"x", std::floor(pixel->x) + s.document.canvas_corner.x},
+          {"y", std::floor(pixel->y) + s.document.canvas_corner.y}};
+}
+
+json red_pixels(Session& s, const json& a) {
+  const Image image = s.host.render(s.document);
+  if (a.empty()) return count_red(image);
+  const Arguments arguments("red_pixels", a);
+  return count_red(image, static_cast<int>(arguments.number(0)),
+                   static_cast<int>(arguments.number(1)),
+                   static_cast<int>(arguments.index(2, 100000)));
+}
+
+json pixel(Session& s, const json& a) {
+  const Arguments arguments("pixel", a);
+  const auto x = arguments.index(0, static_cast<std::size_t>(s.document.window.width));
+  const auto y = arguments.index(1, static_cast<std::size_t>(s.document.window.height));
+  const Image image = s.host.render(s.document);
+  const Colour& c = image.at(static_cast<int>(x), static_cast<int>(y));
+  return {{"red", c.red}, {"green", c.green}, {"blue", c.blue}};
+}
+
+json expect(Session&, const json& a) {
+  const bool holds = !a.empty() && !a[0].is_null() && a[0] != json(false);
+  if (holds) return nullptr;
+  throw Error(a.size() > 1 && a[1].is_string() ? "expected: " + a[1].get<std::string>()
+                                               : "an expectation does not hold");
+}
+
+constexpr std::array kCommands = {
+    Command{"state", "", "", "state()", "Counts, selection and view, as a table", &state},
+    Command{"locate", "", "", "locate()", "Pixel of the selection: a table of x and y", &locate},
+    Command{"red_pixels", "", "", "red_pixels(X, Y, RADIUS)",
+            "Number of red pixels near a pixel, or in the whole picture", &red_pixels},
+    Command{"pixel", "", "", "pixel(X, Y)", "Colour of a pixel: red, green, blue", &pixel},
+    Command{"expect", "", "", "expect(CONDITION, \"TEXT\")", "Ends the script with an error if not",
+            &expect},
+};
+
+}  // namespace
+
+std::span<const Command> script_commands() {
+  return kCommands;
+}
+
+json state_of(Document& document) {
+  json selection = {{"kind", "nothing"}};
+  const TetMesh& mesh = document.mesh();
+  if (const auto* t = std::get_if<TetHandle>(&document.selection())) {
+    selection = {{"kind", "tet"}, {"tet", t->index()}, {"quality", mesh.quality(*t)}};
+  } else if (const auto* e = std::get_if<TetEdge>(&document.selection())) {
+    const auto ends = mesh.vertices(*e);
+    selection = {{"kind", "edge"}, {"from", ends[0].index()}, {"to", ends[1].index()}};
+  } else if (const auto* v = std::get_if<VertexHandle>(&document.selection())) {
+    selection = {{"kind", "vertex"}, {"vertex", v->index()}};
+  }
+  const Scene& scene = document.scene();
+  json trace;
+  if (document.debugger() != nullptr) trace = trace_state_of(document);
+  return {{"file", document.file()},
+          {"tets", mesh.tet_count()},
+          {"vertices", mesh.vertex_count()},
+          {"bad", document.statistics().n_bad},
+          {"theta_min", document.statistics().theta_min},
+          {"theta_max", document.statistics().theta_max},
+          {"shown", scene.tets_shown},
+          {"bad_shown", scene.bad_shown},
+          {"triangles", scene.surface.size() / 3},
+          {"note", scene.note},
+          {"run", to_string(document.live.state())},
+          {"message", document.message.text},
+          {"selection", selection},
+          {"trace", trace},
+          {"view", to_json(document.view)}};
+}
+
+}  // namespace tetmend::viewer

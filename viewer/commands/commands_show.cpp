@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Commands that decide what is drawn.
+#include <algorithm>
+#include <array>
+
+#include "kernel/quality.h"
+#include "viewer/commands/command_group.h"
+
+namespace tetmend::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+template <bool SceneSettings::*Switch>
+json toggle(Session& s, const json&) {
+  bool& value = s.document.view.scene.*Switch;
+  value = !value;
+  return nullptr;
+}
+
+json edges(Session& s, const json&) {
+  s.document.view.edges = !s.document.view.edges;
+  return nullptr;
+}
+
+json ghosts(Session& s, const json& a) {
+  constexpr double kFaint = 0.15;
+  if (!a.empty()) {
+    apply_json(s.document.view, {{"ghosts", a[0]}});
+  } else {
+    double& value = s.document.view.scene.ghosts;
+    value = value > 0 ? 0 : kFaint;
+  }
+  return nullptr;
+}
+
+/// "region", then the measures.
+json colour(Session& s, const json& a) {
+  std::string& now = s.document.view.scene.colour;
+  if (!a.empty()) {
+    apply_json(s.document.view, {{"colour", a[0]}});
+    if (now != "region") s.document.view.scene.measure = now;
+    return nullptr;
+  }
+  std::vector<std::string> names = {"region"};
+  for (const QualityMeasure& m : quality_measures()) names.emplace_back(m.name);
+  const auto found = std::find(names.begin(), names.end(), now);
+  const auto next = found + 1 == names.end() ? names.begin() : found + 1;
+  return colour(s, json::array({*next}));
+}
+
+json filter(Session& s, const json& a) {
+  if (!a.empty()) {
+    const Arguments arguments("filter", a);
+    apply_json(s.document.view,
+               {{"filtered", true}, {"range", {arguments.number(0), arguments.number(1)}}});
+  } else {
+    s.document.view.scene.filtered = false;
+  }
+  return nullptr;
+}
+
+json brush(Session& s, const json& a) {
+  need_mesh(s.document);
+  const Arguments arguments("brush", a);
+  s.document.view.scene.range =
+      s.document.histogram().brushed(arguments.number(0), arguments.number(1));
+  s.document.view.scene.filtered = true;
+  return nullptr;
+}
+
+json peel(Session& s, const json& a) {
+  apply_json(s.document.view, {{"peel", Arguments("peel", a).number(0)}});
+  return nullptr;
+}
+
+template <int Change>
+json peel_by(Session& s, const json&) {
+  int& value = s.document.view.scene.peel;
+  value = std::max(0, value + Change);
+  return nullptr;
+}
+
+json shrink(Session& s, const json& a) {
+  constexpr double kUsual = 0.2;
+  if (!a.empty()) {
+    apply_json(s.document.view, {{"shrink", a[0]}});
+  } else {
+    double& value = s.document.view.scene.shrink;
+    value = value > 0 ? 0 : kUsual;
+  }
+  return nullptr;
+}
+
+json cut(Session& s, const json& a) {
+  const Arguments arguments("cut", a);
+  const std::uint32_t i = arguments.index(0, 4);
+  if (i == 0) throw Error("cut: planes are numbered 1 to 3");
+  const std::string name = fmt::format("cut_{}", i);
+  json patch = a.size() > 1 ? a[1] : json::object();
+  if (!patch.contains("on")) patch["on"] = true;
+  apply_json(s.document.view, {{name, patch}});
+  return nullptr;
+}
+
+template <std::size_t Plane>
+json toggle_cut(Session& s, const json&) {
+  bool& on = s.document.view.scene.cuts[Plane].on;
+  on = !on;
+  return nullptr;
+}
+
+json exact(Session& s, const json&) {
+  auto& cuts = s.document.view.scene.cuts;
+  const bool now = !cuts[0].exact;
+  for (CutPlane& plane : cuts) plane.exact = now;
+  return nullptr;
+}
+
+template <int Direction>
+json move_cuts(Session& s, const json&) {
+  constexpr double kStep = 0.02;
+  for (CutPlane& plane : s.document.view.scene.cuts) {
+    if (plane.on) plane.position = std::clamp(plane.position + Direction * kStep, -1.0, 1.0);
+  }
+  return nullptr;
+}
+
+json show_all(Session& s, const json&) {
+  SceneSettings& scene = s.document.view.scene;
+  scene.filtered = false;
+  scene.peel = 0;
+  scene.shrink = 0;
+  scene.hidden_regions.clear();
+  for (CutPlane& plane : scene.cuts) plane.on = false;
+  return nullptr;
+}
+
+constexpr std::string_view kShow = "Show";
+
+constexpr std::array kCommands = {
+    Command{"edges", "E", kShow, "edges()", "Edges on or off", &edges},
+    Command{"bad", "B", kShow, "bad()", "Bad tets in red, seen through the rest",
+            &toggle<&SceneSettings::bad>},
+    Command{"constraints", "C", kShow, "constraints()", "Constraint faces inside the volume",
+            &toggle<&SceneSettings::constraints>},
+    Command{"ghosts", "G", kShow, "ghosts(0.15)", "Ghosts of hidden tets; opacity", &ghosts},
+    Command{"colour", "M", kShow, "colour(\"min_sine\")",
+            "Colour by region or by a measure; the key takes the next", &colour},
+    Command{"filter", "R", kShow, "filter(LOW, HIGH)",
+            "Show only tets with values in a range; without one the filter is off", &filter},
+    Command{"brush", "", "", "brush(FROM, TO)",
+            "Filter as by dragging over the histogram, 0 its left and 1 its right end", &brush},
+    Command{"peel", "", "", "peel(LAYERS)", "Take layers of tets off the boundary", &peel},
+    Command{"peel_more", "+", kShow, "peel_more()", "Peel one more layer", &peel_by<1>},
+    Command{"peel_less", "-", kShow, "peel_less()", "Peel one layer less", &peel_by<-1>},
+    Command{"shrink", "S", kShow, "shrink(0.2)", "Shrink tets towards their centres", &shrink},
+    Command{"cut_x", "X", kShow, "cut_x()", "Cut plane 1 on or off", &toggle_cut<0>},
+    Command{"cut_y", "Y", kShow, "cut_y()", "Cut plane 2 on or off", &toggle_cut<1>},
+    Command{"cut_z", "Z", kShow, "cut_z()", "Cut plane 3 on or off", &toggle_cut<2>},
+    Command{"cut", "", "", "cut(1, {normal = {1, 0, 0}, position = 0, exact = true})",
+            "Set a cut plane; position in radii of the mesh from its centre", &cut},
+    Command{"exact", "K", kShow, "exact()", "Cut through tets, or show whole tets", &exact},
+    Command{"cut_forward", "]", kShow, "cut_forward()", "Move the cut planes forwards",
+            &move_cuts<1>},
+    Command{"cut_back", "[", kShow, "cut_back()", "Move the cut planes back", &move_cuts<-1>},
+    Command{"show_all", "A", kShow, "show_all()", "No filter, cut, peeling or shrinking",
+            &show_all},
+};
+
+}  // namespace
+
+std::span<const Command> show_commands() {
+  return kCommands;
+}
+
+}  // namespace tetmend::viewer

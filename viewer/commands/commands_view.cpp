@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Commands about camera, window and settings.
+#include <algorithm>
+#include <array>
+
+#include "viewer/commands/command_group.h"
+
+namespace tetmend::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+json home(Session& s, const json&) {
+  s.document.go_home();
+  return nullptr;
+}
+
+json fit(Session& s, const json&) {
+  s.document.fit();
+  return nullptr;
+}
+
+json look_from(Session& s, const json& a) {
+  s.document.view.camera.look_from(Arguments("look_from", a).text(0));
+  return nullptr;
+}
+
+template <char Sign, char Axis>
+json look_along(Session& s, const json&) {
+  s.document.view.camera.look_from(std::string{Sign, Axis});
+  return nullptr;
+}
+
+json orthographic(Session& s, const json&) {
+  s.document.view.camera.orthographic = !s.document.view.camera.orthographic;
+  return nullptr;
+}
+
+json theme(Session& s, const json& a) {
+  std::string& now = s.document.view.theme;
+  if (a.empty()) {
+    now = now == "light" ? "dark" : "light";
+  } else {
+    apply_json(s.document.view, {{"theme", a[0]}});
+  }
+  return nullptr;
+}
+
+json panels(Session& s, const json&) {
+  s.document.show_panels = !s.document.show_panels;
+  return nullptr;
+}
+
+json keys(Session& s, const json&) {
+  s.document.show_keys = !s.document.show_keys;
+  return nullptr;
+}
+
+json view(Session& s, const json& a) {
+  if (!a.empty()) apply_json(s.document.view, a[0]);
+  return to_json(s.document.view);
+}
+
+json size(Session& s, const json& a) {
+  constexpr std::size_t kMost = 8192;
+  const Arguments arguments("size", a);
+  s.document.resize({static_cast<int>(std::max(1U, arguments.index(0, kMost + 1))),
+                     static_cast<int>(std::max(1U, arguments.index(1, kMost + 1)))});
+  return nullptr;
+}
+
+constexpr std::string_view kView = "View";
+
+constexpr std::array kCommands = {
+    Command{"home", "H", kView, "home()", "Whole mesh from the home direction", &home},
+    Command{"fit", "F", kView, "fit()", "Fit the selection, or the whole mesh", &fit},
+    Command{"from_right", "1", kView, "from_right()", "Look from +x", &look_along<'+', 'x'>},
+    Command{"from_left", "2", kView, "from_left()", "Look from -x", &look_along<'-', 'x'>},
+    Command{"from_back", "3", kView, "from_back()", "Look from +y", &look_along<'+', 'y'>},
+    Command{"from_front", "4", kView, "from_front()", "Look from -y", &look_along<'-', 'y'>},
+    Command{"from_top", "5", kView, "from_top()", "Look from +z", &look_along<'+', 'z'>},
+    Command{"from_bottom", "6", kView, "from_bottom()", "Look from -z", &look_along<'-', 'z'>},
+    Command{"look_from", "", "", "look_from(\"+x\")", "Look from a side, or \"home\"", &look_from},
+    Command{"orthographic", "O", kView, "orthographic()", "Orthographic or perspective",
+            &orthographic},
+    Command{"theme", "T", kView, "theme(\"dark\")", "Light or dark", &theme},
+    Command{"panels", "Tab", kView, "panels()", "Panels on or off", &panels},
+    Command{"keys", "F1", kView, "keys()", "This list of keys", &keys},
+    Command{"view", "", "", "view{peel = 2}",
+            "Change settings by name; the result is the whole view", &view},
+    Command{"size", "", "", "size(WIDTH, HEIGHT)", "Size of the picture in pixels", &size},
+};
+
+}  // namespace
+
+std::span<const Command> view_commands() {
+  return kCommands;
+}
+
+}  // namespace tetmend::viewer

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/commands/controller.h"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+
+namespace tetmend::viewer {
+
+void Controller::press(Button button, double x, double y, bool shift) {
+  drag_ = button == Button::left && !shift ? Drag::orbit : Drag::pan;
+  moved_ = false;
+  pressed_ = last_ = {x, y};
+}
+
+void Controller::move(double x, double y) {
+  constexpr double kHold = 3;  // pixels that a hand trembles
+  const glm::dvec2 now(x, y);
+  if (drag_ == Drag::nothing) return;
+  if (!moved_ && glm::distance(now, pressed_) < kHold) return;
+  moved_ = true;
+  const glm::dvec2 d = now - last_;
+  last_ = now;
+  Camera& camera = session_.document.view.camera;
+  if (drag_ == Drag::orbit) {
+    camera.orbit(d.x, d.y);
+  } else {
+    camera.pan(d.x, d.y, session_.document.canvas);
+  }
+}
+
+void Controller::release(double x, double y, double time) {
+  const bool is_click = drag_ == Drag::orbit && !moved_;
+  drag_ = Drag::nothing;
+  if (is_click && session_.document.has_mesh()) click(x, y, time);
+}
+
+void Controller::click(double x, double y, double time) {
+  constexpr double kSoon = 0.3;
+  session_.document.pick(x, y);
+  if (time - last_click_ < kSoon) session_.document.fit();
+  last_click_ = time;
+}
+
+void Controller::scroll(double steps, double x, double y) {
+  constexpr double kStep = 1.15;
+  const glm::dvec2 at = session_.document.to_canvas(x, y);
+  session_.document.view.camera.zoom(std::pow(kStep, steps), at.x, at.y, session_.document.canvas);
+}
+
+void Controller::key(std::string_view keys) {
+  if (const Command* command = command_for_keys(keys)) run_from_window(*command, session_);
+}
+
+void Controller::drop(const std::filesystem::path& file) {
+  try {
+    if (file.extension() != ".json") {
+      session_.document.open(file);
+      return;
+    }
+    std::ifstream in(file);
+    std::stringstream text;
+    if (!in || !(text << in.rdbuf())) {
+      throw Error(fmt::format("{}: cannot read the view", file.string()));
+    }
+    apply_json_text(session_.document.view, text.str());
+  } catch (const Error& error) {
+    session_.document.message = {error.what(), true};
+  }
+}
+
+}  // namespace tetmend::viewer

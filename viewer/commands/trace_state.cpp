@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// The place in a trace as JSON, for scripts and tests.
+#include <algorithm>
+
+#include "viewer/commands/commands.h"
+#include "viewer/debugger/paper_lines.h"
+
+namespace tetmend::viewer {
+
+using nlohmann::json;
+
+namespace {
+
+json covering_state(const FlatCovering& covering) {
+  json triangles = json::array();
+  for (const auto& t : covering.triangles) {
+    triangles.push_back({{"corners", t.corners}, {"quality", t.quality}});
+  }
+  json core = json::array();
+  for (const auto& side : covering.core) {
+    core.push_back({{"from", side.from}, {"to", side.to}, {"quality", side.quality}});
+  }
+  return {{"triangles", triangles}, {"core", core}, {"worst", covering.worst}};
+}
+
+json shell_state(const CallStudy& study) {
+  const ShellPicture& s = *study.picture;
+  json ring = json::array();
+  for (const VertexHandle v : s.ring) ring.push_back(v.index());
+  json result = {{"a", s.a.index()}, {"b", s.b.index()}, {"ring", ring}, {"floor", s.floor}};
+  json locked = json::array();
+  for (std::size_t i = 0; i < s.ring.size(); ++i) {
+    if (((s.locks.vertices >> i) & 1u) != 0) locked.push_back(s.ring[i].index());
+  }
+  result["locked"] = locked;
+  json chords = json::array();
+  for (const Chord& chord : chords_of(s)) {
+    chords.push_back({{"from", s.ring[chord.from].index()},
+                      {"to", s.ring[chord.to].index()},
+                      {"on", chord.on[0]},
+                      {"back", chord.back[0]}});
+  }
+  result["chords"] = chords;
+  if (study.covering) result["covering"] = covering_state(*study.covering);
+  return result;
+}
+
+json call_state(Document& document, std::uint32_t number) {
+  Debugger& debugger = *document.debugger();
+  const TraceFile& file = debugger.file();
+  const Call& call = file.calls()[number];
+  const CallFacts& facts = debugger.facts(number);
+  json target = json::array();
+  for (const VertexHandle v : call.target()) target.push_back(v.index());
+  const auto& stack = debugger.stack();
+  const auto place =
+      static_cast<std::size_t>(std::find(stack.begin(), stack.end(), number) - stack.begin());
+  const CodePlace code = code_place(file, stack, place, debugger.position());
+  return {{"number", number},
+          {"operator", file.name(call.operator_name)},
+          {"target", target},
+          {"level", call.level},
+          {"verdict", outcome_text(call, debugger.position())},
+          {"degree_before", facts.degree_before},
+          {"degree_after", facts.degree_after},
+          {"line", code.line}};
+}
+
+}  // namespace
+
+json trace_state_of(Document& document) {
+  Debugger& debugger = *document.debugger();
+  const Timeline::Sample& sample = debugger.timeline().at(debugger.position());
+  json stack = json::array();
+  for (const std::uint32_t call : debugger.stack()) stack.push_back(call_state(document, call));
+  json breakpoints = json::array();
+  for (const Breakpoint& b : debugger.breakpoints) breakpoints.push_back(to_text(b.condition));
+  json bookmarks = json::array();
+  for (const auto& mark : debugger.bookmarks) bookmarks.push_back(mark.first);
+  json result = {{"position", debugger.position()},
+                 {"events", debugger.end()},
+                 {"calls", debugger.file().calls().size()},
+                 {"event", debugger.last_event()},
+                 {"stack", stack},
+                 {"call", stack.empty() ? json() : stack.back()},
+                 {"breakpoints", breakpoints},
+                 {"bookmarks", bookmarks},
+                 {"bad", sample.n_bad},
+                 {"q_worst", sample.q_worst}};
+  const CallStudy* study = debugger.study();
+  if (study == nullptr) return result;
+  result["tets_before"] = study->before.size();
+  result["tets_after"] = study->after.size();
+  result["undone"] = study->undone;
+  result["reason"] = explain_end(debugger.file(), *study);
+  if (study->picture) result["shell"] = shell_state(*study);
+  return result;
+}
+
+}  // namespace tetmend::viewer

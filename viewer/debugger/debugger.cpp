@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/debugger/debugger.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace tetmend::viewer {
+
+Debugger::Debugger(const std::filesystem::path& file)
+    : file_(file),
+      replay_(file_),
+      timeline_(make_timeline(file_, replay_)),
+      lesson_(lesson_of(file, file_.event_count())) {}
+
+std::string Debugger::last_event() const {
+  if (position() == 0) return "the trace begins";
+  EventCursor cursor(file_);
+  cursor.move_to(position() - 1);
+  const TraceEvent& event = cursor.next();
+  std::string text(to_string(event.kind));
+  switch (event.kind) {
+    case EventKind::pass_begins:
+      return fmt::format("pass {} begins, round {}", file_.name(event.name), event.number);
+    case EventKind::visit_begins:
+      return fmt::format("a bad tet is visited, quality {:.4f}", event.quality);
+    case EventKind::attempt_begins:
+      return fmt::format("call {} begins", call());
+    case EventKind::attempt_ends:
+      return fmt::format("call {} ends: {}", call(), to_string(event.verdict));
+    case EventKind::replace_cavity:
+      return fmt::format("{} tets are replaced by {}", event.removed.size(), event.created.size());
+    case EventKind::move_vertex:
+    case EventKind::add_vertex:
+    case EventKind::remove_vertex:
+      return fmt::format("{}: {}", text, event.vertices.front().index());
+    case EventKind::undo:
+      return "the last edit is undone";
+    case EventKind::candidate_found:
+      return "a candidate is found";
+    case EventKind::pass_ends:
+    case EventKind::visit_ends:
+      break;
+  }
+  return text;
+}
+
+void Debugger::seek(std::uint64_t position) {
+  const std::uint32_t before = call();
+  replay_.seek(position);
+  stack_ = call_stack(file_, position);
+  if (call() != before) study_.reset();
+}
+
+void Debugger::step(Step step, Direction direction) {
+  seek(step_from(file_, position(), step, direction));
+}
+
+bool Debugger::run_to(const Condition& condition, Direction direction) {
+  const auto stop = find_stop(file_, condition, position(), direction);
+  if (stop) seek(*stop);
+  return stop.has_value();
+}
+
+std::optional<std::uint64_t> Debugger::nearest_breakpoint(Direction direction,
+                                                          Condition* which) const {
+  std::optional<std::uint64_t> nearest;
+  for (const Breakpoint& breakpoint : breakpoints) {
+    if (!breakpoint.on) continue;
+    const auto stop = find_stop(file_, breakpoint.condition, position(), direction);
+    if (!stop) continue;
+    const bool is_nearer =
+        !nearest || (direction == Direction::forward ? *stop < *nearest : *stop > *nearest);
+    if (!is_nearer) continue;
+    nearest = stop;
+    *which = breakpoint.condition;
+  }
+  return nearest;
+}
+
+std::optional<Condition> Debugger::run(Direction direction) {
+  Condition which;
+  const auto stop = nearest_breakpoint(direction, &which);
+  seek(stop.value_or(direction == Direction::forward ? end() : 0));
+  if (!stop) return std::nullopt;
+  return which;
+}
+
+std::uint32_t Debugger::deepest_call() const {
+  const auto calls = file_.calls();
+  if (calls.empty()) return kNoCall;
+  const auto deepest = std::max_element(
+      calls.begin(), calls.end(), [](const Call& x, const Call& y) { return x.depth < y.depth; });
+  return static_cast<std::uint32_t>(deepest - calls.begin());
+}
+
+bool Debugger::advance(double seconds) {
+  if (!playing) return false;
+  unplayed_ += seconds * speed;
+  const double whole = std::floor(unplayed_);
+  if (whole < 1) return false;
+  unplayed_ -= whole;
+  const std::uint64_t before = position();
+  const auto left = static_cast<double>(end() - before);
+  std::uint64_t to = before + static_cast<std::uint64_t>(std::min(whole, left));
+  Condition which;
+  const auto stop = nearest_breakpoint(Direction::forward, &which);
+  if (stop && *stop <= to) {
+    to = *stop;
+    playing = false;
+  }
+  seek(to);
+  if (to == end()) playing = false;
+  return to != before;
+}
+
+TetMesh Debugger::mesh() const {
+  return to_tet_mesh(replay_.mesh());
+}
+
+const CallStudy* Debugger::study() {
+  if (call() == kNoCall) return nullptr;
+  if (!study_) study_ = study_call(file_, replay_, call());
+  return &*study_;
+}
+
+bool is_trace(const std::filesystem::path& file) {
+  constexpr std::string_view kMagic = "TETTRAC\n";
+  std::array<char, kMagic.size()> begin{};
+  std::ifstream in(file, std::ios::binary);
+  return in.read(begin.data(), begin.size()) &&
+         std::string_view(begin.data(), begin.size()) == kMagic;
+}
+
+TetMesh to_tet_mesh(const SlotMesh& mesh) {
+  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> tets;
+  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
+    if (!mesh.is_deleted(VertexHandle(i))) vertices.push_back(i);
+  }
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    if (!mesh.is_deleted(TetHandle(i))) tets.push_back(i);
+  }
+  TetMesh result(mesh.to_data());
+  result.scatter(vertices, tets);
+  return result;
+}
+
+}  // namespace tetmend::viewer

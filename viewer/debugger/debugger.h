@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// A trace that is being looked at: the place in it, and all that leads from place to place.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kernel/tet_mesh.h"
+#include "trace/replay.h"
+#include "viewer/debugger/call_facts.h"
+#include "viewer/debugger/call_list.h"
+#include "viewer/debugger/call_study.h"
+#include "viewer/debugger/condition.h"
+#include "viewer/debugger/lesson_guide.h"
+#include "viewer/debugger/stepper.h"
+#include "viewer/debugger/timeline.h"
+
+namespace tetmend::viewer {
+
+struct Breakpoint {
+  Condition condition;
+  bool on = true;
+};
+
+/// Moves that lead nowhere leave the position as it is.
+class Debugger {
+ public:
+  /// @throws Error as TraceFile does, or for a damaged lesson. Cost: plays the trace twice.
+  explicit Debugger(const std::filesystem::path& file);
+
+  const TraceFile& file() const { return file_; }
+  std::uint64_t position() const { return replay_.position(); }
+  std::uint64_t end() const { return file_.event_count(); }
+  /// What happened last, in words; at the beginning of the trace says so.
+  std::string last_event() const;
+  /// The call that the last event belongs to, and those around it, outermost first.
+  const std::vector<std::uint32_t>& stack() const { return stack_; }
+  /// The innermost of them, or kNoCall.
+  std::uint32_t call() const { return stack_.empty() ? kNoCall : stack_.back(); }
+
+  /// Precondition: at most end(). Cost: see Replay.
+  void seek(std::uint64_t position);
+  void step(Step step, Direction direction);
+  /// To the beginning of a call, just after its first event. Precondition: there is such a call.
+  void enter(std::uint32_t call) { seek(file_.calls()[call].events.begin + 1); }
+  /// False if there is no such place.
+  bool run_to(const Condition& condition, Direction direction);
+  /// To the nearest place at which a breakpoint holds, or to the end of the trace (back: the
+  /// beginning). Gives the breakpoint.
+  std::optional<Condition> run(Direction direction);
+  /// Call in the deepest nesting, or kNoCall.
+  std::uint32_t deepest_call() const;
+
+  std::vector<Breakpoint> breakpoints;
+  std::map<std::uint64_t, std::string> bookmarks;  ///< by position
+  std::string typed_condition = "accepted";        ///< what the user is about to run to
+
+  // Play: as many events a second as `speed` says.
+  bool playing = false;
+  double speed = 4;
+  /// Plays for a while; stops at breakpoints and at the end. False if nothing moved.
+  bool advance(double seconds);
+
+  /// With the handle numbers of the run. Cost: linear, about half a second for a million tets.
+  TetMesh mesh() const;
+  /// Equal numbers: equal meshes.
+  std::size_t mesh_number() const { return timeline_.changes_before(position()); }
+  const Timeline& timeline() const { return timeline_; }
+  const CallFacts& facts(std::uint32_t call) { return facts_.facts(file_, replay_, call); }
+  /// Of call(); null outside of all calls. Computed once for each stay in a call.
+  const CallStudy* study();
+  const std::optional<Lesson>& lesson() const { return lesson_; }
+  /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
+  /// call.
+  const std::vector<CallRow>& rows() {
+    return list_.rows(file_, pass_around(file_, position()), stack_);
+  }
+  void fold(std::uint32_t call) { list_.toggle(call); }
+
+ private:
+  std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which) const;
+
+  TraceFile file_;
+  Replay replay_;
+  Timeline timeline_;
+  FactTable facts_;
+  CallList list_;
+  std::vector<std::uint32_t> stack_;
+  std::optional<CallStudy> study_;
+  std::optional<Lesson> lesson_;
+  double unplayed_ = 0;  // share of an event
+};
+
+/// True if the file begins as traces do. False also if it cannot be read.
+bool is_trace(const std::filesystem::path& file);
+
+/// The mesh with the slots that it has. Tets of a trace are oriented already.
+TetMesh to_tet_mesh(const SlotMesh& mesh);
+
+}  // namespace tetmend::viewer

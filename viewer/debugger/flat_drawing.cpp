@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/debugger/flat_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "viewer/debugger/call_highlight.h"
+
+namespace tetmend::viewer {
+
+namespace {
+
+constexpr double kRadius = 0.76;  // of the polygon
+constexpr double kNames = 0.9;    // of the circle on which the names of its corners are
+
+Colour colour_of(Quality quality, const ColourMap& map) {
+  return quality < kBadThreshold ? kBadColour : map.at(static_cast<double>(quality));
+}
+
+Colour faint(Colour colour, double opacity) {
+  colour.alpha = static_cast<std::uint8_t>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
+  return colour;
+}
+
+std::string number(double quality) {
+  return fmt::format("{:.3f}", quality);
+}
+
+class PolygonDrawer {
+ public:
+  PolygonDrawer(const CallStudy& study, const ColourMap& map)
+      : shell_(*study.picture), map_(map), size_(shell_.ring.size()) {}
+
+  void outline() {
+    for (std::size_t i = 0; i < size_; ++i) {
+      const std::size_t j = (i + 1) % size_;
+      drawing_.strokes.push_back({place(i), place(j), kSkirtColour, 3, false, {}});
+      drawing_.labels.push_back(
+          {kNames * shell_.place(i), fmt::format("{}", shell_.ring[i].index()), true});
+    }
+  }
+
+  /// Chords whose pockets the search may use, as far as quality goes.
+  void chords() {
+    const std::vector<Chord> chords = chords_of(shell_);
+    for (auto chord = chords.rbegin(); chord != chords.rend(); ++chord) {  // the best on top
+      const bool usable = chord->best()[0] > shell_.floor;
+      const std::string tip =
+          fmt::format("chord {} - {}: worst quality of its pockets {:.4f} and {:.4f}{}",
+                      shell_.ring[chord->from].index(), shell_.ring[chord->to].index(),
+                      chord->on[0], chord->back[0], usable ? "" : "; not better than the old tets");
+      drawing_.strokes.push_back({place(chord->from), place(chord->to),
+                                  faint(kChordColour, usable ? 0.9 : 0.35), 1.5, !usable, tip});
+    }
+  }
+
+  void covering(const FlatCovering& covering, bool dashed) {
+    if (covering.core.size() >= 3) core(covering);
+    for (const FlatCovering::Triangle& t : covering.triangles) triangle(t, dashed);
+    for (const FlatCovering::Side& side : covering.core) {
+      if (covering.triangles.empty()) continue;
+      drawing_.strokes.push_back(
+          {place(side.from), place(side.to), kCoreColour, 4, dashed,
+           fmt::format("side of the core {} - {}: {:.4f}", shell_.ring[side.from].index(),
+                       shell_.ring[side.to].index(), side.quality)});
+    }
+  }
+
+  FlatDrawing take(std::string caption) {
+    drawing_.caption = std::move(caption);
+    return std::move(drawing_);
+  }
+
+ private:
+  glm::dvec2 place(std::size_t i) const { return kRadius * shell_.place(i); }
+
+  /// Each side of the core with the edge ab, a tet, is a slice from its middle.
+  void core(const FlatCovering& covering) {
+    glm::dvec2 middle{0};
+    for (const auto& side : covering.core) middle += place(side.from);
+    middle /= static_cast<double>(covering.core.size());
+    for (const auto& side : covering.core) {
+      drawing_.areas.push_back(
+          {{middle, place(side.from), place(side.to)}, faint(colour_of(side.quality, map_), 0.75)});
+      drawing_.strokes.push_back(
+          {middle, place(side.from), faint(kSupportingEdgeColour, 0.6), 1, false, {}});
+      const glm::dvec2 on_side = (place(side.from) + place(side.to)) / 2.0;
+      drawing_.labels.push_back({0.3 * middle + 0.7 * on_side, number(side.quality), false});
+    }
+    drawing_.labels.push_back({middle, "ab", true});
+  }
+
+  void triangle(const FlatCovering::Triangle& t, bool dashed) {
+    const std::array<glm::dvec2, 3> c = {place(t.corners[0]), place(t.corners[1]),
+                                         place(t.corners[2])};
+    const double opacity = dashed ? 0.35 : 0.75;
+    drawing_.areas.push_back({{c[0], c[1], c[2]}, faint(colour_of(t.quality, map_), opacity)});
+    for (unsigned i = 0; i < 3; ++i) {
+      drawing_.strokes.push_back({c[i], c[(i + 1) % 3], kChordColour, 2, dashed, {}});
+    }
+    drawing_.labels.push_back({(c[0] + c[1] + c[2]) / 3.0, number(t.quality), false});
+  }
+
+  const ShellPicture& shell_;
+  const ColourMap& map_;
+  std::size_t size_;
+  FlatDrawing drawing_;
+};
+
+}  // namespace
+
+FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool refused,
+                         const ColourMap& map) {
+  PolygonDrawer drawer(study, map);
+  const ShellPicture& shell = *study.picture;
+  std::string caption;
+  drawer.outline();
+  if (study.covering && position >= study.first_edit) {
+    const FlatCovering& made = *study.covering;
+    drawer.covering(made, false);
+    caption =
+        fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}", study.undone ? "tried" : "made",
+                    shell.ring.size(), made.core.size(), shell.floor, made.worst);
+  } else if (refused && !study.covering && !shell.full.triangles.empty()) {
+    drawer.chords();
+    drawer.covering(shell.full, true);
+    caption = fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
+                          shell.floor);
+  } else {
+    drawer.covering(shell.before, false);
+    drawer.chords();
+    caption = fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
+                          shell.ring.size(), shell.floor);
+  }
+  return drawer.take(std::move(caption));
+}
+
+FlatDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, const Ball& ball,
+                      const ColourMap& map, double opacity) {
+  constexpr double kShrink = 0.12;
+  constexpr double kDarkest = 0.62;
+  const glm::dvec3 right = camera.right();
+  const glm::dvec3 up = camera.up();
+  const glm::dvec3 forward = camera.forward();
+  std::vector<std::pair<double, FlatDrawing::Area>> areas;  // by depth
+  for (const LocalTet& tet : tets) {
+    const glm::dvec3 centre =
+        std::accumulate(tet.corners.begin(), tet.corners.end(), glm::dvec3(0)) / 4.0;
+    for (const auto& face : kFaceVertices) {
+      std::array<glm::dvec3, 3> c;
+      for (unsigned i = 0; i < 3; ++i) {
+        c[i] = glm::mix(tet.corners[face[i]], centre, kShrink) - ball.centre;
+      }
+      const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+      const double towards = -glm::dot(normal, forward) / std::max(glm::length(normal), 1e-300);
+      if (towards <= 0) continue;
+      const Colour full = colour_of(tet.quality, map);
+      const double light = kDarkest + (1 - kDarkest) * towards;
+      const auto dim = [&](std::uint8_t x) { return static_cast<std::uint8_t>(light * x); };
+      FlatDrawing::Area area{{}, faint({dim(full.red), dim(full.green), dim(full.blue)}, opacity)};
+      for (const glm::dvec3& p : c) {
+        area.corners.emplace_back(glm::dot(p, right) / ball.radius, glm::dot(p, up) / ball.radius);
+      }
+      areas.emplace_back(glm::dot((c[0] + c[1] + c[2]) / 3.0, forward), std::move(area));
+    }
+  }
+  std::stable_sort(areas.begin(), areas.end(),
+                   [](const auto& x, const auto& y) { return x.first > y.first; });
+  FlatDrawing drawing;
+  for (auto& entry : areas) drawing.areas.push_back(std::move(entry.second));
+  return drawing;
+}
+
+}  // namespace tetmend::viewer

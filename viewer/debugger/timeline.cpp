@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/debugger/timeline.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+
+namespace tetmend::viewer {
+
+namespace {
+
+/// Number of bad tets and worst quality of a mesh whose tets come and go.
+class Gauge {
+ public:
+  explicit Gauge(const SlotMesh& mesh) {
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      if (!mesh.is_deleted(TetHandle(i))) set(i, mesh.quality(TetHandle(i)));
+    }
+  }
+
+  void set(std::uint32_t slot, Quality quality) {
+    if (slot >= quality_.size()) quality_.resize(slot + 1, kNone);
+    count(quality_[slot], -1);
+    quality_[slot] = quality;
+    count(quality, 1);
+    if (quality != kNone) worst_.emplace(quality, slot);
+  }
+  void remove(std::uint32_t slot) { set(slot, kNone); }
+
+  std::size_t bad() const { return static_cast<std::size_t>(bad_); }
+  double worst() {
+    while (!worst_.empty() && quality_[worst_.top().second] != worst_.top().first) worst_.pop();
+    return worst_.empty() ? 0 : static_cast<double>(worst_.top().first);
+  }
+
+ private:
+  static constexpr Quality kNone = std::numeric_limits<Quality>::infinity();
+  using Entry = std::pair<Quality, std::uint32_t>;
+
+  void count(Quality quality, int change) {
+    if (quality < kBadThreshold) bad_ += change;
+  }
+
+  std::vector<Quality> quality_;                                          // by slot
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> worst_;  // with some of old times
+  std::ptrdiff_t bad_ = 0;
+};
+
+void follow(Gauge& gauge, const SlotMesh& mesh, const Cavity& cavity) {
+  for (const CavityTet& tet : cavity.removed) {
+    if (mesh.is_deleted(tet.tet)) gauge.remove(tet.tet.index());
+  }
+  for (const CavityTet& tet : cavity.created) gauge.set(tet.tet.index(), mesh.quality(tet.tet));
+}
+
+}  // namespace
+
+const Timeline::Sample& Timeline::at(std::uint64_t position) const {
+  const auto after =
+      std::upper_bound(samples.begin(), samples.end(), position,
+                       [](std::uint64_t p, const Sample& sample) { return p < sample.position; });
+  return *(after - 1);
+}
+
+std::size_t Timeline::changes_before(std::uint64_t position) const {
+  return static_cast<std::size_t>(std::upper_bound(changes.begin(), changes.end(), position) -
+                                  changes.begin());
+}
+
+Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t samples) {
+  Timeline timeline;
+  replay.seek(0);
+  Gauge gauge(replay.mesh());
+  timeline.samples.push_back({0, gauge.bad(), gauge.worst()});
+  EventCursor cursor(file);
+  const std::uint64_t end = file.event_count();
+  const std::uint64_t distance = std::max<std::uint64_t>(1, end / samples);
+  for (std::uint64_t position = 1; position <= end; ++position) {
+    if (changes_mesh(cursor.next().kind)) {
+      timeline.changes.push_back(position);
+      replay.seek(position);
+      follow(gauge, replay.mesh(), replay.cavity());
+    }
+    if (position % distance == 0 || position == end) {
+      timeline.samples.push_back({position, gauge.bad(), gauge.worst()});
+    }
+  }
+  replay.seek(0);
+  return timeline;
+}
+
+}  // namespace tetmend::viewer

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/live/live_job.h"
+
+#include <new>
+#include <utility>
+
+#include "kernel/error.h"
+
+namespace tetmend::viewer {
+
+namespace {
+
+double to_seconds(std::chrono::steady_clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+/// What went wrong in `step`, or nothing.
+template <class Step>
+std::string trouble_of(const Step& step) {
+  try {
+    step();
+  } catch (const std::bad_alloc&) {
+    return "out of memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+LiveJob::LiveJob(TetMesh mesh, LivePlan plan)
+    : mesh_(std::move(mesh)), plan_(std::move(plan)), thread_([this] { work(); }) {}
+
+LiveJob::~LiveJob() {
+  ask(Demand::stop);
+  thread_.join();
+}
+
+// ---- Any thread ---------------------------------------------------------------------------------
+
+void LiveJob::ask(Demand demand) {
+  {
+    const std::lock_guard lock(lock_);
+    if (demand_ == Demand::stop || is_over_) return;
+    demand_ = demand;
+    if (demand == Demand::stop) cancel_ = true;
+  }
+  changed_.notify_all();
+}
+
+LiveState LiveJob::state_now() const {
+  if (is_over_) return shown_.state;
+  if (demand_ == Demand::stop) return LiveState::stopping;
+  return is_held_ && demand_ == Demand::pause ? LiveState::paused : LiveState::running;
+}
+
+double LiveJob::seconds_until(Clock::time_point now) const {
+  const Clock::time_point last = is_over_ ? end_ : is_held_ ? held_since_ : now;
+  return to_seconds(last - start_ - held_);
+}
+
+LiveState LiveJob::state() const {
+  const std::lock_guard lock(lock_);
+  return state_now();
+}
+
+LiveProgress LiveJob::progress() const {
+  const std::lock_guard lock(lock_);
+  LiveProgress progress = shown_;
+  progress.state = state_now();
+  progress.seconds = seconds_until(Clock::now());
+  return progress;
+}
+
+LiveState LiveJob::wait(double seconds) const {
+  std::unique_lock lock(lock_);
+  changed_.wait_for(lock, std::chrono::duration<double>(seconds),
+                    [&] { return is_over_ || state_now() == LiveState::paused; });
+  return state_now();
+}
+
+std::unique_ptr<MeasuredMesh> LiveJob::take_snapshot() {
+  const std::lock_guard lock(lock_);
+  return std::move(snapshot_);
+}
+
+// ---- The thread ---------------------------------------------------------------------------------
+
+void LiveJob::work() {
+  std::string trouble = trouble_of([&] { run_schedule(); });
+  const auto then = [&](const auto& step) {
+    const std::string more = trouble_of(step);
+    if (trouble.empty()) trouble = more;
+  };
+  // A run that failed has a trace, too: it shows the way there.
+  then([&] {
+    if (recorder_) recorder_->finish();
+  });
+  const bool has_trace = recorder_ && trouble.empty();
+  recorder_.reset();
+  then([&] { snap(); });
+  {
+    const std::lock_guard lock(lock_);
+    is_over_ = true;
+    end_ = Clock::now();
+    shown_.error = trouble;
+    if (has_trace) shown_.trace = plan_.trace.string();
+    shown_.state = !trouble.empty() ? LiveState::failed
+                   : cancel_        ? LiveState::stopped
+                                    : LiveState::finished;
+  }
+  changed_.notify_all();
+}
+
+void LiveJob::run_schedule() {
+  mesh_.sort_spatially();  // as `tetmend improve` does
+  {
+    const QualityIndicators before = quality_indicators(mesh_);
+    const std::lock_guard lock(lock_);
+    shown_.before = before;
+  }
+  begin_trace();
+  Run run(mesh_, registry_);
+  run.set_listener(this);
+  run.set_cancel_flag(&cancel_);
+  run.set_trace(this);
+  improve(run, plan_.schedule, plan_.settings);
+}
+
+void LiveJob::begin_trace() {
+  if (plan_.trace.empty()) return;
+  TraceHeader header;
+  header.program = "tetmend-view";
+  header.input = plan_.input.string();
+  header.schedule = plan_.schedule.name();
+  header.schedule_text = plan_.schedule.text();
+  header.settings = plan_.settings;
+  recorder_ = std::make_unique<TraceRecorder>(plan_.trace, mesh_, std::move(header));
+}
+
+void LiveJob::come_to(Event event) {
+  const Demand demand = demand_.load(std::memory_order_relaxed);
+  const bool is_due = demand == Demand::pause ||
+                      (demand == Demand::to_next_accepted && event == Event::accepted_call) ||
+                      (demand == Demand::to_next_pass && event == Event::pass_end);
+  if (is_due) hold(demand);
+}
+
+void LiveJob::hold(Demand demand) {
+  const Clock::time_point since = Clock::now();
+  snap();
+  publish();
+  std::unique_lock lock(lock_);
+  if (demand_ == demand) demand_ = Demand::pause;  // a step is done; what was asked since counts
+  is_held_ = true;
+  held_since_ = since;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return demand_ != Demand::pause; });
+  is_held_ = false;
+  held_ += Clock::now() - since;
+}
+
+/// Copies the mesh for the window. In a pass the counts of the mesh lag behind; those of the copy
+/// are right.
+void LiveJob::snap() {
+  const Clock::time_point start = Clock::now();
+  TetMesh copy = mesh_;
+  copy.collect_garbage();
+  auto snapshot = std::make_unique<MeasuredMesh>(std::move(copy));
+  last_snapshot_ = Clock::now();
+  snapshot_cost_ = last_snapshot_ - start;
+  const std::lock_guard lock(lock_);
+  snapshot_.swap(snapshot);
+}
+
+void LiveJob::publish() {
+  const std::lock_guard lock(lock_);
+  shown_.attempts = attempts_;
+  shown_.accepted = accepted_;
+  if (!last_accepted_) return;
+  const Call& call = *last_accepted_;
+  shown_.last_accepted = {std::string(call.operator_name), call.place, call.before, call.after};
+}
+
+// ---- What the run tells -------------------------------------------------------------------------
+
+void LiveJob::pass_begins(std::string_view name, unsigned round) {
+  if (recorder_) recorder_->pass_begins(name, round);
+  pass_ = LivePass{.name = std::string(name), .round = round, .after = {}};
+  pass_start_ = Clock::now();
+  const std::lock_guard lock(lock_);
+  held_before_pass_ = held_;
+  shown_.phase = name;
+  shown_.round = round;
+  shown_.share = 0;
+}
+
+void LiveJob::pass_ends(const QualityIndicators& now) {
+  if (recorder_) recorder_->pass_ends(now);
+}
+
+void LiveJob::visit_begins(const TetVertices& tet, Quality quality) {
+  if (recorder_) recorder_->visit_begins(tet, quality);
+}
+
+void LiveJob::visit_ends() {
+  if (recorder_) recorder_->visit_ends();
+}
+
+void LiveJob::attempt_begins(const AttemptEvent& event) {
+  if (recorder_) recorder_->attempt_begins(event);
+  if (depth_++ > 0) return;
+  call_.operator_name = event.operator_name;
+  call_.place.setZero();
+  for (const VertexHandle v : event.target) call_.place += mesh_.point(v);
+  call_.place /= static_cast<double>(event.target.size());
+}
+
+void LiveJob::candidate_found() {
+  if (recorder_) recorder_->candidate_found();
+}
+
+void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
+                           std::span<const Quality> now) {
+  if (recorder_) recorder_->attempt_ends(verdict, before, now);
+  if (--depth_ > 0) return;
+  ++attempts_;
+  ++pass_.attempts;
+  if (verdict != Verdict::accepted) return come_to(Event::refused_call);
+  ++accepted_;
+  ++pass_.accepted;
+  last_accepted_ = call_;
+  if (!before.empty()) last_accepted_->before = before.front();
+  if (!now.empty()) last_accepted_->after = now.front();
+  come_to(Event::accepted_call);
+}
+
+void LiveJob::edit_made(const TetMesh& mesh, const Journal& journal) {
+  if (recorder_) recorder_->edit_made(mesh, journal);
+}
+
+void LiveJob::edit_undone() {
+  if (recorder_) recorder_->edit_undone();
+}
+
+void LiveJob::progress(std::string_view phase, unsigned round, double share) {
+  publish();
+  const std::lock_guard lock(lock_);
+  shown_.phase = phase;
+  shown_.round = round;
+  shown_.share = share;
+}
+
+void LiveJob::pass_done(std::string_view /*phase*/, unsigned /*round*/,
+                        const QualityIndicators& now) {
+  constexpr int kShare = 10;  // of the time may go into snapshots: one part in so many
+  publish();
+  pass_.after = now;
+  {
+    const std::lock_guard lock(lock_);
+    pass_.seconds = to_seconds(Clock::now() - pass_start_ - (held_ - held_before_pass_));
+    shown_.passes.push_back(pass_);
+    shown_.share = 1;
+  }
+  if (Clock::now() - last_snapshot_ > kShare * snapshot_cost_) snap();
+  come_to(Event::pass_end);
+}
+
+void LiveJob::noted(std::string_view text) {
+  const std::lock_guard lock(lock_);
+  shown_.notes.emplace_back(text);
+}
+
+}  // namespace tetmend::viewer

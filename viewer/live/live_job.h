@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// One run of a schedule in a thread of its own, which can be held, looked at and ended.
+//
+//   window:  ask(pause) ----.                       .--> progress(), take_snapshot()
+//   thread:  call, call, call | hold: snapshot, wait |  call, call, ... | end of pass: snapshot
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "schedule/run.h"
+#include "schedule/schedule.h"
+#include "trace/recorder.h"
+#include "viewer/live/live_progress.h"
+#include "viewer/mesh/measured_mesh.h"
+
+namespace tetmend::viewer {
+
+/// What a job is to do next.
+enum class Demand : std::uint8_t {
+  go_on,
+  to_next_accepted,  ///< and pause after the next call that changes the mesh
+  to_next_pass,      ///< and pause after the pass
+  pause,             ///< after the call at hand
+  stop               ///< likewise; the mesh stays as it is then
+};
+
+struct LivePlan {
+  Schedule schedule;
+  ScheduleSettings settings;
+  std::filesystem::path input;  ///< name of the mesh, for the trace
+  std::filesystem::path trace;  ///< file to record into; empty: none
+};
+
+/// All member functions are for one other thread, or several. One thread makes all calls of the
+/// schedule, so that a mesh that rests is that between two calls. The result is the same as that of
+/// `tetmend improve`, byte for byte. A job that is held costs nothing.
+class LiveJob final : private TraceSink, private ProgressListener {
+ public:
+  /// Begins to work on `mesh`, which it sorts first.
+  LiveJob(TetMesh mesh, LivePlan plan);
+  /// Ends the run and waits for that: for one call, or a pass over the whole mesh.
+  ~LiveJob() override;
+  LiveJob(const LiveJob&) = delete;
+  LiveJob& operator=(const LiveJob&) = delete;
+
+  /// Once stop was asked for nothing else counts.
+  void ask(Demand demand);
+  /// Cost: copies the list of passes.
+  LiveProgress progress() const;
+  LiveState state() const;
+  /// Returns when the run is paused or over, at the latest after so many seconds.
+  LiveState wait(double seconds) const;
+
+  /// The latest mesh that was not taken yet, or null. There is a new one whenever the run is held
+  /// or over, and at ends of passes as long as they slow the run by less than a tenth.
+  std::unique_ptr<MeasuredMesh> take_snapshot();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Event : std::uint8_t { refused_call, accepted_call, pass_end };
+
+  void work();
+  void run_schedule();
+  void begin_trace();
+  void come_to(Event event);
+  void hold(Demand demand);
+  void snap();
+  void publish();
+  LiveState state_now() const;
+  double seconds_until(Clock::time_point now) const;
+
+  void pass_begins(std::string_view name, unsigned round) override;
+  void pass_ends(const QualityIndicators& now) override;
+  void visit_begins(const TetVertices& tet, Quality quality) override;
+  void visit_ends() override;
+  void attempt_begins(const AttemptEvent& event) override;
+  void candidate_found() override;
+  void attempt_ends(Verdict verdict, std::span<const Quality> before,
+                    std::span<const Quality> now) override;
+  void edit_made(const TetMesh& mesh, const Journal& journal) override;
+  void edit_undone() override;
+  void progress(std::string_view phase, unsigned round, double share) override;
+  void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) override;
+  void noted(std::string_view text) override;
+
+  // Of the thread alone.
+  TetMesh mesh_;
+  LivePlan plan_;
+  std::unique_ptr<TraceRecorder> recorder_;
+  Registry registry_ = Registry::builtin();
+  struct Call {
+    std::string_view operator_name;
+    Point place;
+    Quality before = 0, after = 0;
+  };
+  unsigned depth_ = 0;  // of the attempt at hand
+  Call call_;           // the outermost
+  std::optional<Call> last_accepted_;
+  LivePass pass_;  // at work
+  std::size_t attempts_ = 0;
+  std::size_t accepted_ = 0;
+  Clock::time_point pass_start_;
+  Clock::duration held_before_pass_{0};
+  Clock::time_point last_snapshot_;
+  Clock::duration snapshot_cost_{0};
+
+  std::atomic<Demand> demand_ = Demand::go_on;  // written under the lock
+  std::atomic<bool> cancel_ = false;
+  mutable std::mutex lock_;
+  mutable std::condition_variable changed_;
+  // Under the lock.
+  LiveProgress shown_;
+  bool is_held_ = false;
+  bool is_over_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point held_since_;  // while held
+  Clock::time_point end_;         // when over
+  Clock::duration held_{0};       // altogether
+  std::unique_ptr<MeasuredMesh> snapshot_;
+
+  std::thread thread_;  // last: it uses the rest
+};
+
+}  // namespace tetmend::viewer

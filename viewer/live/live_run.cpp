@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/live/live_run.h"
+
+#include <algorithm>
+
+#include "kernel/error.h"
+
+namespace tetmend::viewer {
+
+namespace {
+
+/// Those that a schedule knows and takes.
+ScheduleSettings valid_settings(const ScheduleInfo& info, const ScheduleSettings& settings) {
+  ScheduleSettings valid;
+  for (const auto& setting : settings) {
+    try {
+      check_settings(info, {setting});
+      valid.push_back(setting);
+    } catch (const Error&) {  // of another schedule
+    }
+  }
+  return valid;
+}
+
+}  // namespace
+
+LiveRun::LiveRun()
+    : name_(builtin_schedule_names().front()), info_(Schedule::builtin(name_).describe()) {}
+
+Schedule LiveRun::load(const std::string& name_or_file) {
+  Schedule schedule = Schedule::find(name_or_file);
+  info_ = schedule.describe();
+  settings_ = valid_settings(info_, settings_);
+  return schedule;
+}
+
+void LiveRun::choose_schedule(const std::string& name_or_file) {
+  load(name_or_file);
+  name_ = name_or_file;
+}
+
+void LiveRun::set(const std::string& parameter, const std::string& value) {
+  check_settings(info_, {{parameter, value}});
+  std::erase_if(settings_, [&](const auto& setting) { return setting.first == parameter; });
+  settings_.emplace_back(parameter, value);
+}
+
+std::string LiveRun::value_of(const ScheduleParameter& parameter) const {
+  for (const auto& setting : settings_) {
+    if (setting.first == parameter.name) return setting.second;
+  }
+  return parameter.initial_text();
+}
+
+void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
+  if (is_active()) throw Error("a run is at work: stop it first");
+  Schedule schedule = load(name_);  // the file may have changed
+  LivePlan plan{std::move(schedule), settings_, file, trace};
+  if (!input_) input_ = std::make_unique<Input>(shown);
+  TetMesh mesh = from == From::shown ? std::move(shown.mesh) : input_->mesh;
+  job_.reset();
+  job_ = std::make_unique<LiveJob>(std::move(mesh), std::move(plan));
+}
+
+void LiveRun::ask(Demand demand) {
+  if (!is_active()) throw Error("no run is at work");
+  job_->ask(demand);
+}
+
+void LiveRun::forget() {
+  job_.reset();
+  input_.reset();
+}
+
+bool LiveRun::is_active() const {
+  const LiveState now = state();
+  return now == LiveState::running || now == LiveState::paused || now == LiveState::stopping;
+}
+
+}  // namespace tetmend::viewer

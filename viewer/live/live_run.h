@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Live mode: a schedule with its parameters, run over a mesh again and again.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "schedule/schedule.h"
+#include "viewer/live/live_job.h"
+
+namespace tetmend::viewer {
+
+/// Schedule and parameters may be changed at any time; what is at work keeps those that it began
+/// with. For one thread.
+class LiveRun {
+ public:
+  /// The default schedule with its defaults.
+  LiveRun();
+
+  /// One that tetmend brings along, or a file .lua. Parameters that the new one has, too, keep
+  /// their values where they are valid. @throws Error as Schedule::find() and describe(), and
+  /// nothing changes.
+  void choose_schedule(const std::string& name_or_file);
+  const std::string& schedule_name() const { return name_; }
+  const ScheduleInfo& info() const { return info_; }
+
+  /// `value` as a user writes it: "10", "true". @throws Error for an unknown name or a value of
+  /// wrong type or range, and nothing changes.
+  void set(const std::string& parameter, const std::string& value);
+  /// What it was set to, or the default.
+  std::string value_of(const ScheduleParameter& parameter) const;
+
+  std::filesystem::path trace;  ///< the next runs are recorded into this file; empty: they are not
+
+  struct Input {
+    TetMesh mesh;
+    MeshStatistics statistics;
+  };
+  enum class From : std::uint8_t {
+    file,  ///< the mesh that the first run since forget() began with
+    shown
+  };
+  /// Begins a run on `shown`, a mesh of `file`, or on a copy of the mesh before. A file of a
+  /// schedule is read again.
+  /// @throws Error when a run is at work, or for a mistake in the file.
+  void start(Input shown, From from, const std::filesystem::path& file);
+  /// @throws Error when no run is at work.
+  void ask(Demand demand);
+  /// Ends a run that is at work, waits for that, and forgets the mesh. For one call, at most for a
+  /// pass over the whole mesh.
+  void forget();
+
+  bool is_active() const;  ///< at work, or paused
+  LiveState state() const { return job_ ? job_->state() : LiveState::idle; }
+  LiveProgress progress() const { return job_ ? job_->progress() : LiveProgress(); }
+  /// As LiveJob::wait(); at once when nothing is at work.
+  LiveState wait(double seconds) const { return job_ ? job_->wait(seconds) : LiveState::idle; }
+  std::unique_ptr<MeasuredMesh> take_snapshot() { return job_ ? job_->take_snapshot() : nullptr; }
+  /// What the runs began with; null before the first.
+  const Input* input() const { return input_.get(); }
+
+ private:
+  Schedule load(const std::string& name_or_file);
+
+  std::string name_;  // of a schedule, or its file
+  ScheduleInfo info_;
+  ScheduleSettings settings_;
+  std::unique_ptr<const Input> input_;
+  std::unique_ptr<LiveJob> job_;
+};
+
+}  // namespace tetmend::viewer

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/mesh/selection.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "kernel/star.h"
+#include "kernel/workspace.h"
+
+namespace tetmend::viewer {
+
+namespace {
+
+constexpr float kThin = 2;
+constexpr float kWide = 5;
+
+/// Distance along the ray to the triangle, or infinity ([moeller_trumbore]).
+double distance_to(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const glm::dvec3 u = b - a;
+  const glm::dvec3 v = c - a;
+  const glm::dvec3 p = glm::cross(ray.direction, v);
+  const double det = glm::dot(u, p);
+  if (det == 0) return kNone;
+  const glm::dvec3 s = ray.origin - a;
+  const double x = glm::dot(s, p) / det;
+  const glm::dvec3 q = glm::cross(s, u);
+  const double y = glm::dot(ray.direction, q) / det;
+  if (x < 0 || y < 0 || x + y > 1) return kNone;
+  const double t = glm::dot(v, q) / det;
+  return t >= 0 ? t : kNone;
+}
+
+double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  const glm::dvec2 d = b - a;
+  const double length2 = glm::dot(d, d);
+  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0;
+  return glm::distance(p, a + t * d);
+}
+
+glm::dvec3 at(const TetMesh& mesh, VertexHandle v) {
+  return to_glm(mesh.point(v));
+}
+
+/// Collects the parts of a highlight.
+class Painter {
+ public:
+  Painter(const TetMesh& mesh, const glm::dvec3& origin) : mesh_(mesh), origin_(origin) {}
+
+  void line(VertexHandle a, VertexHandle b, const Colour& colour, float width) {
+    out_.lines.push_back(
+        {glm::vec3(at(mesh_, a) - origin_), glm::vec3(at(mesh_, b) - origin_), colour, width});
+  }
+  /// Both sides.
+  void face(VertexHandle a, VertexHandle b, VertexHandle c, const Colour& colour) {
+    const std::array<glm::dvec3, 3> corners = {at(mesh_, a), at(mesh_, b), at(mesh_, c)};
+    add_triangle(out_.faces, corners, colour, origin_);
+  }
+
+  void paint(std::monostate) {}
+  void paint(TetHandle t) {
+    const TetVertices& v = mesh_.vertices(t);
+    Colour colour = kSelectionColour;
+    colour.alpha = 50;  // red stays red
+    for (const auto& f : kFaceVertices) face(v[f[0]], v[f[1]], v[f[2]], colour);
+    for (const auto& e : kEdgeVertices) line(v[e[0]], v[e[1]], kSelectionColour, 3);
+  }
+  void paint(TetEdge edge) {
+    const auto ends = mesh_.vertices(edge);
+    for (const TetEdge e : shell(mesh_, edge)) {
+      const TetVertices& v = mesh_.vertices(e.tet());
+      const auto& across = kEdgeVertices[5 - e.edge()];
+      const VertexHandle p = v[across[0]];
+      const VertexHandle q = v[across[1]];
+      for (const VertexHandle end : ends) {
+        face(end, p, q, kLinkFaceColour);
+        line(end, p, kLinkEdgeColour, kThin);
+        line(end, q, kLinkEdgeColour, kThin);
+      }
+      face(ends[0], ends[1], p, kSupportingFaceColour);
+      face(ends[0], ends[1], q, kSupportingFaceColour);
+      line(p, q, kSkirtColour, 4);
+    }
+    line(ends[0], ends[1], kSupportingEdgeColour, kWide);
+  }
+  void paint(VertexHandle v) {
+    if (!mesh_.tet_of(v).is_valid()) return;
+    Workspace workspace(mesh_);
+    Colour colour = kLinkFaceColour;
+    for (const HalfFace f : link(mesh_, v, workspace)) {
+      const auto c = mesh_.vertices(f);
+      face(c[0], c[1], c[2], colour);
+      for (unsigned i = 0; i < 3; ++i) {
+        line(c[i], c[(i + 1) % 3], kLinkEdgeColour, 1);
+        line(v, c[i], kSkirtColour, kThin);
+      }
+    }
+    out_.lines.push_back({glm::vec3(at(mesh_, v) - origin_), glm::vec3(at(mesh_, v) - origin_),
+                          kSupportingEdgeColour, 12});
+  }
+
+  Highlight take() { return std::move(out_); }
+
+ private:
+  static constexpr Colour kLinkEdgeColour{60, 150, 230, 150};
+
+  const TetMesh& mesh_;
+  glm::dvec3 origin_;
+  Highlight out_;
+};
+
+std::string angle(double degrees) {
+  return fmt::format("{:.2f}°", degrees);
+}
+
+std::string name_of_shell(ShellKind kind) {
+  switch (kind) {
+    case ShellKind::closed:
+      return "closed";
+    case ShellKind::boundary:
+      return "open: the edge lies on the boundary";
+    case ShellKind::constrained:
+      return "constrained";
+    case ShellKind::too_large:
+      return fmt::format("larger than {} tets", kMaxDegree);
+    case ShellKind::border:
+      return "open";
+  }
+  return {};
+}
+
+class Teller {
+ public:
+  explicit Teller(const TetMesh& mesh) : mesh_(mesh) {}
+
+  void tell(std::monostate) {}
+  void tell(TetHandle t) {
+    const TetVertices& v = mesh_.vertices(t);
+    const std::array<Point, 4> p = {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
+                                    mesh_.point(v[3])};
+    row("tet", fmt::format("{}", t.index()));
+    row("region", fmt::format("{}", mesh_.label(t)));
+    row("vertices",
+        fmt::format("{} {} {} {}", v[0].index(), v[1].index(), v[2].index(), v[3].index()));
+    row("min sine", fmt::format("{:.4f}{}", mesh_.quality(t),
+                                mesh_.quality(t) < kBadThreshold ? "  (bad)" : ""));
+    for (const QualityMeasure& m : quality_measures().subspan(1)) {
+      row(std::string(m.name), fmt::format("{:.4f}", m.evaluate(p[0], p[1], p[2], p[3])));
+    }
+    row("volume", fmt::format("{:.4g}", volume6(p[0], p[1], p[2], p[3]) / 6));
+    const auto angles = dihedral_angles(p[0], p[1], p[2], p[3]);
+    for (unsigned e = 0; e < 6; ++e) {
+      const auto& ends = kEdgeVertices[e];
+      row(fmt::format("angle {}-{}", v[ends[0]].index(), v[ends[1]].index()), angle(angles[e]));
+    }
+  }
+  void tell(TetEdge edge) {
+    const auto ends = mesh_.vertices(edge);
+    Shell found;
+    const ShellKind kind = find_shell(mesh_, edge, found);
+    row("supporting edge", fmt::format("{} - {}", ends[0].index(), ends[1].index()));
+    row("length", fmt::format("{:.4g}", glm::distance(at(mesh_, ends[0]), at(mesh_, ends[1]))));
+    row("shell", name_of_shell(kind));
+    unsigned tets = 0;
+    Quality worst = std::numeric_limits<Quality>::infinity();
+    std::string ids;
+    for (const TetEdge e : shell(mesh_, edge)) {
+      ++tets;
+      worst = std::min(worst, mesh_.quality(e.tet()));
+      ids += fmt::format("{}{}", ids.empty() ? "" : " ", e.tet().index());
+    }
+    row("degree (tets)", fmt::format("{}", tets));
+    row("worst min sine", fmt::format("{:.4f}", worst));
+    row("tets", ids);
+    const bool is_closed = kind == ShellKind::closed;
+    if (!is_closed) return;
+    std::string ring;
+    for (unsigned i = 0; i < found.degree; ++i) {
+      ring += fmt::format("{}{}", i == 0 ? "" : " ", found.ring[i].index());
+    }
+    row("skirt polygon", ring);
+    row("supporting faces", fmt::format("{}", found.degree));
+    row("link faces", fmt::format("{}", 2 * found.degree));
+  }
+  void tell(VertexHandle v) {
+    const Point& p = mesh_.point(v);
+    row("vertex", fmt::format("{}", v.index()));
+    row("point", fmt::format("{:.6g} {:.6g} {:.6g}", p.x(), p.y(), p.z()));
+    row("kind", mesh_.is_boundary(v) ? "on the boundary" : mesh_.is_fixed(v) ? "fixed" : "free");
+    if (!mesh_.tet_of(v).is_valid()) return;
+    Workspace workspace(mesh_);
+    Quality worst = std::numeric_limits<Quality>::infinity();
+    const auto ball = star(mesh_, v, workspace);
+    for (const TetHandle t : ball) worst = std::min(worst, mesh_.quality(t));
+    row("ball (tets)", fmt::format("{}", ball.size()));
+    row("worst min sine", fmt::format("{:.4f}", worst));
+    row("one-ring", fmt::format("{} vertices", one_ring(mesh_, v, workspace).size()));
+  }
+
+  Rows take() { return std::move(rows_); }
+
+ private:
+  void row(std::string name, std::string value) {
+    rows_.emplace_back(std::move(name), std::move(value));
+  }
+
+  const TetMesh& mesh_;
+  Rows rows_;
+};
+
+}  // namespace
+
+std::optional<Hit> cast(const Scene& scene, const Ray& ray) {
+  const Ray local = {ray.origin - scene.origin, ray.direction};
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + 2 < scene.surface.size(); i += 3) {
+    const double d = distance_to(local, scene.surface[i].position, scene.surface[i + 1].position,
+                                 scene.surface[i + 2].position);
+    if (d >= nearest) continue;
+    nearest = d;
+    best = i / 3;
+  }
+  if (nearest == std::numeric_limits<double>::infinity()) return std::nullopt;
+  return Hit{scene.surface_tets[best], ray.origin + nearest * ray.direction};
+}
+
+Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camera& camera,
+                 const Canvas& canvas) {
+  if (kind == PickKind::tet) return hit.tet;
+  const auto mouse = camera.project(hit.point, canvas);
+  if (!mouse) return hit.tet;
+  std::array<glm::dvec2, 4> seen;
+  const auto c = corners(mesh, hit.tet);
+  for (unsigned i = 0; i < 4; ++i) {
+    const auto pixel = camera.project(c[i], canvas);
+    if (!pixel) return hit.tet;
+    seen[i] = *pixel;
+  }
+  double to_vertex = std::numeric_limits<double>::infinity();
+  double to_edge = to_vertex;
+  double extent = 0;
+  unsigned vertex = 0;
+  unsigned edge = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    const double d = glm::distance(*mouse, seen[i]);
+    if (d < to_vertex) vertex = i;
+    to_vertex = std::min(to_vertex, d);
+  }
+  for (unsigned e = 0; e < 6; ++e) {
+    const glm::dvec2& a = seen[kEdgeVertices[e][0]];
+    const glm::dvec2& b = seen[kEdgeVertices[e][1]];
+    const double d = distance_to_segment(*mouse, a, b);
+    if (d < to_edge) edge = e;
+    to_edge = std::min(to_edge, d);
+    extent = std::max(extent, glm::distance(a, b));
+  }
+  constexpr double kVertexReach = 8;
+  constexpr double kEdgeReach = 4;
+  // On a small tet most of the face must still mean the tet.
+  const double share = std::min(1.0, extent / 80);
+  if (kind == PickKind::vertex || (kind == PickKind::nearest && to_vertex < share * kVertexReach)) {
+    return mesh.vertices(hit.tet)[vertex];
+  }
+  if (kind == PickKind::edge || to_edge < share * kEdgeReach) return TetEdge(hit.tet, edge);
+  return hit.tet;
+}
+
+Ball ball_around(const TetMesh& mesh, const Selection& selection) {
+  std::vector<glm::dvec3> points;
+  if (const auto* t = std::get_if<TetHandle>(&selection)) {
+    for (const glm::dvec3& p : corners(mesh, *t)) points.push_back(p);
+  } else if (const auto* e = std::get_if<TetEdge>(&selection)) {
+    for (const TetEdge other : shell(mesh, *e)) {
+      for (const glm::dvec3& p : corners(mesh, other.tet())) points.push_back(p);
+    }
+  } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
+    points.push_back(at(mesh, *v));
+    Workspace workspace(mesh);
+    if (mesh.tet_of(*v).is_valid()) {
+      for (const VertexHandle w : one_ring(mesh, *v, workspace)) points.push_back(at(mesh, w));
+    }
+  }
+  glm::dvec3 low = points.front();
+  glm::dvec3 high = low;
+  for (const glm::dvec3& p : points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  constexpr double kSurroundings = 1.6;
+  return {(low + high) / 2.0, std::max(kSurroundings * glm::distance(low, high) / 2, 1e-12)};
+}
+
+Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::dvec3& origin) {
+  Painter painter(mesh, origin);
+  std::visit([&](const auto& what) { painter.paint(what); }, selection);
+  return painter.take();
+}
+
+Rows describe(const TetMesh& mesh, const Selection& selection) {
+  Teller teller(mesh);
+  std::visit([&](const auto& what) { teller.tell(what); }, selection);
+  return teller.take();
+}
+
+}  // namespace tetmend::viewer

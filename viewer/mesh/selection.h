@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The tet, edge or vertex that the user looks at: found by a ray, drawn as lines and faces, told in
+// words.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kernel/shell.h"
+#include "kernel/tet_mesh.h"
+#include "viewer/mesh/camera.h"
+#include "viewer/mesh/scene.h"
+
+namespace tetmend::viewer {
+
+/// Nothing, or one of the three.
+using Selection = std::variant<std::monostate, TetHandle, TetEdge, VertexHandle>;
+
+/// What a click takes: what is close to the mouse, or always the same kind.
+enum class PickKind { nearest, tet, edge, vertex };
+
+struct Hit {
+  TetHandle tet;
+  glm::dvec3 point{0};  ///< in world coordinates
+};
+
+/// The first triangle of the surface that the ray meets. Cost: linear in the triangles, a few
+/// milliseconds for a million.
+std::optional<Hit> cast(const Scene& scene, const Ray& ray);
+
+/// The tet of the hit, or its edge or vertex. PickKind::nearest takes a vertex or an edge only when
+/// the mouse is within a few pixels of it.
+Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camera& camera,
+                 const Canvas& canvas);
+
+/// Around the selection, large enough to see it in its surroundings. Precondition: not nothing.
+Ball ball_around(const TetMesh& mesh, const Selection& selection);
+
+/// Faces and lines on top of the picture. An edge shows its shell: the skirt polygon, supporting
+/// faces and link faces.
+struct Highlight {
+  std::vector<SurfaceVertex> faces;
+  std::vector<Line> lines;
+};
+Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::dvec3& origin);
+
+/// Rows of a table: name and value. Words of the paper.
+using Rows = std::vector<std::pair<std::string, std::string>>;
+Rows describe(const TetMesh& mesh, const Selection& selection);
+
+/// Colours of the parts of a shell, for the highlight and its legend.
+inline constexpr Colour kSelectionColour{255, 196, 0, 255};
+inline constexpr Colour kSupportingEdgeColour{214, 30, 150, 255};
+inline constexpr Colour kSkirtColour{20, 120, 220, 255};
+inline constexpr Colour kSupportingFaceColour{214, 30, 150, 90};
+inline constexpr Colour kLinkFaceColour{60, 150, 230, 60};
+
+}  // namespace tetmend::viewer
