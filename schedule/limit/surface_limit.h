@@ -47,10 +47,9 @@ struct SurfaceLimit {
 };
 
 /// Proves that tets are bad in every mesh with the same walls, one wall and its neighbours at a
-/// time (see WallProbe). More may be forced than is found: a wall that only stands in the way, as
-/// the far side of a thin plate does, is not looked at. n_forced and the bounds depend on the walls
-/// and the order of their vertices, but not on the tets between them or the number of threads.
-/// Cost: one pass over the walls and their sectors (0.07 s for 125 thousand), and up to a
+/// time (see WallProbe). More may be forced than is found. n_forced and the bounds depend on the
+/// walls and the order of their vertices, but not on the tets between them or the number of
+/// threads. Cost: one pass over the walls and their sectors (0.07 s for 125 thousand), and up to a
 /// millisecond for each bad tet on a wall.
 SurfaceLimit compute_surface_limit(const TetMesh& mesh);
 

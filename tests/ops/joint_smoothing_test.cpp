@@ -18,7 +18,7 @@ Verdict smooth(LoneWorker& worker, TetHandle t, const ParameterSettings& setting
   return worker.attempt("joint_smoothing", Target::of(t), settings);
 }
 
-/// A ball of which no vertex alone can better its tets.
+/// A ball in which no vertex alone can improve its tets.
 MeshData smoothed_ball() {
   LoneWorker worker(delaunay_ball(150, 3));
   const ParameterSettings thorough = {{"steps", 1000}, {"least_gain", 1e-5}, {"desperate", 1}};

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// What documents and headers quote is what the code and the program have.
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "ops/registry.h"
+#include "tests/apps/program.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern,
+                                 std::size_t group = 0) {
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) {
+    found.push_back((*it)[group]);
+  }
+  return found;
+}
+
+/// Runs of blanks become one.
+std::string with_single_blanks(const std::string& line) {
+  static const std::regex kBlanks("\\s+");
+  return std::regex_replace(line, kBlanks, " ");
+}
+
+// ---- The glossary -------------------------------------------------------------------------------
+
+/// The cells of a row of a table; nothing for another line.
+std::vector<std::string> cells_of(const std::string& line) {
+  static const std::regex kCell("([^|]*)\\|");
+  if (!line.starts_with("|")) return {};
+  return matches(line.substr(1), kCell, 1);
+}
+
+/// What stands between backticks.
+std::vector<std::string> quotes_of(const std::string& cell) {
+  static const std::regex kQuote("`([^`]*)`");
+  return matches(cell, kQuote, 1);
+}
+
+struct Entry {
+  std::string term;
+  std::vector<std::string> identifiers;
+  std::vector<std::string> files;
+};
+
+/// The rows of all tables that end with an identifier and a file.
+std::vector<Entry> read_glossary() {
+  std::vector<Entry> entries;
+  for (const std::string& line : lines_of(read_text(kSource / "docs/glossary.md"))) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() < 3 || line.starts_with("|---") || cells.back() == " File ") continue;
+    entries.push_back({cells.front(), quotes_of(cells[cells.size() - 2]), quotes_of(cells.back())});
+  }
+  return entries;
+}
+
+/// True if each word of an identifier such as `Shell::ring` is a word of the text.
+bool has_words(const std::set<std::string>& words_of_text, const std::string& text,
+               const std::string& identifier) {
+  static const std::regex kWord("--[a-z-]+|[A-Za-z_]\\w*");
+  for (const std::string& word : matches(identifier, kWord)) {
+    const bool found = word.starts_with("--") ? text.find(word) != std::string::npos
+                                              : words_of_text.contains(word);
+    if (!found) return false;
+  }
+  return true;
+}
+
+bool stands_in_one_of(const std::vector<std::string>& files, const std::string& identifier) {
+  static const std::regex kWord("[A-Za-z_]\\w*");
+  for (const std::string& file : files) {
+    const std::string text = read_text(kSource / file);
+    const std::vector<std::string> words = matches(text, kWord);
+    if (has_words({words.begin(), words.end()}, text, identifier)) return true;
+  }
+  return false;
+}
+
+// ---- Headers of operators -----------------------------------------------------------------------
+
+/// The comments of a file as one line.
+std::string comments_of(const std::string& text) {
+  static const std::regex kComment("//[/<]* ?(.*)");
+  std::string all;
+  for (const std::string& comment : matches(text, kComment, 1)) all += comment + " ";
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("each identifier of docs/glossary.md stands in a file that is named beside it") {
+  const std::vector<Entry> entries = read_glossary();
+  REQUIRE(entries.size() > 100);
+  for (const Entry& entry : entries) {
+    CAPTURE(entry.term);
+    CHECK_FALSE(entry.files.empty());
+    for (const std::string& file : entry.files) {
+      CHECK_MESSAGE(std::filesystem::exists(kSource / file), file);
+    }
+    for (const std::string& identifier : entry.identifiers) {
+      CHECK_MESSAGE(stands_in_one_of(entry.files, identifier), identifier);
+    }
+  }
+}
+
+TEST_CASE("no header of an operator quotes a default: the table that the program prints has them") {
+  Registry registry;
+  register_builtin_operators(registry);
+  std::size_t headers = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kSource / "ops")) {
+    if (file.path().extension() != ".h") continue;
+    ++headers;
+    CAPTURE(file.path());
+    const std::string comments = comments_of(read_text(file.path()));
+    for (const OperatorInfo* info : registry.operators()) {
+      for (const ParameterSpec& parameter : info->parameters) {
+        const std::regex quoted("\\b" + std::string(parameter.name) + "`? \\(-?[0-9]");
+        CHECK_MESSAGE(!std::regex_search(comments, quoted), parameter.name);
+      }
+    }
+  }
+  CHECK(headers > registry.operators().size());
+}
+
+TEST_CASE("the table of README.md is what script/demo prints") {
+  const std::string page = read_text(kSource / "README.md");
+  const std::size_t first = page.find("<!-- table -->");
+  const std::size_t last = page.find("<!-- /table -->");
+  REQUIRE(first < last);
+  REQUIRE(last < page.size());
+  const std::vector<std::string> blocks =
+      matches(page.substr(first, last - first), std::regex("```\n([^`]*)```"), 1);
+  REQUIRE(blocks.size() == 1);
+
+  const TempFolder folder;
+  const std::string mesh = (kSource / "assets/meshes/bracket.meshb").string();
+  const Outcome demo = run_program({"improve", mesh, "-o", (folder / "improved.mesh").string()});
+  REQUIRE(demo.status == 0);
+  std::vector<std::string> printed;
+  for (const std::string& line : lines_of(demo.out)) printed.push_back(with_single_blanks(line));
+
+  std::size_t figures = 0;
+  for (const std::string& line : lines_of(blocks[0])) {
+    if (line.starts_with("---")) continue;
+    // Long lines are shortened.
+    const std::string quoted = with_single_blanks(line);
+    const bool found = std::any_of(printed.begin(), printed.end(), [&](const std::string& text) {
+      return text.starts_with(quoted);
+    });
+    CHECK_MESSAGE(found, line);
+    if (line.find_first_of("0123456789") != std::string::npos) ++figures;
+  }
+  CHECK(figures >= 5);
+}
