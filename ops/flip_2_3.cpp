@@ -3,7 +3,7 @@
 //       / \                  /|\         apexes a and b. Afterwards the edge ab runs through it,
 //      /   \                / | \        with the three tets
 //     / a,b \      ->      /  ab \         (a, b, p, q), (a, b, q, r), (a, b, r, p).
-//    /       \            / /   \ \
+//    /       \            / /   \ \    One face gives way to three.
 //   p---------q          p---------q
 #include "ops/flip_2_3.h"
 

@@ -2,7 +2,7 @@
 //        r                    r          Seen along the edge ab. Its three tets give way to the two
 //       /|\                  / \         at the triangle of the ring,
 //      / | \                /   \          (a, p, q, r), (p, q, r, b).
-//     /  ab \      ->      / a,b \
+//     /  ab \      ->      / a,b \       The edge is gone.
 //    / /   \ \            /       \
 //   p---------q          p---------q
 #include "ops/flip_3_2.h"

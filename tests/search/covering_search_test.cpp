@@ -388,6 +388,7 @@ TEST_CASE("A search that is explored tells of each pocket the best of all its tr
         ++seen;
         const auto best = *std::max_element(rankings.begin(), rankings.end());
         for (std::size_t n = 0; n < best.size(); ++n) {
+          if ((*pocket)[n] == best[n]) continue;  // also two infinities, for lack of a tet
           CHECK(static_cast<double>((*pocket)[n]) == doctest::Approx(static_cast<double>(best[n])));
         }
       }
