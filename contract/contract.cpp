@@ -52,6 +52,7 @@ struct Cast {
 Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
   Outcome all = try_in_sweeps(*cast.normal.op, mesh, 3, share(1500, mesh));
   if (all.complaint.empty()) all += try_on_fresh_copies(*cast.normal.op, mesh, share(200, mesh));
+  if (all.complaint.empty()) all += try_under_judges(*cast.normal.op, mesh, share(20, mesh));
   for (const Candidate& candidate : cast.extreme) {
     if (!all.complaint.empty()) return all;
     Outcome outcome = try_in_sweeps(*candidate.op, mesh, 1, share(120, mesh));

@@ -81,7 +81,7 @@ Portrait portrait(const TetMesh& mesh) {
   return p;
 }
 
-std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
+std::string complaint_about_loss(const Portrait& before, const TetMesh& mesh) {
   if (const auto findings = check_integrity(mesh); !findings.empty()) {
     return "the mesh is not sound: " + to_string(findings);
   }
@@ -103,7 +103,6 @@ std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
     if (!before.doubtful.contains(tet)) return "a tet is not certified positive";
   }
   if (now.not_positive > before.not_positive) return "more tets are inverted or flat";
-  if (!strictly_better(now.qualities, before.qualities)) return "the quality vector is not better";
   for (const TetHandle t : live_tets(mesh)) {
     const TetVertices& v = mesh.vertices(t);
     const double q =
@@ -117,6 +116,12 @@ std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
     return std::string("the mesh cannot be built again: ") + error.what();
   }
   return "";
+}
+
+std::string complaint_about(const Portrait& before, const TetMesh& mesh) {
+  if (const auto loss = complaint_about_loss(before, mesh); !loss.empty()) return loss;
+  const bool better = strictly_better(portrait(mesh).qualities, before.qualities);
+  return better ? "" : "the quality vector is not better";
 }
 
 }  // namespace tetmend::contract

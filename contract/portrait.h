@@ -35,8 +35,10 @@ struct Portrait {
 /// Cost: n log n in the number of tets, with exact arithmetic where it is needed.
 Portrait portrait(const TetMesh& mesh);
 
-/// What is wrong with the mesh after an accepted attempt, given its portrait before; empty when all
-/// is well. Also rebuilds the mesh from plain arrays. Cost: as of a portrait.
+/// What the mesh has lost in an accepted attempt, given its portrait before; empty when nothing.
+/// Also rebuilds the mesh from plain arrays. Cost: as of a portrait.
+std::string complaint_about_loss(const Portrait& before, const TetMesh& mesh);
+/// The same, and a quality vector that is not better.
 std::string complaint_about(const Portrait& before, const TetMesh& mesh);
 
 }  // namespace tetmend::contract

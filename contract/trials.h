@@ -45,6 +45,10 @@ Outcome try_in_sweeps(const Operator& op, const TetMesh& start, unsigned sweeps,
 /// At most `count` targets, each on a copy of the mesh as it came.
 Outcome try_on_fresh_copies(const Operator& op, const TetMesh& start, std::size_t count);
 
+/// At most `count` targets, each on a copy of the mesh under each judge in place of the operator's
+/// own: what is accepted keeps that judge's promise.
+Outcome try_under_judges(const Operator& op, const TetMesh& start, std::size_t count);
+
 /// All candidates in turns on the same mesh, at most `count` targets each time.
 Outcome try_in_turns(std::span<const Candidate> candidates, const TetMesh& start, unsigned rounds,
                      std::size_t count);

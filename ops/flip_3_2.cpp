@@ -2,8 +2,8 @@
 //        r                    r          Seen along the edge ab. Its three tets give way to the two
 //       /|\                  / \         at the triangle of the ring,
 //      / | \                /   \          (a, p, q, r), (p, q, r, b).
-//     /  ab \      ->      / a,b \       The edge is gone.
-//    / /   \ \            /       \
+//     /  ab \      ->      / a,b \       Only the edge is gone,
+//    / /   \ \            /       \      the outer faces stay.
 //   p---------q          p---------q
 #include "ops/flip_3_2.h"
 

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// An operator under each judge. What a judge promises is computed again, from the tets of the mesh
+// before and after the attempt.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "contract/portrait.h"
+#include "contract/trials.h"
+#include "contract/zoo.h"
+#include "kernel/integrity.h"
+
+namespace tetmend::contract {
+
+namespace {
+
+/// A tet by its vertices, sorted, and its quality: what did not change appears before and after.
+using NamedTet = std::pair<TetVertices, Quality>;
+
+std::vector<NamedTet> list_tets(const TetMesh& mesh) {
+  std::vector<NamedTet> all;
+  for (const TetHandle t : live_tets(mesh)) {
+    TetVertices v = mesh.vertices(t);
+    std::sort(v.begin(), v.end());
+    all.emplace_back(v, mesh.quality(t));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// The tets of a mesh that are not in the other.
+struct Side {
+  std::vector<Quality> qualities;  // ascending
+  double largest_angle = 0;        // degrees
+};
+
+Side list_changed(const TetMesh& mesh, const TetMesh& other) {
+  const auto here = list_tets(mesh);
+  const auto there = list_tets(other);
+  std::vector<NamedTet> changed;
+  std::set_difference(here.begin(), here.end(), there.begin(), there.end(),
+                      std::back_inserter(changed));
+  Side side;
+  for (const auto& [v, quality] : changed) {
+    side.qualities.push_back(quality);
+    const auto angles =
+        dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+    side.largest_angle =
+        std::max(side.largest_angle, *std::max_element(angles.begin(), angles.end()));
+  }
+  std::sort(side.qualities.begin(), side.qualities.end());
+  return side;
+}
+
+std::ptrdiff_t count_bad(const Side& side) {
+  return std::count_if(side.qualities.begin(), side.qualities.end(),
+                       [](Quality q) { return q < kBadThreshold; });
+}
+
+double sum_of_lacks(const Side& side, double exponent) {
+  double sum = 0;
+  for (const Quality q : side.qualities) {
+    sum += q < kBadThreshold ? std::pow(double{kBadThreshold} - double{q}, exponent) : 0;
+  }
+  return sum;
+}
+
+bool is_better(const Side& now, const Side& before) {
+  const auto is_less = [](Quality a, Quality b) { return a < b; };
+  // The shorter is better where one continues the other.
+  const auto [b, n] = std::mismatch(before.qualities.begin(), before.qualities.end(),
+                                    now.qualities.begin(), now.qualities.end());
+  if (n == now.qualities.end()) return b != before.qualities.end();
+  return b != before.qualities.end() && is_less(*b, *n);
+}
+
+/// A judge, and whether its promise holds.
+struct Case {
+  std::string name;
+  Judge judge;
+  std::function<bool(const Side& before, const Side& now)> holds;
+};
+
+bool is_fair(const Side& before, const Side& now, const Fairness& fairness) {
+  if (!is_better(now, before)) return false;
+  constexpr double kRounding = 1e-9;
+  const double more_lack =
+      sum_of_lacks(now, fairness.exponent) - sum_of_lacks(before, fairness.exponent);
+  const std::ptrdiff_t more_bad = count_bad(now) - count_bad(before);
+  if (more_lack <= kRounding && (fairness.more_bad || more_bad <= 0)) return true;
+  const double gain = now.qualities.empty() ? 1 : now.qualities[0] - before.qualities[0];
+  return before.qualities[0] < fairness.desperate &&
+         gain >= fairness.price * static_cast<double>(more_bad) - kRounding;
+}
+
+/// No bad tet is new or worse.
+bool spares_bad(const Side& before, const Side& now) {
+  const auto bad = static_cast<std::size_t>(count_bad(before));
+  if (count_bad(now) > count_bad(before)) return false;
+  for (std::size_t i = 0; i < bad; ++i) {
+    if (now.qualities[i] < before.qualities[i] - kQualityTolerance) return false;
+  }
+  return true;
+}
+
+double sine_of(double angle) {
+  return angle < 90 ? 1 : std::sin(angle * std::numbers::pi / 180);
+}
+
+Case lowers_angle(const TetMesh& mesh, TetHandle t) {
+  const TetVertices& v = mesh.vertices(t);
+  const double sine =
+      largest_angle_sine(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  return {"lowers_angle", Judge::lowers_angle(sine), [sine](const Side& before, const Side& now) {
+            if (now.qualities.empty() || now.qualities[0] < before.qualities[0]) return false;
+            const std::ptrdiff_t more_bad = count_bad(now) - count_bad(before);
+            const double price =
+                kPriceOfBad * static_cast<double>(std::max<std::ptrdiff_t>(1, more_bad));
+            return sine_of(now.largest_angle) - sine >= price - 1e-9;
+          }};
+}
+
+std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
+  constexpr Fairness kMild = {.exponent = 12, .desperate = 0.35};
+  constexpr Fairness kThrifty = {.price = 0.01, .more_bad = false};
+  constexpr double kShare = 0.3;
+  std::vector<Case> all = {
+      {"strict", Judge::strict(), [](const Side& b, const Side& n) { return is_better(n, b); }},
+      {"fair", Judge::fair({}), [](const Side& b, const Side& n) { return is_fair(b, n, {}); }},
+      {"fair, exponent 12", Judge::fair(kMild),
+       [=](const Side& b, const Side& n) { return is_fair(b, n, kMild); }},
+      {"fair, no more bad tets", Judge::fair(kThrifty),
+       [=](const Side& b, const Side& n) { return is_fair(b, n, kThrifty); }},
+      {"reaches", Judge::reaches(0.6f),
+       [](const Side& b, const Side& n) { return is_better(n, b) || spares_bad(b, n); }},
+      {"opening", Judge::opening(kShare), [=](const Side& b, const Side& n) {
+         return n.qualities.empty() ||
+                n.qualities[0] >= kShare * std::max(0.f, b.qualities[0]) - 2 * kQualityTolerance;
+       }}};
+  all.push_back(lowers_angle(mesh, t));
+  return all;
+}
+
+TetHandle tet_at(const TetMesh& mesh, Target target) {
+  switch (target.kind) {
+    case TargetKind::tet:
+      return target.tet();
+    case TargetKind::edge:
+      return target.edge().tet();
+    case TargetKind::face:
+      return target.face().tet();
+    case TargetKind::vertex:
+      break;
+  }
+  return mesh.tet_of(target.vertex());
+}
+
+std::string try_case(const Operator& op, const TetMesh& start, const Portrait& known, Target target,
+                     const Case& tried, Outcome& outcome) {
+  TetMesh mesh = start;
+  Workspace workspace(mesh);
+  OperatorStates states;
+  OperatorContext context{mesh, workspace, states, nullptr, 0, &tried.judge};
+  ++outcome.attempts;
+  if (op.attempt(context, target) != Verdict::accepted) {
+    return mesh == start ? "" : "the refusal left a trace";
+  }
+  ++outcome.accepted;
+  if (const auto loss = complaint_about_loss(known, mesh); !loss.empty()) return loss;
+  const bool holds = tried.holds(list_changed(start, mesh), list_changed(mesh, start));
+  return holds ? "" : fmt::format("the promise is broken: {}", tried.judge.promise());
+}
+
+}  // namespace
+
+Outcome try_under_judges(const Operator& op, const TetMesh& start, std::size_t count) {
+  Outcome outcome;
+  const Portrait known = portrait(start);
+  for (const Target target : sample(targets(start, op.info().target), count, 3)) {
+    if (!tet_at(start, target).is_valid()) continue;
+    for (const Case& tried : cases(start, tet_at(start, target))) {
+      const std::string about = try_case(op, start, known, target, tried, outcome);
+      if (about.empty()) continue;
+      outcome.complaint = fmt::format("judged by {}, {} {}: {}", tried.name, to_string(target.kind),
+                                      target.code, about);
+      return outcome;
+    }
+  }
+  return outcome;
+}
+
+}  // namespace tetmend::contract
