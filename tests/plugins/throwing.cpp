@@ -43,7 +43,7 @@ struct ThrowsAtEdges final : VertexMover {
   Verdict precondition(const OperatorContext&, Target, State&) const override {
     return Verdict::accepted;
   }
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State&) const override {
     if (context.mesh.quality(target.edge().tet()) < 0.3f) throw std::runtime_error("a sliver");
     return Verdict::no_improvement;
   }

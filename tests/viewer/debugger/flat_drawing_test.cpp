@@ -82,7 +82,7 @@ TEST_CASE("after a refusal without a candidate the best complete triangulation i
   CHECK(drawing.areas.size() == 3);
   std::size_t no_better = 0;
   for (const Chord& chord : chords_of(*study.picture)) {
-    if (chord.best() <= static_cast<double>(study.picture->floor)) ++no_better;
+    if (chord.best()[0] <= study.picture->floor) ++no_better;
   }
   CHECK(dashed(drawing) == 3 * 3 + no_better);
   for (const auto& t : study.picture->full.triangles) CHECK(has_number(drawing, t.quality));
