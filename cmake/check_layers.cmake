@@ -2,21 +2,28 @@
 #   cmake -DSOURCE_DIR=... -P check_layers.cmake
 #
 # For each layer: the folders that its files may include, besides its own. Folders that are not in `layers` (tests, bench,
-# plugins, python) may include anything.
+# plugins, python) may include anything. What users see, include/tetmend, is divided among the layers, and includes nothing
+# but itself and the standard library.
 cmake_minimum_required(VERSION 3.21)
 if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(layers kernel trace search ops contract schedule viewer apps)
+set(layers kernel trace search ops contract schedule face viewer apps)
 set(below_kernel "")
 set(below_trace kernel)
 set(below_search kernel)
 set(below_ops kernel trace search)
 set(below_contract kernel trace search ops)
 set(below_schedule kernel trace search ops)
+set(below_face kernel trace search ops schedule)
 set(below_viewer kernel trace search schedule)
-set(below_apps kernel trace search ops contract schedule viewer)
+set(below_apps kernel trace search ops contract schedule face viewer)
+
+set(public_of_kernel error statistics)
+set(public_of_trace verdict)
+set(public_of_schedule catalogue limit)
+set(public_of_face improve io measure mesh)
 
 set(violations "")
 
@@ -30,10 +37,24 @@ function(report file content pattern text)
   set(violations "${violations}${file}:${line}: ${text}\n" PARENT_SCOPE)
 endfunction()
 
+file(GLOB public RELATIVE "${SOURCE_DIR}" "${SOURCE_DIR}/include/tetmend/*.h")
+foreach(layer IN LISTS layers)
+  foreach(header IN LISTS public_of_${layer})
+    set(owner_of_${header} ${layer})
+    list(REMOVE_ITEM public "include/tetmend/${header}.h")
+  endforeach()
+endforeach()
+foreach(header IN LISTS public)
+  string(APPEND violations "${header}:1: belongs to no layer: see public_of_... in check_layers.cmake\n")
+endforeach()
+
 foreach(layer IN LISTS layers)
   list(APPEND allowed_${layer} ${layer} ${below_${layer}})
   file(GLOB_RECURSE sources RELATIVE "${SOURCE_DIR}"
        "${SOURCE_DIR}/${layer}/*.h" "${SOURCE_DIR}/${layer}/*.cpp")
+  list(TRANSFORM public_of_${layer} PREPEND "include/tetmend/" OUTPUT_VARIABLE headers)
+  list(TRANSFORM headers APPEND ".h")
+  list(APPEND sources ${headers})
   foreach(source IN LISTS sources)
     file(READ "${SOURCE_DIR}/${source}" content)
     set(content "\n${content}")
@@ -44,6 +65,14 @@ foreach(layer IN LISTS layers)
       set(quote "${CMAKE_MATCH_1}")
       set(path "${CMAKE_MATCH_2}")
       string(REGEX REPLACE "/.*" "" folder "${path}")
+      if(path MATCHES "^tetmend/(.*)\\.h$")
+        if(NOT owner_of_${CMAKE_MATCH_1} IN_LIST allowed_${layer})
+          report(${source} "${content}" "${include}" "${layer} must not include ${path}")
+        endif()
+        continue()
+      elseif(source MATCHES "^include/" AND (path MATCHES "/|\\.h" OR quote STREQUAL "\""))
+        report(${source} "${content}" "${include}" "users are not to see ${path}")
+      endif()
       if(folder IN_LIST allowed_${layer} AND path MATCHES "/" AND NOT path MATCHES "/\\.\\./")
         continue()
       endif()
