@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <tetmend/io.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/threads.h"
-#include "kernel/formats/mesh_io.h"
 
 namespace tetmend::apps {
 namespace {
@@ -24,12 +24,11 @@ int run_convert(const Options& options) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_writable(options.output);
-  const ThreadLimit limit(options.threads);
-  const MeshData data = read_mesh(options.input);
-  write_mesh(options.output, data);
+  const Mesh mesh = load(options.input, options.threads);
+  save(options.output, mesh, options.threads);
   fmt::print("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
-             grouped(data.points.size()), grouped(data.tets.size()), grouped(data.triangles.size()),
-             grouped(data.edges.size()));
+             grouped(mesh.point_count()), grouped(mesh.tet_count()), grouped(mesh.triangle_count()),
+             grouped(mesh.edge_count()));
   return 0;
 }
 

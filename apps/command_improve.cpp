@@ -1,48 +1,29 @@
 // SPDX-License-Identifier: MIT
 // tetmend improve: a mesh goes in, a better one comes out.
 //
-//   check names and folders | read | build | measure | run the schedule | measure | compare | write
+//   check names and folders | read | improve | write
 //   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <tetmend/catalogue.h>
+#include <tetmend/improve.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/improve_options.h"
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
-#include "apps/plugins.h"
 #include "apps/progress_line.h"
-#include "apps/regions.h"
-#include "apps/schedule_options.h"
-#include "apps/threads.h"
-#include "apps/trace_options.h"
-#include "kernel/chunks.h"
-#include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
-#include "kernel/formats/tet_mesh_io.h"
-#include "kernel/integrity.h"
-#include "kernel/mesh_view.h"
-#include "kernel/surface.h"
 
 namespace tetmend::apps {
 namespace {
-
-struct Options {
-  std::filesystem::path input;
-  std::filesystem::path output;
-  std::filesystem::path report;  ///< empty: none
-  ScheduleOptions schedule;
-  std::vector<std::filesystem::path> plugins;
-  int threads = 1;
-  RegionOptions regions;
-  TraceOptions trace;
-  bool quiet = false;
-};
 
 /// Adds the time from its making to its end to a sum.
 class Stopwatch {
@@ -60,8 +41,7 @@ class Stopwatch {
 };
 
 /// What would stop the run at its end is better found at its beginning.
-void check(const Options& options) {
-  check_regions(options.regions);
+void check_files(const ImproveOptions& options) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   if (!options.report.empty()) {
@@ -72,75 +52,22 @@ void check(const Options& options) {
   check_writable(options.output);
 }
 
-MeshCheck measure(const TetMesh& mesh) {
-  return {.statistics = compute_statistics(mesh),
-          .surface_fingerprint = surface_fingerprint(mesh),
-          .not_positive = count_not_positive(mesh)};
-}
-
-TetMesh load(const Options& options, TracePlan& tracing, ProgressLine& progress,
-             ImproveReport& report) {
-  MeshData data;
-  {
-    const Stopwatch watch(report.seconds.reading);
-    progress.show(fmt::format("reading {}", options.input.string()));
-    data = read_mesh(options.input);
-    tracing.locate(data);
+/// Signals interrupt the schedule only: before and after they end the program as usual.
+Result improve_watched(Mesh& mesh, Options options, ProgressLine& line) {
+  std::optional<Interruption> interruption;
+  options.cancel = &Interruption::requested();
+  options.progress = [&](const Progress& progress) {
+    if (progress.stage == Stage::improving && !interruption) interruption.emplace();
+    if (progress.stage != Stage::improving) interruption.reset();
+    line.show(progress);
+    return true;
+  };
+  options.note = [&](std::string_view text) { line.note(text); };
+  try {
+    return tetmend::improve(mesh, options);
+  } catch (const OptionError& error) {
+    throw Error(message_of(error));
   }
-  const Stopwatch watch(report.seconds.building);
-  progress.show("building the mesh");
-  TetMesh mesh = build_tet_mesh(options.input, std::move(data), MeshOrder::spatial, &report.build,
-                                options.regions.interior());
-  report.protected_part = protect_regions(mesh, options.regions);
-  return mesh;
-}
-
-void run_schedule(const ChosenSchedule& chosen, double time_limit, const Registry& registry,
-                  TetMesh& mesh, TraceRecorder* trace, ProgressLine& progress,
-                  ImproveReport& report) {
-  const Interruption interruption;
-  Run run(mesh, registry);
-  run.set_listener(&progress);
-  run.set_cancel_flag(&interruption.requested());
-  run.set_trace(trace);
-  progress.set_indicators(quality_indicators(mesh));
-  {
-    const Stopwatch watch(report.seconds.improving);
-    if (time_limit > 0) run.set_time_limit(time_limit);
-    improve(run, chosen.schedule, chosen.settings);
-  }
-  report.out_of_time = run.out_of_time();
-  report.interrupted = run.cancelled() && !run.out_of_time();
-  report.passes = std::move(run.records);
-  report.notes = std::move(run.notes);
-}
-
-double touched_share(const TetMesh& mesh) {
-  const std::size_t touched =
-      count_in_chunks(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
-        std::size_t count = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-          const TetHandle t(static_cast<std::uint32_t>(i));
-          if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++count;
-        }
-        return count;
-      });
-  return static_cast<double>(touched) / static_cast<double>(mesh.tet_count());
-}
-
-/// A broken promise would be a bug of tetmend. The user's file must not suffer from it.
-void check_promises(const ImproveReport& report) {
-  constexpr double kMostVolumeChange = 1e-9;
-  std::string_view broken;
-  if (!report.surface_unchanged()) broken = "the surface changed";
-  if (report.after.not_positive > report.before.not_positive) broken = "a tet got inverted";
-  if (report.before.not_positive == 0 && report.volume_change() > kMostVolumeChange) {
-    broken = "the volume changed";
-  }
-  if (broken.empty()) return;
-  throw Error(
-      fmt::format("{}: nothing was written, for {}: this is a bug of tetmend, please report it",
-                  report.output.string(), broken));
 }
 
 void write_report(const std::filesystem::path& file, const ImproveReport& report) {
@@ -156,70 +83,43 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-int run_improve(const Options& options, const Invocation& invocation) {
-  check(options);
-  const Registry registry = load_operators(options.plugins);
-  const ChosenSchedule chosen = choose_schedule(options.schedule);
-  TracePlan tracing(options.trace, registry);
-  const ThreadLimit limit(options.threads);
+int run_improve(ImproveOptions& options, const Invocation& invocation) {
+  check_files(options);
+  complete(options);
+  const int threads = options.run.threads;
   ProgressLine progress(!options.quiet);
-  ImproveReport report;
-  report.arguments = invocation.arguments;
-  report.input = options.input;
-  report.output = options.output;
-  report.schedule = options.schedule.schedule;
-  report.settings = chosen.settings;
-  report.threads = options.threads;
-  TetMesh mesh = load(options, tracing, progress, report);
+  ImproveReport report{.arguments = invocation.arguments, .options = options};
+  Mesh mesh;
   {
-    const Stopwatch watch(report.seconds.measuring);
-    progress.show("measuring");
-    report.before = measure(mesh);
+    const Stopwatch watch(report.reading);
+    progress.show(fmt::format("reading {}", options.input.string()));
+    mesh = load(options.input, threads);
   }
-  const auto trace = tracing.start(mesh, options.input, chosen);
-  run_schedule(chosen, options.schedule.time_limit, registry, mesh, trace.get(), progress, report);
+  report.result = improve_watched(mesh, options.run, progress);
   {
-    const Stopwatch watch(report.seconds.measuring);
-    progress.show("measuring");
-    report.after = measure(mesh);
-    report.limit = compute_surface_limit(mesh);
-    report.touched_share = touched_share(mesh);
-  }
-  check_promises(report);
-  {
-    const Stopwatch watch(report.seconds.writing);
+    const Stopwatch watch(report.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
-    write_mesh(options.output, MeshView(mesh));
+    save(options.output, mesh, threads);
   }
-  if (trace) trace->finish();
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);
   progress.clear();
   if (!options.quiet) {
-    fmt::print("tetmend {}: {} -> {}\n\n{}", TETMEND_VERSION, options.input.string(),
+    fmt::print("tetmend {}: {} -> {}\n\n{}", version(), options.input.string(),
                options.output.string(), format_report(report));
   }
-  if (report.interrupted) throw Error("interrupted: wrote the mesh as improved so far");
+  if (report.result.ending == Ending::cancelled) {
+    throw Error("interrupted: wrote the mesh as improved so far");
+  }
   return 0;
 }
 
 }  // namespace
 
 void add_improve(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ImproveOptions>();
   CLI::App* command = app.add_subcommand("improve", "Improve a mesh and keep its surface");
-  command->add_option("IN", options->input, "Mesh to improve")->required()->type_name("");
-  command->add_option("-o,--output", options->output, "File for the improved mesh; may be IN")
-      ->required()
-      ->type_name("OUT");
-  add_schedule_options(*command, options->schedule);
-  add_plugin_option(*command, options->plugins);
-  add_threads_option(*command, options->threads);
-  add_region_options(*command, options->regions);
-  add_trace_options(*command, options->trace);
-  command->add_option("--report", options->report, "Write all that is printed, and more, as JSON")
-      ->type_name("FILE.json");
-  command->add_flag("-q,--quiet", options->quiet, "Print nothing but errors");
+  add_improve_options(*command, *options);
   command->footer(fmt::format(
       R"(Removes slivers and raises the worst dihedral angles. Prints the statistics
 before and after and the time of each pass, and checks that the surface is

@@ -4,33 +4,35 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <tetmend/catalogue.h>
 
 #include "apps/commands.h"
 #include "apps/plugins.h"
-#include "ops/registry.h"
 
 namespace tetmend::apps {
 namespace {
 
-std::string format_range(const ParameterSpec& spec) {
+using Parameter = OperatorDescription::Parameter;
+
+std::string format_range(const Parameter& spec) {
   switch (spec.kind) {
-    case ParameterSpec::Kind::flag:
+    case Parameter::Kind::flag:
       return "0 or 1";
-    case ParameterSpec::Kind::integer:
+    case Parameter::Kind::integer:
       return fmt::format("{:.0f} to {:.0f}", spec.low, spec.high);
-    case ParameterSpec::Kind::real:
+    case Parameter::Kind::real:
       return fmt::format("{:g} to {:g}", spec.low, spec.high);
   }
   return {};
 }
 
-std::string_view kind_name(ParameterSpec::Kind kind) {
+std::string_view kind_name(Parameter::Kind kind) {
   switch (kind) {
-    case ParameterSpec::Kind::flag:
+    case Parameter::Kind::flag:
       return "flag";
-    case ParameterSpec::Kind::integer:
+    case Parameter::Kind::integer:
       return "integer";
-    case ParameterSpec::Kind::real:
+    case Parameter::Kind::real:
       return "real";
   }
   return {};
@@ -46,29 +48,27 @@ std::string as_sentence(std::string_view text) {
   return result;
 }
 
-void print_operator(const Registry& registry, const OperatorInfo& info) {
-  fmt::print("{}\n  target: {}\n  {}\n", info.name, to_string(info.target), info.help);
-  if (const std::string& file = registry.origin(info.name); !file.empty()) {
-    fmt::print("  plugin: {}\n", file);
-  }
-  for (const ParameterSpec& spec : info.parameters) {
+void print_operator(const OperatorDescription& info) {
+  fmt::print("{}\n  target: {}\n  {}\n", info.name, info.target, info.help);
+  if (!info.plugin.empty()) fmt::print("  plugin: {}\n", info.plugin.string());
+  for (const Parameter& spec : info.parameters) {
     fmt::print("    {:<20} {}, {}, default {:g}\n      {}\n", spec.name, kind_name(spec.kind),
                format_range(spec), spec.initial, spec.help);
   }
 }
 
 /// One section for each operator, with a table of its parameters.
-std::string markdown_table(const Registry& registry) {
+std::string markdown_table(const std::vector<OperatorDescription>& operators) {
   std::string text;
-  for (const OperatorInfo* info : registry.operators()) {
-    text += fmt::format("### {}\n\nTarget: {}. {}.\n\n", info->name, to_string(info->target),
-                        as_sentence(info->help));
-    if (info->parameters.empty()) {
+  for (const OperatorDescription& info : operators) {
+    text += fmt::format("### {}\n\nTarget: {}. {}.\n\n", info.name, info.target,
+                        as_sentence(info.help));
+    if (info.parameters.empty()) {
       text += "No parameters.\n\n";
       continue;
     }
     text += "| Parameter | Range | Default | Meaning |\n|---|---|---|---|\n";
-    for (const ParameterSpec& spec : info->parameters) {
+    for (const Parameter& spec : info.parameters) {
       text += fmt::format("| `{}` | {}, {} | {:g} | {} |\n", spec.name, kind_name(spec.kind),
                           format_range(spec), spec.initial, as_sentence(spec.help));
     }
@@ -78,6 +78,16 @@ std::string markdown_table(const Registry& registry) {
   return text;
 }
 
+const OperatorDescription& find_operator(const std::vector<OperatorDescription>& operators,
+                                         const std::string& name) {
+  std::string valid;
+  for (const OperatorDescription& info : operators) {
+    if (info.name == name) return info;
+    valid += (valid.empty() ? "" : ", ") + info.name;
+  }
+  throw UsageError(fmt::format("unknown operator '{}'; valid: {}", name, valid));
+}
+
 struct Options {
   std::string name;  // empty: all
   std::vector<std::filesystem::path> plugins;
@@ -85,24 +95,21 @@ struct Options {
 };
 
 int run_operators(const Options& options) {
-  const Registry registry = load_operators(options.plugins);
+  const std::vector<OperatorDescription> operators =
+      tetmend::operators(all_plugins(options.plugins));
   if (options.markdown) {
-    fmt::print("{}", markdown_table(registry));
+    fmt::print("{}", markdown_table(operators));
     return 0;
   }
   if (!options.name.empty()) {
-    try {
-      print_operator(registry, registry.find(options.name));
-    } catch (const Error& error) {
-      throw UsageError(error.what());
-    }
+    print_operator(find_operator(operators, options.name));
     return 0;
   }
   bool first = true;
-  for (const OperatorInfo* info : registry.operators()) {
+  for (const OperatorDescription& info : operators) {
     if (!first) fmt::print("\n");
     first = false;
-    print_operator(registry, *info);
+    print_operator(info);
   }
   return 0;
 }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 // tetmend quality: the figures by which a mesh is judged.
+#include <algorithm>
 #include <memory>
-#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tetmend/io.h>
+#include <tetmend/measure.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/report.h"
 #include "apps/threads.h"
-#include "kernel/formats/tet_mesh_io.h"
 
 namespace tetmend::apps {
 namespace {
@@ -26,67 +27,63 @@ struct Options {
   int threads = 1;
 };
 
-std::vector<const QualityMeasure*> find_measures(const std::vector<std::string>& names) {
-  std::vector<const QualityMeasure*> measures;
-  const auto add = [&measures](const QualityMeasure& measure) {
-    if (std::find(measures.begin(), measures.end(), &measure) == measures.end()) {
-      measures.push_back(&measure);
-    }
+/// Each once, in the order of their first mention.
+std::vector<std::string> list_measures(const std::vector<std::string>& names) {
+  std::vector<std::string> list;
+  const auto add = [&list](std::string_view name) {
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.emplace_back(name);
   };
   for (const std::string& name : names) {
-    if (name == kAll) {
-      for (const QualityMeasure& measure : quality_measures()) add(measure);
+    if (name != kAll) {
+      add(name);
       continue;
     }
-    try {
-      add(find_quality_measure(name));
-    } catch (const Error& error) {
-      throw UsageError(fmt::format("--measure: {}", error.what()));
-    }
+    for (const Measure& each : measures()) add(each.name);
   }
-  return measures;
+  return list;
 }
 
-void print_json(const std::filesystem::path& file, const MeshStatistics& statistics,
-                const std::vector<MeasureSummary>& extra, const std::optional<SurfaceLimit>& limit,
-                const BuildReport& build) {
-  nlohmann::json result = tetmend::to_json(statistics);
+void print_json(const std::filesystem::path& file, const Measurement& measured) {
+  nlohmann::json result = tetmend::to_json(measured.statistics);
   result["file"] = file.string();
-  result["build"] = to_json(build);
-  if (limit) result["limit"] = tetmend::to_json(*limit);
-  for (const MeasureSummary& summary : extra) {
-    result["measures"][std::string(summary.measure->name)] = {{"worst", summary.worst},
-                                                              {"mean", summary.mean}};
+  result["build"] = to_json(measured.build);
+  if (measured.limit) result["limit"] = tetmend::to_json(*measured.limit);
+  for (const MeasureSummary& summary : measured.measures) {
+    result["measures"][std::string(summary.name)] = {{"worst", summary.worst},
+                                                     {"mean", summary.mean}};
   }
   fmt::print("{}\n", result.dump(2));
 }
 
 int run_quality(const Options& options) {
   check_mesh_extension(options.file);
-  const ThreadLimit limit(options.threads);
-  const auto measures = find_measures(options.measures);
-  BuildReport build;
-  const TetMesh mesh = read_tet_mesh(options.file, MeshOrder::of_file, &build);
-  const MeshStatistics statistics = compute_statistics(mesh);
-  std::vector<MeasureSummary> extra;
-  for (const QualityMeasure* measure : measures) extra.push_back(summarize(mesh, *measure));
-  std::optional<SurfaceLimit> surface_limit;
-  if (options.limit) surface_limit = compute_surface_limit(mesh);
+  const MeasureOptions wanted = {.measure = list_measures(options.measures),
+                                 .limit = options.limit,
+                                 .threads = options.threads};
+  try {
+    check(wanted);
+  } catch (const OptionError& error) {
+    throw UsageError(fmt::format("--{}", error.what()));
+  }
+  const Measurement measured = measure(load(options.file, options.threads), wanted);
   if (options.json) {
-    print_json(options.file, statistics, extra, surface_limit, build);
+    print_json(options.file, measured);
     return 0;
   }
   fmt::print("{}\n\n", options.file.string());
-  if (const std::string notes = format_build(build); !notes.empty()) fmt::print("{}\n", notes);
-  fmt::print("{}\n{}", format_statistics(statistics, extra), format_histogram(statistics, nullptr));
-  if (surface_limit) fmt::print("\n{}", format_limit(*surface_limit));
+  if (const std::string notes = format_build(measured.build); !notes.empty()) {
+    fmt::print("{}\n", notes);
+  }
+  fmt::print("{}\n{}", format_statistics(measured.statistics, measured.measures),
+             format_histogram(measured.statistics, nullptr));
+  if (measured.limit) fmt::print("\n{}", format_limit(*measured.limit));
   return 0;
 }
 
 std::string measure_list() {
   std::string text;
-  for (const QualityMeasure& measure : quality_measures()) {
-    text += fmt::format("  {:<24}{}\n", measure.name, measure.help);
+  for (const Measure& each : measures()) {
+    text += fmt::format("  {:<24}{}\n", each.name, each.help);
   }
   return text;
 }

@@ -5,11 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <tetmend/catalogue.h>
 
 #include "apps/commands.h"
 #include "apps/plugins.h"
 #include "schedule/reference.h"
-#include "schedule/schedule.h"
 
 namespace tetmend::apps {
 namespace {
@@ -23,7 +23,7 @@ struct Options {
 };
 
 int run_schedules(const Options& options) {
-  load_operators(options.plugins);  // one that cannot be loaded is found here, too
+  tetmend::operators(all_plugins(options.plugins));  // one that cannot be loaded is found here, too
   if (options.markdown) {
     fmt::print("{}", format_reference());
     return 0;
@@ -33,14 +33,12 @@ int run_schedules(const Options& options) {
     return 0;
   }
   if (options.name.empty()) {
-    for (const std::string_view name : builtin_schedule_names()) {
-      fmt::print("{}", format_summary(Schedule::builtin(name).describe()));
-    }
+    for (const ScheduleInfo& info : schedules()) fmt::print("{}", format_summary(info));
     return 0;
   }
   try {
-    const Schedule schedule = Schedule::find(options.name);
-    fmt::print("{}", options.source ? schedule.text() : format_parameters(schedule.describe()));
+    fmt::print("{}", options.source ? schedule_source(options.name)
+                                    : format_parameters(describe_schedule(options.name)));
   } catch (const Error& error) {
     if (std::filesystem::path(options.name).extension() == ".lua") throw;
     throw UsageError(error.what());

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <tetmend/io.h>
 
 #include "apps/commands.h"
 #include "kernel/formats/mesh_io.h"
@@ -19,7 +20,7 @@ namespace tetmend::apps {
 
 void check_mesh_extension(const std::filesystem::path& file) {
   std::vector<std::string_view> valid;
-  for (const MeshFormat& format : mesh_formats()) valid.push_back(format.extension);
+  for (const FileFormat& format : file_formats()) valid.push_back(format.extension);
   check_extension(file, valid);
 }
 
@@ -41,7 +42,7 @@ void check_writable(const std::filesystem::path& file) {
 std::string mesh_format_list() {
   std::string text;
   std::string_view last;
-  for (const MeshFormat& format : mesh_formats()) {
+  for (const FileFormat& format : file_formats()) {
     if (format.name != last)
       text += fmt::format("{}  {:<16}", text.empty() ? "" : "\n", format.name);
     text += fmt::format(" {}", format.extension);

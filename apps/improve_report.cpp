@@ -3,10 +3,10 @@
 #include "apps/improve_report.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tetmend/catalogue.h>
 
 #include "apps/files.h"
 #include "apps/report.h"
@@ -24,9 +24,9 @@ struct PassTotal {
 };
 
 /// In the order in which the names appear first.
-std::vector<PassTotal> total_by_name(const std::vector<PassRecord>& passes) {
+std::vector<PassTotal> total_by_name(const std::vector<Pass>& passes) {
   std::vector<PassTotal> totals;
-  for (const PassRecord& pass : passes) {
+  for (const Pass& pass : passes) {
     auto total = std::find_if(totals.begin(), totals.end(),
                               [&](const PassTotal& t) { return t.name == pass.name; });
     if (total == totals.end())
@@ -42,7 +42,7 @@ std::vector<PassTotal> total_by_name(const std::vector<PassRecord>& passes) {
 }
 
 std::string format_passes(const ImproveReport& report) {
-  const std::vector<PassTotal> totals = total_by_name(report.passes);
+  const std::vector<PassTotal> totals = total_by_name(report.result.passes);
   if (totals.empty()) return {};
   // The figures of a longer name, as sequences have, stand in a line below it.
   constexpr std::size_t kWidest = 30;
@@ -54,7 +54,7 @@ std::string format_passes(const ImproveReport& report) {
                                  "attempts", "accepted", "seconds", "share");
   text += std::string(text.size() - 1, '-') + '\n';
   for (const PassTotal& total : totals) {
-    const double share = 100 * total.seconds / std::max(report.seconds.improving, 1e-9);
+    const double share = 100 * total.seconds / std::max(report.result.improving, 1e-9);
     const bool fits = total.name.size() <= width;
     if (!fits) text += total.name + "\n";
     text += fmt::format("{:<{}} {:>6} {:>12} {:>11} {:>9.2f} {:>5.1f} %\n", fits ? total.name : "",
@@ -64,47 +64,50 @@ std::string format_passes(const ImproveReport& report) {
   return text;
 }
 
-std::string format_surface(const ImproveReport& report) {
-  if (!report.surface_unchanged()) return "CHANGED";
+std::string format_surface(const Result& result) {
   return fmt::format("untouched: {} triangles, fingerprint {:016x}",
-                     grouped(report.after.statistics.boundary_triangles),
-                     report.after.surface_fingerprint);
+                     grouped(result.after.boundary_triangles), result.surface_fingerprint);
 }
 
-std::string format_orientation(const ImproveReport& report) {
-  const std::size_t before = report.before.not_positive;
-  const std::size_t after = report.after.not_positive;
+std::string format_orientation(const Result& result) {
+  const std::size_t before = result.not_positive_before;
+  const std::size_t after = result.not_positive_after;
   if (before == 0 && after == 0) return "none, checked in exact arithmetic";
   return fmt::format("{} before, {} after, counted in exact arithmetic", grouped(before),
                      grouped(after));
 }
 
+bool has_regions(const Options& options) {
+  return !options.protect.empty() || !options.only.empty();
+}
+
 std::string format_checks(const ImproveReport& report) {
-  const Timing& s = report.seconds;
+  const Result& result = report.result;
   std::string text;
   const auto line = [&text](std::string_view name, const std::string& value) {
     text += fmt::format("{:<21}{}\n", name, value);
   };
-  line("surface", format_surface(report));
-  line("inverted, flat tets", format_orientation(report));
-  line("volume", fmt::format("{:.10g}, relative change {:.2g}", report.after.statistics.volume,
-                             report.volume_change()));
-  if (report.protected_part.asked_for) {
-    line("tets protected", fmt::format("{}, {} of them bad", grouped(report.protected_part.tets),
-                                       grouped(report.protected_part.bad_tets)));
+  line("surface", format_surface(result));
+  line("inverted, flat tets", format_orientation(result));
+  line("volume",
+       fmt::format("{:.10g}, relative change {:.2g}", result.after.volume, result.volume_change()));
+  if (has_regions(report.options.run)) {
+    line("tets protected", fmt::format("{}, {} of them bad", grouped(result.protected_tets),
+                                       grouped(result.protected_bad_tets)));
   }
-  line("tets touched", fmt::format("{:.1f} %", 100 * report.touched_share));
-  line("time", fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",
-                           s.total(), s.reading, s.building, s.measuring));
-  line("", fmt::format("improving {:.2f}, writing {:.2f}", s.improving, s.writing));
-  if (report.out_of_time) line("", "stopped by the time limit");
+  line("tets touched", fmt::format("{:.1f} %", 100 * report.touched_share()));
+  line("time",
+       fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",
+                   report.total_seconds(), report.reading, result.building, result.measuring));
+  line("", fmt::format("improving {:.2f}, writing {:.2f}", result.improving, report.writing));
+  if (result.ending == Ending::time_limit) line("", "stopped by the time limit");
   line("speed", fmt::format("{} tets a second of improving",
                             grouped(static_cast<std::size_t>(report.tets_per_second()))));
   line("peak memory", fmt::format("{:.0f} MB", static_cast<double>(report.peak_memory) / 1e6));
   return text;
 }
 
-nlohmann::json to_json(const PassRecord& pass) {
+nlohmann::json to_json(const Pass& pass) {
   nlohmann::json verdicts = nlohmann::json::object();
   for (std::size_t i = 0; i < pass.verdicts.size(); ++i) {
     std::string name(to_string(static_cast<Verdict>(i)));
@@ -126,71 +129,73 @@ nlohmann::json to_json(const PassRecord& pass) {
           {"q_aver", pass.after.q_aver}};
 }
 
-nlohmann::json to_json(const Timing& seconds) {
-  return {{"total", seconds.total()},       {"reading", seconds.reading},
-          {"building", seconds.building},   {"measuring", seconds.measuring},
-          {"improving", seconds.improving}, {"writing", seconds.writing}};
+nlohmann::json seconds_to_json(const ImproveReport& report) {
+  const Result& result = report.result;
+  return {{"total", report.total_seconds()}, {"reading", report.reading},
+          {"building", result.building},     {"measuring", result.measuring},
+          {"improving", result.improving},   {"writing", report.writing}};
 }
 
 }  // namespace
 
-bool ImproveReport::surface_unchanged() const {
-  return before.surface_fingerprint == after.surface_fingerprint &&
-         before.statistics.boundary_triangles == after.statistics.boundary_triangles;
+double ImproveReport::total_seconds() const {
+  return reading + result.building + result.measuring + result.improving + writing;
 }
 
-double ImproveReport::volume_change() const {
-  const double difference = std::abs(after.statistics.volume - before.statistics.volume);
-  return difference == 0 ? 0 : difference / std::abs(before.statistics.volume);
+double ImproveReport::touched_share() const {
+  return static_cast<double>(result.touched_tets) / static_cast<double>(result.after.tets);
 }
 
 double ImproveReport::tets_per_second() const {
-  return static_cast<double>(before.statistics.tets) / std::max(seconds.improving, 1e-9);
+  return static_cast<double>(result.before.tets) / std::max(result.improving, 1e-9);
 }
 
 std::string format_report(const ImproveReport& report) {
-  std::string text = format_build(report.build);
+  const Result& result = report.result;
+  std::string text = format_build(result.build);
   if (!text.empty()) text += '\n';
-  text += format_comparison(report.before.statistics, report.after.statistics) + '\n';
-  text += format_histogram(report.before.statistics, &report.after.statistics) + '\n';
-  for (const std::string& note : report.notes) text += note + '\n';
-  if (!report.notes.empty()) text += '\n';
+  text += format_comparison(result.before, result.after) + '\n';
+  text += format_histogram(result.before, &result.after) + '\n';
+  for (const std::string& note : result.notes) text += note + '\n';
+  if (!result.notes.empty()) text += '\n';
   const std::string passes = format_passes(report);
   if (!passes.empty()) text += passes + '\n';
-  if (report.limit.n_bad > 0) text += format_limit(report.limit) + '\n';
+  if (result.limit && result.limit->n_bad > 0) text += format_limit(*result.limit) + '\n';
   return text + format_checks(report);
 }
 
 nlohmann::json to_json(const ImproveReport& report) {
-  const auto hex = [](std::uint64_t value) { return fmt::format("{:016x}", value); };
+  const Result& result = report.result;
+  const Options& options = report.options.run;
+  const std::string fingerprint = fmt::format("{:016x}", result.surface_fingerprint);
   nlohmann::json passes = nlohmann::json::array();
-  for (const PassRecord& pass : report.passes) passes.push_back(to_json(pass));
+  for (const Pass& pass : result.passes) passes.push_back(to_json(pass));
   nlohmann::json settings = nlohmann::json::object();
-  for (const auto& [name, value] : report.settings) settings[name] = value;
-  return {{"tetmend", TETMEND_VERSION},
+  for (const auto& [name, value] : options.set) settings[name] = value;
+  return {{"tetmend", version()},
           {"arguments", report.arguments},
-          {"input", report.input.string()},
-          {"output", report.output.string()},
-          {"schedule", report.schedule},
+          {"input", report.options.input.string()},
+          {"output", report.options.output.string()},
+          {"schedule", options.schedule},
           {"settings", settings},
-          {"threads", report.threads},
-          {"interrupted", report.interrupted},
-          {"out_of_time", report.out_of_time},
-          {"notes", report.notes},
-          {"build", to_json(report.build)},
-          {"protected", to_json(report.protected_part)},
-          {"before", tetmend::to_json(report.before.statistics)},
-          {"after", tetmend::to_json(report.after.statistics)},
-          {"limit", tetmend::to_json(report.limit)},
+          {"threads", options.threads},
+          {"interrupted", result.ending == Ending::cancelled},
+          {"out_of_time", result.ending == Ending::time_limit},
+          {"notes", result.notes},
+          {"build", to_json(result.build)},
+          {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
+          {"before", tetmend::to_json(result.before)},
+          {"after", tetmend::to_json(result.after)},
+          {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
           {"surface",
-           {{"unchanged", report.surface_unchanged()},
-            {"fingerprint_before", hex(report.before.surface_fingerprint)},
-            {"fingerprint_after", hex(report.after.surface_fingerprint)}}},
+           {{"unchanged", true},  // improve() fails otherwise
+            {"fingerprint_before", fingerprint},
+            {"fingerprint_after", fingerprint}}},
           {"not_positive_tets",
-           {{"before", report.before.not_positive}, {"after", report.after.not_positive}}},
-          {"volume_change", report.volume_change()},
-          {"touched_share", report.touched_share},
-          {"seconds", to_json(report.seconds)},
+           {{"before", result.not_positive_before}, {"after", result.not_positive_after}}},
+          {"volume_change", result.volume_change()},
+          {"touched_share", report.touched_share()},
+          {"seconds", seconds_to_json(report)},
           {"tets_per_second", report.tets_per_second()},
           {"peak_memory_bytes", report.peak_memory},
           {"passes", passes}};

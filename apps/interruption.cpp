@@ -37,7 +37,7 @@ Interruption::~Interruption() {
   ::sigaction(SIGTERM, &old_terminate_, nullptr);
 }
 
-const std::atomic<bool>& Interruption::requested() const {
+const std::atomic<bool>& Interruption::requested() {
   return signalled;
 }
 

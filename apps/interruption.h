@@ -16,7 +16,7 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  const std::atomic<bool>& requested() const;
+  static const std::atomic<bool>& requested();
 
  private:
   struct sigaction old_interrupt_ {};

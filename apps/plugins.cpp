@@ -10,9 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include "kernel/error.h"
-#include "ops/plugin.h"
+#include <tetmend/error.h>
 
 namespace tetmend::apps {
 namespace {
@@ -68,18 +66,10 @@ void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& pl
       ->allow_extra_args(false);
 }
 
-Registry load_operators(const std::vector<std::filesystem::path>& plugins) {
+std::vector<path> all_plugins(const std::vector<path>& plugins) {
   std::vector<path> files = plugins_of_environment();
   files.insert(files.end(), plugins.begin(), plugins.end());
-  Registry registry = Registry::builtin();
-  std::vector<path> known;
-  for (const path& file : files) {
-    const path real = std::filesystem::weakly_canonical(file);
-    if (std::find(known.begin(), known.end(), real) != known.end()) continue;
-    known.push_back(real);
-    load_plugin(file, registry);
-  }
-  return registry;
+  return files;
 }
 
 }  // namespace tetmend::apps

@@ -28,23 +28,20 @@ void ProgressLine::show(std::string_view phase) {
   if (active_) draw(std::string(phase));
 }
 
-void ProgressLine::progress(std::string_view phase, unsigned round, double share) {
+void ProgressLine::show(const Progress& progress) {
   constexpr auto kInterval = std::chrono::milliseconds(100);
   if (!active_) return;
+  if (progress.stage == Stage::building) return show("building the mesh");
+  if (progress.stage == Stage::measuring) return show("measuring");
   const Clock::time_point now = Clock::now();
-  if (now - last_drawn_ < kInterval) return;
+  if (progress.phase.empty() || now - last_drawn_ < kInterval) return;
   last_drawn_ = now;
-  draw(fmt::format("round {:2}  {:<22} {:3.0f} %  bad {:>7}  worst {:7.4f}  {:.1f} s", round, phase,
-                   100 * share, now_.n_bad, now_.q_worst,
-                   std::chrono::duration<double>(now - start_).count()));
+  draw(fmt::format("round {:2}  {:<22} {:3.0f} %  bad {:>7}  worst {:7.4f}  {:.1f} s",
+                   progress.round, progress.phase, 100 * progress.share, progress.now.n_bad,
+                   progress.now.q_worst, std::chrono::duration<double>(now - start_).count()));
 }
 
-void ProgressLine::pass_done(std::string_view, unsigned, const QualityIndicators& now) {
-  now_ = now;
-}
-
-/// The report repeats the notes; a line of its own lets them be seen on the way.
-void ProgressLine::noted(std::string_view text) {
+void ProgressLine::note(std::string_view text) {
   if (!active_) return;
   clear();
   fmt::print(stderr, "{}\n", text);

@@ -7,29 +7,26 @@
 #include <string>
 #include <string_view>
 
-#include "schedule/run.h"
+#include <tetmend/improve.h>
 
 namespace tetmend::apps {
 
 /// Writes to stderr, about ten times a second; silent when stderr is not a terminal. The line is
 /// cut to the width of the terminal and is gone after clear().
-class ProgressLine : public ProgressListener {
+class ProgressLine {
  public:
   /// @param wanted false: silent
   explicit ProgressLine(bool wanted);
-  ~ProgressLine() override { clear(); }
+  ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// Shows a phase of unknown length, such as "reading tire.mesh".
   void show(std::string_view phase);
-  /// The mesh as it is before the first pass.
-  void set_indicators(const QualityIndicators& now) { now_ = now; }
+  void show(const Progress& progress);
+  /// A line of its own, above. The report repeats the notes.
+  void note(std::string_view text);
   void clear();
-
-  void progress(std::string_view phase, unsigned round, double share) override;
-  void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) override;
-  void noted(std::string_view text) override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -39,7 +36,6 @@ class ProgressLine : public ProgressListener {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_{};
   std::size_t drawn_width_ = 0;
-  QualityIndicators now_;
 };
 
 }  // namespace tetmend::apps

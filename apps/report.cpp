@@ -149,8 +149,8 @@ std::string format_statistics(const MeshStatistics& statistics,
   Table table({&statistics});
   add_rows(table);
   for (const MeasureSummary& summary : extra) {
-    table.add_row(fmt::format("{}, worst", summary.measure->name), {decimal(summary.worst, 5)});
-    table.add_row(fmt::format("{}, mean", summary.measure->name), {decimal(summary.mean, 5)});
+    table.add_row(fmt::format("{}, worst", summary.name), {decimal(summary.worst, 5)});
+    table.add_row(fmt::format("{}, mean", summary.name), {decimal(summary.mean, 5)});
   }
   return table.str("", {});
 }

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tetmend/catalogue.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -37,7 +38,7 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
       "tetmend improves tetrahedral meshes: it removes slivers and raises the worst\n"
       "dihedral angles while the surface stays exactly as it was.",
       "tetmend");
-  app->set_version_flag("--version", "tetmend " TETMEND_VERSION);
+  app->set_version_flag("--version", fmt::format("tetmend {}", version()));
   app->require_subcommand(1);
   app->formatter(std::make_shared<HelpFormatter>());
   app->footer(fmt::format(

@@ -1,10 +1,15 @@
-# find_package(tetmend): the targets tetmend::kernel, trace, ops, contract, schedule, plugin and plugin_host.
+# find_package(tetmend): the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tetmend)
 
+install(TARGETS tetmend_library EXPORT tetmendTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/tetmend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT tetmendTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
-configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/tetmendConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/tetmendConfig.cmake INSTALL_DESTINATION ${package_dir})
+install(TARGETS tetmend_plugin EXPORT tetmendPluginTargets)
+install(DIRECTORY kernel trace search ops DESTINATION ${TETMEND_PLUGIN_INCLUDE_DIR} FILES_MATCHING PATTERN "*.h")
+install(EXPORT tetmendPluginTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
+configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmendConfig.cmake.in ${PROJECT_BINARY_DIR}/tetmendConfig.cmake @ONLY)
 # Until 1.0 each minor version may change what it likes.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tetmendConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tetmendConfig.cmake ${PROJECT_BINARY_DIR}/tetmendConfigVersion.cmake

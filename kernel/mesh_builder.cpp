@@ -48,11 +48,13 @@ void release(std::vector<T>& values) {
 
 class MeshBuilder {
  public:
-  MeshBuilder(MeshData&& data, TetMesh& mesh, BuildReport& report, InteriorConstraints interior)
+  MeshBuilder(MeshData&& data, TetMesh& mesh, BuildReport& report, InteriorConstraints interior,
+              std::uint32_t first_number)
       : data_(std::move(data)),
         mesh_(mesh),
         report_(report),
-        drops_interior_(interior == InteriorConstraints::dropped) {}
+        drops_interior_(interior == InteriorConstraints::dropped),
+        first_number_(first_number) {}
 
   void build(bool sorted) {
     check_indices();
@@ -66,6 +68,10 @@ class MeshBuilder {
     mark_edges();
     mark_vertices();
   }
+  /// After an Error: the data as it was.
+  MeshData give_back();
+  /// The file's number of each tet, by slot.
+  std::vector<std::uint32_t> take_tet_numbers();
 
  private:
   struct Signs {
@@ -108,23 +114,32 @@ class MeshBuilder {
   void swap_orientation(std::size_t t) {
     std::swap(mesh_.cells_[t].vertices[2], mesh_.cells_[t].vertices[3]);
   }
+  std::string missing_point(std::uint64_t number) const {
+    return fmt::format("no point {}, there are {}", number + first_number_, data_.points.size());
+  }
   double tet_volume6(std::size_t t) const {
     const TetVertices& v = mesh_.cells_[t].vertices;
     return volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
   }
-  /// As the file lists it.
-  std::string describe(std::size_t t) const {
+  /// As the file lists them, counted from 0.
+  std::array<std::uint32_t, 4> file_vertices(std::size_t t) const {
     TetVertices v = mesh_.cells_[t].vertices;
     if (report_.mirrored != (!swapped_.empty() && swapped_[t] != 0)) std::swap(v[2], v[3]);
-    const auto number = [&](unsigned i) { return mesh_.vertex_origin_[v[i].index()] + 1; };
-    return fmt::format("tet {} (vertices {} {} {} {})", file_tet(t) + 1, number(0), number(1),
-                       number(2), number(3));
+    const auto number = [&](unsigned i) { return mesh_.vertex_origin_[v[i].index()]; };
+    return {number(0), number(1), number(2), number(3)};
+  }
+  std::string describe(std::size_t t) const { return describe(file_tet(t), file_vertices(t)); }
+  std::string describe(std::size_t number, const std::array<std::uint32_t, 4>& vertices) const {
+    const auto counted = [this](std::uint64_t i) { return i + first_number_; };
+    return fmt::format("tet {} (vertices {} {} {} {})", counted(number), counted(vertices[0]),
+                       counted(vertices[1]), counted(vertices[2]), counted(vertices[3]));
   }
 
   MeshData data_;
   TetMesh& mesh_;
   BuildReport& report_;
   const bool drops_interior_;
+  const std::uint32_t first_number_;  // from which messages count
   // By vertex slot, see find_border(); empty unless interior constraints are dropped.
   std::vector<char> on_border_;
   std::vector<std::uint32_t> slot_of_;   // by the file's vertex number; empty: the same
@@ -152,18 +167,15 @@ void MeshBuilder::check_indices() const {
   if (const std::size_t t = *std::min_element(wrong.begin(), wrong.end()); t < tets.size()) {
     const auto& v = tets[t].vertices;
     const auto* missing = std::find_if(v.begin(), v.end(), [n](std::uint32_t i) { return i >= n; });
-    const std::string reason = missing == v.end()
-                                   ? "the same vertex twice"
-                                   : fmt::format("no point {}, there are {}", *missing + 1ull, n);
-    throw BuildError(fmt::format("tet {} (vertices {} {} {} {}): {}", t + 1, v[0] + 1ull,
-                                 v[1] + 1ull, v[2] + 1ull, v[3] + 1ull, reason),
-                     t);
+    const std::string reason =
+        missing == v.end() ? "the same vertex twice" : missing_point(*missing);
+    throw BuildError(fmt::format("{}: {}", describe(t, v), reason), t);
   }
-  const auto check = [n](std::span<const std::uint32_t> vertices, const char* what,
+  const auto check = [&](std::span<const std::uint32_t> vertices, const char* what,
                          std::size_t number) {
     for (const std::uint32_t v : vertices) {
-      if (v >= n)
-        throw Error(fmt::format("{} {}: no point {}, there are {}", what, number + 1, v + 1ull, n));
+      if (v < n) continue;
+      throw Error(fmt::format("{} {}: {}", what, number + first_number_, missing_point(v)));
     }
   };
   for (std::size_t i = 0; i < data_.triangles.size(); ++i)
@@ -601,16 +613,51 @@ void MeshBuilder::mark_vertices() {
   }
 }
 
-TetMesh::TetMesh(MeshData data, BuildReport* report, InteriorConstraints interior) {
-  BuildReport own;
-  MeshBuilder(std::move(data), *this, report ? *report : own, interior).build(false);
+std::vector<std::uint32_t> MeshBuilder::take_tet_numbers() {
+  if (file_tet_.empty()) {
+    file_tet_.resize(mesh_.cells_.size());
+    std::iota(file_tet_.begin(), file_tet_.end(), 0u);
+  }
+  return std::move(file_tet_);
 }
 
-TetMesh TetMesh::sorted(MeshData data, BuildReport* report, InteriorConstraints interior) {
+MeshData MeshBuilder::give_back() {
+  if (mesh_.cells_.empty()) return std::move(data_);  // the indices were wrong
+  if (data_.points.empty()) {
+    data_.points.resize(mesh_.points_.size());
+    for (std::size_t v = 0; v < mesh_.points_.size(); ++v) {
+      data_.points[mesh_.vertex_origin_[v]] = mesh_.points_[v];
+    }
+  }
+  data_.point_labels = std::move(mesh_.point_labels_);
+  data_.tets.resize(mesh_.cells_.size());
+  for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) {
+    data_.tets[file_tet(t)] = {file_vertices(t), mesh_.label_[t]};
+  }
+  return std::move(data_);
+}
+
+TetMesh TetMesh::build(MeshData& data, const BuildDetails& details) {
   BuildReport own;
   TetMesh mesh;
-  MeshBuilder(std::move(data), mesh, report ? *report : own, interior).build(true);
+  MeshBuilder builder(std::move(data), mesh, details.report ? *details.report : own,
+                      details.interior, details.first_number);
+  try {
+    builder.build(details.sorted);
+  } catch (const Error&) {
+    data = builder.give_back();
+    throw;
+  }
+  data = {};
+  if (details.tet_numbers) *details.tet_numbers = builder.take_tet_numbers();
   return mesh;
+}
+
+TetMesh::TetMesh(MeshData data, BuildReport* report, InteriorConstraints interior)
+    : TetMesh(build(data, {.sorted = false, .interior = interior, .report = report})) {}
+
+TetMesh TetMesh::sorted(MeshData data, BuildReport* report, InteriorConstraints interior) {
+  return build(data, {.interior = interior, .report = report});
 }
 
 }  // namespace tetmend

@@ -353,9 +353,9 @@ MeasureSummary summarize(const TetMesh& mesh, const QualityMeasure& measure) {
       values.add(later.values);
     }
   };
-  if (mesh.tet_count() == 0) return {&measure, 0, 0};
+  if (mesh.tet_count() == 0) return {measure.name, 0, 0};
   const auto sum = sum_up<Partial>(mesh, measure);
-  return {&measure, sum.worst, share(sum.values.value(), mesh.tet_count())};
+  return {measure.name, sum.worst, share(sum.values.value(), mesh.tet_count())};
 }
 
 }  // namespace tetmend

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <numeric>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -19,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/chunks.h"
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
 
@@ -134,12 +131,6 @@ std::uint32_t across(const TetMesh& mesh, HalfFace f, VertexHandle c) {
     behind = ahead;
     ahead = mesh.vertices(t)[twin.face()];
   }
-}
-
-std::uint64_t mix(std::uint64_t h) {
-  h = (h ^ (h >> 33)) * 0xFF51AFD7ED558CCDull;
-  h = (h ^ (h >> 33)) * 0xC4CEB9FE1A85EC53ull;
-  return h ^ (h >> 33);
 }
 
 // --- formats -------------------------------------------------------------------------------------
@@ -268,34 +259,6 @@ void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface
   OutputFile out(file);
   out.put(bytes.str());
   out.commit();
-}
-
-std::uint64_t surface_fingerprint(const TetMesh& mesh) {
-  const auto hash = [&](VertexHandle v) {
-    std::uint64_t h = 1;
-    for (const double x : mesh.point(v)) h = mix(h * 31 + std::bit_cast<std::uint64_t>(x));
-    return h;
-  };
-  const auto of_face = [&](HalfFace f) -> std::uint64_t {
-    const bool outside = mesh.twin(f).is_outside();
-    if (!outside && !mesh.is_constrained(f)) return 0;
-    const auto [a, b, c] = mesh.vertices(f);
-    std::array<std::uint64_t, 3> corners = {hash(a), hash(b), hash(c)};
-    std::sort(corners.begin(), corners.end());
-    return mix(mix(mix(corners[0]) ^ corners[1]) ^ corners[2] ^ (outside ? 0 : 1));
-  };
-  // From the tets, not from the table of surface triangles: a lost face must show.
-  const auto parts =
-      map_chunks<std::uint64_t>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
-        std::uint64_t sum = 0;
-        for (std::size_t slot = begin; slot < end; ++slot) {
-          const TetHandle t(static_cast<std::uint32_t>(slot));
-          if (mesh.is_deleted(t)) continue;
-          for (unsigned f = 0; f < 4; ++f) sum += of_face(HalfFace(t, f));
-        }
-        return sum;
-      });
-  return std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
 }
 
 }  // namespace tetmend

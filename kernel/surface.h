@@ -2,13 +2,13 @@
 // Boundary and constraint surfaces as OpenMesh triangle meshes.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <vector>
 
 #include <OpenMesh/Core/Mesh/Traits.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
+#include "kernel/surface_fingerprint.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -49,9 +49,5 @@ void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface
 
 /// @throws Error, with the valid extensions, if write_surface would refuse the name.
 void check_surface_extension(const std::filesystem::path& file);
-
-/// A number that changes when a boundary triangle or a constrained face comes, goes, or moves in
-/// the last bit of a coordinate. It does not depend on numbering.
-std::uint64_t surface_fingerprint(const TetMesh& mesh);
 
 }  // namespace tetmend

@@ -14,16 +14,16 @@
 
 namespace tetmend {
 
-MeshData TetMesh::to_data() const {
-  const MeshView view(*this);
-  MeshData data;
+namespace {
+
+void copy_points(const MeshView& view, MeshData& data) {
   data.points.resize(view.point_count());
   for_chunks(view.point_count(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) data.points[i] = view.point(i);
   });
-  for (std::size_t i = 0; view.has_point_labels() && i < view.point_count(); ++i) {
-    data.point_labels.push_back(view.point_label(i));
-  }
+}
+
+void copy_tets(const MeshView& view, MeshData& data) {
   data.tets.resize(view.tet_count());
   tbb::parallel_for(std::size_t{0}, view.tet_blocks(), [&](std::size_t block) {
     std::vector<MeshData::Tet> buffer;
@@ -31,9 +31,48 @@ MeshData TetMesh::to_data() const {
     std::copy(tets.begin(), tets.end(),
               data.tets.begin() + static_cast<std::ptrdiff_t>(view.first_tet(block)));
   });
+}
+
+void copy_named(const MeshView& view, MeshData& data) {
+  for (std::size_t i = 0; view.has_point_labels() && i < view.point_count(); ++i) {
+    data.point_labels.push_back(view.point_label(i));
+  }
   data.triangles.assign(view.triangles().begin(), view.triangles().end());
   data.edges.assign(view.edges().begin(), view.edges().end());
   data.required_vertices.assign(view.required_vertices().begin(), view.required_vertices().end());
+}
+
+/// Assigning an empty list would keep the memory.
+template <class... T>
+void release(std::vector<T>&... values) {
+  (std::vector<T>().swap(values), ...);
+}
+
+}  // namespace
+
+MeshData TetMesh::to_data() const& {
+  const MeshView view(*this);
+  MeshData data;
+  copy_points(view, data);
+  copy_tets(view, data);
+  copy_named(view, data);
+  return data;
+}
+
+MeshData TetMesh::to_data() && {
+  release(quality_, tet_flags_, vertex_tet_, vertex_dates_);
+  MeshData data;
+  {
+    const MeshView view(*this);
+    // The view has what it needs of these, and each of the others is needed once.
+    release(surface_, vertex_origin_, vertex_flags_, point_labels_);
+    copy_tets(view, data);
+    release(cells_, label_);
+    copy_points(view, data);
+    release(points_);
+    copy_named(view, data);
+  }
+  *this = {};
   return data;
 }
 

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include <tetmend/statistics.h>
+
 #include "kernel/handles.h"
 #include "kernel/mesh_data.h"
 #include "kernel/properties.h"
@@ -23,30 +25,20 @@ namespace tetmend {
 /// Counts commits or passes: which of two things happened later. 0 is "never".
 using Date = std::uint32_t;
 
-/// What building a mesh from a file's contents found and did.
-struct BuildReport {
-  bool mirrored = false;  ///< most tets were negative: two vertices were swapped in every tet
-  /// Negative tets that only listed their vertices the other way round: corrected.
-  std::size_t reordered_tets = 0;
-  std::size_t inverted_tets = 0;  ///< tets of negative volume that were kept
-  std::size_t flat_tets = 0;      ///< tets of zero volume (or too close to tell) that were kept
-  /// Named triangles that are no face of any tet: kept for output, but no constraint.
-  std::size_t loose_triangles = 0;
-  /// Named edges that are no edge of any tet: kept for output, and their vertices are fixed.
-  std::size_t loose_edges = 0;
-  std::size_t unused_points = 0;      ///< points of no tet: kept
-  std::size_t constrained_faces = 0;  ///< interior faces that must survive
-  // By InteriorConstraints::dropped.
-  std::size_t dropped_triangles = 0;
-  std::size_t dropped_edges = 0;
-  std::size_t dropped_vertices = 0;  ///< no longer required
-};
-
 /// What becomes of the triangles, edges and required vertices that the file names inside a region.
 /// Dropped ones are no constraint and are not written back. What lies on the boundary or on a face
 /// between two labels is always kept. A triangle or edge of no tet counts as inside when one of its
 /// vertices lies there.
 enum class InteriorConstraints : std::uint8_t { kept, dropped };
+
+/// What a caller of TetMesh::build() wishes, and wants to know.
+struct BuildDetails {
+  bool sorted = true;  ///< along a space-filling curve
+  InteriorConstraints interior = InteriorConstraints::kept;
+  std::uint32_t first_number = 1;  ///< from which messages count tets and vertices
+  BuildReport* report = nullptr;   ///< filled in; null: not wanted
+  std::vector<std::uint32_t>* tet_numbers = nullptr;  ///< in the data, by slot; null: not wanted
+};
 
 /// A face that every operation keeps: a triangle of the boundary, a triangle named by the file, or
 /// a face between two labels.
@@ -76,10 +68,15 @@ class TetMesh {
   /// about 70 bytes a tet, `data` and the mesh included.
   static TetMesh sorted(MeshData data, BuildReport* report = nullptr,
                         InteriorConstraints interior = InteriorConstraints::kept);
+  /// Either of these, for a caller who wants to know more. `data` is empty afterwards, or what it
+  /// was when an Error is thrown.
+  static TetMesh build(MeshData& data, const BuildDetails& details);
 
   /// The live part as plain arrays: vertices that came from the file first, in their order, then
-  /// the others.
-  MeshData to_data() const;
+  /// the others; tets by slot.
+  MeshData to_data() const&;
+  /// Releases the mesh on the way: takes at most 30 bytes a tet besides it.
+  MeshData to_data() &&;
 
   // --- sizes -------------------------------------------------------------------------------------
   std::size_t tet_count() const { return tet_count_; }
@@ -137,6 +134,8 @@ class TetMesh {
   }
   /// Created, or one of its vertices moved, since the mesh was built.
   bool is_touched(TetHandle t) const { return (tet_flags_[t.index()] & kTetTouched) != 0; }
+  /// Created since the mesh was built.
+  bool is_created(TetHandle t) const { return (tet_flags_[t.index()] & kTetCreated) != 0; }
   /// Must stay as it is, and its vertices where they are: see freeze().
   bool is_frozen(TetHandle t) const { return (tet_flags_[t.index()] & kTetFrozen) != 0; }
   /// A face or edge of the tet is constrained, or the tet is frozen.
@@ -172,6 +171,9 @@ class TetMesh {
   bool is_fixed(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFixed) != 0; }
   /// A vertex of a frozen tet.
   bool is_frozen(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFrozen) != 0; }
+  /// Its number in the data that the mesh was built of; kNotFromFile for a vertex that was added.
+  std::uint32_t origin(VertexHandle v) const { return vertex_origin_[v.index()]; }
+  static constexpr std::uint32_t kNotFromFile = 0xFFFFFFFFu;
   /// Latest date at which a tet of v's star was replaced or a vertex of its link moved.
   Date changed(VertexHandle v) const { return vertex_dates_[v.index()].changed; }
   /// Date at which v itself moved last.
@@ -239,10 +241,12 @@ class TetMesh {
 
   // Scans for bad tets need not ask whether a slot is in use.
   static constexpr Quality kDeletedQuality = std::numeric_limits<Quality>::infinity();
-  // Bits 0-3: face f is constrained; bits 4-9: edge e is; bit 10: touched; bit 11: frozen.
+  // Bits 0-3: face f is constrained; bits 4-9: edge e is; bit 10: touched; bit 11: frozen;
+  // bit 12: created.
   using TetFlags = std::uint16_t;
   static constexpr TetFlags kTetTouched = 0x400;
   static constexpr TetFlags kTetFrozen = 0x800;
+  static constexpr TetFlags kTetCreated = 0x1000;
   static constexpr TetFlags kTetConstraints = 0x3FF | kTetFrozen;
   using VertexFlags = std::uint8_t;
   static constexpr VertexFlags kVertexBoundary = 1;
@@ -251,7 +255,6 @@ class TetMesh {
   static constexpr VertexFlags kVertexRequired = 8;  // named by the file: written back
   static constexpr VertexFlags kVertexFrozen = 16;
   static constexpr VertexFlags kVertexFixed = kVertexBoundary | kVertexConstrained | kVertexFrozen;
-  static constexpr std::uint32_t kNotFromFile = 0xFFFFFFFFu;
 
   /// Adds deleted slots.
   void grow_tets(std::size_t count);

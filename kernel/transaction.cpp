@@ -195,7 +195,7 @@ bool Transaction::repeats_a_face(std::span<const TetVertices> created) {
 /// False if a constrained edge is missing among the new tets.
 bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
   auto& flags = workspace_.created_flags_;
-  flags.assign(created.size(), TetMesh::kTetTouched);
+  flags.assign(created.size(), TetMesh::kTetTouched | TetMesh::kTetCreated);
   for (const auto& edge : workspace_.constrained_edges_) {
     bool found = false;
     for (std::size_t k = 0; k < created.size(); ++k) {

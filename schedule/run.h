@@ -74,6 +74,8 @@ class Run {
   void set_listener(ProgressListener* listener) { listener_ = listener; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
+  /// The same, now. May be called by any thread.
+  void stop() { stopped_.store(true, std::memory_order_relaxed); }
   /// The run stops at the next consistent state that many seconds from now.
   void set_time_limit(double seconds);
   /// True once the run is to stop, for either reason.
@@ -132,9 +134,11 @@ class Run {
   ProgressListener* listener_ = nullptr;
   std::mutex listener_busy_;
   bool flag_is_set() const {
-    return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed);
+    return stopped_.load(std::memory_order_relaxed) ||
+           (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed));
   }
 
+  std::atomic<bool> stopped_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();

@@ -14,13 +14,6 @@
 
 namespace tetmend {
 
-/// What a schedule says about itself.
-struct ScheduleInfo {
-  std::string name;
-  std::string description;
-  std::vector<ScheduleParameter> parameters;  ///< in the order of the script
-};
-
 /// @throws Error for an unknown name or a value of wrong type or range, with what is valid.
 void check_settings(const ScheduleInfo& info, const ScheduleSettings& settings);
 

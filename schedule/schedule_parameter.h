@@ -6,25 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/catalogue.h>
+
 #include "schedule/script_value.h"
 
 namespace tetmend {
-
-struct ScheduleParameter {
-  enum class Kind { integer, real, flag, choice };
-  std::string name;
-  Kind kind = Kind::real;
-  double low = 0;                    ///< of numbers
-  double high = 0;                   ///< of numbers
-  double initial = 0;                ///< of numbers and flags
-  std::vector<std::string> choices;  ///< of a choice; the first is the default
-  std::string help;
-
-  /// "0 to 10", "true or false", "a, b or c".
-  std::string range() const;
-  /// The default as a user would write it.
-  std::string initial_text() const;
-};
 
 /// Values of parameters as a user writes them: "10", "true", "grummp".
 using ScheduleSettings = std::vector<std::pair<std::string, std::string>>;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Installs tetmend into a folder of its own, and builds against it, with find_package alone, what a stranger would: the
-# plugin of plugins/ and a program that uses the library. Then runs both.
+# plugin of plugins/ and the programs of docs/library.md. Then runs them. The programs are built for this very processor,
+# and write the same bytes as the command line.
 #   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -DGENERATOR=... -DLAUNCHER=... -DFLAGS=... -P installed_test.cmake
 cmake_minimum_required(VERSION 3.21)
 
@@ -21,22 +22,57 @@ function(expect text)
   endif()
 endfunction()
 
+# build(SOURCE FOLDER FLAGS...)
 function(build source folder)
+  list(JOIN ARGN " " flags)
   run(${CMAKE_COMMAND} -S ${source} -B ${folder} -G "${GENERATOR}" -DCMAKE_CXX_COMPILER=${COMPILER}
-      -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_PREFIX_PATH=${WORK}/prefix "-DCMAKE_CXX_FLAGS=${FLAGS}"
+      -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_PREFIX_PATH=${WORK}/prefix "-DCMAKE_CXX_FLAGS=${FLAGS} ${flags}"
       -DCMAKE_BUILD_TYPE=Release)
   run(${CMAKE_COMMAND} --build ${folder})
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-# Nothing of the installed package may point back to where it was built.
+
+# What users see of it is one folder, and needs nothing but the standard library.
+file(GLOB headers ${WORK}/prefix/include/tetmend/*.h)
+file(GLOB packages ${WORK}/prefix/lib*/cmake/tetmend ${WORK}/prefix/lib/*/cmake/tetmend)
+list(LENGTH headers count)
+if(count EQUAL 0 OR count GREATER 20)
+  message(FATAL_ERROR "${count} headers are installed: ${headers}")
+endif()
+foreach(file IN LISTS headers)
+  file(STRINGS ${file} includes REGEX "^ *#")
+  foreach(line IN LISTS includes)
+    if(line MATCHES "# *include" AND NOT line MATCHES "# *include <(tetmend/)?[a-z_]+(\\.h)?>")
+      message(FATAL_ERROR "${file}: ${line}")
+    endif()
+  endforeach()
+endforeach()
+# Nothing of the installed package may point back to where it was built, or name what the library is made with.
 file(GLOB_RECURSE package ${WORK}/prefix/*.cmake)
 foreach(file IN LISTS package)
   file(READ ${file} content)
   string(FIND "${content}" "${SOURCE}" position)
   if(NOT position EQUAL -1)
     message(FATAL_ERROR "${file} names ${SOURCE}")
+  endif()
+  if(content MATCHES "OpenMesh|TBB|fmt::|lua|nlohmann|gmp|zstd|CGAL|FastFloat")
+    message(FATAL_ERROR "${file} names ${CMAKE_MATCH_0}")
+  endif()
+  if(content MATCHES "Eigen" AND NOT file MATCHES "Plugin|tetmendConfig.cmake$")
+    message(FATAL_ERROR "${file} names Eigen")
+  endif()
+endforeach()
+# The library shows names of tetmend, and of nothing that is inside it.
+file(GLOB_RECURSE library ${WORK}/prefix/libtetmend.so)
+run(nm --dynamic --demangle --defined-only ${library})
+string(REGEX REPLACE "\n$" "" names "${output}")
+string(REPLACE ";" " " names "${names}")
+string(REPLACE "\n" ";" names "${names}")
+foreach(name IN LISTS names)
+  if(NOT name MATCHES "tetmend")
+    message(FATAL_ERROR "${library} shows: ${name}")
   endif()
 endforeach()
 
@@ -50,7 +86,10 @@ expect("odt_smoothing")
 run(${program} check-plugin ${plugin})
 expect("odt_smoothing keeps its contract")
 
-build(${SOURCE}/tests/install/library_user ${WORK}/library_user)
-run(${WORK}/library_user/library_user ${SOURCE}/assets/meshes/sheet.mesh ${WORK}/better.meshb ${plugin})
+build(${SOURCE}/tests/install/library_user ${WORK}/programs -march=native -O3 -Wall -Wextra -Werror -fvisibility=hidden)
+file(COPY_FILE ${SOURCE}/assets/meshes/sheet.mesh ${WORK}/part.mesh)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/programs/my_program)
+run(${program} improve ${WORK}/part.mesh -o ${WORK}/expected.mesh --schedule thorough --time-limit 60 --quiet)
+run(${CMAKE_COMMAND} -E compare_files ${WORK}/better.mesh ${WORK}/expected.mesh)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/programs/embedded ${plugin})
 expect("odt_smoothing: ")
-run(${program} quality ${WORK}/better.meshb)

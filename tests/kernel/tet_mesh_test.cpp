@@ -365,6 +365,32 @@ TEST_CASE("garbage collection and sorting keep content, soundness and properties
   }
 }
 
+TEST_CASE("a mesh that is taken apart gives the same data, and is empty then") {
+  TetMesh mesh(rich_ball());
+  make_holes(mesh);
+  const MeshData expected = mesh.to_data();
+  check_same(std::move(mesh).to_data(), expected);
+  CHECK(mesh.tet_count() == 0);
+  CHECK(mesh.vertex_slots() == 0);
+}
+
+TEST_CASE("building tells the number of each tet in the data, and empties the data") {
+  const MeshData given = rich_ball();
+  for (const bool sorted : {false, true}) {
+    MeshData data = given;
+    std::vector<std::uint32_t> numbers;
+    const TetMesh mesh = TetMesh::build(data, {.sorted = sorted, .tet_numbers = &numbers});
+    CHECK(data.tets.empty());
+    CHECK(data.points.empty());
+    REQUIRE(numbers.size() == given.tets.size());
+    for (const TetHandle t : live_tets(mesh)) {
+      for (unsigned i = 0; i < 4; ++i) {
+        CHECK(mesh.origin(mesh.vertices(t)[i]) == given.tets[numbers[t.index()]].vertices[i]);
+      }
+    }
+  }
+}
+
 TEST_CASE("scattering a compact mesh gives it the slots that it had, holes included") {
   TetMesh mesh(rich_ball());
   make_holes(mesh);

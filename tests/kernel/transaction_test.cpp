@@ -373,7 +373,10 @@ TEST_CASE("a 2-3 flip and its way back over a 3-2 flip keep the mesh sound") {
   CHECK(to_string(check_integrity(mesh)) == "");
   tx.keep();
   CHECK(total_volume(mesh) == doctest::Approx(volume));
-  for (const TetHandle t : live_tets(mesh)) CHECK(mesh.is_touched(t));
+  for (const TetHandle t : live_tets(mesh)) {
+    CHECK(mesh.is_touched(t));
+    CHECK(mesh.is_created(t));
+  }
 }
 
 TEST_CASE("new tets take the slots of the old, then free slots, then the mesh grows") {
@@ -796,7 +799,10 @@ TEST_CASE("a move dates the vertices around, not the vertex itself") {
   }
   CHECK(mesh.changed(v) == 0);
   for (const VertexHandle w : one_ring(mesh, v, workspace)) CHECK(mesh.changed(w) == 9);
-  for (const TetHandle t : star(mesh, v, workspace)) CHECK(mesh.is_touched(t));
+  for (const TetHandle t : star(mesh, v, workspace)) {
+    CHECK(mesh.is_touched(t));
+    CHECK_FALSE(mesh.is_created(t));
+  }
 }
 
 TEST_CASE("dates and marks of edits that are not kept are not written") {

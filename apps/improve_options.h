@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The options of `tetmend improve`, from the command line to the library.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <tetmend/improve.h>
+
+namespace CLI {
+class App;
+}
+
+namespace tetmend::apps {
+
+/// As the user wrote them.
+struct ImproveOptions {
+  std::filesystem::path input;
+  std::filesystem::path output;
+  std::filesystem::path report;  ///< empty: none
+  bool quiet = false;
+  Options run;                        ///< all that has the same form in the library
+  std::vector<std::string> settings;  ///< NAME=VALUE
+  std::string trace_limit;            ///< 500M; empty: none
+};
+
+void add_improve_options(CLI::App& command, ImproveOptions& options);
+
+/// What the help says of a SPEC, for the end of the command's help.
+std::string region_help();
+
+/// Fills in what of `run` has another form on the command line, and checks all of it.
+/// @throws UsageError for a mistake; Error for a plugin, a script or a trace file that is none.
+void complete(ImproveOptions& options);
+
+/// The message of an error in the words of the command line: "--time-limit: ..."
+std::string message_of(const OptionError& error);
+
+}  // namespace tetmend::apps

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Meshes from files and to files.
+#include <tetmend/io.h>
+
+#include "face/arena.h"
+#include "face/mesh_access.h"
+#include "kernel/formats/mesh_io.h"
+
+namespace tetmend {
+
+Mesh load(const std::filesystem::path& file, int threads) {
+  return face::on_threads(threads, [&] { return MeshAccess::make(read_mesh(file), file); });
+}
+
+void save(const std::filesystem::path& file, const Mesh& mesh, int threads) {
+  face::on_threads(threads, [&] { write_mesh(file, MeshAccess::data(mesh)); });
+}
+
+std::vector<FileFormat> file_formats() {
+  std::vector<FileFormat> formats;
+  for (const MeshFormat& format : mesh_formats()) {
+    formats.push_back({format.name, format.extension});
+  }
+  return formats;
+}
+
+}  // namespace tetmend

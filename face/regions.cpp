@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The part of a mesh that a run must leave as it is.
+#include "face/regions.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tetmend::face {
+
+namespace {
+
+constexpr std::string_view kLabel = "label:";
+constexpr std::string_view kBox = "box:";
+
+using Corners = std::array<const Point*, 4>;
+
+/// Some labels, or a box.
+struct Region {
+  std::string option;  ///< whose value it is
+  std::string spec;    ///< as the user wrote it, for messages
+  std::vector<Label> labels;
+  Eigen::AlignedBox3d box;  ///< empty when the region is one of labels
+
+  bool is_box() const { return labels.empty(); }
+  OptionError error(std::string_view reason) const {
+    return {option, fmt::format("{} {}: {}", option, spec, reason)};
+  }
+  bool contains(Label label, const Corners& corners) const {
+    if (!is_box()) return std::find(labels.begin(), labels.end(), label) != labels.end();
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Point* p) { return box.contains(*p); });
+  }
+};
+
+/// Numbers with commas between them; nothing when a part is no number.
+template <class Number>
+std::optional<std::vector<Number>> parse_list(std::string_view text) {
+  std::vector<Number> numbers;
+  for (;;) {
+    const std::string_view word = text.substr(0, text.find(','));
+    Number number{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    numbers.push_back(number);
+    if (word.size() == text.size()) return numbers;
+    text.remove_prefix(word.size() + 1);
+  }
+}
+
+Region parse(std::string_view option, std::string_view spec) {
+  Region region{std::string(option), std::string(spec), {}, {}};
+  const auto fail = [&](std::string_view reason) {
+    return region.error(
+        fmt::format("{}: expected label:L, label:L1,L2,... or box:x0,y0,z0,x1,y1,z1", reason));
+  };
+  if (spec.starts_with(kLabel)) {
+    const auto labels = parse_list<Label>(spec.substr(kLabel.size()));
+    if (!labels) throw fail("a label is not a whole number");
+    region.labels = *labels;
+    return region;
+  }
+  if (!spec.starts_with(kBox)) throw fail("there is no such region");
+  const auto numbers = parse_list<double>(spec.substr(kBox.size()));
+  if (!numbers) throw fail("a coordinate is not a number");
+  if (numbers->size() != 6) throw fail(fmt::format("{} coordinates, not 6", numbers->size()));
+  const std::vector<double>& x = *numbers;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(x[i] <= x[i + 3])) throw fail("the first corner is not below the second");
+  }
+  region.box = {Point(x[0], x[1], x[2]), Point(x[3], x[4], x[5])};
+  return region;
+}
+
+std::vector<Region> parse_all(std::string_view option, const std::vector<std::string>& specs) {
+  std::vector<Region> regions;
+  for (const std::string& spec : specs) regions.push_back(parse(option, spec));
+  return regions;
+}
+
+/// Every label of each region has a tet, every box holds one.
+void check_not_empty(const MeshData& data, std::span<const Region> regions) {
+  if (regions.empty()) return;
+  std::set<Label> labels;
+  Eigen::AlignedBox3d bounds;
+  std::vector<char> found(regions.size(), 0);
+  for (const MeshData::Tet& tet : data.tets) {
+    const auto& v = tet.vertices;
+    const Corners corners = {&data.points[v[0]], &data.points[v[1]], &data.points[v[2]],
+                             &data.points[v[3]]};
+    labels.insert(tet.label);
+    for (const Point* p : corners) bounds.extend(*p);
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (regions[i].is_box() && !found[i]) found[i] = regions[i].contains(tet.label, corners);
+    }
+  }
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    for (const Label label : regions[i].labels) {
+      if (labels.contains(label)) continue;
+      constexpr std::size_t kMostListed = 20;
+      const auto listed = std::vector<Label>(labels.begin(), labels.end());
+      const std::size_t count = std::min(kMostListed, listed.size());
+      throw regions[i].error(fmt::format(
+          "no tet has label {}: the mesh has {}{}", label,
+          fmt::join(listed.begin(), listed.begin() + static_cast<std::ptrdiff_t>(count), ", "),
+          count < listed.size() ? ", ..." : ""));
+    }
+    if (!regions[i].is_box() || found[i]) continue;
+    const Point& low = bounds.min();
+    const Point& high = bounds.max();
+    throw regions[i].error(fmt::format("no tet lies in the box: the mesh fills {},{},{},{},{},{}",
+                                       low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+  }
+}
+
+bool contain(std::span<const Region> regions, const TetMesh& mesh, TetHandle t) {
+  const TetVertices& v = mesh.vertices(t);
+  const Corners corners = {&mesh.point(v[0]), &mesh.point(v[1]), &mesh.point(v[2]),
+                           &mesh.point(v[3])};
+  return std::any_of(regions.begin(), regions.end(),
+                     [&](const Region& region) { return region.contains(mesh.label(t), corners); });
+}
+
+}  // namespace
+
+void check_regions(const Options& options) {
+  parse_all("protect", options.protect);
+  parse_all("only", options.only);
+}
+
+void find_regions(const MeshData& data, const Options& options) {
+  check_not_empty(data, parse_all("protect", options.protect));
+  check_not_empty(data, parse_all("only", options.only));
+}
+
+ProtectedPart protect_regions(TetMesh& mesh, const Options& options) {
+  ProtectedPart part;
+  if (options.protect.empty() && options.only.empty()) return part;
+  const std::vector<Region> protect = parse_all("protect", options.protect);
+  const std::vector<Region> only = parse_all("only", options.only);
+  part.tets = mesh.freeze([&](TetHandle t) {
+    return contain(protect, mesh, t) || (!only.empty() && !contain(only, mesh, t));
+  });
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_frozen(t) && mesh.quality(t) < kBadThreshold) ++part.bad_tets;
+  }
+  return part;
+}
+
+}  // namespace tetmend::face

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The part of a mesh that a run must leave as it is.
+#pragma once
+
+#include <cstddef>
+
+#include <tetmend/improve.h>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::face {
+
+/// @throws OptionError with the valid forms when a region of `protect` or `only` has none of them.
+void check_regions(const Options& options);
+
+/// @throws OptionError that names the region when no tet has one of its labels or lies in its box.
+void find_regions(const MeshData& data, const Options& options);
+
+/// What protect_regions() did.
+struct ProtectedPart {
+  std::size_t tets = 0;
+  std::size_t bad_tets = 0;  ///< of them
+};
+
+/// Freezes what the options protect.
+ProtectedPart protect_regions(TetMesh& mesh, const Options& options);
+
+}  // namespace tetmend::face

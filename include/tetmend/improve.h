@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// The one verb of tetmend: a mesh goes in, a better one comes out, and its surface stays bit for
+// bit.
+//
+//   tetmend::Mesh mesh = tetmend::load("part.mesh");
+//   tetmend::Result result = tetmend::improve(mesh, {.schedule = "thorough", .threads = 8});
+//   tetmend::save("better.mesh", mesh);
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tetmend/io.h>
+#include <tetmend/limit.h>
+#include <tetmend/mesh.h>
+#include <tetmend/statistics.h>
+#include <tetmend/verdict.h>
+
+namespace tetmend {
+
+/// What improve() is doing.
+enum class Stage : std::uint8_t {
+  building,   ///< adjacency, order along a space-filling curve
+  measuring,  ///< statistics and checks, before and after
+  improving   ///< the schedule runs
+};
+
+/// How far a run has come.
+struct Progress {
+  Stage stage = Stage::building;
+  std::string_view phase;  ///< of Stage::improving: the name of the pass
+  unsigned round = 0;      ///< of the schedule; 0 before its main loop
+  double share = 0;        ///< of the phase that is done, 0 to 1
+  QualityIndicators now;   ///< of the mesh after the pass before; not of Stage::building
+};
+
+/// An option has the name that it has on the command line (--time-limit is time_limit), and means
+/// the same.
+struct Options {
+  std::string schedule = "shell";  ///< name, see schedules(), or a file that ends in .lua
+  std::string script = {};         ///< text of a schedule, instead of `schedule`; empty: none
+  std::vector<std::pair<std::string, std::string>> set = {};  ///< its parameters: {"goal", "20"}
+  std::vector<std::filesystem::path> plugin = {};             ///< further operators
+  int threads = 1;  ///< 1 to 1024; the result is the same for every number
+  /// Seconds; what is reached by then is the result. 0: none. Reading and measuring do not count.
+  double time_limit = 0;
+
+  // Regions are written "label:1,4" or "box:x0,y0,z0,x1,y1,z1" (tets with all vertices in the box).
+  std::vector<std::string> protect = {};  ///< tets that stay as they are, bit for bit
+  std::vector<std::string> only = {};     ///< if there are any: all other tets stay
+  bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
+
+  std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then
+  std::string trace_around = {};     ///< "TET", "TET,RADIUS" or "X,Y,Z,RADIUS"; empty: everywhere
+  std::vector<std::string> trace_operator = {};  ///< attempts of these alone; empty: of all
+  int trace_depth = -1;           ///< attempts with at most that many around them; negative: any
+  std::uint64_t trace_limit = 0;  ///< bytes at which the trace ends; 0: none
+
+  bool limit = false;  ///< prove what the surface allows; seconds for a large mesh
+  bool maps = true;    ///< give Result::vertex_map and tet_map; 4 bytes for each entity
+  /// Called often, by any thread, never by two at once; must be quick. False stops the run.
+  std::function<bool(const Progress&)> progress = {};
+  /// Called with what the schedule has to say, in between.
+  std::function<void(std::string_view)> note = {};
+  /// The run stops soon after this became true; a signal handler may set it. Null: none.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// What one pass of the schedule did.
+struct Pass {
+  std::string name;
+  unsigned round = 0;
+  double seconds = 0;
+  std::array<std::size_t, kVerdictCount> verdicts{};  ///< number of attempts by Verdict
+  std::size_t items = 0;                              ///< tets or vertices that were tried
+  std::size_t deferred = 0;      ///< of them, those that two threads' parts of the mesh shared
+  double seconds_in_scans = 0;   ///< over the whole mesh
+  double seconds_in_blocks = 0;  ///< in the parts that threads divide among them, summed up
+  QualityIndicators after;
+
+  std::size_t count(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  std::size_t attempts() const {
+    return std::accumulate(verdicts.begin(), verdicts.end(), std::size_t{0});
+  }
+  std::size_t accepted() const { return count(Verdict::accepted); }
+};
+
+/// Why a run ended.
+enum class Ending : std::uint8_t {
+  finished,    ///< the schedule came to its end
+  time_limit,  ///< Options::time_limit
+  cancelled    ///< Options::cancel, or Options::progress returned false
+};
+
+/// In maps from old to new: the vertex or tet is not there any more.
+inline constexpr std::uint32_t kGone = 0xFFFFFFFF;
+
+struct Result {
+  MeshStatistics before;
+  MeshStatistics after;
+  Ending ending = Ending::finished;
+  std::vector<Pass> passes;
+  std::vector<std::string> notes;  ///< of the schedule
+  BuildReport build;               ///< what was peculiar about the mesh
+  std::size_t protected_tets = 0;
+  std::size_t protected_bad_tets = 0;  ///< of them
+  std::size_t touched_tets = 0;       ///< of the new mesh: tets that are new or have a moved vertex
+  std::optional<SurfaceLimit> limit;  ///< of the new mesh
+
+  /// By the old number of a vertex: its new one, or kGone. A vertex that moved is still the same.
+  /// Vertices that stay keep their order and come first; new ones follow.
+  std::vector<std::uint32_t> vertex_map;
+  /// By the old number of a tet: its new one, or kGone. A tet with the same four vertices is the
+  /// same, though they may have moved. A tet that was replaced is gone, also when a later change
+  /// brought its four vertices together again.
+  std::vector<std::uint32_t> tet_map;
+
+  // Checked before improve() returns; see volume_change().
+  std::uint64_t surface_fingerprint = 0;  ///< of all faces that had to stay; the same as before
+  std::size_t not_positive_before = 0;    ///< tets without positive volume, in exact arithmetic
+  std::size_t not_positive_after = 0;     ///< no more than before
+
+  // Seconds of each part of the work.
+  double building = 0;   ///< adjacency, order along a space-filling curve
+  double measuring = 0;  ///< statistics and checks, before and after
+  double improving = 0;
+
+  /// |after - before| / |before|, the rounding error of the volume if no tet was inverted before.
+  double volume_change() const;
+};
+
+/// Improves a mesh in place. The surface, the faces between two labels and what else is a
+/// constraint stay bit for bit. The same input gives the same result, for every number of threads.
+/// Two threads may each improve a mesh at the same time.
+///
+/// When the schedule fails half-way (a mistake in a script, an exception of a plugin or of
+/// Options::progress), the mesh is sound and improved so far. When the mesh or an option is wrong,
+/// the mesh is as before. When memory runs out, the mesh may be empty.
+/// @throws OptionError for an option without sense; Error for a file that cannot be read, a script
+/// or a plugin with a mistake, and a mesh as measure() says. The message has the place: the line of
+/// the script, the line or byte of the mesh file, the number of the tet (from 0) in the arrays.
+TETMEND_API Result improve(Mesh& mesh, const Options& options = {});
+
+/// Finds what is wrong with the options as far as can be told without a mesh. Loads the plugins.
+/// @throws OptionError, Error as improve()
+TETMEND_API void check(const Options& options);
+
+}  // namespace tetmend

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Meshes from files and to files.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include <tetmend/mesh.h>
+
+namespace tetmend {
+
+/// Reads a mesh; the format follows from the extension, see file_formats(). Reference labels and
+/// required vertices are kept. Anything else in the file is passed over, except for volume elements
+/// that are no linear tets: those are an error. Topology is not looked at.
+/// @param threads 1 to 1024; the result is the same for every number
+/// @throws Error "FILE:LINE: reason" (text) or "FILE: byte N: reason" (binary) for what is wrong in
+/// the file; "FILE: reason" when it cannot be read or its extension is unknown.
+/// Cost: linear in the size of the file, which is held in memory meanwhile.
+TETMEND_API Mesh load(const std::filesystem::path& file, int threads = 1);
+
+/// Writes a mesh; coordinates keep all their bits. The file appears under its name only when it is
+/// complete: a failure leaves an older file as it was.
+/// @throws Error "FILE: reason" when it cannot be written or the extension is unknown.
+TETMEND_API void save(const std::filesystem::path& file, const Mesh& mesh, int threads = 1);
+
+struct FileFormat {
+  std::string_view name;       ///< "MEDIT ASCII"
+  std::string_view extension;  ///< ".mesh"
+};
+
+/// All that load() and save() know, one row for each extension.
+TETMEND_API std::vector<FileFormat> file_formats();
+
+}  // namespace tetmend

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The figures of a mesh, and what its surface allows.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tetmend/limit.h>
+#include <tetmend/mesh.h>
+#include <tetmend/statistics.h>
+
+namespace tetmend {
+
+struct MeasureOptions {
+  std::vector<std::string> measure = {};  ///< names of further measures, see measures()
+  bool limit = false;  ///< prove what the surface allows; seconds for a large mesh
+  int threads = 1;     ///< 1 to 1024; the result is the same for every number
+};
+
+struct Measurement {
+  MeshStatistics statistics;
+  BuildReport build;                     ///< what is peculiar about the mesh
+  std::vector<MeasureSummary> measures;  ///< in the order asked for
+  std::optional<SurfaceLimit> limit;
+};
+
+/// Measures a mesh, and finds out whether its topology is sound. Move it in where it is not needed
+/// any more: otherwise it is copied.
+/// @throws OptionError for an unknown measure; Error, with the place in the file or the number of
+/// the tet, for a mesh without tets or of broken topology: a face has more than two tets, or two
+/// tets lie on the same side of a face.
+TETMEND_API Measurement measure(Mesh mesh, const MeasureOptions& options = {});
+
+/// Finds what is wrong with the options. @throws OptionError
+TETMEND_API void check(const MeasureOptions& options);
+
+/// One quality measure of a tet.
+struct Measure {
+  std::string_view name;
+  std::string_view help;
+};
+
+/// All that MeasureOptions::measure can name.
+TETMEND_API std::vector<Measure> measures();
+
+}  // namespace tetmend

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// A user's mesh: points, tets, labels and what else the file formats carry.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <tetmend/error.h>
+
+namespace tetmend {
+
+/// A mesh as plain arrays. Vertices are numbered from 0, in the order of `points`. An array of
+/// labels has one for each entity, or none: then all labels are 0.
+struct MeshArrays {
+  std::vector<std::array<double, 3>> points = {};
+  std::vector<std::int32_t> point_labels = {};
+  std::vector<std::array<std::uint32_t, 4>> tets = {};
+  std::vector<std::int32_t> tet_labels = {};
+  /// Triangles and edges with a name: of the boundary, between two regions, or inside one. They are
+  /// constraints: all of them are there afterwards.
+  std::vector<std::array<std::uint32_t, 3>> triangles = {};
+  std::vector<std::int32_t> triangle_labels = {};
+  std::vector<std::array<std::uint32_t, 2>> edges = {};
+  std::vector<std::int32_t> edge_labels = {};
+  std::vector<std::uint32_t> required_vertices = {};  ///< must neither move nor vanish
+};
+
+/// A mesh, as it was loaded, made of arrays, or improved. Its coordinates are finite and its
+/// vertex numbers in range; whether its topology is sound shows when it is improved or measured.
+///
+/// Reading from several threads at once is safe. What was moved from is an empty mesh.
+class TETMEND_API Mesh {
+ public:
+  Mesh();
+  /// Move the arrays in where they are not needed any more.
+  /// @throws Error when a coordinate is NaN or infinite, when a vertex number is out of range or
+  /// twice in an element, or when an array of labels has another length than its entities. The
+  /// message begins with the place: "tets[7]: ", counted from 0.
+  explicit Mesh(MeshArrays arrays);
+  ~Mesh();
+  Mesh(const Mesh& other);
+  Mesh(Mesh&& other) noexcept;
+  Mesh& operator=(const Mesh& other);
+  Mesh& operator=(Mesh&& other) noexcept;
+
+  std::size_t point_count() const;
+  std::size_t tet_count() const;
+  std::size_t triangle_count() const;
+  std::size_t edge_count() const;
+
+  // The arrays, contiguous, valid until the mesh changes. The first call of any of these copies
+  // them out of the form in which the library works, once: 24 bytes a point and 20 a tet.
+  std::span<const std::array<double, 3>> points() const { return arrays().points; }
+  std::span<const std::array<std::uint32_t, 4>> tets() const { return arrays().tets; }
+  std::span<const std::array<std::uint32_t, 3>> triangles() const { return arrays().triangles; }
+  std::span<const std::array<std::uint32_t, 2>> edges() const { return arrays().edges; }
+  std::span<const std::uint32_t> required_vertices() const { return arrays().required_vertices; }
+  // One label for each entity; `point_labels` is empty where all are 0.
+  std::span<const std::int32_t> point_labels() const { return arrays().point_labels; }
+  std::span<const std::int32_t> tet_labels() const { return arrays().tet_labels; }
+  std::span<const std::int32_t> triangle_labels() const { return arrays().triangle_labels; }
+  std::span<const std::int32_t> edge_labels() const { return arrays().edge_labels; }
+  const MeshArrays& arrays() const;
+  /// Moves the arrays out: `std::move(mesh).take_arrays()`. The mesh is empty then.
+  MeshArrays take_arrays() &&;
+
+  /// The file it was loaded from, for messages; empty for a mesh of arrays and an improved one.
+  const std::filesystem::path& file() const;
+
+ private:
+  friend struct MeshAccess;
+  struct Content;
+  const Content& content() const;
+
+  std::unique_ptr<Content> content_;  // null: empty
+};
+
+}  // namespace tetmend

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+// The one verb: what it gives, what it leaves as it was, how it ends.
+#include <algorithm>
+#include <atomic>
+#include <set>
+#include <stdexcept>
+#include <thread>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <tetmend/improve.h>
+#include <tetmend/measure.h>
+
+#include "kernel/formats/mesh_io.h"
+#include "kernel/mesh_view.h"
+#include "schedule/schedule.h"
+#include "tests/face/meshes.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::string kForever = "smooth{} while true do end";
+
+bool equal(const Mesh& a, const Mesh& b) {
+  return a.arrays().points == b.arrays().points && a.arrays().tets == b.arrays().tets &&
+         a.arrays().tet_labels == b.arrays().tet_labels &&
+         a.arrays().triangles == b.arrays().triangles;
+}
+
+/// Tets 0 and 1 lie on the same side of their common face; tet 2 lists its vertices the other way
+/// round. A mirrored mesh has all of them so.
+Mesh folded_mesh(bool mirrored) {
+  MeshArrays arrays;
+  arrays.points = {{0, 0, 2}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  arrays.point_labels = {1, 2, 3, 4, 5, 6};
+  arrays.tets = {{1, 2, 3, 4}, {1, 2, 3, 0}, {3, 2, 4, 5}};
+  for (auto& tet : arrays.tets) {
+    if (mirrored) std::swap(tet[0], tet[1]);
+  }
+  arrays.tet_labels = {3, 4, 5};
+  arrays.triangles = {{1, 2, 3}};
+  arrays.edges = {{0, 1}};
+  arrays.required_vertices = {4};
+  return Mesh(arrays);
+}
+
+}  // namespace
+
+TEST_CASE("improving gives the same mesh as the layers below, for any number of threads") {
+  for (const std::string name : {"sheet.mesh", "two_materials.mesh"}) {
+    CAPTURE(name);
+    TetMesh plain = TetMesh::sorted(read_mesh(asset(name)));
+    Registry registry = Registry::builtin();
+    Run run(plain, registry);
+    improve(run);
+    const TempFolder folder;
+    write_mesh(folder / "plain.meshb", MeshView(plain));
+    for (const int threads : {1, 2, 5}) {
+      Mesh mesh = load(asset(name));
+      improve(mesh, {.threads = threads});
+      save(folder / "face.meshb", mesh);
+      CHECK(read_text(folder / "face.meshb") == read_text(folder / "plain.meshb"));
+    }
+  }
+}
+
+TEST_CASE("the result tells what the mesh was, what it is, and what was done") {
+  Mesh mesh = load(asset("two_materials.mesh"));
+  const Measurement before = measure(mesh);
+  const Result result = improve(mesh, {.set = {{"max_rounds", "2"}}, .limit = true});
+  const Measurement after = measure(mesh);
+  CHECK(result.before.theta_min == before.statistics.theta_min);
+  CHECK(result.before.n_bad == before.statistics.n_bad);
+  CHECK(result.after.tets == mesh.tet_count());
+  CHECK(result.after.theta_min == after.statistics.theta_min);
+  CHECK(result.after.n_bad < result.before.n_bad);
+  CHECK(result.ending == Ending::finished);
+  CHECK(result.build.constrained_faces == before.build.constrained_faces);
+  CHECK(result.volume_change() < 1e-12);
+  CHECK(result.not_positive_after == 0);
+  CHECK(result.protected_tets == 0);
+  CHECK(result.touched_tets > 0);
+  REQUIRE(result.limit);
+  CHECK(result.limit->n_bad == result.after.n_bad);
+  REQUIRE(!result.passes.empty());
+  CHECK(result.passes.back().round == 2);
+  CHECK(result.passes.back().after.n_bad == result.after.n_bad);
+  for (const Pass& pass : result.passes) {
+    CHECK(!pass.name.empty());
+    CHECK(pass.accepted() <= pass.attempts());
+  }
+  CHECK(mesh.file().empty());
+}
+
+TEST_CASE("maps lead from old vertices and tets to new ones") {
+  const Mesh old = load(asset("two_materials.mesh"));
+  Mesh mesh = old;
+  const Result result = improve(mesh);
+  REQUIRE(result.vertex_map.size() == old.point_count());
+  REQUIRE(result.tet_map.size() == old.tet_count());
+
+  // Vertices that stay are the first of the new mesh, in their order.
+  std::uint32_t next = 0;
+  for (const std::uint32_t v : result.vertex_map) {
+    if (v != kGone) CHECK(v == next++);
+  }
+  CHECK(next < old.point_count());
+  CHECK(next <= mesh.point_count());
+  // Those of the surface have the same bits.
+  for (const auto& triangle : old.triangles()) {
+    for (const std::uint32_t v : triangle) {
+      REQUIRE(result.vertex_map[v] != kGone);
+      CHECK(mesh.points()[result.vertex_map[v]] == old.points()[v]);
+    }
+  }
+
+  std::set<std::uint32_t> kept;
+  std::size_t touched = 0;
+  for (std::size_t t = 0; t < old.tet_count(); ++t) {
+    if (result.tet_map[t] == kGone) continue;
+    CHECK(kept.insert(result.tet_map[t]).second);
+    std::array<std::uint32_t, 4> corners = old.tets()[t];
+    std::array<std::uint32_t, 4> now = mesh.tets()[result.tet_map[t]];
+    bool moved = false;
+    for (std::uint32_t& v : corners) {
+      const auto point = old.points()[v];
+      v = result.vertex_map[v];
+      REQUIRE(v != kGone);
+      moved = moved || mesh.points()[v] != point;
+    }
+    CHECK(old.tet_labels()[t] == mesh.tet_labels()[result.tet_map[t]]);
+    touched += moved;
+    std::sort(corners.begin(), corners.end());
+    std::sort(now.begin(), now.end());
+    CHECK(corners == now);
+  }
+  CHECK(!kept.empty());
+  CHECK(kept.size() < old.tet_count());
+  CHECK(touched > 0);
+  // A vertex may have moved there and back.
+  CHECK(result.touched_tets >= touched + (mesh.tet_count() - kept.size()));
+}
+
+TEST_CASE("a mesh that nothing is done to keeps all its vertices and tets") {
+  const Mesh old = load(asset("sheet.mesh"));
+  Mesh mesh = old;
+  const Result result = improve(mesh, {.script = "log 'nothing to do'"});
+  CHECK(result.notes == std::vector<std::string>{"nothing to do"});
+  CHECK(result.touched_tets == 0);
+  for (std::uint32_t v = 0; v < old.point_count(); ++v) CHECK(result.vertex_map[v] == v);
+  for (std::size_t t = 0; t < old.tet_count(); ++t) {
+    CHECK(mesh.tets()[result.tet_map[t]] == old.tets()[t]);
+  }
+  CHECK(improve(mesh, {.script = "log 'again'", .maps = false}).vertex_map.empty());
+}
+
+TEST_CASE("a mesh of broken topology is told with its place and stays as it was") {
+  for (const bool mirrored : {false, true}) {
+    CAPTURE(mirrored);
+    const Mesh old = folded_mesh(mirrored);
+    Mesh mesh = old;
+    CHECK(message_of([&] { improve(mesh); }) ==
+          (mirrored
+               ? "tet 1 (vertices 2 1 3 0) and tet 0 (vertices 2 1 3 4) lie on the same side of "
+                 "their common face, counted from 0"
+               : "tet 1 (vertices 1 2 3 0) and tet 0 (vertices 1 2 3 4) lie on the same side of "
+                 "their common face, counted from 0"));
+    CHECK(equal(mesh, old));
+    CHECK(mesh.arrays().point_labels == old.arrays().point_labels);
+    CHECK(mesh.arrays().edges == old.arrays().edges);
+    CHECK(mesh.arrays().required_vertices == old.arrays().required_vertices);
+  }
+}
+
+TEST_CASE("a mesh of broken topology from a file is told with its line, as often as one asks") {
+  const TempFolder folder;
+  const auto file = folder / "a.mesh";
+  save(file, folded_mesh(false));
+  const std::string text = read_text(file);
+  const auto line =
+      1 + std::count(text.begin(),
+                     text.begin() + static_cast<std::ptrdiff_t>(text.find("\n2 3 4 1 4\n") + 1),
+                     '\n');
+  Mesh mesh = load(file);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(message_of([&] { improve(mesh); })
+              .starts_with(
+                  fmt::format("{}:{}: tet 2 (vertices 2 3 4 1) and tet 1 ", file.string(), line)));
+  }
+  mesh = Mesh();
+  CHECK(message_of([&] { improve(mesh); }) == "the mesh has no tetrahedra");
+}
+
+TEST_CASE("a wrong option is named, and the mesh stays as it was") {
+  const Mesh old = load(asset("two_materials.mesh"));
+  const std::vector<std::pair<std::string, Options>> wrong = {
+      {"schedule", {.schedule = "polish"}},
+      {"set", {.set = {{"polish", "1"}}}},
+      {"set", {.set = {{"max_rounds", "many"}}}},
+      {"threads", {.threads = 0}},
+      {"threads", {.threads = 1025}},
+      {"time_limit", {.time_limit = -1}},
+      {"protect", {.protect = {"lable:1"}}},
+      {"only", {.only = {"box:0,0,0,1"}}},
+      {"trace_operator", {.trace_operator = {"polish"}}},
+      {"trace_around", {.trace_around = "here"}}};
+  const std::vector<std::pair<std::string, Options>> wrong_for_this_mesh = {
+      {"protect", {.protect = {"label:99"}}},
+      {"only", {.only = {"box:90,90,90,91,91,91"}}},
+      {"trace_around", {.trace_around = "1000000"}}};
+  const auto check_error = [](const std::string& name, const auto& call) {
+    try {
+      call();
+      FAIL("no error");
+    } catch (const OptionError& error) {
+      CHECK(error.option() == name);
+      CHECK(std::string(error.what()).starts_with(name));
+    }
+  };
+  for (const auto& [name, options] : wrong) {
+    CAPTURE(name);
+    Mesh mesh = old;
+    check_error(name, [&, &given = options] { improve(mesh, given); });
+    check_error(name, [&given = options] { check(given); });
+    CHECK(equal(mesh, old));
+  }
+  for (const auto& [name, options] : wrong_for_this_mesh) {
+    CAPTURE(name);
+    Mesh mesh = old;
+    check_error(name, [&, &given = options] { improve(mesh, given); });
+    check(options);
+    CHECK(equal(mesh, old));
+    CHECK(mesh.file() == old.file());
+  }
+  check({.schedule = "thorough", .set = {{"min_dihedral", "20"}}, .time_limit = 60});
+}
+
+TEST_CASE("a mistake in a script has its line, and the mesh is sound and improved so far") {
+  Mesh mesh = load(asset("sheet.mesh"));
+  const std::size_t bad = measure(mesh).statistics.n_bad;
+  CHECK(message_of([&] {
+          improve(mesh, {.script = "local_reconnection{}\nsmoth{}"});
+        }).starts_with("script:2: unknown name 'smoth'"));
+  CHECK(measure(mesh).statistics.n_bad < bad);
+  const TempFolder folder;
+  const std::string file = (folder / "my.lua").string();
+  CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file));
+  write_text(file, "smooth{");
+  CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file + ":1: "));
+}
+
+TEST_CASE("a run tells how far it has come: stages, passes, notes") {
+  Mesh mesh = load(asset("sheet.mesh"));
+  std::vector<Stage> stages;
+  std::set<std::string> phases;
+  std::vector<std::string> notes;
+  std::size_t bad = 0;
+  const Result result =
+      improve(mesh, {.script = "smooth{} log('half') local_reconnection{}",
+                     .threads = 2,
+                     .progress =
+                         [&](const Progress& progress) {
+                           if (stages.empty() || stages.back() != progress.stage) {
+                             stages.push_back(progress.stage);
+                           }
+                           if (progress.stage == Stage::improving) {
+                             phases.emplace(progress.phase);
+                             bad = progress.now.n_bad;
+                           }
+                           CHECK(progress.share >= 0);
+                           CHECK(progress.share <= 1);
+                           return true;
+                         },
+                     .note = [&](std::string_view text) { notes.emplace_back(text); }});
+  CHECK(stages ==
+        std::vector{Stage::building, Stage::measuring, Stage::improving, Stage::measuring});
+  for (const Pass& pass : result.passes) CHECK(phases.contains(pass.name));
+  CHECK(notes == std::vector<std::string>{"half"});
+  CHECK(bad == result.after.n_bad);
+}
+
+TEST_CASE("a run stops when progress says so, when a flag is set, and when its time is over") {
+  const Mesh old = load(asset("sheet.mesh"));
+  const auto ending_of = [&](Options options) {
+    Mesh mesh = old;
+    options.script = kForever;
+    const Ending ending = improve(mesh, options).ending;
+    CHECK(measure(mesh).statistics.tets == mesh.tet_count());
+    return ending;
+  };
+  CHECK(ending_of({.progress = [](const Progress& p) { return p.stage != Stage::improving; }}) ==
+        Ending::cancelled);
+  CHECK(ending_of({.progress = [](const Progress& p) { return p.stage != Stage::building; }}) ==
+        Ending::cancelled);
+  CHECK(ending_of({.time_limit = 0.05}) == Ending::time_limit);
+  std::atomic<bool> flag = false;
+  CHECK(ending_of({.progress =
+                       [&](const Progress& p) {
+                         if (p.stage == Stage::improving) flag = true;
+                         return true;
+                       },
+                   .cancel = &flag}) == Ending::cancelled);
+}
+
+TEST_CASE("an exception of a user's function ends the run, and comes out of it") {
+  for (const int threads : {1, 3}) {
+    Mesh mesh = load(asset("bracket.meshb"));
+    const auto fail = [](const Progress& progress) -> bool {
+      if (progress.stage == Stage::improving && progress.share > 0) {
+        throw std::runtime_error("no more");
+      }
+      return true;
+    };
+    CHECK_THROWS_WITH_AS(improve(mesh, {.threads = threads, .progress = fail}), "no more",
+                         std::runtime_error);
+    CHECK(measure(mesh).statistics.tets == mesh.tet_count());
+  }
+}
+
+TEST_CASE("two threads improve a mesh each at the same time") {
+  const auto work = [](Mesh& mesh, int threads) {
+    mesh = load(asset("sheet.mesh"));
+    improve(mesh, {.threads = threads});
+  };
+  Mesh a;
+  Mesh b;
+  Mesh alone;
+  std::thread first([&] { work(a, 2); });
+  std::thread second([&] { work(b, 1); });
+  first.join();
+  second.join();
+  work(alone, 1);
+  CHECK(equal(a, alone));
+  CHECK(equal(b, alone));
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// docs/library.md shows programs that are compiled and run, and all options that there are.
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend::test;
+
+namespace {
+
+const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
+
+/// What stands between ```LANGUAGE and ```.
+std::vector<std::string> blocks_of(const std::string& page, const std::string& language) {
+  const std::string begin = "```" + language + "\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    blocks.push_back(page.substr(at, page.find("```", at) - at));
+  }
+  return blocks;
+}
+
+}  // namespace
+
+TEST_CASE("the programs of docs/library.md are those that the install test builds and runs") {
+  const std::string page = read_text(kSource / "docs/library.md");
+  const auto programs = kSource / "tests/install/library_user";
+  const std::string sources =
+      read_text(programs / "main.cpp") + read_text(programs / "embedded.cpp");
+  CHECK(blocks_of(page, "cpp").size() == 5);
+  for (const std::string& block : blocks_of(page, "cpp")) {
+    CAPTURE(block);
+    CHECK(sources.find(block) != std::string::npos);
+  }
+  REQUIRE(blocks_of(page, "cmake").size() == 1);
+  CHECK(read_text(programs / "CMakeLists.txt").find(blocks_of(page, "cmake")[0]) !=
+        std::string::npos);
+}
+
+TEST_CASE("docs/library.md has a row for each field of Options and Result") {
+  const std::string page = read_text(kSource / "docs/library.md");
+  const std::string header = read_text(kSource / "include/tetmend/improve.h");
+  std::size_t fields = 0;
+  for (const std::string name : {"struct Options {", "struct Result {"}) {
+    const std::size_t begin = header.find(name);
+    REQUIRE(begin != std::string::npos);
+    const std::string body = header.substr(begin, header.find("\n};", begin) - begin);
+    const std::regex field(R"(\n  [A-Za-z][\w:<>(), &*]* \*?(\w+)( = [^;]+)?;)");
+    for (std::sregex_iterator each(body.begin(), body.end(), field), end; each != end; ++each) {
+      const std::string word = (*each)[1].str();
+      if (word == "const") continue;  // a function
+      CAPTURE(word);
+      CHECK(page.find('`' + word + '`') != std::string::npos);
+      ++fields;
+    }
+  }
+  CHECK(fields >= 35);
+}

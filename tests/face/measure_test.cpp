@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The figures of a mesh.
+#include <doctest/doctest.h>
+#include <tetmend/measure.h>
+
+#include "kernel/formats/mesh_io.h"
+#include "kernel/statistics.h"
+#include "schedule/limit/surface_limit.h"
+#include "tests/face/meshes.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+TEST_CASE("a mesh is measured as the kernel does, and stays as it is") {
+  const Mesh mesh = load(asset("sheet.mesh"));
+  const TetMesh plain(read_mesh(asset("sheet.mesh")));
+  const Measurement measured = measure(mesh, {.measure = {"radius_ratio"}, .limit = true});
+  const MeshStatistics expected = compute_statistics(plain);
+  CHECK(measured.statistics.tets == mesh.tet_count());
+  CHECK(measured.statistics.theta_min == expected.theta_min);
+  CHECK(measured.statistics.histogram == expected.histogram);
+  REQUIRE(measured.measures.size() == 1);
+  CHECK(measured.measures[0].name == "radius_ratio");
+  CHECK(measured.measures[0].worst == summarize(plain, find_quality_measure("radius_ratio")).worst);
+  REQUIRE(measured.limit);
+  CHECK(measured.limit->theta_max == compute_surface_limit(plain).theta_max);
+  CHECK(measured.build.constrained_faces > 0);
+  CHECK(!measure(mesh).limit);
+}
+
+TEST_CASE("a measure that is unknown is found out, and each that is listed is known") {
+  CHECK_THROWS_AS(measure(Mesh(two_tets()), {.measure = {"beauty"}}), OptionError);
+  CHECK(message_of([] { check(MeasureOptions{.measure = {"beauty"}}); }).starts_with("measure: "));
+  std::vector<std::string> names;
+  for (const Measure& each : measures()) names.emplace_back(each.name);
+  CHECK(measure(Mesh(two_tets()), {.measure = names}).measures.size() == names.size());
+}
+
+TEST_CASE("broken topology is told with the line of the file, or the number in the arrays") {
+  MeshArrays folded;
+  folded.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}};
+  folded.tets = {{0, 1, 2, 3}, {0, 1, 2, 4}};
+  const Mesh mesh(folded);
+  CHECK(
+      message_of([&] { measure(mesh); }) ==
+      "tet 1 (vertices 0 1 2 4) and tet 0 (vertices 0 1 2 3) lie on the same side of their common "
+      "face, counted from 0");
+  const TempFolder folder;
+  save(folder / "a.mesh", mesh);
+  CHECK(message_of([&] {
+          measure(load(folder / "a.mesh"));
+        }).starts_with((folder / "a.mesh").string() + ":13: tet 2 (vertices 1 2 3 5) and tet 1"));
+  CHECK(message_of([] { measure(Mesh()); }) == "the mesh has no tetrahedra");
+}

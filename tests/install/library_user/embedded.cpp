@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//   embedded PLUGIN
+// What a larger program does with the library: the examples of docs/library.md, run.
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tetmend/catalogue.h>
+#include <tetmend/improve.h>
+#include <tetmend/measure.h>
+
+namespace {
+
+struct Solver {
+  std::vector<std::array<double, 3>> nodes;
+  std::vector<std::array<std::uint32_t, 4>> cells;
+  std::vector<std::int32_t> materials;  // of the cells
+  std::vector<double> temperatures;     // at the nodes
+};
+
+void improve_mesh_of(Solver& solver) {
+  tetmend::Mesh mesh(
+      {.points = solver.nodes, .tets = solver.cells, .tet_labels = solver.materials});
+  const tetmend::Result result = tetmend::improve(mesh, {.threads = 4});
+
+  std::vector<double> temperatures(mesh.point_count(), std::nan(""));  // to be interpolated
+  for (std::size_t v = 0; v < result.vertex_map.size(); ++v) {
+    const std::uint32_t now = result.vertex_map[v];
+    if (now != tetmend::kGone) temperatures[now] = solver.temperatures[v];
+  }
+  tetmend::MeshArrays arrays = std::move(mesh).take_arrays();
+  solver = {std::move(arrays.points), std::move(arrays.tets), std::move(arrays.tet_labels),
+            std::move(temperatures)};
+}
+
+bool is_usable(const std::string& file) {
+  try {
+    const tetmend::Measurement measured = tetmend::measure(tetmend::load(file));
+    return measured.statistics.theta_min > 5 && measured.statistics.inverted == 0;
+  } catch (const tetmend::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());  // part.mesh:1234: tet 17 ...: a face of it has ...
+    return false;
+  }
+}
+
+std::atomic<bool> stop_button = false;
+
+tetmend::Ending improve_watched(tetmend::Mesh& mesh) {
+  tetmend::Options options;
+  options.cancel = &stop_button;
+  options.progress = [](const tetmend::Progress& progress) {
+    if (progress.stage == tetmend::Stage::improving) {
+      std::printf("%s: %zu bad tets\n", std::string(progress.phase).c_str(), progress.now.n_bad);
+    }
+    return true;  // false stops the run
+  };
+  return tetmend::improve(mesh, options).ending;
+}
+
+tetmend::Result improve_by_own_script(tetmend::Mesh& mesh, const std::string& plugin) {
+  tetmend::Options options;
+  options.script = R"(
+    local steps = parameter{"steps", default = 2, low = 1, high = 9}
+    for i = 1, steps do
+      begin_round()
+      apply({"odt_smoothing", halvings = 4}, {on = {below = 0.6}})
+      log("bad tets:", quality().n_bad)
+    end)";
+  options.set = {{"steps", "3"}};
+  options.plugin = {plugin};
+  return tetmend::improve(mesh, options);
+}
+
+/// Prints and ends the program when a promise of the page is broken.
+void expect(bool kept, const char* promise) {
+  if (kept) return;
+  std::fprintf(stderr, "broken: %s\n", promise);
+  std::exit(1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const tetmend::Mesh part = tetmend::load("part.mesh");
+  Solver solver;
+  solver.nodes.assign(part.points().begin(), part.points().end());
+  solver.cells.assign(part.tets().begin(), part.tets().end());
+  solver.materials.assign(part.tet_labels().begin(), part.tet_labels().end());
+  solver.temperatures.assign(part.point_count(), 300);
+  improve_mesh_of(solver);
+  expect(solver.temperatures.size() == solver.nodes.size(), "a temperature for each node");
+  expect(solver.materials.size() == solver.cells.size(), "a material for each cell");
+  expect(solver.temperatures[0] == 300, "nodes that stay come first");
+  expect(is_usable("better.mesh"), "a mesh that was improved is usable");
+  expect(!is_usable("missing.mesh"), "errors are caught by their type");
+
+  tetmend::Mesh mesh = part;
+  expect(improve_watched(mesh) == tetmend::Ending::finished, "a run that nobody stops ends");
+  stop_button = true;
+  expect(improve_watched(mesh) == tetmend::Ending::cancelled, "the button stops a run");
+
+  mesh = part;
+  const tetmend::Result result = improve_by_own_script(mesh, argv[1]);
+  expect(result.notes.size() == 3, "the script ran its three rounds");
+  std::size_t accepted = 0;
+  for (const tetmend::Pass& pass : result.passes) accepted += pass.accepted();
+  std::printf("odt_smoothing: %zu accepted\n", accepted);
+  expect(accepted > 0, "the operator of the plugin did something");
+  expect(tetmend::operators({argv[1]}).back().name == "odt_smoothing", "operators are listed");
+  return 0;
+}
