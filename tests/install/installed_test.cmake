@@ -49,6 +49,12 @@ foreach(file IN LISTS headers)
     endif()
   endforeach()
 endforeach()
+# Authors of plugins see more, but no search engine: a plugin survives a change of one.
+file(GLOB_RECURSE plugin_headers ${WORK}/prefix/include/tetmend/plugin/*.h)
+list(LENGTH plugin_headers count)
+if(count EQUAL 0 OR count GREATER 25 OR IS_DIRECTORY ${WORK}/prefix/include/tetmend/plugin/search)
+  message(FATAL_ERROR "${count} headers for plugins are installed: ${plugin_headers}")
+endif()
 # Nothing of the installed package may point back to where it was built, or name what the library is made with.
 file(GLOB_RECURSE package ${WORK}/prefix/*.cmake)
 foreach(file IN LISTS package)
