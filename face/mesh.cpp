@@ -138,8 +138,8 @@ Mesh& Mesh::operator=(const Mesh& other) {
 }
 
 const Mesh::Content& Mesh::content() const {
-  static const Content empty;
-  return content_ ? *content_ : empty;
+  static const Content kEmpty;
+  return content_ ? *content_ : kEmpty;
 }
 
 std::size_t Mesh::point_count() const {
