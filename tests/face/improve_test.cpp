@@ -220,17 +220,21 @@ TEST_CASE("a wrong option is named, and the mesh stays as it was") {
       CHECK(std::string(error.what()).starts_with(name));
     }
   };
-  for (const auto& [name, options] : wrong) {
+  for (const auto& entry : wrong) {
+    const std::string& name = entry.first;
+    const Options& options = entry.second;
     CAPTURE(name);
     Mesh mesh = old;
-    check_error(name, [&, &given = options] { improve(mesh, given); });
-    check_error(name, [&given = options] { check(given); });
+    check_error(name, [&] { improve(mesh, options); });
+    check_error(name, [&] { check(options); });
     CHECK(equal(mesh, old));
   }
-  for (const auto& [name, options] : wrong_for_this_mesh) {
+  for (const auto& entry : wrong_for_this_mesh) {
+    const std::string& name = entry.first;
+    const Options& options = entry.second;
     CAPTURE(name);
     Mesh mesh = old;
-    check_error(name, [&, &given = options] { improve(mesh, given); });
+    check_error(name, [&] { improve(mesh, options); });
     check(options);
     CHECK(equal(mesh, old));
     CHECK(mesh.file() == old.file());
