@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
 #include "ops/registry.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -18,27 +18,9 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
-  Verdict attempt(VertexHandle v, const ParameterSettings& settings = {}) {
-    Registry registry = Registry::builtin();
-    const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, states};
-    const Verdict verdict =
-        registry.make("edge_contraction", settings)->attempt(context, Target::of(v));
-    CHECK(check_integrity(mesh).empty());
-    if (verdict != Verdict::accepted) CHECK(mesh == before);
-    return verdict;
-  }
-  Quality worst() const {
-    Quality least = 1;
-    for (const TetHandle t : live_tets(mesh)) least = std::min(least, mesh.quality(t));
-    return least;
-  }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
+struct Worker : LoneWorker {
+  using LoneWorker::LoneWorker;
+  Verdict attempt(VertexHandle v) { return LoneWorker::attempt("edge_contraction", Target::of(v)); }
 };
 
 /// A regular tet with a vertex inside, close to a corner or in the middle of nowhere.

@@ -3,7 +3,6 @@
 #include "ops/edge_split.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -12,6 +11,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "ops/registry.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -19,30 +19,11 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
-  std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
-    return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
-  }
+struct Worker : LoneWorker {
+  using LoneWorker::LoneWorker;
   Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {}) {
-    Registry registry = Registry::builtin();
-    const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, states};
-    const Verdict verdict =
-        registry.make("edge_split", settings)->attempt(context, Target::of(*edge(a, b)));
-    CHECK(check_integrity(mesh).empty());
-    if (verdict != Verdict::accepted) CHECK(mesh == before);
-    return verdict;
+    return LoneWorker::attempt("edge_split", edge(a, b), settings);
   }
-  Quality worst() const {
-    Quality least = 1;
-    for (const TetHandle t : live_tets(mesh)) least = std::min(least, mesh.quality(t));
-    return least;
-  }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
 };
 
 /// The edge is much longer than the ring is wide: the tets are thin, their halves are not as thin.
@@ -60,7 +41,7 @@ TEST_CASE("splitting a long edge turns its m tets into 2 m around a new vertex")
     REQUIRE(worker.attempt(0, 1) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 2 * m);
     CHECK(worker.mesh.vertex_count() == m + 3);
-    CHECK_FALSE(worker.edge(0, 1).has_value());
+    CHECK_FALSE(worker.has_edge(0, 1));
     CHECK(worker.worst() > before);
     const VertexHandle v(m + 2);
     CHECK_FALSE(worker.mesh.is_fixed(v));

@@ -20,6 +20,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "ops/registry.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 
 // ---- Counts what the heap is asked for ----------------------------------------------------------
@@ -78,19 +79,6 @@ using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
-  Verdict attempt(const Operator& op, Target target, TraceSink* trace = nullptr,
-                  unsigned level = 0) {
-    OperatorContext context{mesh, workspace, states, trace, level};
-    return op.attempt(context, target);
-  }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
-};
 
 /// An operator whose stages the test writes; notes which of them ran.
 struct Empty {};
@@ -186,7 +174,7 @@ struct Recorder final : TraceSink {
 }  // namespace
 
 TEST_CASE("an attempt ends at the first stage that refuses") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   const auto edit = [](OperatorContext& context, Transaction& transaction) {
     return remove_edge_of_three(context, transaction);
@@ -205,7 +193,7 @@ TEST_CASE("an attempt ends at the first stage that refuses") {
 }
 
 TEST_CASE("what apply did is undone when apply refuses in the end") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   const Scripted op(Verdict::accepted, Verdict::accepted,
                     [](OperatorContext& context, Transaction& transaction) {
@@ -217,7 +205,7 @@ TEST_CASE("what apply did is undone when apply refuses in the end") {
 }
 
 TEST_CASE("an edit that makes the quality vector worse is undone") {
-  Worker worker(shell_of_three(0.3));
+  LoneWorker worker(shell_of_three(0.3));
   const TetMesh start = worker.mesh;
   const Scripted op(Verdict::accepted, Verdict::accepted, remove_edge_of_three);
   CHECK(worker.attempt(op, kFirstTet) == Verdict::no_improvement);
@@ -225,7 +213,7 @@ TEST_CASE("an edit that makes the quality vector worse is undone") {
 }
 
 TEST_CASE("an attempt that edits nothing is no improvement") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   const Scripted op(Verdict::accepted, Verdict::accepted,
                     [](OperatorContext&, Transaction&) { return Verdict::accepted; });
@@ -235,7 +223,7 @@ TEST_CASE("an attempt that edits nothing is no improvement") {
 
 TEST_CASE(
     "an exception out of apply undoes its edits and becomes an error that names the operator") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   const auto check = [&](const Scripted& op, const std::string& message) {
     CHECK_THROWS_WITH_AS(worker.attempt(op, kFirstTet), message.c_str(), Error);
@@ -260,7 +248,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a lack of memory stays what it is, and the edits are undone") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   const Scripted op(Verdict::accepted, Verdict::accepted,
                     [](OperatorContext& context, Transaction& transaction) -> Verdict {
@@ -272,7 +260,7 @@ TEST_CASE("a lack of memory stays what it is, and the edits are undone") {
 }
 
 TEST_CASE("edits before apply are undone and are an error, kept or not, accepted or not") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   for (const Verdict verdict : {Verdict::accepted, Verdict::no_improvement}) {
     const Hasty op(verdict);
@@ -284,7 +272,7 @@ TEST_CASE("edits before apply are undone and are an error, kept or not, accepted
 }
 
 TEST_CASE("the trace hears operator, target, level, verdict and the quality vectors") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   Recorder trace;
   const Scripted refusing(Verdict::inverted, Verdict::accepted, remove_edge_of_three);
   worker.attempt(refusing, kFirstTet, &trace, 2);
@@ -307,7 +295,7 @@ TEST_CASE("the trace hears operator, target, level, verdict and the quality vect
 }
 
 TEST_CASE("the judge of the context decides before that of the operator") {
-  Worker worker(shell_of_three(0.3));  // two tets are worse
+  LoneWorker worker(shell_of_three(0.3));  // two tets are worse
   const TetMesh start = worker.mesh;
   const Scripted op(Verdict::accepted, Verdict::accepted, remove_edge_of_three);
   const Judge patient = Judge::opening(0);
@@ -359,14 +347,14 @@ class Persistent final : public OperatorOf<int> {
 }  // namespace
 
 TEST_CASE("an operator may make another proposal after one that was refused") {
-  Worker worker(shell_of_three(1.4));
+  LoneWorker worker(shell_of_three(1.4));
   const TetMesh start = worker.mesh;
   CHECK(worker.attempt(Persistent(0), kFirstTet) == Verdict::inverted);
   CHECK(worker.mesh == start);
   CHECK(worker.attempt(Persistent(1), kFirstTet) == Verdict::accepted);
   CHECK(worker.mesh.tet_count() == 2);
   // Each that the judge refuses is undone before the next.
-  Worker low(shell_of_three(0.3));
+  LoneWorker low(shell_of_three(0.3));
   const TetMesh before = low.mesh;
   CHECK(low.attempt(Persistent(3), kFirstTet) == Verdict::no_improvement);
   CHECK(low.mesh == before);
@@ -404,7 +392,7 @@ TEST_CASE("an attempt takes no memory from the heap once the buffers have grown"
       CAPTURE(info->name);
       CAPTURE(settings.size());
       const auto op = registry.make(info->name, settings);
-      Worker worker(delaunay_ball(150, 9));
+      LoneWorker worker(delaunay_ball(150, 9));
       std::vector<Target> targets;
       for (const TetHandle t : live_tets(worker.mesh)) {
         if (info->target == TargetKind::tet) targets.push_back(Target::of(t));

@@ -14,6 +14,7 @@
 #include "kernel/integrity.h"
 #include "schedule/passes.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/text.h"
 #include "tests/support/threads.h"
 
@@ -48,23 +49,11 @@ std::string complaint_about(const std::string& file) {
   return complaint;
 }
 
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
-  Verdict attempt(const Operator& op, Target target) {
-    OperatorContext context{mesh, workspace, states};
-    return op.attempt(context, target);
-  }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
-};
-
 /// What the attempts at all vertices of a ball end in. After an error or refusal the mesh must be
 /// as before.
 std::map<std::string, int> endings(const Operator& op) {
   std::map<std::string, int> count;
-  Worker worker(delaunay_ball(60, 2));
+  LoneWorker worker(delaunay_ball(60, 2));
   for (const VertexHandle v : live_vertices(worker.mesh)) {
     const TetMesh before = worker.mesh;
     try {

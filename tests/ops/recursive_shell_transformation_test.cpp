@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -14,6 +13,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "ops/registry.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 #include "trace/text_trace.h"
 
@@ -85,34 +85,12 @@ MeshData shell_that_would_grow() {
                 {3, 5, 0, 1}});
 }
 
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
-
-  std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
-    return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
-  }
+struct Worker : LoneWorker {
+  using LoneWorker::LoneWorker;
   Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {},
                   std::string_view name = "recursive_shell_transformation") {
-    Registry registry = Registry::builtin();
-    const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, states};
-    const Verdict verdict =
-        registry.make(name, settings)->attempt(context, Target::of(*edge(a, b)));
-    CHECK(check_integrity(mesh).empty());
-    if (verdict != Verdict::accepted) CHECK(mesh == before);
-    return verdict;
+    return LoneWorker::attempt(name, edge(a, b), settings);
   }
-  unsigned degree(std::uint32_t a, std::uint32_t b) {
-    const auto e = edge(a, b);
-    if (!e) return 0;
-    Shell shell;
-    REQUIRE(find_shell(mesh, *e, shell) == ShellKind::closed);
-    return shell.degree;
-  }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
 };
 
 }  // namespace
@@ -123,8 +101,7 @@ TEST_CASE("without the filter more link edges are tried") {
     TextTrace trace;
     Registry registry = Registry::builtin();
     OperatorContext context{worker.mesh, worker.workspace, worker.states, &trace};
-    registry.make("recursive_shell_transformation", settings)
-        ->attempt(context, Target::of(*worker.edge(0, 1)));
+    registry.make("recursive_shell_transformation", settings)->attempt(context, worker.edge(0, 1));
     return std::count(trace.text().begin(), trace.text().end(), '\n');
   };
   CHECK(tried({{"filter", 0}}) > tried({{"reflex_only", 0}}));
@@ -138,7 +115,7 @@ TEST_CASE(
   CHECK(flat.attempt(0, 1, {{"max_level", 0}}) == Verdict::depth_spent);
   Worker deep(two_shells());
   CHECK(deep.attempt(0, 1, {{"max_level", 1}}) == Verdict::accepted);
-  CHECK_FALSE(deep.edge(0, 1).has_value());
+  CHECK_FALSE(deep.has_edge(0, 1));
   CHECK(count_not_positive(deep.mesh) == 0);
 }
 
@@ -148,7 +125,7 @@ TEST_CASE("three shells in a chain take two levels") {
   CHECK(shallow.attempt(0, 1, {{"max_level", 1}}) == Verdict::depth_spent);
   Worker deep(three_shells());
   CHECK(deep.attempt(0, 1, {{"max_level", 2}}) == Verdict::accepted);
-  CHECK_FALSE(deep.edge(0, 1).has_value());
+  CHECK_FALSE(deep.has_edge(0, 1));
 }
 
 TEST_CASE("more levels than needed give the same mesh") {
@@ -183,7 +160,7 @@ TEST_CASE("a covering that puts a new face around the edge to be removed is not 
   // Seen from the link edge alone, without an ancestor, the covering is fine.
   unsigned grown = 0;
   Shell shell;
-  REQUIRE(find_shell(worker.mesh, *worker.edge(0, 1), shell) == ShellKind::closed);
+  REQUIRE(find_shell(worker.mesh, worker.edge(0, 1).edge(), shell) == ShellKind::closed);
   for (unsigned i = 0; i < shell.degree; ++i) {
     for (const std::uint32_t end : {0u, 1u}) {
       Worker alone(shell_that_would_grow());
@@ -199,10 +176,10 @@ TEST_CASE("a recursion makes no more transformations than its budget allows") {
   CHECK(Worker(two_shells()).attempt(0, 1, {{"budget", 1}}) == Verdict::budget_spent);
   Worker two(two_shells());
   CHECK(two.attempt(0, 1, {{"budget", 2}}) == Verdict::accepted);  // what was reached is kept
-  CHECK(two.edge(0, 1).has_value());
+  CHECK(two.has_edge(0, 1));
   Worker three(two_shells());
   CHECK(three.attempt(0, 1, {{"budget", 3}}) == Verdict::accepted);
-  CHECK_FALSE(three.edge(0, 1).has_value());
+  CHECK_FALSE(three.has_edge(0, 1));
 }
 
 TEST_CASE("boundary and constraint stop the recursion at its root and on its way") {
@@ -227,7 +204,7 @@ TEST_CASE("boundary and constraint stop the recursion at its root and on its way
       data.edges.push_back({{a.index(), b.index()}, 1});
       Worker worker(data);
       if (worker.attempt(0, 1) != Verdict::accepted) ++refused;
-      CHECK(worker.edge(a.index(), b.index()).has_value());
+      CHECK(worker.has_edge(a.index(), b.index()));
     }
   }
   CHECK(refused > 0);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "ops/registry.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -22,36 +22,11 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
-
-  std::optional<TetEdge> edge(std::uint32_t a, std::uint32_t b) {
-    return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
-  }
-  bool has_edge(std::uint32_t a, std::uint32_t b) { return edge(a, b).has_value(); }
-  /// Attempts the operator at the edge between two vertices; the mesh stays sound, after a refusal
-  /// the same.
+struct Worker : LoneWorker {
+  using LoneWorker::LoneWorker;
   Verdict attempt(const std::string& name, std::uint32_t a, std::uint32_t b) {
-    Registry registry = Registry::builtin();
-    REQUIRE(has_edge(a, b));
-    const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, states};
-    const Verdict verdict = registry.make(name)->attempt(context, Target::of(*edge(a, b)));
-    CHECK(check_integrity(mesh).empty());
-    if (verdict != Verdict::accepted) CHECK(mesh == before);
-    return verdict;
+    return LoneWorker::attempt(name, edge(a, b));
   }
-  /// Qualities of the live tets, ascending.
-  std::vector<Quality> qualities() const {
-    std::vector<Quality> all;
-    for (const TetHandle t : live_tets(mesh)) all.push_back(mesh.quality(t));
-    std::sort(all.begin(), all.end());
-    return all;
-  }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
 };
 
 const std::vector<std::string> kBoth = {"shell_transformation", "edge_removal"};
@@ -137,7 +112,7 @@ TEST_CASE("a partial reduction keeps the edge with a smaller shell where removal
   CHECK(worker.mesh.tet_count() == 6);
   REQUIRE(worker.has_edge(0, 1));
   Shell shell;
-  REQUIRE(find_shell(worker.mesh, *worker.edge(0, 1), shell) == ShellKind::closed);
+  REQUIRE(find_shell(worker.mesh, worker.edge(0, 1).edge(), shell) == ShellKind::closed);
   CHECK(shell.degree == 4);
   // Of the three tets that were replaced.
   const Comparison& comparison = worker.states.comparison;

@@ -3,7 +3,6 @@
 #include "ops/smoothing.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -11,6 +10,7 @@
 #include "kernel/integrity.h"
 #include "kernel/star.h"
 #include "ops/registry.h"
+#include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -35,28 +35,12 @@ MeshData octahedron(const Point& centre) {
   return data;
 }
 
-struct Worker {
-  explicit Worker(const MeshData& data) : mesh(data), workspace(mesh) {}
+struct Worker : LoneWorker {
+  using LoneWorker::LoneWorker;
   Verdict attempt(std::uint32_t v, const ParameterSettings& settings = {}) {
-    Registry registry = Registry::builtin();
-    const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, states};
-    const Verdict verdict =
-        registry.make("smoothing", settings)->attempt(context, Target::of(VertexHandle(v)));
-    CHECK(check_integrity(mesh).empty());
-    if (verdict != Verdict::accepted) CHECK(mesh == before);
-    return verdict;
-  }
-  Quality worst() const {
-    Quality least = 1;
-    for (const TetHandle t : live_tets(mesh)) least = std::min(least, mesh.quality(t));
-    return least;
+    return LoneWorker::attempt("smoothing", Target::of(VertexHandle(v)), settings);
   }
   const Point& centre() const { return mesh.point(VertexHandle(0)); }
-
-  TetMesh mesh;
-  Workspace workspace;
-  OperatorStates states;
 };
 
 }  // namespace

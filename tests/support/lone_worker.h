@@ -28,16 +28,31 @@ class LoneWorker {
 
   /// Checks that the mesh is sound afterwards and, after a refusal, what it was before.
   Verdict attempt(std::string_view name, Target target, const ParameterSettings& settings = {}) {
-    Registry registry = Registry::builtin();
     const TetMesh before = mesh;
-    OperatorContext context{mesh, workspace, states};
-    const Verdict verdict = registry.make(name, settings)->attempt(context, target);
+    const Verdict verdict = attempt(*Registry::builtin().make(name, settings), target);
     CHECK(check_integrity(mesh).empty());
     CHECK(count_not_positive(mesh) <= count_not_positive(before));
     if (verdict != Verdict::accepted) CHECK(mesh == before);
     return verdict;
   }
 
+  /// Checks nothing.
+  Verdict attempt(const Operator& op, Target target, TraceSink* trace = nullptr,
+                  unsigned level = 0) {
+    OperatorContext context{mesh, workspace, states, trace, level};
+    return op.attempt(context, target);
+  }
+
+  bool has_edge(std::uint32_t a, std::uint32_t b) {
+    return find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace).has_value();
+  }
+  /// Number of tets around an edge that is inside; 0 if it is gone.
+  unsigned degree(std::uint32_t a, std::uint32_t b) {
+    if (!has_edge(a, b)) return 0;
+    Shell shell;
+    REQUIRE(find_shell(mesh, edge(a, b).edge(), shell) == ShellKind::closed);
+    return shell.degree;
+  }
   Target edge(std::uint32_t a, std::uint32_t b) {
     const auto found = find_edge(mesh, VertexHandle(a), VertexHandle(b), workspace);
     REQUIRE(found.has_value());
@@ -50,16 +65,32 @@ class LoneWorker {
     FAIL("no such tet");
     return {};
   }
+  Target face(std::vector<std::uint32_t> corners) const {
+    std::sort(corners.begin(), corners.end());
+    for (const TetHandle t : live_tets(mesh)) {
+      for (unsigned f = 0; f < 4; ++f) {
+        std::vector<std::uint32_t> found;
+        for (const VertexHandle v : mesh.vertices(HalfFace(t, f))) found.push_back(v.index());
+        std::sort(found.begin(), found.end());
+        if (found == corners) return Target::of(HalfFace(t, f));
+      }
+    }
+    FAIL("no such face");
+    return {};
+  }
   std::set<Corners> tets() const {
     std::set<Corners> all;
     for (const TetHandle t : live_tets(mesh)) all.insert(corners_of(t));
     return all;
   }
-  Quality worst() const {
-    Quality least = 1;
-    for (const TetHandle t : live_tets(mesh)) least = std::min(least, mesh.quality(t));
-    return least;
+  /// Of the live tets, ascending.
+  std::vector<Quality> qualities() const {
+    std::vector<Quality> all;
+    for (const TetHandle t : live_tets(mesh)) all.push_back(mesh.quality(t));
+    std::sort(all.begin(), all.end());
+    return all;
   }
+  Quality worst() const { return qualities().front(); }
 
   /// The vertices listed belong to others from now on. Free slots are those provided before.
   void give_away(const std::vector<std::uint32_t>& vertices) {
