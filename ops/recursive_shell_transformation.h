@@ -9,11 +9,6 @@ namespace tetmend {
 /// Target: an edge. Transforms its shell. While that is not fully reduced, removes supporting faces
 /// by recursive calls on their reflex link edges ([chen, Alg. 4, 5.1-5.3]). Each transformation
 /// improves the quality vector of its own shell, so partial success is kept.
-///
-/// With `target_mode` only one thing counts: that the tet by which the edge is named vanishes.
-/// Shells on the way may get worse. But no new tet is as bad as that one or, where the shell was
-/// better, below `floor`. Refuses as `no_improvement` when the tet stays, or when removing it costs
-/// many new bad tets (as edge_split).
 const OperatorInfo& recursive_shell_transformation_info();
 
 }  // namespace tetmend
