@@ -30,6 +30,16 @@ void add_schedule_options(CLI::App& command, ImproveOptions& options) {
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command
+      .add_option("--goal", options.goal,
+                  "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "
+                  "180\nless MIN). Tets that miss it are bad")
+      ->type_name("MIN[,MAX]");
+  command
+      .add_option("--measure", options.run.measure,
+                  "What tets are judged by: angles and needles,\nor with 'sine' angles alone, as "
+                  "in the\npaper (default: sine_and_length)")
+      ->type_name("NAME");
+  command
       .add_option("--time-limit", options.run.time_limit,
                   "Stop improving after that time and\nwrite what was reached")
       ->type_name("SECONDS")
@@ -95,6 +105,24 @@ std::vector<std::pair<std::string, std::string>> split_settings(
   return settings;
 }
 
+/// 35 or 35,140.
+Goal read_goal(const std::string& text) {
+  Goal goal;
+  const std::size_t comma = text.find(',');
+  const auto read = [&](std::string_view part) {
+    double angle = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), angle);
+    if (error != std::errc() || end != part.data() + part.size()) {
+      throw UsageError(fmt::format("--goal: '{}' is not of the form MIN or MIN,MAX", text));
+    }
+    return angle;
+  };
+  const std::string_view whole = text;
+  goal = Goal::symmetric(read(whole.substr(0, comma)));
+  if (comma != std::string::npos) goal.max_angle = read(whole.substr(comma + 1));
+  return goal;
+}
+
 /// 5000, 500K, 500M, 5G.
 std::uint64_t read_size(std::string_view text) {
   constexpr std::string_view kUnits = "KMG";
@@ -149,6 +177,7 @@ void complete(ImproveOptions& options) {
   Options& run = options.run;
   run.plugin = all_plugins(run.plugin);
   run.set = split_settings(options.settings);
+  if (!options.goal.empty()) run.goal = read_goal(options.goal);
   if (!options.trace_limit.empty()) run.trace_limit = read_size(options.trace_limit);
   run.limit = true;
   run.maps = false;

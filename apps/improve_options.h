@@ -23,6 +23,7 @@ struct ImproveOptions {
   bool quiet = false;
   Options run;                        ///< all that has the same form in the library
   std::vector<std::string> settings;  ///< NAME=VALUE
+  std::string goal;                   ///< 35 or 35,140; empty: the default
   std::string trace_limit;            ///< 500M; empty: none
 };
 

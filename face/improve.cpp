@@ -71,6 +71,7 @@ struct Plan {
   Registry registry;
   Schedule schedule;
   face::TracePlan trace;
+  Standard standard;
 
   explicit Plan(const Options& options)
       : registry(face::load_registry(options.plugin)),
@@ -78,6 +79,16 @@ struct Plan {
         trace(options, registry) {
     face::check_threads(options.threads);
     face::check_regions(options);
+    if (!is_sound(options.goal)) {
+      throw OptionError("goal", fmt::format("goal: {},{} is no goal: the smallest angle is above 0 "
+                                            "and at most 70 degrees, the largest 71 to below 180",
+                                            options.goal.min_angle, options.goal.max_angle));
+    }
+    try {
+      standard = Standard(options.goal, to_terms(options.measure));
+    } catch (const Error& error) {
+      throw OptionError("measure", fmt::format("measure: {}", error.what()));
+    }
     if (!(options.time_limit >= 0)) {
       throw OptionError("time_limit", fmt::format("time_limit: {} is no time", options.time_limit));
     }
@@ -178,6 +189,7 @@ void Improvement::build() {
     user_mesh_ = MeshAccess::make(std::move(data), file_);
     throw;
   }
+  mesh_.set_standard(plan_.standard);
   const face::ProtectedPart part = face::protect_regions(mesh_, options_);
   result_.protected_tets = part.tets;
   result_.protected_bad_tets = part.bad_tets;

@@ -51,7 +51,7 @@ double largest_angle_sine(const Transaction& transaction) {
     sine = std::min(sine, tetmend::largest_angle_sine(mesh.point(v[0]), mesh.point(v[1]),
                                                       mesh.point(v[2]), mesh.point(v[3])));
   }
-  return sine;
+  return sine * std::sqrt(mesh.standard().obtuse2());
 }
 
 }  // namespace

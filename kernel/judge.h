@@ -18,7 +18,7 @@ class Transaction;
 
 /// Differences below this do not count as progress: they are within reach of rounding, and a run
 /// would crawl.
-inline constexpr Quality kQualityTolerance = 1e-6f;
+inline constexpr Quality kQualityTolerance = 2e-6f;
 
 /// True if the quality vector `now` is better than `before`: both ascending, compared
 /// lexicographically, the shorter better when one continues the other ([chen, 6.1]). The first
@@ -26,7 +26,7 @@ inline constexpr Quality kQualityTolerance = 1e-6f;
 /// all, so true also holds in the strict order.
 bool improves(std::span<const Quality> now, std::span<const Quality> before);
 
-/// How much a tet lacks to be good, (0.5 - q)^4, or 0: a sum of it weighs one very bad tet against
+/// How much a tet lacks to be good, (1 - q)^4, or 0: a sum of it weighs one very bad tet against
 /// several mild ones.
 inline double deficit(double quality) {
   const double lack = std::max(0.0, static_cast<double>(kBadThreshold) - quality);
@@ -35,10 +35,10 @@ inline double deficit(double quality) {
 
 /// The least gain that pays for one more bad tet. Tiny gains, one after the other, would fill the
 /// neighbourhood with bad tets.
-inline constexpr double kPriceOfBad = 0.001;
+inline constexpr double kPriceOfBad = 0.002;
 
 /// A worst tet below this quality is desperate: its gain may be paid for with more bad tets.
-inline constexpr double kDesperate = 0.2;
+inline constexpr double kDesperate = 0.4;
 
 /// The qualities of all that a transaction has touched, as they were when it began and as they are
 /// now. One for each worker; empty when nothing was compared.

@@ -42,6 +42,59 @@ struct Frame {
 
 }  // namespace
 
+namespace {
+
+/// 0.5 for 30 and 150 degrees, to the last bit.
+double sine_of(double degrees) {
+  constexpr double kDigits = 1e15;
+  return std::round(std::sin(degrees * std::numbers::pi / 180) * kDigits) / kDigits;
+}
+
+/// Square of the volume-length measure of a needle: an equilateral triangle with an apex above its
+/// middle, and edges to it that are `ratio` times as long as its sides.
+double needle_volume_length2(double ratio) {
+  const double height2 = ratio * ratio - 1.0 / 3;
+  const double sum = 3 + 3 * ratio * ratio;
+  return 432 * (0.75 * height2) / (sum * sum * sum);
+}
+
+/// Users take edges of a tet for similar up to this ratio.
+constexpr double kNeedleRatio = 4;
+/// Quality of a needle without volume.
+constexpr double kFlat = 0.4;
+
+}  // namespace
+
+Standard::Standard(const Goal& goal, Terms terms)
+    : goal_(goal),
+      terms_(terms),
+      acute2_(1 / (sine_of(goal.min_angle) * sine_of(goal.min_angle))),
+      obtuse2_(1 / (sine_of(goal.max_angle) * sine_of(goal.max_angle))) {
+  if (terms == Terms::sine) return;
+  flat2_ = kFlat * kFlat;
+  // VL^2 = 432 V6^2 / S^3.
+  length_ = (1 - flat2_) * 432 / needle_volume_length2(kNeedleRatio);
+}
+
+double Standard::quality_of_angle(double degrees) const {
+  return sine_of(degrees) * std::sqrt(degrees > 90 ? obtuse2_ : acute2_);
+}
+
+Standard::Terms to_terms(std::string_view name) {
+  for (const auto terms : {Standard::Terms::sine, Standard::Terms::sine_and_length}) {
+    if (name == to_string(terms)) return terms;
+  }
+  throw Error("unknown measure '" + std::string(name) + "'; valid: sine, sine_and_length");
+}
+
+std::string_view to_string(Standard::Terms terms) {
+  return terms == Standard::Terms::sine ? "sine" : "sine_and_length";
+}
+
+bool is_sound(const Goal& goal) {
+  return goal.min_angle > 0 && goal.min_angle <= 70 && goal.max_angle >= 71 && goal.max_angle < 180;
+}
+
 std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
                                       const Point& d) {
   const Frame frame(a, b, c, d);

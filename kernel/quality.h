@@ -1,33 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Quality measures of a tet, chosen by name once. Larger is better, 0 is degenerate, negative is
-// inverted.
+// Quality of a tet: by the standard of a run, and measures chosen by name. Larger is better, 0 is
+// degenerate, negative is inverted.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <string_view>
+
+#include <tetmend/goal.h>
 
 #include "kernel/geometry.h"
 #include "kernel/handles.h"
 
 namespace tetmend {
 
-/// Quality as the mesh stores it. Single precision is enough to rank tets; see kernel/judge.h for
-/// comparisons.
+/// Quality as the mesh stores it: 1 for a tet that just reaches the goal, see Standard. Single
+/// precision is enough to rank tets; see kernel/judge.h for comparisons.
 using Quality = float;
 
-/// What is measured, and from when on a tet is good.
-struct Standard {
-  std::string_view measure;  ///< a name of quality_measures()
-  Quality good;
-};
-
-/// Minimum sine, no angle under 30 or over 150 degrees ([chen, 6.1]).
-inline constexpr Standard kStandard = {"min_sine", 0.5f};
-
 /// A tet of lower quality is bad.
-inline constexpr Quality kBadThreshold = kStandard.good;
+inline constexpr Quality kBadThreshold = 1;
 
 /// A measure is a pure function of the four points of a tet, in positive order for a valid tet.
 struct QualityMeasure {
@@ -37,32 +32,79 @@ struct QualityMeasure {
   double best;  ///< value of the regular tet
 };
 
-/// Minimum sine of the six dihedral angles, with the sign of the volume; the measure that tetmend
-/// improves. 0 when a face is degenerate. Regular tet: 0.942809 (2 sqrt(2) / 3). One root and one
-/// division. Source: [chen, 6.1]; sin(theta_ij) = V6 l_ij / (N_k N_l) with N the norms of the face
-/// normals.
+/// From when on a tet is good, and what it is judged by. Its quality is the smaller of two terms,
+/// with the sign of the volume; 0 when a face is degenerate.
+///
+///   sines    the smallest of the six sin(theta) / sin(goal), goal being the smallest angle of the
+///            goal for an acute theta and the largest one for an obtuse theta
+///   length   sqrt(flat^2 + (1 - flat^2) (VL / VL_needle)^2), VL the volume-length measure
+///
+/// So a tet is bad if it misses the goal, or if it is a needle. Sines alone do not see needles:
+/// operators make them, and nothing can repair the thin tets around. A needle is no worse than
+/// `flat`, so among the worst tets sines alone decide. Where the surface forces needles, these do
+/// not hide the angles. A value of a few words; immutable.
+class Standard {
+ public:
+  /// The measures that a run may have.
+  enum class Terms : unsigned char {
+    sine,            ///< of [chen, 6.1]
+    sine_and_length  ///< with the second term
+  };
+  /// No goal: the quality is minimum_sine().
+  Standard() = default;
+  explicit Standard(const Goal& goal, Terms terms = Terms::sine_and_length);
+
+  const Goal& goal() const { return goal_; }
+  Terms terms() const { return terms_; }
+  /// The quality of a tet whose worst angle is `degrees` and that is no needle.
+  double quality_of_angle(double degrees) const;
+
+  // Squares, for whoever computes qualities of many tets: with V6, S the sum of the squared edges
+  // and r the least l_ij^2 / (N_k^2 N_l^2), times the weight of the angle's kind,
+  //   quality^2 = min(V6^2 r, flat2 + length V6^2 / S^3).
+  double acute2() const { return acute2_; }
+  double obtuse2() const { return obtuse2_; }
+  bool is_even() const { return acute2_ == obtuse2_; }
+  double flat2() const { return flat2_; }
+  double length() const { return length_; }
+
+  /// The same goal, for angles alone.
+  Standard of_angles() const {
+    Standard angles = *this;
+    angles.terms_ = Terms::sine;
+    angles.flat2_ = kOff;
+    angles.length_ = 0;
+    return angles;
+  }
+  /// Of a tet in positive order. One root, two divisions.
+  double quality(const Point& p0, const Point& p1, const Point& p2, const Point& p3) const;
+  friend bool operator==(const Standard&, const Standard&) = default;
+
+ private:
+  Goal goal_ = {90, 90};
+  Terms terms_ = Terms::sine;
+  double acute2_ = 1;
+  double obtuse2_ = 1;
+  double flat2_ = kOff;
+  double length_ = 0;
+
+  static constexpr double kOff = 1e30;  // more than any other term
+};
+
+/// Minimum sine of the six dihedral angles, with the sign of the volume. 0 when a face is
+/// degenerate. Regular tet: 0.942809 (2 sqrt(2) / 3). One root and one division. Source: [chen,
+/// 6.1]; sin(theta_ij) = V6 l_ij / (N_k N_l) with N the norms of the face normals.
 inline double minimum_sine(const Point& p0, const Point& p1, const Point& p2, const Point& p3) {
-  const Point e01 = p1 - p0;
-  const Point e02 = p2 - p0;
-  const Point e03 = p3 - p0;
-  const Point e12 = p2 - p1;
-  const Point e13 = p3 - p1;
-  const Point e23 = p3 - p2;
-  const Point n1 = e02.cross(e03);
-  const double n0 = e12.cross(e13).squaredNorm();
-  const double n2 = e01.cross(e03).squaredNorm();
-  const double n3 = e01.cross(e02).squaredNorm();
-  const double nn1 = n1.squaredNorm();
-  const double v6 = e01.dot(n1);
-  // Edge ij times the normals of the faces that do not contain it, that is opposite i and j.
-  const double a = std::min(e01.squaredNorm() * (n0 * nn1), e02.squaredNorm() * (n0 * n2));
-  const double b = std::min(e03.squaredNorm() * (n0 * n3), e12.squaredNorm() * (nn1 * n2));
-  const double c = std::min(e13.squaredNorm() * (nn1 * n3), e23.squaredNorm() * (n2 * n3));
-  const double smallest = std::min(std::min(a, b), c);
-  const double product = (n0 * nn1) * (n2 * n3);
-  if (!(product > 0)) return 0;
-  return v6 * std::sqrt(smallest / product);
+  return Standard().quality(p0, p1, p2, p3);
 }
+
+/// As options and scripts write it: "sine" or "sine_and_length".
+/// @throws Error for another name, with these two.
+Standard::Terms to_terms(std::string_view name);
+std::string_view to_string(Standard::Terms terms);
+
+/// True if the angles of a goal are within their bounds.
+bool is_sound(const Goal& goal);
 
 /// The six dihedral angles in degrees, 0..180, at the edges in the order of kEdgeVertices. For an
 /// inverted tet the angles of its mirror image. The angles at a degenerate face are 0.
@@ -88,6 +130,48 @@ double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const
 
 /// Sine of the largest dihedral angle, with the sign of the volume; 1 if none is obtuse.
 double largest_angle_sine(const Point& a, const Point& b, const Point& c, const Point& d);
+
+inline double Standard::quality(const Point& p0, const Point& p1, const Point& p2,
+                                const Point& p3) const {
+  const Point e01 = p1 - p0;
+  const Point e02 = p2 - p0;
+  const Point e03 = p3 - p0;
+  const Point e12 = p2 - p1;
+  const Point e13 = p3 - p1;
+  const Point e23 = p3 - p2;
+  const Point n0 = e12.cross(e13);
+  const Point n1 = e02.cross(e03);
+  const Point n2 = e01.cross(e03);
+  const Point n3 = e01.cross(e02);
+  const double nn0 = n0.squaredNorm();
+  const double nn1 = n1.squaredNorm();
+  const double nn2 = n2.squaredNorm();
+  const double nn3 = n3.squaredNorm();
+  const double v6 = e01.dot(n1);
+  const std::array<double, 6> l2 = {e01.squaredNorm(), e02.squaredNorm(), e03.squaredNorm(),
+                                    e12.squaredNorm(), e13.squaredNorm(), e23.squaredNorm()};
+  // Edge ij times the normals of the faces that do not contain it, that is opposite i and j.
+  std::array<double, 6> r = {l2[0] * (nn0 * nn1), l2[1] * (nn0 * nn2), l2[2] * (nn0 * nn3),
+                             l2[3] * (nn1 * nn2), l2[4] * (nn1 * nn3), l2[5] * (nn2 * nn3)};
+  double weight = acute2_;
+  if (!is_even()) {
+    weight = 1;
+    // Normals 0 and 2 point outwards, 1 and 3 inwards, or all the other way round. The angle at an
+    // edge lies between the faces that contain it: those opposite the two other corners.
+    const std::array<double, 6> dots = {-n2.dot(n3), n1.dot(n3), -n1.dot(n2),
+                                        -n0.dot(n3), n0.dot(n2), -n0.dot(n1)};
+    for (std::size_t e = 0; e < 6; ++e) r[e] *= dots[e] > 0 ? obtuse2_ : acute2_;
+  }
+  const double smallest =
+      std::min(std::min(std::min(r[0], r[1]), std::min(r[2], r[3])), std::min(r[4], r[5]));
+  const double product = (nn0 * nn1) * (nn2 * nn3);
+  if (!(product > 0)) return 0;
+  const double sum = ((l2[0] + l2[1]) + (l2[2] + l2[3])) + (l2[4] + l2[5]);
+  const double cube = sum * sum * sum;
+  const double v2 = v6 * v6;
+  const double by_length = (flat2_ * cube + length_ * v2) / (v2 * cube);
+  return v6 * std::sqrt(std::min(weight * (smallest / product), by_length));
+}
 
 /// All measures; the first is the default.
 std::span<const QualityMeasure> quality_measures();

@@ -233,7 +233,7 @@ struct PartialStatistics {
     const double q = minimum_sine(p[0], p[1], p[2], p[3]);
     quality.add(q);
     q_worst = std::min(q_worst, q);
-    if (static_cast<Quality>(q) < kBadThreshold) {  // as the queues of bad tets see it
+    if (static_cast<Quality>(q) < 0.5f) {  // as the queues of bad tets see it
       ++n_bad;
       bad.add(q);
     }

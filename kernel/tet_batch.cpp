@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Minimum sines and filtered volumes of four tets side by side.
+// Qualities and filtered volumes of four tets side by side.
 #include "kernel/tet_batch.h"
 
 #include <cmath>
@@ -8,59 +8,58 @@ namespace tetmend {
 
 namespace {
 
-/// minimum_sine() and filtered_volume6(), with every sum in the order in which these add up.
+/// Standard::quality() and filtered_volume6(), with every sum in the order in which these add up.
 TETMEND_WIDE
-void evaluate_groups(TetBatch::Group* groups, std::size_t count) {
+void evaluate_groups(TetBatch::Group* groups, std::size_t count, const Standard& standard) {
   using B = TetBatch;
   const WideVector zero = {};
+  const bool is_even = standard.is_even();
+  const WideVector acute = zero + standard.acute2(), obtuse = zero + standard.obtuse2();
+  const double flat2 = standard.flat2();
+  const double length = standard.length();
   for (std::size_t n = 0; n < count; ++n) {
     WideVector* tet = groups[n].vectors();
-    // Edges u, v, w from a; r, s from b; t from c.
-    const WideVector ux = tet[B::bx] - tet[B::ax], rx = tet[B::cx] - tet[B::bx];
-    const WideVector uy = tet[B::by] - tet[B::ay], ry = tet[B::cy] - tet[B::by];
-    const WideVector uz = tet[B::bz] - tet[B::az], rz = tet[B::cz] - tet[B::bz];
-    const WideVector vx = tet[B::cx] - tet[B::ax], sx = tet[B::dx] - tet[B::bx];
-    const WideVector vy = tet[B::cy] - tet[B::ay], sy = tet[B::dy] - tet[B::by];
-    const WideVector vz = tet[B::cz] - tet[B::az], sz = tet[B::dz] - tet[B::bz];
-    const WideVector wx = tet[B::dx] - tet[B::ax], tx = tet[B::dx] - tet[B::cx];
-    const WideVector wy = tet[B::dy] - tet[B::ay], ty = tet[B::dy] - tet[B::cy];
-    const WideVector wz = tet[B::dz] - tet[B::az], tz = tet[B::dz] - tet[B::cz];
-    // Normals of the faces opposite b: v x w; a: r x s; c: u x w; d: u x v.
-    const WideVector vywz = vy * wz, vzwy = vz * wy;
-    const WideVector vzwx = vz * wx, vxwz = vx * wz;
-    const WideVector vxwy = vx * wy, vywx = vy * wx;
-    const WideVector bx = vywz - vzwy, by = vzwx - vxwz, bz = vxwy - vywx;
-    const WideVector ax = ry * sz - rz * sy, ay = rz * sx - rx * sz, az = rx * sy - ry * sx;
-    const WideVector cx = uy * wz - uz * wy, cy = uz * wx - ux * wz, cz = ux * wy - uy * wx;
-    const WideVector dx = uy * vz - uz * vy, dy = uz * vx - ux * vz, dz = ux * vy - uy * vx;
-    const WideVector na = ax * ax + ay * ay + az * az, nb = bx * bx + by * by + bz * bz;
-    const WideVector nc = cx * cx + cy * cy + cz * cz, nd = dx * dx + dy * dy + dz * dz;
-    const WideVector ab = (ux * ux + uy * uy + uz * uz) * (na * nb);
-    const WideVector ac = (vx * vx + vy * vy + vz * vz) * (na * nc);
-    const WideVector ad = (wx * wx + wy * wy + wz * wz) * (na * nd);
-    const WideVector bc = (rx * rx + ry * ry + rz * rz) * (nb * nc);
-    const WideVector bd = (sx * sx + sy * sy + sz * sz) * (nb * nd);
-    const WideVector cd = (tx * tx + ty * ty + tz * tz) * (nc * nd);
-    const WideVector least_at_a = ac < ab ? ac : ab;
-    const WideVector least_between = bc < ad ? bc : ad;
-    const WideVector least_elsewhere = cd < bd ? cd : bd;
-    WideVector least = least_between < least_at_a ? least_between : least_at_a;
-    least = least_elsewhere < least ? least_elsewhere : least;
-    const WideVector product = (na * nb) * (nc * nd);
-    const WideVector ratio = least / product;
+    const WidePoint pa = {tet[B::ax], tet[B::ay], tet[B::az]};
+    const WidePoint pb = {tet[B::bx], tet[B::by], tet[B::bz]};
+    const WidePoint pc = {tet[B::cx], tet[B::cy], tet[B::cz]};
+    const WidePoint pd = {tet[B::dx], tet[B::dy], tet[B::dz]};
+    const WidePoint u = pb - pa, v = pc - pa, w = pd - pa;
+    const WidePoint r = pc - pb, s = pd - pb, t = pd - pc;
+    // Normals of the faces opposite the corners; those of a and c point outwards.
+    const WidePoint a = cross(r, s), b = cross(v, w), c = cross(u, w), d = cross(u, v);
+    const WideVector aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), dd = dot(d, d);
+    const WideVector uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+    const WideVector rr = dot(r, r), ss = dot(s, s), tt = dot(t, t);
+    WideVector ab = uu * (aa * bb), ac = vv * (aa * cc), ad = ww * (aa * dd);
+    WideVector bc = rr * (bb * cc), bd = ss * (bb * dd), cd = tt * (cc * dd);
+    if (!is_even) {  // the angle at ab lies between the faces opposite c and d
+      ab *= dot(c, d) < zero ? obtuse : acute;
+      ac *= dot(b, d) > zero ? obtuse : acute;
+      ad *= dot(b, c) < zero ? obtuse : acute;
+      bc *= dot(a, d) < zero ? obtuse : acute;
+      bd *= dot(a, c) > zero ? obtuse : acute;
+      cd *= dot(a, b) < zero ? obtuse : acute;
+    }
+    const WideVector least = smaller(smaller(smaller(ab, ac), smaller(ad, bc)), smaller(bd, cd));
+    const WideVector product = (aa * bb) * (cc * dd);
+    const WideVector v6 = dot(u, b);
+    const WideVector square = v6 * v6;
+    const WideVector sum = ((uu + vv) + (ww + rr)) + (ss + tt);
+    const WideVector cube = sum * sum * sum;
+    const WideVector by_sines = is_even ? acute * (least / product) : least / product;
+    const WideVector by_length = (flat2 * cube + length * square) / (square * cube);
+    const WideVector ratio = smaller(by_length, by_sines);
     WideVector root = {};
     for (std::size_t i = 0; i < kWideLanes; ++i) root[i] = std::sqrt(ratio[i]);
-    const WideVector v6 = ux * bx + uy * by + uz * bz;
     tet[B::kQuality] = product > zero ? v6 * root : zero;
 
-    const WideVector u1 = ux < zero ? -ux : ux;
-    const WideVector u2 = uy < zero ? -uy : uy;
-    const WideVector u3 = uz < zero ? -uz : uz;
-    const WideVector p1 = (vywz < zero ? -vywz : vywz) + (vzwy < zero ? -vzwy : vzwy);
-    const WideVector p2 = (vzwx < zero ? -vzwx : vzwx) + (vxwz < zero ? -vxwz : vxwz);
-    const WideVector p3 = (vxwy < zero ? -vxwy : vxwy) + (vywx < zero ? -vywx : vywx);
-    const WideVector permanent = u1 * p1 + u2 * p2 + u3 * p3;
-    const WideVector error = kFilterShare * permanent + kFilterUnderflow * (1.0 + u1 + u2 + u3);
+    const WidePoint size = {magnitude(u.x), magnitude(u.y), magnitude(u.z)};
+    const WidePoint minors = {magnitude(v.y * w.z) + magnitude(v.z * w.y),
+                              magnitude(v.z * w.x) + magnitude(v.x * w.z),
+                              magnitude(v.x * w.y) + magnitude(v.y * w.x)};
+    const WideVector permanent = dot(size, minors);
+    const WideVector error =
+        kFilterShare * permanent + kFilterUnderflow * (1.0 + size.x + size.y + size.z);
     tet[B::kMargin] = v6 - error;
   }
 }
@@ -85,8 +84,8 @@ void TetBatch::add(const Point& a, const Point& b, const Point& c, const Point& 
   ++size_;
 }
 
-void TetBatch::evaluate() {
-  evaluate_groups(groups_.data(), (size_ + kWideLanes - 1) / kWideLanes);
+void TetBatch::evaluate(const Standard& standard) {
+  evaluate_groups(groups_.data(), (size_ + kWideLanes - 1) / kWideLanes, standard);
 }
 
 }  // namespace tetmend

@@ -10,14 +10,14 @@
 
 namespace tetmend {
 
-/// Says what minimum_sine() and certified_positive() say, to the last bit, in less time. Allocates
-/// only when it outgrows its largest size so far.
+/// Says what Standard::quality() and certified_positive() say, to the last bit, in less time.
+/// Allocates only when it outgrows its largest size so far.
 class TetBatch {
  public:
   void clear() { size_ = 0; }
   void add(const Point& a, const Point& b, const Point& c, const Point& d);
   /// To be called when all tets are added, before the answers are read.
-  void evaluate();
+  void evaluate(const Standard& standard);
 
   Quality quality(std::size_t i) const { return static_cast<Quality>(value(kQuality, i)); }
   bool is_certified_positive(std::size_t i) const { return value(kMargin, i) > 0; }

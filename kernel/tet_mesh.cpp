@@ -90,6 +90,17 @@ std::size_t TetMesh::freeze(const std::function<bool(TetHandle)>& is_frozen) {
   return count;
 }
 
+void TetMesh::set_standard(const Standard& standard) {
+  if (standard == standard_) return;
+  standard_ = standard;
+  for_chunks(cells_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const TetVertices& tv = cells_[i].vertices;
+      if (tv[0].is_valid()) quality_[i] = evaluate(tv);
+    }
+  });
+}
+
 void TetMesh::collect_garbage() {
   std::vector<std::uint32_t> kept_vertices;
   std::vector<std::uint32_t> kept_tets;

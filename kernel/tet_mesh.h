@@ -150,10 +150,14 @@ class TetMesh {
     const TetVertices& tv = cells_[e.tet().index()].vertices;
     return {tv[kEdgeVertices[e.edge()][0]], tv[kEdgeVertices[e.edge()][1]]};
   }
-  /// Minimum sine computed from the points; what quality() caches.
+  /// By which tets are judged; at first that of the default goal.
+  const Standard& standard() const { return standard_; }
+  /// Another standard. Cost: linear, unless it is the same.
+  void set_standard(const Standard& standard);
+  /// Quality computed from the points; what quality() caches.
   Quality evaluate(const TetVertices& tv) const {
     return static_cast<Quality>(
-        minimum_sine(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3])));
+        standard_.quality(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3])));
   }
   bool is_certified_positive(const TetVertices& tv) const {
     return certified_positive(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3]));
@@ -262,6 +266,7 @@ class TetMesh {
   void reorder(std::span<const std::uint32_t> vertex_order,
                std::span<const std::uint32_t> tet_order);
 
+  Standard standard_ = Standard(Goal{});
   std::vector<Cell> cells_;
   std::vector<Quality> quality_;
   std::vector<Label> label_;
@@ -297,6 +302,16 @@ class BuildError : public Error {
  private:
   std::size_t tet_;
 };
+
+/// The angles of the tet miss the goal; a needle whose angles are good does not.
+inline bool misses_goal(const TetMesh& mesh, TetHandle t) {
+  if (mesh.quality(t) >= kBadThreshold) return false;
+  if (mesh.standard().terms() == Standard::Terms::sine) return true;
+  const TetVertices& v = mesh.vertices(t);
+  return static_cast<Quality>(mesh.standard().of_angles().quality(
+             mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <
+         kBadThreshold;
+}
 
 /// Lowest quality of the tets, of which there is at least one.
 inline Quality worst_quality(const TetMesh& mesh, std::span<const TetHandle> tets) {

@@ -124,7 +124,7 @@ EditResult Transaction::evaluate(std::span<const TetVertices> created) {
   TetBatch& batch = workspace_.batch_;
   batch.clear();
   for (const TetVertices& tet : created) add_to_batch(mesh_, tet, batch);
-  batch.evaluate();
+  batch.evaluate(mesh_.standard());
   for (std::size_t k = 0; k < created.size(); ++k) {
     if (!batch.is_certified_positive(k)) return EditResult::inverted;
   }
@@ -445,7 +445,7 @@ void Transaction::evaluate(std::span<const VertexMove> moves) {
   for (const VertexMove& move : moves) {
     for (const HalfFace f : move.link) add_to_batch(mesh_, mesh_.vertices(f.tet()), batch);
   }
-  batch.evaluate();
+  batch.evaluate(mesh_.standard());
 }
 
 /// A tet that was positive is not certified so with the vertices in their new places.

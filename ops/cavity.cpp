@@ -89,7 +89,8 @@ void VertexCavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
     const bool crossable = mesh.is_free(face);
     if (crossable && inside_.contains(mesh.twin(face).tet().index())) continue;
     const auto [a, b, c] = mesh.vertices(face);
-    const double quality = minimum_sine(point, mesh.point(a), mesh.point(b), mesh.point(c));
+    const double quality =
+        mesh.standard().quality(point, mesh.point(a), mesh.point(b), mesh.point(c));
     if (!crossable) bound_ = std::min(bound_, quality);
     front_.push_back({quality, face});
     std::push_heap(front_.begin(), front_.end(), is_worse);

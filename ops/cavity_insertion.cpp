@@ -65,7 +65,7 @@ class CavityInsertion final : public OperatorOf<State> {
     std::sort(places.begin(), places.end(),
               [](const auto& a, const auto& b) { return a.worst > b.worst; });
     // Different sites may have led to the same place.
-    const auto is_same = [](const auto& a, const auto& b) { return a.worst - b.worst < 1e-3; };
+    const auto is_same = [](const auto& a, const auto& b) { return a.worst - b.worst < 2e-3; };
     places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
     if (places.size() > tries_) places.resize(tries_);
     return places.empty() ? Verdict::no_improvement : Verdict::accepted;
@@ -149,10 +149,10 @@ constexpr std::array<ParameterSpec, 6> kParameters = {{
      "most places at which the vertex is inserted and judged, the most promising first"},
     {"relax", ParameterSpec::Kind::flag, 0, 1, 1,
      "smooth and reconnect around the new vertex before judging"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "below this worst quality, a gain of 0.001 pays for one more bad tet"},
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
+     "below this worst quality, a gain of 0.002 pays for one more bad tet"},
     {"exponent", ParameterSpec::Kind::real, 1, 64, 4,
-     "the sum of (0.5 - q)^exponent over the bad tets must fall; large: mild ones hardly count"},
+     "the sum of (1 - q)^exponent over the bad tets must fall; large: mild ones hardly count"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 8,
      "most directions that each placement follows"},
 }};

@@ -56,7 +56,7 @@ class EdgeSplit final : public OperatorOf<State> {
     if (worst > 0 && is_hopeless(mesh, shell, least)) return Verdict::no_improvement;
     const Point& a = mesh.point(shell.a);
     const Point& b = mesh.point(shell.b);
-    state.ball.clear();
+    state.ball.clear(mesh.standard());
     for (unsigned i = 0; i < shell.degree; ++i) {
       const Point& p = mesh.point(shell.ring[i]);
       const Point& q = mesh.point(shell.next(i));
@@ -93,8 +93,9 @@ class EdgeSplit final : public OperatorOf<State> {
     constexpr double kRounding = 1e-6;  // far more than there is
     const Point& a = mesh.point(shell.a);
     const Point& b = mesh.point(shell.b);
-    // Largest cosine of an angle whose half has a sine of more than `least`.
-    const double cosine = 1 - 2 * least * least * (1 - kRounding);
+    // Largest cosine of an angle whose half, which is acute, is of a quality above `least`.
+    const double sine2 = least * least / mesh.standard().acute2();
+    const double cosine = 1 - 2 * sine2 * (1 - kRounding);
     for (unsigned i = 0; i < shell.degree; ++i) {
       const Point& p = mesh.point(shell.ring[i]);
       const Point along = mesh.point(shell.next(i)) - p;
@@ -113,10 +114,10 @@ class EdgeSplit final : public OperatorOf<State> {
 };
 
 constexpr std::array<ParameterSpec, 5> kParameters = {{
-    {"least_gain", ParameterSpec::Kind::real, 0, 1, 1e-4,
+    {"least_gain", ParameterSpec::Kind::real, 0, 1, 2e-4,
      "least gain of the worst quality of the shell"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "below this worst quality, a gain of 0.001 pays for one more bad tet"},
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
+     "below this worst quality, a gain of 0.002 pays for one more bad tet"},
     {"relax", ParameterSpec::Kind::flag, 0, 1, 0,
      "smooth and reconnect around the new vertex before judging"},
     {"max_degree", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 12,

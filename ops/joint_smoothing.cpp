@@ -74,7 +74,7 @@ class JointSmoothing final : public OperatorOf<State> {
  private:
   /// Others may get worse for the tet, but none bad.
   Verdict lift(const TetMesh& mesh, TetHandle t, std::size_t number, PatchOptimiser& patch) const {
-    constexpr PatchOptimiser::Limits kPatient = {.steps = 200, .least_gain = 1e-6};
+    constexpr PatchOptimiser::Limits kPatient = {.steps = 200, .least_gain = 2e-6};
     if (mesh.quality(t) >= goal_) return Verdict::not_applicable;
     const bool reached = patch.lift(number, goal_, kBadThreshold, kPatient);
     return reached ? Verdict::accepted : Verdict::no_improvement;
@@ -88,7 +88,7 @@ class JointSmoothing final : public OperatorOf<State> {
     auto& free = state.free;
     free.clear();
     state.set.clear();
-    state.patch.clear();
+    state.patch.clear(mesh.standard());
     const auto take = [&](VertexHandle v) {
       if (mesh.is_fixed(v) || !state.set.insert(v.index())) return;
       free.push_back(v);
@@ -155,11 +155,11 @@ class JointSmoothing final : public OperatorOf<State> {
 
 constexpr std::array<ParameterSpec, 5> kParameters = {{
     {"rings", ParameterSpec::Kind::integer, 0, 1, 0, "1: the vertices next to them move as well"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
-    {"goal", ParameterSpec::Kind::real, 0, 1, 0,
+    {"goal", ParameterSpec::Kind::real, 0, 2, 0,
      "if not 0: the tet is to become as good as this; others may get worse, but not bad"},
-    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 1e-3,
+    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 2e-3,
      "least gain of the worst quality around the vertices"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 20,
      "most directions that the optimisation follows for each norm"},

@@ -84,6 +84,7 @@ class MultiFaceRemoval final : public OperatorOf<State> {
     std::array<Point, kMaxSearchRing> ring;
     for (unsigned i = 0; i < sandwich.size; ++i) ring[i] = mesh.point(sandwich.ring[i]);
     CoveringProblem problem;
+    problem.standard = mesh.standard();
     problem.a = mesh.point(sandwich.a);
     problem.b = mesh.point(sandwich.b);
     problem.ring = {ring.data(), sandwich.size};

@@ -54,7 +54,7 @@ class PolyhedronReconnection final : public OperatorOf<State> {
     polyhedron.start(context.mesh, target.tet());
     while (polyhedron.vertices().size() < min_vertices_ && grow(context, state)) {
     }
-    search.clear();
+    search.clear(context.mesh.standard());
     return Verdict::accepted;
   }
 
@@ -91,11 +91,11 @@ class PolyhedronReconnection final : public OperatorOf<State> {
   }
 
   /// A vertex to be added has the number after those of the polyhedron, so with it the table is
-  /// made anew for each size.
+  /// made again for each size.
   void load_points(const TetMesh& mesh, VertexHandle added, RefillingState& state) const {
     const auto vertices = state.polyhedron.vertices();
     PolyhedronSearch& search = state.search;
-    if (insert_) search.clear();
+    if (insert_) search.clear(mesh.standard());
     while (search.size() < vertices.size()) search.add(mesh.point(vertices[search.size()]));
     if (insert_) search.add(mesh.point(added));
   }
@@ -158,8 +158,8 @@ constexpr std::array<ParameterSpec, 9> kParameters = {{
      "vertices by which it grows between two searches"},
     {"max_nodes", ParameterSpec::Kind::integer, 1, 100000, 100,
      "most tets that each search places on its way"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-     "below this worst quality, a gain of 0.001 pays for one more bad tet"},
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
+     "below this worst quality, a gain of 0.002 pays for one more bad tet"},
 }};
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace tetmend {
 /// for it. With `remove`, vertices inside may vanish.
 ///
 /// A change is kept if the quality vector is better, there are no more bad tets, and they lack no
-/// more in sum. The last two do not count when the old worst tet is desperate and gains 0.001 for
+/// more in sum. The last two do not count when the old worst tet is desperate and gains 0.002 for
 /// each new bad one. Refuses as `no_improvement` when no size brings that, as `budget_spent` when
 /// the search of the largest was cut short, as `not_applicable` where tets overlap. Cost: a search
 /// for each size, see PolyhedronSearch, and with `relax` the smoothing of its vertices.

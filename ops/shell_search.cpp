@@ -34,6 +34,7 @@ Verdict propose_covering(const OperatorContext& context, const Judge& judge, con
     sides[i] = mesh.quality(shell.tets[i]);
   }
   CoveringProblem problem;
+  problem.standard = mesh.standard();
   problem.a = mesh.point(shell.a);
   problem.b = mesh.point(shell.b);
   problem.ring = {ring.data(), m};

@@ -86,9 +86,9 @@ constexpr std::array<ParameterSpec, 5> kParameters = {{
     {"laplacian", ParameterSpec::Kind::flag, 0, 1, 1, "try the mean of the neighbours first"},
     {"optimise", ParameterSpec::Kind::flag, 0, 1, 1,
      "then climb to the best place if bad tets remain"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
-    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 1e-3,
+    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 2e-3,
      "least gain of the worst quality of the ball"},
     {"steps", ParameterSpec::Kind::integer, 1, 1000, 6,
      "most directions that the optimisation follows"},
@@ -97,7 +97,7 @@ constexpr std::array<ParameterSpec, 5> kParameters = {{
 }  // namespace
 
 void load_ball(const TetMesh& mesh, std::span<const HalfFace> link, BallOptimiser& ball) {
-  ball.clear();
+  ball.clear(mesh.standard());
   for (const HalfFace f : link) {
     const auto [a, b, c] = mesh.vertices(f);
     ball.add(mesh.point(a), mesh.point(b), mesh.point(c));

@@ -147,8 +147,8 @@ std::span<const ParameterSpec> VertexInsertion::parameters() {
       {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64,
        "most tets that give way; 1: only the one that holds the vertex"},
       {"smooth", ParameterSpec::Kind::flag, 0, 1, 1, "move the vertex before judging"},
-      {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
-       "below this worst quality, a gain of 0.001 pays for one more bad tet"},
+      {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
+       "below this worst quality, a gain of 0.002 pays for one more bad tet"},
   }};
   return kParameters;
 }

@@ -47,7 +47,7 @@ class VertexRemoval final : public OperatorOf<State> {
       return Verdict::deferred;
     }
     if (!polyhedron.start_at_ball(mesh, state.link)) return Verdict::not_applicable;
-    search.clear();
+    search.clear(mesh.standard());
     for (const VertexHandle v : polyhedron.vertices()) search.add(mesh.point(v));
     PolyhedronProblem problem = better_filling(mesh, polyhedron, *context.judge);
     problem.max_nodes = max_nodes_;
@@ -65,7 +65,7 @@ class VertexRemoval final : public OperatorOf<State> {
 constexpr std::array<ParameterSpec, 2> kParameters = {{
     {"max_nodes", ParameterSpec::Kind::integer, 1, 100000, 500,
      "most tets that the search places on its way"},
-    {"desperate", ParameterSpec::Kind::real, -1, 1, kDesperate,
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
 }};
 

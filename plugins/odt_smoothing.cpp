@@ -7,6 +7,7 @@
 // judge of every operator decides all the same: a move stays only if the worst tet gains.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 
 // All that a plugin needs: operators, their registry, the mesh and the walks on it.
@@ -76,14 +77,15 @@ class OdtSmoothing final : public OperatorOf<State> {
   }
 
  private:
-  /// Smallest minimum sine of the ball, its vertex at p. A half-face lists its vertices
+  /// Smallest quality of the ball, its vertex at p. A half-face lists its vertices
   /// counterclockwise as seen from outside, so (p, a, b, c) is positive for a p inside.
   static double worst_in_ball(const TetMesh& mesh, std::span<const HalfFace> link, const Point& p) {
-    double worst = 1;
+    double worst = std::numeric_limits<double>::infinity();
     for (const HalfFace f : link) {
       const auto corners = mesh.vertices(f);
-      worst = std::min(worst, minimum_sine(p, mesh.point(corners[0]), mesh.point(corners[1]),
-                                           mesh.point(corners[2])));
+      worst =
+          std::min(worst, mesh.standard().quality(p, mesh.point(corners[0]), mesh.point(corners[1]),
+                                                  mesh.point(corners[2])));
     }
     return worst;
   }
@@ -115,7 +117,7 @@ class OdtSmoothing final : public OperatorOf<State> {
 constexpr std::array<ParameterSpec, 2> kParameters = {{
     {"halvings", ParameterSpec::Kind::integer, 0, 20, 3,
      "how often the way is halved if going all of it does not help"},
-    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 1e-3,
+    {"least_gain", ParameterSpec::Kind::real, kQualityTolerance, 1, 2e-3,
      "least gain of the worst quality of the ball"},
 }};
 

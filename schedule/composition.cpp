@@ -105,11 +105,12 @@ constexpr unsigned kMostAttempts = 64;
 
 /// What follows in a sequence works on tets that are at most this much better than the worst tet
 /// that the sequence began with: the others do not decide.
-constexpr Quality kReach = 0.2f;
+constexpr Quality kReach = 0.4f;
 
-double largest_angle_sine(const TetMesh& mesh, const TetVertices& tv) {
-  return tetmend::largest_angle_sine(mesh.point(tv[0]), mesh.point(tv[1]), mesh.point(tv[2]),
-                                     mesh.point(tv[3]));
+double quality_of_largest_angle(const TetMesh& mesh, const TetVertices& tv) {
+  return std::sqrt(mesh.standard().obtuse2()) *
+         largest_angle_sine(mesh.point(tv[0]), mesh.point(tv[1]), mesh.point(tv[2]),
+                            mesh.point(tv[3]));
 }
 
 constexpr std::string_view to_string(Composition::Kind kind) {
@@ -171,10 +172,7 @@ TetAttempts::TetAttempts(const Registry& registry, const Composition& compositio
     : root_(build(registry, composition)) {}
 
 TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition& composition) {
-  // Of 180 degrees exactly 0: below it, no tet is.
-  const double blunt =
-      composition.theta_max < 180 ? std::sin(composition.theta_max * std::numbers::pi / 180) : 0;
-  Node node{composition.kind, {}, {}, composition.desperate, blunt};
+  Node node{composition.kind, {}, {}, composition.desperate, composition.theta_max};
   switch (composition.kind) {
     case Composition::Kind::one:
       node.leaf = build_leaf(registry, composition);
@@ -305,10 +303,13 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
 Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target target,
                                       const TetVertices& tet) const {
   OperatorContext& context = worker.context();
-  const double sine = node.blunt > 0 ? largest_angle_sine(context.mesh, tet) : 0;
-  if (node.blunt > 0 && sine >= node.blunt) return Verdict::not_applicable;
+  // Of 180 degrees 0: below it, no tet is.
+  const double blunt =
+      node.theta_max < 180 ? context.mesh.standard().quality_of_angle(node.theta_max) : 0;
+  const double largest = blunt > 0 ? quality_of_largest_angle(context.mesh, tet) : 0;
+  if (blunt > 0 && largest >= blunt) return Verdict::not_applicable;
   const Judge judge =
-      node.blunt > 0 ? Judge::lowers_angle(sine) : Judge::fair({.desperate = node.desperate});
+      blunt > 0 ? Judge::lowers_angle(largest) : Judge::fair({.desperate = node.desperate});
   const Judge hopeful = Judge::opening();
   Transaction sequence(context.mesh, context.workspace);
   OperatorContext opening = context;
@@ -320,7 +321,7 @@ Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target t
   for (const Node& part : node.parts) {
     comparison.look_at(sequence);
     const Quality limit = comparison.worst_before() + kReach;
-    all_tried = follow_up(part, worker, sequence, limit, node.blunt) && all_tried;
+    all_tried = follow_up(part, worker, sequence, limit, blunt) && all_tried;
   }
   if (judge.accepts({sequence, comparison})) {
     sequence.keep();
@@ -330,7 +331,7 @@ Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target t
 }
 
 /// Tries a part on the tets below `limit` among those that the sequence has changed, and on those
-/// whose largest angle has a sine below `blunt`. False if attempts were deferred.
+/// whose largest angle is of a quality below `blunt`. False if attempts were deferred.
 bool TetAttempts::follow_up(const Node& part, Worker& worker, const Transaction& sequence,
                             Quality limit, double blunt) const {
   const TetMesh& mesh = worker.mesh();
@@ -339,7 +340,7 @@ bool TetAttempts::follow_up(const Node& part, Worker& worker, const Transaction&
   std::vector<QueuedTet> bad;
   for (const TetHandle t : changed) {
     if (mesh.quality(t) < std::min(limit, kBadThreshold) ||
-        (mesh.quality(t) < blunt && largest_angle_sine(mesh, mesh.vertices(t)) < blunt)) {
+        (mesh.quality(t) < blunt && quality_of_largest_angle(mesh, mesh.vertices(t)) < blunt)) {
       bad.push_back({mesh.quality(t), t, mesh.vertices(t)});
     }
   }

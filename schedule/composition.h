@@ -36,11 +36,11 @@ struct Composition {
   ParameterSettings settings = {};
   EdgeOrder order = EdgeOrder::sine;
   unsigned most_edges = 6;        ///< of a tet that are tried, the first in that order
-  double desperate = kDesperate;  ///< of a sequence: below this worst quality, a gain of 0.001
+  double desperate = kDesperate;  ///< of a sequence: below this worst quality, a gain of 0.002
                                   ///< pays for one more bad tet
   /// Of a sequence, degrees. Below 180 it is tried on tets with a larger dihedral angle only, what
   /// follows works on such tets as well, and it stays if the sine of the largest angle of all that
-  /// has changed gains 0.001 on the tet's, and as much for each more bad tet, and the worst tet
+  /// has changed gains 0.002 on the tet's, and as much for each more bad tet, and the worst tet
   /// gets no worse.
   double theta_max = 180;
   std::vector<Composition> parts = {};  ///< of the other kinds
@@ -76,7 +76,7 @@ class TetAttempts {
     Leaf leaf;                ///< of an operator; of a sequence, its opening
     std::vector<Node> parts;  ///< of a sequence, what follows
     double desperate;
-    double blunt;  ///< sine of theta_max
+    double theta_max;
   };
   struct Progress;
 

@@ -113,7 +113,7 @@ void apply(Run& run, const ApplyOptions& options) {
 }
 
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now) {
-  constexpr double kQualityStep = 5e-3;
+  constexpr double kQualityStep = 1e-2;
   const double bad_step = std::max(1.0, 0.05 * static_cast<double>(before.n_bad));
   if (now.q_worst > before.q_worst + kQualityStep) return true;
   if (static_cast<double>(now.n_bad) <= static_cast<double>(before.n_bad) - bad_step) return true;

@@ -33,6 +33,17 @@ Run::Run(TetMesh& mesh, const Registry& registry)
   set_block_count(std::min(kEnoughBlocks, mesh.vertex_count() / kVerticesPerBlock));
 }
 
+void Run::set_standard(const Standard& standard) {
+  if (standard == mesh_.standard()) return;
+  mesh_.set_standard(standard);
+  last_sweep_.clear();
+  is_measured_ = false;
+}
+
+QualityIndicators Run::indicators() const {
+  return is_measured_ ? records.back().after : quality_indicators(mesh_);
+}
+
 void Run::set_trace(TraceSink* trace) {
   trace_ = trace;
   worker_.context().trace = trace;
@@ -140,7 +151,7 @@ PassScope::PassScope(Run& run, std::string_view name)
     : run_(run), start_(std::chrono::steady_clock::now()) {
   record_.name = name;
   record_.round = run.round;
-  if (!run.records.empty()) {
+  if (run.is_measured_) {
     record_.after = run.records.back().after;
     measured_ = true;
   }
@@ -153,6 +164,7 @@ PassScope::~PassScope() {
   if (run_.trace() != nullptr) run_.trace()->pass_ends(record_.after);
   run_.report_done(record_);
   run_.records.push_back(std::move(record_));
+  run_.is_measured_ = true;
 }
 
 PassScope::Scan::~Scan() {

@@ -71,6 +71,11 @@ class Run {
   /// The worker of the whole mesh.
   Worker& worker() { return worker_; }
 
+  /// From now on tets are judged by this standard. Nothing counts as tried then. Cost: linear.
+  /// Precondition: no pass runs.
+  void set_standard(const Standard& standard);
+  /// Of the mesh between two passes.
+  QualityIndicators indicators() const;
   void set_listener(ProgressListener* listener) { listener_ = listener; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
@@ -145,6 +150,9 @@ class Run {
   std::atomic<bool> out_of_time_ = false;
   TraceSink* trace_ = nullptr;
   std::vector<std::pair<std::string, Date>> last_sweep_;
+  bool is_measured_ = false;  // the last record has the indicators of the mesh as it is
+
+  friend class PassScope;
 };
 
 /// Times one pass, counts its verdicts, reports progress; adds the record to the run when it ends.

@@ -116,6 +116,8 @@ void ScriptHost::add_words() {
   for (const char* how : {"first_of", "all_of", "sequence"}) {
     lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
   }
+  add("goal", &ScriptHost::goal);
+  add("quality_of_angle", &ScriptHost::quality_of_angle);
   add("quality", &ScriptHost::quality);
   add("limit", &ScriptHost::limit);
   add("is_progress", &ScriptHost::is_progress);
@@ -317,8 +319,7 @@ int ScriptHost::compose(lua_State* lua, const char* how) {
 
 int ScriptHost::quality(lua_State* lua) {
   begin_work();
-  const QualityIndicators now =
-      run_->records.empty() ? quality_indicators(run_->mesh()) : run_->records.back().after;
+  const QualityIndicators now = run_->indicators();
   lua_newtable(lua);
   const auto number = [&](const char* name, double value) {
     lua_pushnumber(lua, value);
@@ -336,6 +337,31 @@ int ScriptHost::quality(lua_State* lua) {
   number("seconds", run_->seconds());
   count("passes", run_->records.size());
   luaL_setmetatable(lua, kQualityTable);
+  return 1;
+}
+
+int ScriptHost::goal(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("goal");
+  const ScriptValue value = read_table(lua, 1, word);
+  const Standard now = run_->mesh().standard();
+  Goal goal = now.goal();
+  Standard::Terms terms = now.terms();
+  if (const ScriptValue* measure = value.field("measure")) {
+    terms = to_terms(read_text({"goal: measure"}, *measure));
+  }
+  const Arguments arguments = read_arguments(word, value, {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  if (numbers.real("min") > 0) goal = Goal::symmetric(numbers.real("min"));
+  if (numbers.real("max") > 0) goal.max_angle = numbers.real("max");
+  run_->set_standard(Standard(goal, terms));
+  return 0;
+}
+
+int ScriptHost::quality_of_angle(lua_State* lua) {
+  begin_work();
+  const double angle = read_number({"quality_of_angle"}, read_value(lua, 1));
+  lua_pushnumber(lua, run_->mesh().standard().quality_of_angle(angle));
   return 1;
 }
 

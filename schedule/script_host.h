@@ -48,6 +48,8 @@ class ScriptHost {
   int compose(lua_State* lua, const char* how);
   int quality(lua_State* lua);
   int measure(lua_State* lua);
+  int goal(lua_State* lua);
+  int quality_of_angle(lua_State* lua);
   int limit(lua_State* lua);
   int is_progress(lua_State* lua);
   int operators(lua_State* lua);

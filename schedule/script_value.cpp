@@ -158,7 +158,7 @@ void read_field(const Subject& subject, const std::string& name, const ScriptVal
                 Composition& composition) {
   static constexpr std::array<std::string_view, 2> kFields = {"desperate", "theta_max"};
   if (name == "desperate") {
-    composition.desperate = read_in_range(subject.of(name), value, -1, 1);
+    composition.desperate = read_in_range(subject.of(name), value, -1, 2);
   } else if (name == "theta_max") {
     composition.theta_max = read_in_range(subject.of(name), value, 90, 180);
   } else {

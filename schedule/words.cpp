@@ -33,7 +33,17 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
 }};
 
-constexpr std::array<WordInfo, 18> kWords = {{
+constexpr std::array<WordField, 1> kGoalFields = {{
+    {"measure", "name", "as it is", "'sine', or 'sine_and_length', which sees needles as well"},
+}};
+constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
+    {"min", ParameterSpec::Kind::real, 0, 70, 0,
+     "degrees, the smallest angle of a good tet; 0: as it is"},
+    {"max", ParameterSpec::Kind::real, 0, 179, 0,
+     "degrees, the largest angle; 0: 180 less the smallest"},
+}};
+
+constexpr std::array<WordInfo, 20> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -74,14 +84,20 @@ constexpr std::array<WordInfo, 18> kWords = {{
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until the tet is gone"},
-    {"sequence", "sequence{operator, what, ..., desperate = 0.2, theta_max = 180}",
+    {"sequence", "sequence{operator, what, ..., desperate = 0.4, theta_max = 180}",
      "for apply: one attempt of several parts. The operator may make things worse; the others then "
      "work on the bad tets among all that has changed. The result stays only if it is better as a "
      "whole and the bad tets lack less in sum. If the worst tet was below `desperate`, a gain of "
-     "0.001 pays for one more bad tet instead. With a theta_max below 180 degrees it is for tets "
+     "0.002 pays for one more bad tet instead. With a theta_max below 180 degrees it is for tets "
      "with a larger angle, and what follows works on such tets as well. The result then stays if "
-     "the worst tet gets no worse and the sine of the largest angle gains 0.001, and as much for "
+     "the worst tet gets no worse and the sine of the largest angle gains 0.002, and as much for "
      "each more bad tet"},
+    {"goal", "goal{min = 35, max = 140, measure = \"sine\"}",
+     "from now on another goal: a tet is bad that misses it, and a quality of 1 means that it is "
+     "just met. Nothing counts as tried then",
+     kGoalFields, kGoalNumbers},
+    {"quality_of_angle", "quality_of_angle(degrees)",
+     "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",
      "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
      "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
@@ -92,8 +108,8 @@ constexpr std::array<WordInfo, 18> kWords = {{
      "Also the numbers of bad tets by what holds them: frozen, surface, constraint, "
      "no_free_vertex, search. Takes as long as a short pass"},
     {"is_progress", "is_progress(before, now)",
-     "true if the quality `now` is noticeably better: the worst by 0.005, the number of bad tets "
-     "by 5 %, or their mean by 0.005 with no more of them"},
+     "true if the quality `now` is noticeably better: the worst by 0.01, the number of bad tets "
+     "by 5 %, or their mean by 0.01 with no more of them"},
     {"operators", "operators()", "the names of all operators, those of plugins as well"},
     {"log", "log(...)", "notes values in the report and shows them"},
     {"print", "print(...)", "the same as log"},

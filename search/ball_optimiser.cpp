@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Active-set ascent of the worst quality of a ball.
 //
-//   repeat: active = sines within a band above the worst
+//   repeat: active = terms within a band above the worst
 //           direction = shortest vector in the hull of their gradients; stop when nearly zero
 //           step = halve from the last step until the worst quality rises; stop if it gains little
 #include "search/ball_optimiser.h"
@@ -16,7 +16,7 @@ namespace tetmend {
 
 namespace {
 
-/// Squares, with the signs, of the minimum sines of four tets with a common vertex p.
+/// Squares, with the signs, of the qualities of four tets with a common vertex p.
 using Lanes = BallOptimiser::Lanes;
 using Values = BallOptimiser::Values;
 
@@ -46,42 +46,51 @@ void complete_triangles(Lanes* lanes, std::size_t count) {
 /// Returns the smallest, or some value below `least_square` as soon as there is one. Begins with
 /// the lanes `first`, which become those that ended the walk: they will often end the next as well.
 TETMEND_WIDE
-double evaluate_ball(const Lanes* lanes, std::size_t count, double px, double py, double pz,
-                     Values* squares, double least_square, std::size_t& first) {
+double evaluate_ball(const Lanes* lanes, std::size_t count, const Standard& standard,
+                     const Point& p, Values* squares, double least_square, std::size_t& first) {
   using B = BallOptimiser;
   const WideVector zero = {};
+  const bool is_even = standard.is_even();
+  const WideVector acute = zero + standard.acute2(), obtuse = zero + standard.obtuse2();
+  const double flat2 = standard.flat2();
+  const double length = standard.length();
+  const WidePoint at = {zero + p.x(), zero + p.y(), zero + p.z()};
   WideVector smallest = zero + std::numeric_limits<double>::infinity();
   std::size_t n = first;
   for (std::size_t left = count; left > 0; --left, n = n + 1 < count ? n + 1 : 0) {
     const auto* ball = lanes[n].vectors();
-    const WideVector ux = ball[B::ax] - px, uy = ball[B::ay] - py, uz = ball[B::az] - pz;
-    const WideVector vx = ball[B::bx] - px, vy = ball[B::by] - py, vz = ball[B::bz] - pz;
-    const WideVector wx = ball[B::cx] - px, wy = ball[B::cy] - py, wz = ball[B::cz] - pz;
-    const WideVector lx = vy * wz - vz * wy, ly = vz * wx - vx * wz, lz = vx * wy - vy * wx;
-    const WideVector mx = wy * uz - wz * uy, my = wz * ux - wx * uz, mz = wx * uy - wy * ux;
-    const WideVector kx = uy * vz - uz * vy, ky = uz * vx - ux * vz, kz = ux * vy - uy * vx;
-    const WideVector na = lx * lx + ly * ly + lz * lz;  // face opposite a
-    const WideVector nb = mx * mx + my * my + mz * mz;
-    const WideVector nc = kx * kx + ky * ky + kz * kz;
-    const WideVector np = ball[B::n2];
-    const WideVector at_a = (ux * ux + uy * uy + uz * uz) * na;
-    const WideVector at_b = (vx * vx + vy * vy + vz * vz) * nb;
-    const WideVector at_c = (wx * wx + wy * wy + wz * wz) * nc;
-    const WideVector v6 = ball[B::nx] * ux + ball[B::ny] * uy + ball[B::nz] * uz;
-    const WideVector ab = ball[B::ab2] * (na * nb);
-    const WideVector bc = ball[B::bc2] * (nb * nc);
-    const WideVector ca = ball[B::ca2] * (nc * na);
-    WideVector at_p = at_a < at_b ? at_a : at_b;
-    at_p = (at_p < at_c ? at_p : at_c) * np;
-    WideVector least = ab < bc ? ab : bc;
-    least = least < ca ? least : ca;
-    least = least < at_p ? least : at_p;
+    const WidePoint u = WidePoint{ball[B::ax], ball[B::ay], ball[B::az]} - at;
+    const WidePoint v = WidePoint{ball[B::bx], ball[B::by], ball[B::bz]} - at;
+    const WidePoint w = WidePoint{ball[B::cx], ball[B::cy], ball[B::cz]} - at;
+    const WidePoint link = {ball[B::nx], ball[B::ny], ball[B::nz]};
+    // Inward normals of the faces opposite a, b, c.
+    const WidePoint l = cross(v, w), m = cross(w, u), k = cross(u, v);
+    const WideVector na = dot(l, l), nb = dot(m, m), nc = dot(k, k), np = ball[B::n2];
+    const WideVector uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+    const WideVector v6 = dot(link, u);
+    WideVector at_a = uu * na, at_b = vv * nb, at_c = ww * nc;
+    WideVector ab = ball[B::ab2] * (na * nb);
+    WideVector bc = ball[B::bc2] * (nb * nc);
+    WideVector ca = ball[B::ca2] * (nc * na);
+    if (!is_even) {  // the link triangle's normal points outwards
+      at_a *= dot(m, k) > zero ? obtuse : acute;
+      at_b *= dot(k, l) > zero ? obtuse : acute;
+      at_c *= dot(l, m) > zero ? obtuse : acute;
+      ab *= dot(link, k) < zero ? obtuse : acute;
+      bc *= dot(link, l) < zero ? obtuse : acute;
+      ca *= dot(link, m) < zero ? obtuse : acute;
+    }
+    const WideVector at_p = smaller(smaller(at_a, at_b), at_c) * np;
+    const WideVector least = smaller(smaller(smaller(ab, bc), ca), at_p);
     const WideVector product = (np * na) * (nb * nc);
     const WideVector ratio = least / (product > zero ? product : zero + 1.0);
-    const WideVector size = v6 < zero ? -v6 : v6;
-    const WideVector square = product > zero ? v6 * size * ratio : zero;
+    const WideVector sum = (uu + vv + ww) + (ball[B::ab2] + ball[B::bc2] + ball[B::ca2]);
+    const WideVector by_length = flat2 + length * (v6 * v6) / (sum * sum * sum);
+    const WideVector by_sines = magnitude(v6 * magnitude(v6) * (is_even ? acute * ratio : ratio));
+    const WideVector size = smaller(by_length, by_sines);
+    const WideVector square = product > zero ? (v6 < zero ? -size : size) : zero;
     *squares[n].vectors() = square;
-    smallest = square < smallest ? square : smallest;
+    smallest = smaller(square, smallest);
     const auto below = square < least_square;
     if ((below[0] | below[1] | below[2] | below[3]) != 0) {
       first = n;
@@ -132,8 +141,7 @@ double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares,
   if (!complete_) complete_triangles(lanes_.data(), count);
   complete_ = true;
   if (squares.size() < count) squares.resize(lanes_.size());
-  return evaluate_ball(lanes_.data(), count, p.x(), p.y(), p.z(), squares.data(), least_square,
-                       first_);
+  return evaluate_ball(lanes_.data(), count, standard_, p, squares.data(), least_square, first_);
 }
 
 double BallOptimiser::worst(const Point& p) {
@@ -160,7 +168,7 @@ double BallOptimiser::total_deficit() const {
   return sum;
 }
 
-/// Gradients of the sines of one tet that lie below the band. Which do is decided by squares: few
+/// Gradients of the terms of one tet that lie below the band. Which do is decided by squares: few
 /// do.
 void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, unsigned& count) {
   const Point normal = corner(nx, i);
@@ -192,16 +200,38 @@ void BallOptimiser::add_gradients(std::size_t i, const Point& p, double band, un
     const unsigned g = e < 3 ? (e + 2) % 3 : e - 3;
     const double length2 = e < 3 ? to[e].squaredNorm() : far2[e - 3];
     const double product = norm2[f] * norm2[g];
-    if (signed_square * length2 > band_square * product) continue;
-    const double scale = std::sqrt(length2 / product);
+    double weight2 = standard_.acute2();
+    if (!standard_.is_even()) {
+      const double turn = e < 3 ? face[f].dot(face[g]) : -normal.dot(face[g]);
+      if (turn > 0) weight2 = standard_.obtuse2();
+    }
+    if (signed_square * length2 * weight2 > band_square * product) continue;
+    const double scale = std::sqrt(weight2 * (length2 / product));
     Point log_part = -log_gradient(f) - log_gradient(g);
     if (e < 3) log_part -= to[e] * (1 / length2);
     gradients_[count++] = -scale * normal + v6 * scale * log_part;
   }
+  if (v6 > 0) add_length_gradient(i, p, band, count);
+}
+
+/// Gradient of the term of the length: the root of flat^2 + length V6^2 / S^3.
+void BallOptimiser::add_length_gradient(std::size_t i, const Point& p, double band,
+                                        unsigned& count) {
+  const Point normal = corner(nx, i);
+  const std::array<Point, 3> to = {corner(ax, i) - p, corner(bx, i) - p, corner(cx, i) - p};
+  const double v6 = normal.dot(to[0]);
+  const double sum = (to[0].squaredNorm() + to[1].squaredNorm() + to[2].squaredNorm()) +
+                     (value(ab2, i) + value(bc2, i) + value(ca2, i));
+  const double part = standard_.length() * v6 * v6 / (sum * sum * sum);
+  const double square = standard_.flat2() + part;
+  if (count == kMaxActive || square > band * std::abs(band)) return;
+  // dV6 / dp = -normal, dS / dp = -2 (sum of the edges from p).
+  const Point log_part = (-2 / v6) * normal + (6 / sum) * (to[0] + to[1] + to[2]);
+  gradients_[count++] = part / (2 * std::sqrt(square)) * log_part;
 }
 
 unsigned BallOptimiser::find_active(const Point& p, double worst, double width) {
-  const double band = worst + width * std::max(std::abs(worst), 0.02);
+  const double band = worst + width * std::max(std::abs(worst), 0.04);
   const double band_square = band * std::abs(band);
   unsigned count = 0;
   for (std::size_t i = 0; i < size_ && count < kMaxActive; ++i) {
@@ -225,8 +255,8 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
   const unsigned count = find_active(p, best, width);
   if (count == 0) return 0;
   const Point direction = shortest_in_hull(gradients_.data(), count);
-  const double slope = direction.norm();  // of the slowest active sine along the unit direction
-  if (!(slope * length > 1e-3)) return 0;
+  const double slope = direction.norm();  // of the slowest active term along the unit direction
+  if (!(slope * length > 2e-3)) return 0;
   const Point unit = direction / slope;
   const double start = best;
   double gain = 0;

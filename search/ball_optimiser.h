@@ -12,31 +12,35 @@
 
 namespace tetmend {
 
-/// Maximises the smallest minimum sine over a ball, given by the triangles of its link. A steepest
+/// Maximises the smallest quality of a ball, given by the triangles of its link. A steepest
 /// ascent for a function that is not smooth ([freitag_ollivier_gooch]). The direction is the
-/// shortest vector in the convex hull of some gradients: those of the sines that are nearly as
-/// small as the smallest.
+/// shortest vector in the convex hull of some gradients: those of the terms of the standard, sines
+/// and length, that are nearly as small as the smallest.
 class BallOptimiser {
  public:
   struct Limits {
     int steps = 40;            ///< directions tried
-    double enough = 0.6;       ///< stop when the worst quality exceeds this
-    double least_gain = 1e-5;  ///< stop when a step gains less
+    double enough = 1.2;       ///< stop when the worst quality exceeds this
+    double least_gain = 2e-5;  ///< stop when a step gains less
     double least_step = 1e-2;  ///< shortest step, as a share of the size of the ball
   };
 
-  void clear() { size_ = first_ = 0; }
+  /// Begins a ball, to be judged by a standard.
+  void clear(const Standard& standard) {
+    standard_ = standard;
+    size_ = first_ = 0;
+  }
   /// A link triangle; (p, a, b, c) is positive for a vertex p inside the ball.
   void add(const Point& a, const Point& b, const Point& c);
   std::size_t size() const { return size_; }
 
-  /// Smallest minimum sine of the ball with its vertex at p. Keeps the values of the single tets,
+  /// Smallest quality of the ball with its vertex at p. Keeps the values of the single tets,
   /// see quality(). Cost: linear.
   double worst(const Point& p);
   /// As worst(), if that exceeds `least`; otherwise some value that does not, and the values of the
   /// single tets stay as they are. Ends at the first tets that are not better.
   double worst_above(const Point& p, double least);
-  /// Minimum sine of the i-th tet added, with the vertex where worst(), worst_above() or optimise()
+  /// Quality of the i-th tet added, with the vertex where worst(), worst_above() or optimise()
   /// last left it.
   double quality(std::size_t i) const;
   /// Sum of deficit() over the tets, likewise.
@@ -63,6 +67,7 @@ class BallOptimiser {
   double ascend(Point& p, double& best, double width, double length, double& step,
                 double least_step);
   void add_gradients(std::size_t tet, const Point& p, double band, unsigned& count);
+  void add_length_gradient(std::size_t tet, const Point& p, double band, unsigned& count);
   double local_length(const Point& p) const;
   double value(Field f, std::size_t tet) const { return lanes_[tet / kLanes].of[f][tet % kLanes]; }
   Point corner(Field x, std::size_t tet) const {
@@ -71,6 +76,7 @@ class BallOptimiser {
     return {lanes.of[x][k], lanes.of[x + 1][k], lanes.of[x + 2][k]};
   }
 
+  Standard standard_;
   std::size_t size_ = 0;
   bool complete_ = false;  // the fields after the corners are computed
   std::vector<Lanes> lanes_;

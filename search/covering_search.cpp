@@ -14,16 +14,6 @@ namespace tetmend {
 
 namespace {
 
-/// Minimum sine from squared quantities: V6^2 * smallest / product; 0 if not above the floor.
-/// `smallest` and `product` as in minimum_sine().
-Quality sine_above(double v6, double smallest, double product, Quality floor) {
-  if (!(v6 > 0)) return 0;
-  const double r = floor > 0 ? floor : 0;
-  if (!(v6 * v6 * smallest > r * r * product)) return 0;
-  const auto q = static_cast<Quality>(v6 * std::sqrt(smallest / product));
-  return q > floor ? q : 0;
-}
-
 double min3(double x, double y, double z) {
   return std::min(std::min(x, y), z);
 }
@@ -63,6 +53,7 @@ bool BasicCoveringSearch<Worst>::is_better(const Values& values, unsigned degree
 template <unsigned Worst>
 void BasicCoveringSearch<Worst>::begin(const CoveringProblem& problem) {
   size_ = static_cast<unsigned>(problem.ring.size());
+  standard_ = problem.standard;
   floor_ = problem.floor;
   evaluations_ = 0;
   a_ = problem.a;
@@ -78,6 +69,30 @@ void BasicCoveringSearch<Worst>::begin(const CoveringProblem& problem) {
   run_ = 1;  // the numbers are used up
   triangles_.fill({});
   for (auto& row : pairs_) row.fill({});
+}
+
+/// Quality from squared quantities; 0 if not above the floor. `smallest`, `product` and `sum` as in
+/// Standard::quality().
+template <unsigned Worst>
+Quality BasicCoveringSearch<Worst>::above_floor(double v6, double smallest, double product,
+                                                double sum) const {
+  if (!(v6 > 0)) return 0;
+  const double r = floor_ > 0 ? floor_ : 0;
+  const double v2 = v6 * v6;
+  if (!(v2 * standard_.acute2() * smallest > r * r * product)) return 0;
+  const double cube = sum * sum * sum;
+  const double by_length = (standard_.flat2() * cube + standard_.length() * v2) / (v2 * cube);
+  const auto q = static_cast<Quality>(
+      v6 * std::sqrt(std::min(standard_.acute2() * (smallest / product), by_length)));
+  return q > floor_ ? q : 0;
+}
+
+/// Likewise where acute and obtuse angles differ in weight.
+template <unsigned Worst>
+Quality BasicCoveringSearch<Worst>::uneven_above_floor(const Point& a, const Point& b,
+                                                       const Point& c, const Point& d) const {
+  const auto q = static_cast<Quality>(standard_.quality(a, b, c, d));
+  return q > std::max(floor_, Quality{0}) ? q : 0;
 }
 
 template <unsigned Worst>
@@ -123,7 +138,8 @@ void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, u
   // The angles at one side of the triangle refuse most triangles, and cost little.
   constexpr double kRounding = 1e-12;
   const double r = std::max(floor_, Quality{0});
-  const double least = r * r * nn * (1 - kRounding);
+  const double weight = std::max(standard_.acute2(), standard_.obtuse2());
+  const double least = r * r * nn * (1 - kRounding) / weight;
   const auto is_sharp = [&](const Pair& side) {
     return upper_v6 * upper_v6 * side.length2 < least * side.normal_a ||
            lower_v6 * lower_v6 * side.length2 < least * side.normal_b;
@@ -134,11 +150,19 @@ void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, u
   if (is_sharp(kj)) return;
   const Pair& ij = pair(i, j);
   if (is_sharp(ij)) return;
+  if (!standard_.is_even()) {
+    t.upper = uneven_above_floor(a_, p_[i], p_[k], p_[j]);
+    if (t.upper <= 0) return;
+    t.lower = uneven_above_floor(b_, p_[i], p_[j], p_[k]);
+    t.valid = t.lower > 0;
+    return;
+  }
+  const double sides = ik.length2 + kj.length2 + ij.length2;
   const auto quality = [&](double v6, const auto& x2, double nik, double nkj, double nij) {
     const double smallest =
         std::min(nn * min3(x2[i] * nkj, x2[k] * nij, x2[j] * nik),
                  min3(ik.length2 * nkj * nij, kj.length2 * nij * nik, ij.length2 * nkj * nik));
-    return sine_above(v6, smallest, nn * nkj * (nij * nik), floor_);
+    return above_floor(v6, smallest, nn * nkj * (nij * nik), sides + (x2[i] + x2[k] + x2[j]));
   };
   t.upper = quality(upper_v6, a2_, ik.normal_a, kj.normal_a, ij.normal_a);
   if (t.upper <= 0) return;
@@ -153,6 +177,7 @@ Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
   ++evaluations_;
   const double v6 = volume6(a_, b_, p_[i], p_[j]);
   if (!(v6 > 0)) return 0;
+  if (!standard_.is_even()) return uneven_above_floor(a_, b_, p_[i], p_[j]);
   const Pair& chord = pair(std::min(i, j), std::max(i, j));
   const double na = chord.normal_a;
   const double nb = chord.normal_b;
@@ -160,7 +185,8 @@ Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
       min3(std::min(ab2_ * nb * na, chord.length2 * normal_ab_[i] * normal_ab_[j]),
            nb * std::min(a2_[i] * normal_ab_[j], a2_[j] * normal_ab_[i]),
            na * std::min(b2_[i] * normal_ab_[j], b2_[j] * normal_ab_[i]));
-  return sine_above(v6, smallest, na * nb * (normal_ab_[i] * normal_ab_[j]), floor_);
+  return above_floor(v6, smallest, na * nb * (normal_ab_[i] * normal_ab_[j]),
+                     ab2_ + chord.length2 + (a2_[i] + a2_[j]) + (b2_[i] + b2_[j]));
 }
 
 template <unsigned Worst>

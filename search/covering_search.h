@@ -32,6 +32,7 @@ struct CoveringProblem {
   /// Qualities of the tets (a, b, ring[i], ring[i+1]) as they are. Empty for the virtual shell of a
   /// face removal, where no tet contains ab and each side of the core is a new tet.
   std::span<const Quality> old_sides;
+  Standard standard;  ///< by which tets are judged
   /// Every new tet must be better than this. The worst quality of the old tets loses nothing.
   Quality floor = 0;
   /// Ancestor edges, as bits: no chord may end at a locked ring vertex, no pocket may use a locked
@@ -123,6 +124,8 @@ class BasicCoveringSearch {
   };
 
   void begin(const CoveringProblem& problem);
+  Quality above_floor(double v6, double smallest, double product, double sum) const;
+  Quality uneven_above_floor(const Point& a, const Point& b, const Point& c, const Point& d) const;
   const Pair& pair(unsigned low, unsigned high);
   const Triangle& triangle(unsigned i, unsigned k, unsigned j);
   Quality side(unsigned i, unsigned j);
@@ -139,6 +142,7 @@ class BasicCoveringSearch {
   unsigned wrap(unsigned i) const { return i >= size_ ? i - size_ : i; }
 
   unsigned size_ = 0;
+  Standard standard_;
   Quality floor_ = 0;
   unsigned evaluations_ = 0;
   Point a_;

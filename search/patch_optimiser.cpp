@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quasi-Newton descent of what the sines of a patch lack.
+// Quasi-Newton descent of what the terms of a patch lack.
 //
 //   for p = 16, 64:
 //     repeat: gradient of the p-norm -> direction from the last steps -> step, halved until the
@@ -56,12 +56,13 @@ constexpr std::array<std::array<unsigned, 2>, 6> other_corners() {
 constexpr auto kOtherCorners = other_corners();
 
 /// Of a tet: the gradients of its volume V6 by the corners, which are the normals of the faces
-/// opposite, and the sines.
+/// opposite, and the terms of the standard.
 struct Shape {
   std::array<Point, 4> normal;
   std::array<double, 4> norm2;
   std::array<double, 6> length2;
   double v6;
+  double sum = 0;  // of length2
 
   explicit Shape(const std::array<Point, 4>& p) {
     const Point u = p[1] - p[0];
@@ -75,6 +76,7 @@ struct Shape {
     for (unsigned i = 0; i < 4; ++i) norm2[i] = normal[i].squaredNorm();
     for (unsigned e = 0; e < 6; ++e) {
       length2[e] = (p[kEdgeVertices[e][0]] - p[kEdgeVertices[e][1]]).squaredNorm();
+      sum += length2[e];
     }
   }
   bool is_degenerate() const {
@@ -84,34 +86,48 @@ struct Shape {
     const auto& [k, l] = kOtherCorners[e];
     return normal[k].dot(normal[l]) > 0;
   }
-  /// Sine over V6.
-  double ratio(unsigned e) const {
+  /// Term of an edge over V6.
+  double ratio(unsigned e, const Standard& standard) const {
     const auto& [k, l] = kOtherCorners[e];
-    return std::sqrt(length2[e] / (norm2[k] * norm2[l]));
+    const bool obtuse = !standard.is_even() && is_obtuse(e);
+    const double weight2 = obtuse ? standard.obtuse2() : standard.acute2();
+    return std::sqrt(weight2 * (length2[e] / (norm2[k] * norm2[l])));
+  }
+  /// The part of the length in the square of its term.
+  double length_part(const Standard& standard) const {
+    return standard.length() * v6 * v6 / (sum * sum * sum);
+  }
+  double length_term(const Standard& standard) const {
+    const double size = std::sqrt(standard.flat2() + length_part(standard));
+    return v6 < 0 ? -size : size;
   }
 };
 
-/// The most that a sine lacks of its goal.
-double lack_of(const std::array<double, 6>& sines, const std::array<double, 6>& goals) {
-  double most = goals[0] - sines[0];
-  for (unsigned e = 1; e < 6; ++e) most = std::max(most, goals[e] - sines[e]);
+using Terms = std::array<double, 7>;
+constexpr unsigned kLength = 6;  // the term that no edge has
+
+/// The most that a term lacks of its goal.
+double lack_of(const Terms& terms, const Terms& goals) {
+  double most = goals[0] - terms[0];
+  for (std::size_t i = 1; i < terms.size(); ++i) most = std::max(most, goals[i] - terms[i]);
   return most;
 }
 
-std::array<double, 6> all_six(double sine) {
-  std::array<double, 6> sines{};
-  sines.fill(sine);
-  return sines;
+Terms all_terms(double value) {
+  Terms terms{};
+  terms.fill(value);
+  return terms;
 }
 
-double minimum_sine_of(const std::array<double, 6>& sines) {
-  return sines[0] < 0 ? *std::max_element(sines.begin(), sines.end())
-                      : *std::min_element(sines.begin(), sines.end());
+double quality_of(const Terms& terms) {
+  return terms[0] < 0 ? *std::max_element(terms.begin(), terms.end())
+                      : *std::min_element(terms.begin(), terms.end());
 }
 
 }  // namespace
 
-void PatchOptimiser::clear() {
+void PatchOptimiser::clear(const Standard& standard) {
+  standard_ = standard;
   points_.clear();
   tets_.clear();
 }
@@ -121,9 +137,9 @@ void PatchOptimiser::add_tet(const std::array<Point, 4>& corners,
   tets_.push_back({corners, vertex, false});
 }
 
-/// Computes all sines with the vertices at `points`. False if a positive tet would turn over.
-bool PatchOptimiser::measure(const std::vector<Point>& points, std::vector<Sines>& sines) {
-  sines.resize(tets_.size());
+/// Computes all terms with the vertices at `points`. False if a positive tet would turn over.
+bool PatchOptimiser::measure(const std::vector<Point>& points, std::vector<Terms>& terms) {
+  terms.resize(tets_.size());
   for (std::size_t n = 0; n < tets_.size(); ++n) {
     Tet& tet = tets_[n];
     for (unsigned i = 0; i < 4; ++i) {
@@ -134,20 +150,21 @@ bool PatchOptimiser::measure(const std::vector<Point>& points, std::vector<Sines
     const Shape shape(tet.corners);
     if (tet.positive && !(shape.v6 > 0)) return false;
     if (shape.is_degenerate()) {
-      sines[n].fill(0);
+      terms[n].fill(0);
       continue;
     }
-    for (unsigned e = 0; e < 6; ++e) sines[n][e] = shape.v6 * shape.ratio(e);
+    for (unsigned e = 0; e < 6; ++e) terms[n][e] = shape.v6 * shape.ratio(e, standard_);
+    terms[n][kLength] = shape.length_term(standard_);
   }
   return true;
 }
 
 double PatchOptimiser::worst() {
   for (Tet& tet : tets_) tet.positive = false;
-  measure(points_, sines_);
+  measure(points_, terms_);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < tets_.size(); ++n) {
-    const double q = minimum_sine_of(sines_[n]);
+    const double q = quality_of(terms_[n]);
     tets_[n].positive = q > 0;
     least = std::min(least, q);
   }
@@ -156,7 +173,7 @@ double PatchOptimiser::worst() {
 
 double PatchOptimiser::total_deficit() const {
   double sum = 0;
-  for (const Sines& sines : sines_) sum += deficit(minimum_sine_of(sines));
+  for (const Terms& terms : terms_) sum += deficit(quality_of(terms));
   return sum;
 }
 
@@ -176,15 +193,15 @@ void PatchOptimiser::measure_scales() {
   for (std::size_t v = 0; v < scale_.size(); ++v) scale_[v] /= std::max(trial_[v].x(), 1.0);
 }
 
-double PatchOptimiser::norm(const std::vector<Sines>& sines, int doublings) const {
+double PatchOptimiser::norm(const std::vector<Terms>& terms, int doublings) const {
   double most = 0;
-  for (std::size_t n = 0; n < sines.size(); ++n)
-    most = std::max(most, lack_of(sines[n], goals_[n]));
+  for (std::size_t n = 0; n < terms.size(); ++n)
+    most = std::max(most, lack_of(terms[n], goals_[n]));
   if (!(most > 0)) return 0;
   double sum = 0;
-  for (std::size_t n = 0; n < sines.size(); ++n) {
-    for (unsigned e = 0; e < 6; ++e) {
-      const double lack = goals_[n][e] - sines[n][e];
+  for (std::size_t n = 0; n < terms.size(); ++n) {
+    for (std::size_t i = 0; i < kTerms; ++i) {
+      const double lack = goals_[n][i] - terms[n][i];
       if (lack > 0) sum += raise(lack / most, doublings);
     }
   }
@@ -196,9 +213,9 @@ void PatchOptimiser::find_gradient(int doublings, double norm, std::vector<Point
   constexpr double kNegligible = 1e-8;
   gradient.assign(points_.size(), Point::Zero());
   for (std::size_t n = 0; n < tets_.size(); ++n) {
-    const Sines& sines = sines_[n];
-    const Sines& goals = goals_[n];
-    if (!(raise(std::max(0.0, lack_of(sines, goals)) / norm, doublings) > kNegligible)) continue;
+    const Terms& terms = terms_[n];
+    const Terms& goals = goals_[n];
+    if (!(raise(std::max(0.0, lack_of(terms, goals)) / norm, doublings) > kNegligible)) continue;
     Tet& tet = tets_[n];
     for (unsigned i = 0; i < 4; ++i) {
       if (tet.vertex[i] != kFixed) {
@@ -208,22 +225,32 @@ void PatchOptimiser::find_gradient(int doublings, double norm, std::vector<Point
     const auto& p = tet.corners;
     const Shape shape(p);
     if (shape.is_degenerate()) continue;
-    // The sine is V6 l / (N N'); d|u|/du = (u / |u|)^(p - 1).
+    // The term of an edge is V6 l / (N N'), weighted; d|u|/du = (u / |u|)^(p - 1).
     double by_volume = 0;
     std::array<Point, 4> slope;
     slope.fill(Point::Zero());
     std::array<double, 4> by_face{};
     for (unsigned e = 0; e < 6; ++e) {
-      const double share = (goals[e] - sines[e]) / norm;
+      const double share = (goals[e] - terms[e]) / norm;
       if (!(share > 0)) continue;
       const double weight = -raise(share, doublings) / share;
-      by_volume += weight * shape.ratio(e);
-      const double by_log = weight * sines[e];
+      by_volume += weight * shape.ratio(e, standard_);
+      const double by_log = weight * terms[e];
       const auto& [i, j] = kEdgeVertices[e];
       const Point along = (by_log / shape.length2[e]) * (p[i] - p[j]);
       slope[i] += along;
       slope[j] -= along;
       for (const unsigned k : kOtherCorners[e]) by_face[k] += by_log;
+    }
+    const double share = (goals[kLength] - terms[kLength]) / norm;
+    if (share > 0 && shape.v6 > 0) {
+      // d(term) = part / term (dV6 / V6 - 3/2 dS / S).
+      const double by_log =
+          -raise(share, doublings) / share * shape.length_part(standard_) / terms[kLength];
+      by_volume += by_log / shape.v6;
+      for (unsigned i = 0; i < 4; ++i) {
+        slope[i] -= (3 * by_log / shape.sum) * (4 * p[i] - (p[0] + p[1] + p[2] + p[3]));
+      }
     }
     for (unsigned f = 0; f < 4; ++f) {
       if (by_face[f] == 0) continue;
@@ -280,12 +307,12 @@ bool PatchOptimiser::search_line(int doublings, double slope, double& value) {
       trial_[v] += step_ * scale_[v] * direction_[v];
     }
     double shrink = 0.25;
-    if (measure(trial_, trial_sines_)) {
-      const double reached = norm(trial_sines_, doublings);
+    if (measure(trial_, trial_terms_)) {
+      const double reached = norm(trial_terms_, doublings);
       if (reached <= value + kLeastShare * step_ * slope) {
         value = reached;
         points_.swap(trial_);
-        sines_.swap(trial_sines_);
+        terms_.swap(trial_terms_);
         return true;
       }
       // The lowest point of the parabola through what is known.
@@ -310,7 +337,7 @@ void PatchOptimiser::remember() {
 /// Lowers the norm for p = 2^doublings.
 void PatchOptimiser::descend(int doublings, const Limits& limits) {
   remembered_ = 0;
-  double value = norm(sines_, doublings);
+  double value = norm(terms_, doublings);
   if (!(value > 0)) return;
   find_gradient(doublings, value, gradient_);
   for (int i = 0; i < limits.steps; ++i) {
@@ -332,35 +359,36 @@ void PatchOptimiser::descend(int doublings, const Limits& limits) {
 
 bool PatchOptimiser::lift(std::size_t tet, double goal, double least, const Limits& limits) {
   // What is aimed at beyond the goals: near them the norm falls slowly.
-  constexpr double kMargin = 1e-3;
+  constexpr double kMargin = 2e-3;
   constexpr int kSquares = 1;
   worst();
   best_ = points_;
   measure_scales();
   goals_.clear();
-  for (const Sines& sines : sines_) {
-    goals_.push_back(all_six(std::min(minimum_sine_of(sines), least) + kMargin));
+  for (const Terms& terms : terms_) {
+    goals_.push_back(all_terms(std::min(quality_of(terms), least) + kMargin));
   }
   const Shape shape(tets_[tet].corners);
-  const Sines& sines = sines_[tet];
-  const auto sharpest = std::min_element(sines.begin(), sines.end()) - sines.begin();
+  const Terms& terms = terms_[tet];
+  const auto sharpest = std::min_element(terms.begin(), terms.begin() + kLength) - terms.begin();
   for (unsigned e = 0; e < 6; ++e) {
     const bool alike = shape.is_obtuse(e) == shape.is_obtuse(static_cast<unsigned>(sharpest));
-    goals_[tet][e] = (alike ? goal : std::min(sines[e], least)) + kMargin;
+    goals_[tet][e] = (alike ? goal : std::min(terms[e], least)) + kMargin;
   }
+  goals_[tet][kLength] = goal + kMargin;
   // A tet that has not come half the way in its first steps hardly ever arrives.
   constexpr int kFirst = 30;
-  const double lacked = lack_of(sines_[tet], goals_[tet]);
+  const double lacked = lack_of(terms_[tet], goals_[tet]);
   Limits part = limits;
   part.steps = std::min(kFirst, limits.steps);
   descend(kSquares, part);
-  if (lack_of(sines_[tet], goals_[tet]) < 0.5 * lacked) {
+  if (lack_of(terms_[tet], goals_[tet]) < 0.5 * lacked) {
     part.steps = limits.steps - part.steps;
     descend(kSquares, part);
   }
   bool reached = true;
   for (std::size_t n = 0; n < tets_.size() && reached; ++n) {
-    reached = lack_of(sines_[n], goals_[n]) <= kMargin + kQualityTolerance;
+    reached = lack_of(terms_[n], goals_[n]) <= kMargin + kQualityTolerance;
   }
   if (!reached) {
     points_ = best_;
@@ -371,13 +399,13 @@ bool PatchOptimiser::lift(std::size_t tet, double goal, double least, const Limi
 
 double PatchOptimiser::optimise(const Limits& limits) {
   double best = worst();
-  goals_.assign(tets_.size(), all_six(limits.enough));
+  goals_.assign(tets_.size(), all_terms(limits.enough));
   best_ = points_;
   measure_scales();
   for (int doublings = limits.mildest; doublings <= limits.sharpest; doublings += 2) {
     descend(doublings, limits);
     double reached = std::numeric_limits<double>::infinity();
-    for (const Sines& sines : sines_) reached = std::min(reached, minimum_sine_of(sines));
+    for (const Terms& terms : terms_) reached = std::min(reached, quality_of(terms));
     if (reached > best) {
       best = reached;
       best_ = points_;

@@ -50,7 +50,8 @@ bool is_even(const PolyhedronProblem::Triangle& t) {
 
 }  // namespace
 
-void PolyhedronSearch::clear() {
+void PolyhedronSearch::clear(const Standard& standard) {
+  standard_ = standard;
   table_.clear();
   quality_.clear();
 }
@@ -260,8 +261,8 @@ Quality PolyhedronSearch::quality(PointMask tet) {
   const auto [a, b, c, d] = corners_of<4>(tet);
   Quality& known = quality_[SideTable::rank(a, b, c, d)];
   if (known == kUnknown) {
-    known = static_cast<Quality>(
-        std::abs(minimum_sine(table_.point(a), table_.point(b), table_.point(c), table_.point(d))));
+    known = static_cast<Quality>(std::abs(
+        standard_.quality(table_.point(a), table_.point(b), table_.point(c), table_.point(d))));
   }
   return known;
 }

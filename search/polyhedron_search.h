@@ -44,8 +44,8 @@ class PolyhedronSearch {
  public:
   using Tet = std::array<std::uint8_t, 4>;  ///< in positive order
 
-  /// Forgets all points.
-  void clear();
+  /// Forgets all points; tets are judged by the standard from now on.
+  void clear(const Standard& standard);
   /// Gives the point the next number. Cost: see SideTable::add.
   void add(const Point& point);
   unsigned size() const { return table_.size(); }
@@ -117,6 +117,7 @@ class PolyhedronSearch {
   PlacedTet describe(PointMask tet) const;
   Tet in_positive_order(const PlacedTet& tet) const;
 
+  Standard standard_;
   SideTable table_;
   std::vector<Quality> quality_;  // of each tet, by rank; kUnknown until it is needed
 

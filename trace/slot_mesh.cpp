@@ -65,7 +65,7 @@ void decode_named(ByteReader& in, std::size_t vertices, std::vector<Element>& el
 
 }  // namespace
 
-SlotMesh::SlotMesh(const TetMesh& mesh) {
+SlotMesh::SlotMesh(const TetMesh& mesh) : standard_(mesh.standard()) {
   for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
     const VertexHandle v(i);
     points_.push_back(mesh.point(v));
@@ -96,7 +96,8 @@ SlotMesh::SlotMesh(const TetMesh& mesh) {
 
 Quality SlotMesh::quality(TetHandle t) const {
   const TetVertices& v = tets_[t.index()];
-  return static_cast<Quality>(minimum_sine(point(v[0]), point(v[1]), point(v[2]), point(v[3])));
+  return static_cast<Quality>(
+      standard_.quality(point(v[0]), point(v[1]), point(v[2]), point(v[3])));
 }
 
 MeshData SlotMesh::to_data() const {
@@ -162,7 +163,30 @@ std::size_t SlotMesh::bytes() const {
          points_.size() * (sizeof(Point) + 1) + triangles_.size() * sizeof(MeshData::Triangle);
 }
 
+namespace {
+
+void encode_standard(ByteWriter& out, const Standard& standard) {
+  const Goal goal = standard.goal();
+  out.put_bytes(&goal.min_angle, sizeof goal.min_angle);
+  out.put_bytes(&goal.max_angle, sizeof goal.max_angle);
+  out.put(static_cast<std::uint64_t>(standard.terms()));
+}
+
+Standard decode_standard(ByteReader& in) {
+  Goal goal;
+  in.get_bytes(&goal.min_angle, sizeof goal.min_angle);
+  in.get_bytes(&goal.max_angle, sizeof goal.max_angle);
+  const std::uint64_t terms = in.get();
+  if (!is_sound(goal) || terms > static_cast<std::uint64_t>(Standard::Terms::sine_and_length)) {
+    throw ByteReader::Damage();
+  }
+  return Standard(goal, static_cast<Standard::Terms>(terms));
+}
+
+}  // namespace
+
 void SlotMesh::encode(ByteWriter& out) const {
+  encode_standard(out, standard_);
   out.put(points_.size());
   out.put_bytes(live_.data(), live_.size());
   out.put_bytes(points_.data(), points_.size() * sizeof(Point));
@@ -188,6 +212,7 @@ void SlotMesh::encode(ByteWriter& out) const {
 
 SlotMesh SlotMesh::decode(ByteReader& in) {
   SlotMesh mesh;
+  mesh.standard_ = decode_standard(in);
   const std::size_t vertices = in.get_count();
   mesh.live_.resize(vertices);
   in.get_bytes(mesh.live_.data(), vertices);

@@ -31,7 +31,10 @@ class SlotMesh {
   const TetVertices& vertices(TetHandle t) const { return tets_[t.index()]; }
   const Point& point(VertexHandle v) const { return points_[v.index()]; }
   Label label(TetHandle t) const { return labels_[t.index()]; }
-  /// Minimum sine, computed from the points: the bits that TetMesh::quality() had.
+  /// By which tets are judged.
+  const Standard& standard() const { return standard_; }
+  void set_standard(const Standard& standard) { standard_ = standard; }
+  /// Computed from the points: the bits that TetMesh::quality() had.
   Quality quality(TetHandle t) const;
 
   /// What the file of the mesh named: these never change. Vertices by slot.
@@ -62,6 +65,7 @@ class SlotMesh {
   void set_vertex(VertexHandle v, bool live, const Point& point);
 
  private:
+  Standard standard_ = Standard(Goal{});
   std::vector<TetVertices> tets_;
   std::vector<Label> labels_;
   std::vector<Point> points_;

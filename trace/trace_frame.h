@@ -15,7 +15,7 @@ namespace tetmend {
 
 /// First bytes of every trace file, the version of the format included.
 inline constexpr std::size_t kTraceMagicSize = 12;
-inline constexpr std::uint32_t kTraceVersion = 1;
+inline constexpr std::uint32_t kTraceVersion = 2;
 
 /// Writes frames into FILE.part, each at once. So a crash costs only what was not handed over yet.
 /// finish() gives the file its name; without it FILE.part stays.

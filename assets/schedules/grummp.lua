@@ -6,18 +6,16 @@ local theta = parameter{"theta", default = 25.0, low = 1, high = 60,
 local share = parameter{"repair_share", default = 0.005, low = 0, high = 1,
                         help = "share of the tets that are repaired, the worst"}
 
-local function sine(degrees)
-  return math.sin(math.rad(degrees))
-end
-
 -- Where most tets are above the threshold already, a lower one spares work.
 local function smooth_twice()
   for _ = 1, 2 do
-    smooth{on = {below = sine(theta)}, cycles = 1}
-    theta = math.min(theta, math.max(1, 1.5 * math.deg(math.asin(math.max(0, quality().q_worst)))))
+    smooth{on = {below = quality_of_angle(theta)}, cycles = 1}
+    local now = quality()
+    theta = math.min(theta, math.max(1, 1.5 * math.min(now.theta_min, 180 - now.theta_max)))
   end
 end
 
+goal{measure = "sines"}
 begin_round()
 for _ = 1, 3 do
   apply(all_of{"flip_2_3", "edge_removal"}, {on = "all"})
@@ -25,5 +23,5 @@ end
 smooth_twice()
 
 begin_round()
-apply(all_of{"edge_removal", "multi_face_removal"}, {on = {below = 1, share = share}, sweeps = 3})
+apply(all_of{"edge_removal", "multi_face_removal"}, {on = {below = 2, share = share}, sweeps = 3})
 smooth_twice()

@@ -10,7 +10,7 @@ local last_sweeps    = parameter{"last_sweeps", default = 3, low = 0, high = 100
 -- DEVIATION: Algorithm 5 tries all edges. The choice matters little for the mesh, but much for the time
 -- (docs/deviations.md).
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
-local dire  = {below = 0.25, at_least = 100}
+local dire  = {below = 0.5, at_least = 100}
 local worst = {below = 0, at_least = 32}
 
 local function clean_up()
@@ -34,7 +34,7 @@ local function sweep_worst()
   return local_reconnection{on = dire, reflex_only = false}
        + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = dire})
        + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
-                max_vertices = 14, max_nodes = 50, desperate = 0.35}, {on = worst})
+                max_vertices = 14, max_nodes = 50, desperate = 0.7}, {on = worst})
        + smooth{on = dire}
 end
 

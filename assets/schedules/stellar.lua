@@ -9,8 +9,10 @@ local desperate  = parameter{"desperate_share", default = 0.035, low = 0, high =
 local coarsen    = parameter{"coarsen", default = false,
                              help = "contract over all tets at the beginning, as Stellar does; the paper's tests leave that out"}
 
+goal{measure = "sines"}
+
 -- Tets with an angle below 40 or above 140 degrees.
-local mild = {below = math.sin(math.rad(40))}
+local mild = {below = quality_of_angle(40)}
 
 local function reconnect()
   return apply(all_of{"edge_removal", "multi_face_removal"}, {on = "all"})
@@ -34,7 +36,7 @@ for _ = 1, max_rounds do
     if failed == 0 then
       insert_points{on = mild}
     else
-      apply({"cavity_insertion", tries = 1, desperate = 1}, {on = {below = 1, share = desperate}})
+      apply({"cavity_insertion", tries = 1, desperate = 2}, {on = {below = 2, share = desperate}})
     end
     smooth{on = "all", cycles = 1}
     reconnect()

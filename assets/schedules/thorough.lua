@@ -10,15 +10,15 @@ local min_dihedral = parameter{"min_dihedral", default = 30, low = 0, high = 30,
 local time_limit   = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                                help = "seconds after which no further pass begins; 0: none"}
 
-local worst = {below = 0.5, worst = 100}
-local few   = {below = 0.5, worst = 24}
+local worst = {below = 1, worst = 100}
+local few   = {below = 1, worst = 24}
 -- As in the default schedule: the choice of edges matters for the time alone.
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
-local dire  = {below = 0.25, at_least = 100}
-local hard  = {below = 0.35}
+local dire  = {below = 0.5, at_least = 100}
+local hard  = {below = 0.7}
 -- Largest angles between 147.5 and 150 degrees, and above 148.
-local blunt  = {below = 0.54, worst = 100, property = {"largest_angle_sine", low = 0.5, high = 0.537}}
-local obtuse = {below = 0.53, worst = 8, property = {"largest_angle_sine", low = 0, high = 0.53}}
+local blunt  = {below = 1.08, worst = 100, property = {"largest_angle_sine", low = 0.5, high = 0.537}}
+local obtuse = {below = 1.06, worst = 8, property = {"largest_angle_sine", low = 0, high = 0.53}}
 
 local function is_late()
   return time_limit > 0 and quality().seconds >= time_limit
@@ -68,7 +68,7 @@ local function first_dear_round()
   for _ = 1, 3 do
     local_reconnection{on = dire, reflex_only = false}
     apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = dire})
-    apply(refill(14, 0.35), {on = {below = 0, at_least = 32}})
+    apply(refill(14, 0.7), {on = {below = 0, at_least = 32}})
     smooth{on = dire}
   end
   mend(quick)
@@ -78,8 +78,8 @@ end
 local function insertion_round()
   begin_round()
   local_reconnection{on = dire, reflex_only = false}
-  apply({"cavity_insertion", exponent = 16}, {on = {below = 0.5, worst = 1000}})
-  apply(open_by("edge_split", 0.35), {on = few})
+  apply({"cavity_insertion", exponent = 16}, {on = {below = 1, worst = 1000}})
+  apply(open_by("edge_split", 0.7), {on = few})
   mend()
 end
 
@@ -92,19 +92,19 @@ end
 -- Lowers angles above 148 degrees, even if a few more tets fall just below 30.
 local function lower(opening, follow_up)
   return apply(sequence{opening, "recursive_shell_transformation", "smoothing", follow_up, follow_up,
-                        {"joint_smoothing", goal = 0.535}, theta_max = 148}, {on = obtuse})
+                        {"joint_smoothing", goal = 1.07}, theta_max = 148}, {on = obtuse})
 end
 
 -- All that may help the worst, every other round with less regard for mild ones.
 local function worst_tets(i)
-  local exponent, desperate = 4, 0.2
-  if i % 2 == 0 then exponent, desperate = 12, 0.35 end
-  smooth{on = worst, desperate = 0.35, steps = 30}
+  local exponent, desperate = 4, 0.4
+  if i % 2 == 0 then exponent, desperate = 12, 0.7 end
+  smooth{on = worst, desperate = 0.7, steps = 30}
   local_reconnection{on = worst, reflex_only = false}
   apply({"cavity_insertion", exponent = exponent, desperate = desperate}, {on = worst})
-  apply(refill(18, 0.35), {on = worst})
-  apply(open_by("edge_split", 0.35), {on = worst})
-  apply(open_by("edge_removal", 0.35), {on = worst})
+  apply(refill(18, 0.7), {on = worst})
+  apply(open_by("edge_split", 0.7), {on = worst})
+  apply(open_by("edge_removal", 0.7), {on = worst})
 end
 
 -- Fewer bad tets, but none that is worse: with the exponent 1 the many mild ones count. Returns
@@ -125,9 +125,9 @@ local function very_worst_tets()
   local accepted = 0
   for i, opening in ipairs(openings) do
     accepted = accepted
-             + apply({"cavity_insertion", exponent = i % 2 == 0 and 4 or 12, desperate = 0.5}, {on = few})
-             + apply(refill(12 + 4 * i, 0.5), {on = few})
-             + apply(open_by(opening, 0.5), {on = few})
+             + apply({"cavity_insertion", exponent = i % 2 == 0 and 4 or 12, desperate = 1}, {on = few})
+             + apply(refill(12 + 4 * i, 1), {on = few})
+             + apply(open_by(opening, 1), {on = few})
   end
   return accepted
 end
@@ -173,13 +173,13 @@ if max_rounds > 0 and not is_enough() then
   worst_tets(1)
   while all_bad_tets() and not is_enough() do end
   if not is_late() then
-    lift(0.505, worst)
-    lift(0.54, blunt)
+    lift(1.01, worst)
+    lift(1.08, blunt)
   end
   for _, follow_up in ipairs(follow_ups) do
     for _, opening in ipairs(openings) do
       if not is_late() then lower(opening, follow_up) end
     end
   end
-  if not is_late() then lift(0.54, blunt) end
+  if not is_late() then lift(1.08, blunt) end
 end

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/goal.h>
 #include <tetmend/io.h>
 #include <tetmend/limit.h>
 #include <tetmend/mesh.h>
@@ -51,6 +52,9 @@ struct Options {
   std::string script = {};         ///< text of a schedule, instead of `schedule`; empty: none
   std::vector<std::pair<std::string, std::string>> set = {};  ///< its parameters: {"goal", "20"}
   std::vector<std::filesystem::path> plugin = {};             ///< further operators
+  Goal goal = {};                                             ///< tets that miss it are bad
+  /// What tets are judged by: "sine_and_length" sees needles as well, "sine" angles alone.
+  std::string measure = "sine_and_length";
   int threads = 1;  ///< 1 to 1024; the result is the same for every number
   /// Seconds; what is reached by then is the result. 0: none. Reading and measuring do not count.
   double time_limit = 0;

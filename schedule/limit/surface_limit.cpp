@@ -29,7 +29,10 @@ AngleRange symmetric(double least) {
   return {least, std::numbers::pi - least};
 }
 
-const AngleRange kGood = symmetric(std::asin(static_cast<double>(kBadThreshold)));
+AngleRange good_angles(const TetMesh& mesh) {
+  const Goal goal = mesh.standard().goal();
+  return {goal.min_angle * kDegree, goal.max_angle * kDegree};
+}
 
 /// Names a wall whatever its tet is: its vertices, the first one first, in the sense of its side.
 using WallName = std::array<VertexHandle, 3>;
@@ -52,7 +55,9 @@ std::vector<TetHandle> find_bad_tets(const TetMesh& mesh) {
   const auto parts =
       map_chunks<std::vector<TetHandle>>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
         std::vector<TetHandle> part;
-        mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) { part.push_back(t); });
+        mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
+          if (misses_goal(mesh, t)) part.push_back(t);
+        });
         return part;
       });
   std::vector<TetHandle> all;
@@ -85,11 +90,12 @@ std::vector<HalfFace> walls_around(const TetMesh& mesh, const std::vector<TetHan
 }
 
 bool is_bad(const TetMesh& mesh, HalfFace wall) {
-  return mesh.quality(wall.tet()) < kBadThreshold;
+  return misses_goal(mesh, wall.tet());
 }
 
 /// The argument about the fewest tets; without walls if there is none.
 Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
+  const AngleRange good = good_angles(mesh);
   Argument argument;
   argument.name = name_of(mesh, probe.wall());
   for (const WallProbe::Scope scope : {0b0000, 0b0001, 0b0010, 0b0100, 0b0111, 0b1111}) {
@@ -98,7 +104,7 @@ Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
     if (std::none_of(walls.begin(), walls.end(), [&](HalfFace w) { return is_bad(mesh, w); })) {
       continue;
     }
-    if (probe.allows(kGood, scope)) continue;
+    if (probe.allows(good, scope)) continue;
     argument.walls = std::move(walls);
     break;
   }
@@ -107,7 +113,7 @@ Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
     bool inside = !mesh.is_boundary(wall);
     for (unsigned i = 0; i < 3; ++i) {
       inside = inside || !mesh.is_boundary(at.sector(i).other);
-      if (at.may_share_bad_tet(i, kGood)) argument.partners.push_back(at.sector(i).other);
+      if (at.may_share_bad_tet(i, good)) argument.partners.push_back(at.sector(i).other);
     }
     argument.by_constraint = argument.by_constraint || inside;
   }

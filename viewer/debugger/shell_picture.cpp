@@ -17,8 +17,8 @@ namespace {
 constexpr Quality kBest = std::numeric_limits<Quality>::infinity();
 
 double quality(const SlotMesh& mesh, const TetVertices& tet) {
-  return minimum_sine(mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]),
-                      mesh.point(tet[3]));
+  return mesh.standard().quality(mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]),
+                                 mesh.point(tet[3]));
 }
 
 Quality to_quality(double value) {
@@ -48,6 +48,7 @@ void search_pockets(const SlotMesh& mesh, std::span<const Quality> old_sides, Sh
   std::vector<Point> ring;
   for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
   CoveringProblem problem;
+  problem.standard = mesh.standard();
   problem.a = mesh.point(s.a);
   problem.b = mesh.point(s.b);
   problem.ring = ring;
