@@ -7,14 +7,7 @@ install(TARGETS tetmend_library EXPORT tetmendTargets
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/tetmend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT tetmendTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
 install(TARGETS tetmend_plugin EXPORT tetmendPluginTargets)
-# What <ops/plugin.h> and the walks of the kernel include: no search engine, no operator, no file format.
-set(plugin_headers_kernel edit error face_table geometry handles index_set judge mesh_data properties quality shell star statistics territory tet_batch tet_mesh transaction wide workspace)
-set(plugin_headers_ops operator parameters plugin registry)
-set(plugin_headers_trace trace_sink verdict)
-foreach(folder IN ITEMS kernel trace ops)
-  list(TRANSFORM plugin_headers_${folder} REPLACE "(.+)" "${folder}/\\1.h" OUTPUT_VARIABLE headers)
-  install(FILES ${headers} DESTINATION ${TETMEND_PLUGIN_INCLUDE_DIR}/${folder})
-endforeach()
+install(FILES ${TETMEND_PLUGIN_HEADER} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tetmend)
 install(EXPORT tetmendPluginTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmendConfig.cmake.in ${PROJECT_BINARY_DIR}/tetmendConfig.cmake @ONLY)
 # Until 1.0 each minor version may change what it likes.

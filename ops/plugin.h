@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Operators from elsewhere. A plugin is a shared library that registers operators. It needs the
-// headers of tetmend and no library: the program that loads it has the code.
+// Operators from elsewhere. A plugin is a shared library that registers operators. It needs one
+// header, made of this one and all that it includes, and no library: the program that loads the
+// plugin has the code.
 //
-//   #include "ops/plugin.h"
+//   #include <tetmend/plugin.h>
 //   TETMEND_PLUGIN(registry) {
 //     registry.add(my_operator_info());
 //   }

@@ -9,10 +9,8 @@
 #include <array>
 #include <memory>
 
-// All that a plugin needs to register operators; includes ops/operator.h.
-#include "ops/plugin.h"
-// What this operator walks on: the link of a vertex.
-#include "kernel/star.h"
+// All that a plugin needs: operators, their registry, the mesh and the walks on it.
+#include <tetmend/plugin.h>
 
 namespace {
 
@@ -22,7 +20,7 @@ using namespace tetmend;
 const OperatorInfo& odt_smoothing_info();
 
 // What a stage leaves for the next. It belongs to the thread and is kept from attempt to attempt, so
-// that its vector need not grow anew each time.
+// that its vector grows once and not each time.
 struct State {
   std::vector<HalfFace> link;
   Point point = Point::Zero();

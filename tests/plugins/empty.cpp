@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Registers nothing.
-#include "ops/plugin.h"
+#include <tetmend/plugin.h>
 
 TETMEND_PLUGIN(registry) {
   static_cast<void>(registry);

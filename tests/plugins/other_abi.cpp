@@ -3,7 +3,7 @@
 // whose code must not be called.
 #include <cstdlib>
 
-#include "ops/plugin.h"
+#include <tetmend/plugin.h>
 
 extern "C" const tetmend::PluginAbi tetmend_plugin_abi;
 extern "C" const tetmend::PluginAbi tetmend_plugin_abi = {

@@ -2,7 +2,7 @@
 // Throws when it is to register its operators.
 #include <stdexcept>
 
-#include "ops/plugin.h"
+#include <tetmend/plugin.h>
 
 TETMEND_PLUGIN(registry) {
   static_cast<void>(registry);

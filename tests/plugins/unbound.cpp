@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Needs a function that no program has.
-#include "ops/plugin.h"
+#include <tetmend/plugin.h>
 
 extern "C" void tetmend_function_that_is_nowhere();
 

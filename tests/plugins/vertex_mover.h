@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "kernel/star.h"
-#include "ops/plugin.h"
+#include <tetmend/plugin.h>
 
 namespace tetmend::test {
 
