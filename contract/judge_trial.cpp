@@ -109,26 +109,29 @@ bool spares_bad(const Side& before, const Side& now) {
   return true;
 }
 
-double sine_of(double angle) {
-  return angle < 90 ? 1 : std::sin(angle * std::numbers::pi / 180);
+double quality_of_largest(const Standard& standard, double angle) {
+  return standard.quality_of_angle(std::max(angle, 90.001));
 }
 
 Case lowers_angle(const TetMesh& mesh, TetHandle t) {
   const TetVertices& v = mesh.vertices(t);
-  const double sine =
-      largest_angle_sine(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-  return {"lowers_angle", Judge::lowers_angle(sine), [sine](const Side& before, const Side& now) {
+  const Standard standard = mesh.standard();
+  const auto angles =
+      dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  const double sine = quality_of_largest(standard, *std::max_element(angles.begin(), angles.end()));
+  return {"lowers_angle", Judge::lowers_angle(sine),
+          [sine, standard](const Side& before, const Side& now) {
             if (now.qualities.empty() || now.qualities[0] < before.qualities[0]) return false;
             const std::ptrdiff_t more_bad = count_bad(now) - count_bad(before);
             const double price =
                 kPriceOfBad * static_cast<double>(std::max<std::ptrdiff_t>(1, more_bad));
-            return sine_of(now.largest_angle) - sine >= price - 1e-9;
+            return quality_of_largest(standard, now.largest_angle) - sine >= price - 1e-6;
           }};
 }
 
 std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
-  constexpr Fairness kMild = {.exponent = 12, .desperate = 0.35};
-  constexpr Fairness kThrifty = {.price = 0.01, .more_bad = false};
+  constexpr Fairness kMild = {.exponent = 12, .desperate = 0.7};
+  constexpr Fairness kThrifty = {.price = 0.02, .more_bad = false};
   constexpr double kShare = 0.3;
   std::vector<Case> all = {
       {"strict", Judge::strict(), [](const Side& b, const Side& n) { return is_better(n, b); }},
@@ -137,7 +140,7 @@ std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
        [=](const Side& b, const Side& n) { return is_fair(b, n, kMild); }},
       {"fair, no more bad tets", Judge::fair(kThrifty),
        [=](const Side& b, const Side& n) { return is_fair(b, n, kThrifty); }},
-      {"reaches", Judge::reaches(0.6f),
+      {"reaches", Judge::reaches(1.2f),
        [](const Side& b, const Side& n) { return is_better(n, b) || spares_bad(b, n); }},
       {"opening", Judge::opening(kShare), [=](const Side& b, const Side& n) {
          return n.qualities.empty() ||

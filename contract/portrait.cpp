@@ -46,8 +46,8 @@ Portrait portrait(const TetMesh& mesh) {
     const long double volume = volume_of(mesh, v);
     p.volumes[mesh.label(t)] += volume;
     p.absolute_volume += std::abs(volume);
-    p.qualities.push_back(static_cast<Quality>(
-        minimum_sine(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))));
+    p.qualities.push_back(static_cast<Quality>(mesh.standard().quality(
+        mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))));
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace face(t, f);
       Face corners = mesh.vertices(face);
@@ -105,8 +105,8 @@ std::string complaint_about_loss(const Portrait& before, const TetMesh& mesh) {
   if (now.not_positive > before.not_positive) return "more tets are inverted or flat";
   for (const TetHandle t : live_tets(mesh)) {
     const TetVertices& v = mesh.vertices(t);
-    const double q =
-        minimum_sine(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+    const double q = mesh.standard().quality(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]),
+                                             mesh.point(v[3]));
     if (mesh.quality(t) != static_cast<Quality>(q)) return "a cached quality is stale";
   }
   try {

@@ -103,89 +103,89 @@ TEST_CASE("improves is a strict order and never contradicts the exact lexicograp
 }
 
 TEST_CASE("a strict judge takes a better quality vector, whatever the order it comes in") {
-  CHECK(takes(Judge::strict(), {0.9f, 0.2f}, {0.1f, 0.95f}));
-  CHECK(takes(Judge::strict(), {0.9f, 0.1f}, {0.1f, 0.8f}));
-  CHECK_FALSE(takes(Judge::strict(), {0.9f, 0.1f}, {0.2f, 0.3f}));
-  CHECK_FALSE(takes(Judge::strict(), {0.1f, 0.9f}, {0.9f, 0.1f}));
-  CHECK(takes(Judge::strict(), {}, {0.9f}));
+  CHECK(takes(Judge::strict(), {1.8f, 0.4f}, {0.2f, 1.9f}));
+  CHECK(takes(Judge::strict(), {1.8f, 0.2f}, {0.2f, 1.6f}));
+  CHECK_FALSE(takes(Judge::strict(), {1.8f, 0.2f}, {0.4f, 0.6f}));
+  CHECK_FALSE(takes(Judge::strict(), {0.2f, 1.8f}, {1.8f, 0.2f}));
+  CHECK(takes(Judge::strict(), {}, {1.8f}));
 }
 
 TEST_CASE("a fair judge lets bad tets lack no more in sum") {
   const Judge fair = Judge::fair({.desperate = 0});
-  const Values before = {0.3f, 0.4f};
-  CHECK(takes(fair, {0.31f, 0.4f}, before));
-  CHECK_FALSE(takes(fair, {0.29f, 0.6f}, before));       // the worst is worse
-  CHECK_FALSE(takes(fair, Values(100, 0.35f), before));  // they lack more
-  CHECK(takes(fair, Values(2, 0.35f), before));
+  const Values before = {0.6f, 0.8f};
+  CHECK(takes(fair, {0.62f, 0.8f}, before));
+  CHECK_FALSE(takes(fair, {0.58f, 1.2f}, before));      // the worst is worse
+  CHECK_FALSE(takes(fair, Values(100, 0.7f), before));  // they lack more
+  CHECK(takes(fair, Values(2, 0.7f), before));
 }
 
 TEST_CASE("with a large exponent mild bad tets hardly count, and with 1 each counts") {
-  const Values before = {0.1f, 0.9f};
-  const Values now = {0.2f, 0.4f, 0.4f};
+  const Values before = {0.2f, 1.8f};
+  const Values now = {0.4f, 0.8f, 0.8f};
   CHECK(takes(Judge::fair({.exponent = 12, .desperate = 0}), now, before));
   CHECK_FALSE(takes(Judge::fair({.exponent = 1, .desperate = 0}), now, before));
 }
 
-TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for each 0.001") {
-  const Values before = {0.1f, 0.45f, 0.8f};
+TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for each 0.002") {
+  const Values before = {0.2f, 0.9f, 1.6f};
   // An exponent of 1, so that the sum never speaks for these.
-  const Judge fair = Judge::fair({.exponent = 1, .desperate = 0.2});
-  CHECK(takes(fair, {0.1015f, 0.1f + 0.2f, 0.3f, 0.9f}, before));
-  CHECK_FALSE(takes(fair, {0.1015f, 0.3f, 0.3f, 0.3f, 0.9f}, before));
-  CHECK(takes(fair, {0.1025f, 0.3f, 0.3f, 0.3f, 0.9f}, before));
-  CHECK(takes(fair, {0.1001f, 0.11f, 0.9f}, before));  // none is new
+  const Judge fair = Judge::fair({.exponent = 1, .desperate = 0.4});
+  CHECK(takes(fair, {0.203f, 0.2f + 0.4f, 0.6f, 1.8f}, before));
+  CHECK_FALSE(takes(fair, {0.203f, 0.6f, 0.6f, 0.6f, 1.8f}, before));
+  CHECK(takes(fair, {0.205f, 0.6f, 0.6f, 0.6f, 1.8f}, before));
+  CHECK(takes(fair, {0.2002f, 0.22f, 1.8f}, before));  // none is new
   CHECK(takes(fair, {}, before));
-  CHECK_FALSE(takes(Judge::fair({.exponent = 1, .desperate = 0.1}), {0.11f, 0.3f, 0.3f}, before));
+  CHECK_FALSE(takes(Judge::fair({.exponent = 1, .desperate = 0.2}), {0.22f, 0.6f, 0.6f}, before));
   // Without a price, any gain pays for any number.
-  const Judge generous = Judge::fair({.desperate = 0.2, .price = 0});
-  CHECK(takes(generous, Values(100, 0.11f), before));
+  const Judge generous = Judge::fair({.desperate = 0.4, .price = 0});
+  CHECK(takes(generous, Values(100, 0.22f), before));
 }
 
 TEST_CASE("a fair judge asked for no more bad tets takes a gain where nothing is bad as well") {
-  const Values before = {0.25f, 0.9f};
-  const Values now = {0.45f, 0.45f};
+  const Values before = {0.5f, 1.8f};
+  const Values now = {0.9f, 0.9f};
   CHECK(takes(Judge::fair({}), now, before));
   CHECK_FALSE(takes(Judge::fair({.more_bad = false}), now, before));
-  CHECK(takes(Judge::fair({.more_bad = false}), {0.7f}, {0.6f}));
-  CHECK_FALSE(takes(Judge::fair({}), {0.7f}, {0.6f}));
+  CHECK(takes(Judge::fair({.more_bad = false}), {1.4f}, {1.2f}));
+  CHECK_FALSE(takes(Judge::fair({}), {1.4f}, {1.2f}));
 }
 
 TEST_CASE("a judge with a goal spares bad tets and lets good ones pay") {
-  const Judge judge = Judge::reaches(0.6f);
+  const Judge judge = Judge::reaches(1.2f);
   const Judge::Aim reached{.reached = true};
-  CHECK(takes(judge, {0.51f, 0.61f}, {0.55f, 0.9f}, reached));
-  CHECK_FALSE(takes(judge, {0.51f, 0.61f}, {0.55f, 0.9f}));           // the goal is missed
-  CHECK_FALSE(takes(judge, {0.49f, 0.61f}, {0.55f, 0.9f}, reached));  // a new bad tet
-  CHECK_FALSE(takes(judge, {0.29f, 0.61f}, {0.3f, 0.55f}, reached));  // a worse one
-  CHECK(takes(judge, {0.3f, 0.61f}, {0.3f, 0.55f}, reached));
-  CHECK(takes(judge, {0.56f, 0.57f}, {0.55f, 0.9f}));  // simply better
+  CHECK(takes(judge, {1.02f, 1.22f}, {1.1f, 1.8f}, reached));
+  CHECK_FALSE(takes(judge, {1.02f, 1.22f}, {1.1f, 1.8f}));           // the goal is missed
+  CHECK_FALSE(takes(judge, {0.98f, 1.22f}, {1.1f, 1.8f}, reached));  // a new bad tet
+  CHECK_FALSE(takes(judge, {0.58f, 1.22f}, {0.6f, 1.1f}, reached));  // a worse one
+  CHECK(takes(judge, {0.6f, 1.22f}, {0.6f, 1.1f}, reached));
+  CHECK(takes(judge, {1.12f, 1.14f}, {1.1f, 1.8f}));  // simply better
 }
 
 TEST_CASE("a smaller angle pays for bad tets, but not for a worse one") {
-  const Judge judge = Judge::lowers_angle(0.5);
-  const Values before = {0.3f, 0.4f, 0.51f};
-  CHECK(takes(judge, before, before, {.sine = 0.501001}));
-  CHECK_FALSE(takes(judge, before, before, {.sine = 0.5009}));
-  CHECK(takes(judge, {0.3f, 0.49f, 0.49f}, before, {.sine = 0.501001}));
-  CHECK_FALSE(takes(judge, {0.3f, 0.49f, 0.49f, 0.49f}, before, {.sine = 0.5019}));
-  CHECK(takes(judge, {0.3f, 0.49f, 0.49f, 0.49f}, before, {.sine = 0.502001}));
-  CHECK_FALSE(takes(judge, {0.3f, 0.6f}, before, {.sine = 0.5009}));
-  CHECK_FALSE(takes(judge, {0.29f, 0.6f}, before, {.sine = 0.7}));
+  const Judge judge = Judge::lowers_angle(1.0);
+  const Values before = {0.6f, 0.8f, 1.02f};
+  CHECK(takes(judge, before, before, {.sine = 1.002002}));
+  CHECK_FALSE(takes(judge, before, before, {.sine = 1.0018}));
+  CHECK(takes(judge, {0.6f, 0.98f, 0.98f}, before, {.sine = 1.002002}));
+  CHECK_FALSE(takes(judge, {0.6f, 0.98f, 0.98f, 0.98f}, before, {.sine = 1.0038}));
+  CHECK(takes(judge, {0.6f, 0.98f, 0.98f, 0.98f}, before, {.sine = 1.004002}));
+  CHECK_FALSE(takes(judge, {0.6f, 1.2f}, before, {.sine = 1.0018}));
+  CHECK_FALSE(takes(judge, {0.58f, 1.2f}, before, {.sine = 1.4}));
 }
 
 TEST_CASE("an opening leaves its share of the worst quality") {
   const Judge judge = Judge::opening(0.2);
-  CHECK(takes(judge, {0.11f, 0.3f}, {0.5f, 0.9f}));
-  CHECK_FALSE(takes(judge, {0.09f, 0.3f}, {0.5f, 0.9f}));
-  CHECK(takes(judge, {0.f}, {-0.5f}));
+  CHECK(takes(judge, {0.22f, 0.6f}, {1.f, 1.8f}));
+  CHECK_FALSE(takes(judge, {0.18f, 0.6f}, {1.f, 1.8f}));
+  CHECK(takes(judge, {0.f}, {-1.f}));
 }
 
 TEST_CASE("what a judge asks a search for is no more than what it takes") {
-  const std::vector<Judge> judges = {Judge::strict(), Judge::fair({}), Judge::reaches(0.6f),
-                                     Judge::lowers_angle(0.4), Judge::opening()};
+  const std::vector<Judge> judges = {Judge::strict(), Judge::fair({}), Judge::reaches(1.2f),
+                                     Judge::lowers_angle(0.8), Judge::opening()};
   for (const Judge& judge : judges) {
     CAPTURE(judge.promise());
-    for (const double worst : {-0.3, 0.0, 0.1, 0.3, 0.49, 0.55, 0.8}) {
+    for (const double worst : {-0.6, 0.0, 0.2, 0.6, 0.98, 1.1, 1.6}) {
       // One tet by another that is better by more than the tolerance: better in every order.
       const auto was = static_cast<Quality>(worst);
       const auto is = static_cast<Quality>(std::max(judge.floor(worst), worst) + 1e-3);
@@ -194,20 +194,20 @@ TEST_CASE("what a judge asks a search for is no more than what it takes") {
         CHECK(takes(judge, {is}, {was}, {.reached = true, .sine = 1}));
       }
       CHECK(judge.floor(worst) <= std::max(worst, 0.0));
-      CHECK(judge.floor(worst, 0.01) <= judge.floor(worst) + 0.01);
+      CHECK(judge.floor(worst, 0.02) <= judge.floor(worst) + 0.02);
     }
   }
-  CHECK(Judge::fair({}).deficit_limit(0.3, 0.7) == 0.7);
-  CHECK(Judge::fair({}).deficit_limit(0.1, 0.7) == std::numeric_limits<double>::infinity());
-  CHECK(Judge::strict().deficit_limit(0.3, 0.7) == std::numeric_limits<double>::infinity());
-  CHECK(Judge::fair({.exponent = 12}).deficit_limit(0.3, 0.7) ==
+  CHECK(Judge::fair({}).deficit_limit(0.6, 1.4) == 1.4);
+  CHECK(Judge::fair({}).deficit_limit(0.2, 1.4) == std::numeric_limits<double>::infinity());
+  CHECK(Judge::strict().deficit_limit(0.6, 1.4) == std::numeric_limits<double>::infinity());
+  CHECK(Judge::fair({.exponent = 12}).deficit_limit(0.6, 1.4) ==
         std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("a judge compares all that a transaction changed, and refuses one without edits") {
   TetMesh mesh(shell_mesh({.degree = 3, .height = 1.4}));
   Workspace workspace(mesh);
-  Comparison qualities({0.1f}, {0.2f});
+  Comparison qualities({0.2f}, {0.4f});
   Transaction transaction(mesh, workspace);
   CHECK_FALSE(Judge::opening().accepts({transaction, qualities}));
   CHECK_FALSE(qualities.has_both());
@@ -225,5 +225,5 @@ TEST_CASE("a judge compares all that a transaction changed, and refuses one with
   CHECK(std::is_sorted(qualities.before().begin(), qualities.before().end()));
   // The tet aimed at is gone, so any goal is reached.
   const TetVertices corners = {};
-  CHECK(Judge::reaches(0.9f).accepts({transaction, qualities, TetHandle(0), corners}));
+  CHECK(Judge::reaches(1.8f).accepts({transaction, qualities, TetHandle(0), corners}));
 }

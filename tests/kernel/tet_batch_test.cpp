@@ -16,6 +16,9 @@ namespace {
 
 using Corners = std::array<Point, 4>;
 
+const std::array<Standard, 4> kStandards = {Standard(), Standard(Goal{}), Standard(Goal{35, 140}),
+                                            Standard(Goal{20, 170}, Standard::Terms::sine)};
+
 Corners random_tet(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> coordinate(-size, size);
   Corners tet;
@@ -23,16 +26,16 @@ Corners random_tet(std::mt19937& random, double size) {
   return tet;
 }
 
-void check_same(const std::vector<Corners>& tets) {
+void check_same(const std::vector<Corners>& tets, const Standard& standard) {
   TetBatch batch;
   batch.add(Point(9, 0, 0), Point(0, 9, 0), Point(0, 0, 9), Point(9, 9, 9));
   batch.clear();
   for (const auto& [a, b, c, d] : tets) batch.add(a, b, c, d);
-  batch.evaluate();
+  batch.evaluate(standard);
   for (std::size_t i = 0; i < tets.size(); ++i) {
     CAPTURE(i);
     const Corners& t = tets[i];
-    const auto quality = static_cast<Quality>(minimum_sine(t[0], t[1], t[2], t[3]));
+    const auto quality = static_cast<Quality>(standard.quality(t[0], t[1], t[2], t[3]));
     CHECK(std::bit_cast<std::uint32_t>(batch.quality(i)) == std::bit_cast<std::uint32_t>(quality));
     CHECK(batch.is_certified_positive(i) == certified_positive(t[0], t[1], t[2], t[3]));
   }
@@ -47,7 +50,7 @@ TEST_CASE(
     for (std::size_t count = 1; count <= 9; ++count) {
       std::vector<Corners> tets;
       while (tets.size() < count) tets.push_back(random_tet(random, size));
-      check_same(tets);
+      for (const Standard& standard : kStandards) check_same(tets, standard);
     }
   }
 }
@@ -65,5 +68,5 @@ TEST_CASE("flat, degenerate and nearly flat tets in a batch are judged as by the
     tets.push_back({tet[0], tet[1], tet[2], tet[0]});
     tets.push_back({tet[0], tet[0], tet[0], tet[0]});
   }
-  check_same(tets);
+  for (const Standard& standard : kStandards) check_same(tets, standard);
 }

@@ -62,7 +62,7 @@ std::vector<Triangle> random_ball(Random& random, double amount) {
 }
 
 void load(BallOptimiser& ball, const std::vector<Triangle>& triangles) {
-  ball.clear();
+  ball.clear(Standard());
   for (const Triangle& t : triangles) ball.add(t[0], t[1], t[2]);
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("the first step of a single tet follows the gradient found by finite d
   int checked = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const Triangle t = {random.in_ball(1), random.in_ball(1), random.in_ball(1)};
-    ball.clear();
+    ball.clear(Standard());
     ball.add(t[0], t[1], t[2]);
     Point p = random.in_ball(1);
     const double start = ball.worst(p);

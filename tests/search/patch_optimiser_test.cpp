@@ -40,7 +40,7 @@ struct Patch {
     return least;
   }
   void load(PatchOptimiser& patch) const {
-    patch.clear();
+    patch.clear(Standard());
     for (std::size_t v = 0; v < free; ++v) patch.add_vertex(points[v]);
     for (const auto& tet : tets) {
       std::array<Point, 4> corners;
@@ -258,7 +258,7 @@ TEST_CASE("a patch that is good enough, or empty, stays as it is") {
   const double start = optimiser.worst();
   CHECK(optimiser.optimise({.enough = 0.5 * start}) == start);
   CHECK(patch.moved(optimiser) == patch.points);
-  optimiser.clear();
+  optimiser.clear(Standard());
   CHECK(optimiser.optimise({}) == std::numeric_limits<double>::infinity());
   CHECK(optimiser.total_deficit() == 0);
 }

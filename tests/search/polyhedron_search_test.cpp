@@ -154,7 +154,7 @@ TEST_CASE("points may be added between runs") {
   s.problem.kept = 1u << 6;
   REQUIRE(s.run());
   CHECK(s.search.tets().size() == 8);
-  s.search.clear();
+  s.search.clear(Standard());
   CHECK(s.search.size() == 0);
 }
 
