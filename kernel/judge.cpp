@@ -128,7 +128,8 @@ Judge Judge::opening(double share) {
 std::string_view Judge::promise() const {
   switch (kind_) {
     case Kind::strict:
-      return "the quality vector of what changed is better";
+      return "the quality vector of what changed is better, and the worst tet gained the "
+             "standard's price of each more bad tet";
     case Kind::fair:
       return "the quality vector is better, and the bad tets lack no more in sum or a desperate "
              "worst tet gained the price of each more bad tet";
@@ -172,6 +173,7 @@ bool Judge::accepts(const Change& change) const {
   }
   change.qualities.look_at(change.transaction);
   Aim aim;
+  aim.price = change.transaction.mesh().standard().price();
   if (kind_ == Kind::reaches) aim.reached = reaches_goal(change, bound_);
   if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
   return holds_for(change.qualities, aim);
@@ -180,11 +182,12 @@ bool Judge::accepts(const Change& change) const {
 bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
   switch (kind_) {
     case Kind::strict:
-      return is_better(qualities);
+      return is_better(qualities) && pays_price(qualities, aim.price);
     case Kind::fair:
-      return is_better(qualities) && is_fair(qualities);
+      return is_better(qualities) && pays_price(qualities, aim.price) && is_fair(qualities);
     case Kind::reaches:
-      return is_better(qualities) || (aim.reached && spares_bad(qualities));
+      return (is_better(qualities) && pays_price(qualities, aim.price)) ||
+             (aim.reached && spares_bad(qualities));
     case Kind::lowers_angle:
       return lowers_angle(qualities, aim.sine);
     case Kind::opening:
@@ -196,6 +199,15 @@ bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
 bool Judge::keeps_share(const Comparison& qualities) const {
   if (!qualities.has_both()) return true;
   return qualities.worst_now() >= floor(qualities.worst_before()) - kQualityTolerance;
+}
+
+bool Judge::pays_price(Comparison& qualities, double price) {
+  if (price <= 0) return true;
+  const std::ptrdiff_t more_bad = count_more_bad(qualities);
+  if (more_bad <= 0) return true;
+  if (!qualities.has_both()) return false;
+  const double gain = qualities.worst_now() - qualities.worst_before();
+  return gain >= price * static_cast<double>(more_bad);
 }
 
 bool Judge::is_fair(Comparison& qualities) const {

@@ -117,6 +117,7 @@ void ScriptHost::add_words() {
     lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
   }
   add("goal", &ScriptHost::goal);
+  add("judge_by", &ScriptHost::judge_by);
   add("quality_of_angle", &ScriptHost::quality_of_angle);
   add("quality", &ScriptHost::quality);
   add("limit", &ScriptHost::limit);
@@ -343,18 +344,31 @@ int ScriptHost::quality(lua_State* lua) {
 int ScriptHost::goal(lua_State* lua) {
   begin_work();
   const WordInfo& word = find_word("goal");
-  const ScriptValue value = read_table(lua, 1, word);
+  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const Standard now = run_->mesh().standard();
   Goal goal = now.goal();
-  Standard::Terms terms = now.terms();
-  if (const ScriptValue* measure = value.field("measure")) {
-    terms = to_terms(read_text({"goal: measure"}, *measure));
-  }
-  const Arguments arguments = read_arguments(word, value, {});
-  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   if (numbers.real("min") > 0) goal = Goal::symmetric(numbers.real("min"));
   if (numbers.real("max") > 0) goal.max_angle = numbers.real("max");
-  run_->set_standard(Standard(goal, terms));
+  if (!is_sound(goal)) {
+    throw Error(fmt::format("goal: {},{} is no goal", goal.min_angle, goal.max_angle));
+  }
+  run_->set_standard(Standard(goal, now.terms(), now.price()));
+  return 0;
+}
+
+int ScriptHost::judge_by(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("judge_by");
+  const ScriptValue value = read_table(lua, 1, word);
+  const Arguments arguments = read_arguments(word, value, {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  const Standard now = run_->mesh().standard();
+  Standard::Terms terms = now.terms();
+  if (const ScriptValue* measure = value.field("measure")) {
+    terms = to_terms(read_text({"judge_by: measure"}, *measure));
+  }
+  run_->set_standard(Standard(now.goal(), terms, numbers.real("price")));
   return 0;
 }
 

@@ -33,8 +33,12 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
 }};
 
-constexpr std::array<WordField, 1> kGoalFields = {{
+constexpr std::array<WordField, 1> kJudgeFields = {{
     {"measure", "name", "as it is", "'sine', or 'sine_and_length', which sees needles as well"},
+}};
+constexpr std::array<ParameterSpec, 1> kJudgeNumbers = {{
+    {"price", ParameterSpec::Kind::real, 0, 2, 0,
+     "what the worst tet must gain for each more bad tet"},
 }};
 constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
     {"min", ParameterSpec::Kind::real, 0, 70, 0,
@@ -43,7 +47,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 20> kWords = {{
+constexpr std::array<WordInfo, 21> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -92,10 +96,16 @@ constexpr std::array<WordInfo, 20> kWords = {{
      "with a larger angle, and what follows works on such tets as well. The result then stays if "
      "the worst tet gets no worse and the sine of the largest angle gains 0.002, and as much for "
      "each more bad tet"},
-    {"goal", "goal{min = 35, max = 140, measure = \"sine\"}",
+    {"goal",
+     "goal{min = 35, max = 140}",
      "from now on another goal: a tet is bad that misses it, and a quality of 1 means that it is "
      "just met. Nothing counts as tried then",
-     kGoalFields, kGoalNumbers},
+     {},
+     kGoalNumbers},
+    {"judge_by", "judge_by{measure = \"sine\", price = 0.1}",
+     "from now on other judges: what they take for the quality of a tet, and what new bad tets "
+     "cost. Nothing counts as tried then",
+     kJudgeFields, kJudgeNumbers},
     {"quality_of_angle", "quality_of_angle(degrees)",
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",
