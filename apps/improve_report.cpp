@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <tetmend/catalogue.h>
 
@@ -87,6 +88,10 @@ std::string format_checks(const ImproveReport& report) {
   const auto line = [&text](std::string_view name, const std::string& value) {
     text += fmt::format("{:<21}{}\n", name, value);
   };
+  line("goal", fmt::format("angles from {:g} to {:g} degrees", result.goal.min_angle,
+                           result.goal.max_angle));
+  const auto worse = result.worse();
+  line("worse than before", worse.empty() ? "nothing" : fmt::format("{}", fmt::join(worse, "; ")));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
   line("volume",
@@ -126,6 +131,7 @@ nlohmann::json to_json(const Pass& pass) {
           {"seconds_in_blocks", pass.seconds_in_blocks},
           {"q_worst", pass.after.q_worst},
           {"n_bad", pass.after.n_bad},
+          {"n_needles", pass.after.n_needles},
           {"q_aver", pass.after.q_aver}};
 }
 
@@ -178,6 +184,9 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"output", report.options.output.string()},
           {"schedule", options.schedule},
           {"settings", settings},
+          {"goal", {{"min_angle", result.goal.min_angle}, {"max_angle", result.goal.max_angle}}},
+          {"measure", options.measure},
+          {"worse_than_before", result.worse()},
           {"threads", options.threads},
           {"interrupted", result.ending == Ending::cancelled},
           {"out_of_time", result.ending == Ending::time_limit},

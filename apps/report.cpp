@@ -102,7 +102,7 @@ void add_rows(Table& table) {
     table.add(fmt::format("lambda_{} %  ({}-{}, {}-{})", i + 1, low, low + 6, 174 - low, 180 - low),
               [i](const S& s) { return decimal(s.lambda_bands[i], 4); });
   }
-  table.add("bad tets  (min sine < 0.5)", [](const S& s) { return grouped(s.n_bad); });
+  table.add("bad tets  (miss the goal)", [](const S& s) { return grouped(s.n_bad); });
   table.add("q_worst  (min sine)", [](const S& s) { return decimal(s.q_worst, 5); });
   table.add("q_aver  (bad tets)", [](const S& s) { return decimal(s.q_aver, 5); });
   table.add("q_mean  (all tets)", [](const S& s) { return decimal(s.q_mean, 5); });

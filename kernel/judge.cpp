@@ -41,6 +41,20 @@ bool reaches_goal(const Change& change, double goal) {
          mesh.quality(change.aimed_at) > goal - kQualityTolerance;
 }
 
+/// Every new tet keeps the bounds of the mesh.
+bool keeps_bounds(const Transaction& transaction, const Comparison& qualities) {
+  const TetMesh& mesh = transaction.mesh();
+  const Bounds& bounds = mesh.bounds();
+  if (!qualities.has_both() || qualities.worst_now() >= bounds.safe()) return true;
+  std::vector<TetHandle> changed;
+  transaction.list_changed(changed);
+  return std::all_of(changed.begin(), changed.end(), [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    return mesh.quality(t) >= bounds.safe() ||
+           bounds.admit(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  });
+}
+
 double largest_angle_sine(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   std::vector<TetHandle> changed;
@@ -176,7 +190,8 @@ bool Judge::accepts(const Change& change) const {
   aim.price = change.transaction.mesh().standard().price();
   if (kind_ == Kind::reaches) aim.reached = reaches_goal(change, bound_);
   if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
-  return holds_for(change.qualities, aim);
+  return holds_for(change.qualities, aim) &&
+         (kind_ == Kind::opening || keeps_bounds(change.transaction, change.qualities));
 }
 
 bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {

@@ -122,7 +122,8 @@ class Judge {
   /// The most that new tets may lack in sum, see deficit(), when the old ones lack `lack`.
   double deficit_limit(double worst, double lack) const;
 
-  /// Leaves the qualities that it compared in the change. False for a change without edits. Cost:
+  /// The promise, and no new tet beyond the bounds of the mesh, which an opening may leave for a
+  /// while. Leaves the qualities that it compared in the change. False for a change without edits. Cost:
   /// linear in the tets that changed, mostly; n log n where the worst do not decide.
   bool accepts(const Change& change) const;
 

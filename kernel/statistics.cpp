@@ -233,7 +233,11 @@ struct PartialStatistics {
     const double q = minimum_sine(p[0], p[1], p[2], p[3]);
     quality.add(q);
     q_worst = std::min(q_worst, q);
-    if (static_cast<Quality>(q) < 0.5f) {  // as the queues of bad tets see it
+    const Standard& standard = mesh.standard();
+    const double relative = standard.is_even()
+                                ? q * std::sqrt(standard.acute2())
+                                : standard.of_angles().quality(p[0], p[1], p[2], p[3]);
+    if (static_cast<Quality>(relative) < kBadThreshold) {  // as the queues of bad tets see it
       ++n_bad;
       bad.add(q);
     }
@@ -309,7 +313,9 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
   struct Partial {
     Quality worst = std::numeric_limits<Quality>::infinity();
     std::size_t n_bad = 0;
+    std::size_t n_needles = 0;
     CompensatedSum bad;
+    bool any() const { return n_bad + n_needles > 0; }
   };
   const auto parts = map_chunks<Partial>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
     Partial part;
@@ -317,10 +323,10 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
       const Quality q = mesh.quality(t);
       if (mesh.is_frozen(t)) return;
       part.worst = std::min(part.worst, q);
-      ++part.n_bad;
+      ++(misses_goal(mesh, t) ? part.n_bad : part.n_needles);
       part.bad.add(static_cast<double>(q));
     });
-    for (std::size_t slot = begin; slot < end && part.n_bad == 0; ++slot) {
+    for (std::size_t slot = begin; slot < end && !part.any(); ++slot) {
       const TetHandle t(static_cast<std::uint32_t>(slot));
       if (!mesh.is_frozen(t)) part.worst = std::min(part.worst, mesh.quality(t));
     }
@@ -332,9 +338,10 @@ QualityIndicators quality_indicators(const TetMesh& mesh) {
     sum.worst = std::min(sum.worst, part.worst);
     sum.bad.add(part.bad);
     result.n_bad += part.n_bad;
+    result.n_needles += part.n_needles;
   }
   if (std::isfinite(sum.worst)) result.q_worst = static_cast<double>(sum.worst);
-  result.q_aver = share(sum.bad.value(), result.n_bad);
+  result.q_aver = share(sum.bad.value(), result.n_bad + result.n_needles);
   return result;
 }
 

@@ -94,6 +94,7 @@ void TetMesh::set_standard(const Standard& standard) {
   const bool same_qualities =
       standard.goal() == standard_.goal() && standard.terms() == standard_.terms();
   standard_ = standard;
+  bounds_ = bounds_.under(standard);
   if (same_qualities) return;
   for_chunks(cells_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -332,6 +332,7 @@ int ScriptHost::quality(lua_State* lua) {
   };
   number("q_worst", now.q_worst);
   count("n_bad", now.n_bad);
+  count("n_needles", now.n_needles);
   number("q_aver", now.q_aver);
   count("tets", run_->mesh().tet_count());
   count("vertices", run_->mesh().vertex_count());
@@ -384,10 +385,10 @@ int ScriptHost::measure(lua_State* lua) {
   const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "?";
   const std::string_view wanted = name;
   if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda") {
-    throw Error(
-        fmt::format("quality() has no '{}'; valid: lambda, n_bad, passes, q_aver, q_worst, "
-                    "seconds, tets, theta_max, theta_min, vertices",
-                    wanted));
+    throw Error(fmt::format(
+        "quality() has no '{}'; valid: lambda, n_bad, n_needles, passes, q_aver, q_worst, "
+        "seconds, tets, theta_max, theta_min, vertices",
+        wanted));
   }
   lua_getfield(lua, 1, "passes");
   if (lua_tointeger(lua, -1) != static_cast<lua_Integer>(run_->records.size())) {

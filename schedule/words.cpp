@@ -34,7 +34,8 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
 }};
 
 constexpr std::array<WordField, 1> kJudgeFields = {{
-    {"measure", "name", "as it is", "'sine', or 'sine_and_length', which sees needles as well"},
+    {"measure", "name", "'sine_and_length'",
+     "'sine', or 'sine_and_length', which sees needles as well"},
 }};
 constexpr std::array<ParameterSpec, 1> kJudgeNumbers = {{
     {"price", ParameterSpec::Kind::real, 0, 2, 0,
@@ -109,8 +110,11 @@ constexpr std::array<WordInfo, 21> kWords = {{
     {"quality_of_angle", "quality_of_angle(degrees)",
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",
-     "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
-     "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
+     "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
+     "(others "
+     "of a quality below 1), q_aver (mean quality of both), theta_min, "
+     "theta_max, lambda, tets, vertices, seconds (since the start), passes (so far). theta_min, "
+     "theta_max and lambda are measured when they "
      "are read, which must be before the next pass"},
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "

@@ -110,6 +110,7 @@ enum class Ending : std::uint8_t {
 inline constexpr std::uint32_t kGone = 0xFFFFFFFF;
 
 struct Result {
+  Goal goal;  ///< what the run worked towards
   MeshStatistics before;
   MeshStatistics after;
   Ending ending = Ending::finished;
@@ -138,6 +139,11 @@ struct Result {
   double building = 0;   ///< adjacency, order along a space-filling curve
   double measuring = 0;  ///< statistics and checks, before and after
   double improving = 0;
+
+  /// The figures that are worse than before, in words; empty for a run that kept its promises. These
+  /// are: theta_min is not smaller, theta_max is not above the larger of what it was and the goal's,
+  /// there are not more bad tets, lambda is not higher.
+  std::vector<std::string> worse() const;
 
   /// |after - before| / |before|, the rounding error of the volume if no tet was inverted before.
   double volume_change() const;

@@ -98,7 +98,7 @@ TEST_CASE("the comparison shows every figure before and after") {
   CHECK(has_line(text, "lambda_1 % (0-6, 174-180) 0.2140 0"));
   CHECK(has_line(text, "lambda_2 % (6-12, 168-174) 0.5820 1e-05"));
   CHECK(has_line(text, "lambda_5 % (24-30, 150-156) 2.3530 0"));
-  CHECK(has_line(text, "bad tets (min sine < 0.5) 124,730 1"));
+  CHECK(has_line(text, "bad tets (miss the goal) 124,730 1"));
   CHECK(has_line(text, "q_worst (min sine) 0.00034 0.16500"));
   CHECK(has_line(text, "q_aver (bad tets) 0.35940 0.16500"));
   CHECK(has_line(text, "volume 621943759.197 621943759.197"));

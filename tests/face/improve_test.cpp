@@ -11,6 +11,7 @@
 #include <tetmend/improve.h>
 #include <tetmend/measure.h>
 
+#include "contract/zoo.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "schedule/schedule.h"
@@ -18,6 +19,7 @@
 #include "tests/kernel/formats/fixtures.h"
 
 using namespace tetmend;
+using namespace tetmend::contract;
 using namespace tetmend::test;
 
 namespace {
@@ -53,6 +55,7 @@ TEST_CASE("improving gives the same mesh as the layers below, for any number of 
   for (const std::string name : {"sheet.mesh", "two_materials.mesh"}) {
     CAPTURE(name);
     TetMesh plain = TetMesh::sorted(read_mesh(asset(name)));
+    plain.set_bounds(Bounds::of(plain));
     Registry registry = Registry::builtin();
     Run run(plain, registry);
     improve(run);
@@ -254,6 +257,36 @@ TEST_CASE("a mistake in a script has its line, and the mesh is sound and improve
   CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file));
   write_text(file, "smooth{");
   CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file + ":1: "));
+}
+
+TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {
+  // Flat boxes: nearly all tets are bad, and a vertex more makes more of them.
+  MeshData data = kuhn_cube(4, 0.1, 1);
+  for (Point& p : data.points) p.z() *= 0.15;
+  const TempFolder folder;
+  write_mesh(folder / "flat.mesh", MeshView(TetMesh(data)));
+  const std::string spoil =
+      "judge_by{measure = 'sine'} "
+      "for _ = 1, 3 do apply({'centroid_insertion', desperate = 2}, {on = 'all'}) end";
+  const auto improved = [&](const std::string& script) {
+    Mesh mesh = load(folder / "flat.mesh");
+    const Result result = improve(mesh, {.script = script});
+    CHECK(result.worse().empty());
+    CHECK(result.after.tets == mesh.tet_count());
+    return std::pair(result, mesh);
+  };
+  const auto [good, good_mesh] = improved("local_reconnection{}");
+  CHECK(good.after.n_bad < good.before.n_bad);
+  CHECK(good.notes.empty());
+  const auto [back, back_mesh] = improved("local_reconnection{} " + spoil);
+  CHECK(equal(back_mesh, good_mesh));
+  CHECK(back.passes.size() == 1);
+  REQUIRE(back.notes.size() == 1);
+  CHECK(
+      back.notes[0].starts_with("went back to the state after pass 1 of 4: at the end there was "));
+  const auto [none, none_mesh] = improved(spoil);
+  CHECK(equal(none_mesh, load(folder / "flat.mesh")));
+  CHECK(none.passes.empty());
 }
 
 TEST_CASE("a run tells how far it has come: stages, passes, notes") {
