@@ -15,6 +15,7 @@
 #endif
 #include <tetmend/improve.h>
 
+#include "face/advice.h"
 #include "face/arena.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
@@ -143,6 +144,10 @@ class Improvement {
   void run_schedule();
   void measure_after();
   void check_promises() const;
+  void note(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) watcher_.noted(text);
+    result_.notes.insert(result_.notes.end(), texts.begin(), texts.end());
+  }
   void give_back() {
     trim_heap();
     user_mesh_ = MeshAccess::make(std::move(mesh_).to_data());
@@ -178,9 +183,11 @@ void Improvement::build() {
     user_mesh_ = MeshAccess::make(std::move(data), file_);
     throw;
   }
-  const face::ProtectedPart part = face::protect_regions(mesh_, options_);
+  const face::ProtectedPart part = face::protect(mesh_, options_);
   result_.protected_tets = part.tets;
   result_.protected_bad_tets = part.bad_tets;
+  result_.layer_tets = part.layer_tets;
+  result_.layer_bad_tets = part.layer_bad_tets;
 }
 
 void Improvement::measure_before() {
@@ -189,6 +196,7 @@ void Improvement::measure_before() {
   result_.before = compute_statistics(mesh_);
   surface_before_ = surface_fingerprint(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
+  note(face::advice_before(mesh_, result_));
 }
 
 void Improvement::run_schedule() {
@@ -209,7 +217,7 @@ void Improvement::run_schedule() {
                    : run.cancelled() ? Ending::cancelled
                                      : Ending::finished;
   for (PassRecord& record : run.records) result_.passes.push_back(to_pass(std::move(record)));
-  result_.notes = std::move(run.notes);
+  for (std::string& text : run.notes) result_.notes.push_back(std::move(text));
   if (trace) trace->finish();
 }
 
@@ -221,6 +229,7 @@ void Improvement::measure_after() {
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
   if (options_.limit) result_.limit = compute_surface_limit(mesh_);
+  note(face::advice_after(mesh_, options_, result_));
   if (!options_.maps) return;
   result_.vertex_map = face::map_vertices(mesh_, vertices_before_);
   result_.tet_map = face::map_tets(mesh_, tet_numbers_);
