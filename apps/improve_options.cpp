@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -46,14 +45,16 @@ void add_region_options(CLI::App& command, Options& options) {
       ->type_name("SPEC")
       ->allow_extra_args(false);
   command
-      .add_option("--layers", options.layers,
-                  "Boundary layers, prisms cut into tets, stay\n"
-                  "as they are (keep, the default) or are\n"
-                  "worked on like the rest (improve)")
+      .add_option_function<std::string>(
+          "--layers",
+          [&options](const std::string& choice) {
+            options.layers = choice == "improve" ? Layers::improve : Layers::keep;
+          },
+          "Boundary layers, prisms cut into tets, stay\n"
+          "as they are (keep, the default) or are\n"
+          "worked on like the rest (improve)")
       ->type_name("keep|improve")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Layers>{
-                                              {"keep", Layers::keep}, {"improve", Layers::improve}})
-                      .description(""));
+      ->check(CLI::IsMember({"keep", "improve"}).description(""));
   command.add_flag("--ignore-interior", options.ignore_interior,
                    "Drop the triangles, edges and required\n"
                    "vertices that the file names inside a region");

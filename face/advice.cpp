@@ -72,9 +72,11 @@ class Holders {
       const HalfFace face(t, f);
       if (mesh_.is_boundary(face)) continue;
       const TetHandle other = mesh_.twin(face).tet();
-      frozen = frozen || mesh_.is_frozen(other);
-      if (!mesh_.is_constrained(face)) continue;
-      (mesh_.label(t) == mesh_.label(other) ? named : border) = true;
+      if (mesh_.is_constrained(face)) {
+        (mesh_.label(t) == mesh_.label(other) ? named : border) = true;
+      } else {
+        frozen = frozen || mesh_.is_frozen(other);
+      }
     }
     for (unsigned e = 0; e < 6; ++e) named = named || is_named_inside(TetEdge(t, e));
     bool surface = true;

@@ -112,6 +112,17 @@ struct LayeredMesh {
   std::size_t layer_points = 0;
 };
 
+/// Eight tets around a new vertex in the middle of a prism: three vertices below, three above.
+inline void cut_around_middle(MeshData& data, const std::array<std::uint32_t, 6>& v) {
+  constexpr std::array<std::array<std::size_t, 3>, 8> kFaces = {
+      {{0, 1, 2}, {3, 4, 5}, {0, 1, 3}, {1, 3, 4}, {1, 2, 4}, {2, 4, 5}, {0, 2, 3}, {2, 3, 5}}};
+  const auto middle = static_cast<std::uint32_t>(data.points.size());
+  Point sum = Point::Zero();
+  for (const std::uint32_t i : v) sum += data.points[i];
+  data.points.emplace_back(sum / 6);
+  for (const auto& [a, b, c] : kFaces) data.tets.push_back({{v[a], v[b], v[c], middle}, 0});
+}
+
 /// Builds the stack over every triangle of the wall. Each prism is cut as a new random order of the
 /// vertices says: in all ways that fit to the neighbours.
 inline LayeredMesh make_layered(const Wall& wall, const Stack& stack) {
@@ -146,21 +157,8 @@ inline LayeredMesh make_layered(const Wall& wall, const Stack& stack) {
         for (std::size_t i = 0; i < 3; ++i) {
           data.tets.push_back({{v[i], v[i + 1], v[i + 2], v[i + 3]}, 0});
         }
-        continue;
-      }
-      const auto middle = static_cast<std::uint32_t>(data.points.size());
-      Point sum = Point::Zero();
-      for (const std::uint32_t i : v) sum += data.points[i];
-      data.points.emplace_back(sum / 6);
-      for (const auto& [a, b, c] : std::array<std::array<std::size_t, 3>, 8>{{{0, 1, 2},
-                                                                              {3, 4, 5},
-                                                                              {0, 1, 3},
-                                                                              {1, 3, 4},
-                                                                              {1, 2, 4},
-                                                                              {2, 4, 5},
-                                                                              {0, 2, 3},
-                                                                              {2, 3, 5}}}) {
-        data.tets.push_back({{v[a], v[b], v[c], middle}, 0});
+      } else {
+        cut_around_middle(data, v);
       }
     }
   }
