@@ -17,14 +17,14 @@
 
 namespace tetmend {
 
-/// The tets of all prism layers of a mesh.
+/// All boundary layers of a mesh.
 struct BoundaryLayers {
   std::vector<TetHandle> tets;  ///< ascending
   std::size_t columns = 0;      ///< triangles of walls with prisms above
   std::size_t most_prisms = 0;  ///< of a column
 };
 
-/// Finds prism layers by their structure. Walls are boundary and constrained faces. A column counts
+/// Finds boundary layers by their structure. Walls are boundary and constrained faces. A column counts
 /// if its first prism is flat, its lines are about normal to the wall and straight, and its heights
 /// grow by a bounded factor. A layer is a patch of columns that agree on their lines, and what lies
 /// above them is thicker: a lattice that is stretched throughout has no layer. Next to these

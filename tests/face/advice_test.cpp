@@ -185,7 +185,7 @@ TEST_CASE("borders between labels that hold bad tets are named, and so are prote
         std::vector<std::string>{
             fmt::format("faces between labels hold {} of the {} bad tets left; one label would "
                         "free them",
-                        touching, bad)});
+                        grouped(touching), grouped(bad))});
 
   MeshArrays one_label = to_arrays(data);
   for (std::int32_t& label : one_label.tet_labels) label = 0;
@@ -201,7 +201,7 @@ TEST_CASE("borders between labels that hold bad tets are named, and so are prote
         std::vector<std::string>{
             fmt::format("faces between labels hold {} of the {} bad tets left; one label would "
                         "free them",
-                        count_at_middle(data, 1), bad_of_1)});
+                        grouped(count_at_middle(data, 1)), grouped(bad_of_1))});
 }
 
 TEST_CASE("the surface is named where it has all vertices of the bad tets") {
