@@ -2,6 +2,7 @@
 // Boundary layers come out as they went in; a run says what is kept, and what holds the bad tets.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,10 @@ MeshData two_labels() {
   return data;
 }
 
+/// Whichever way round its vertices are listed.
 bool is_bad(const MeshData& data, const MeshData::Tet& tet) {
   const auto p = [&](std::size_t i) { return data.points[tet.vertices[i]]; };
-  return static_cast<Quality>(minimum_sine(p(0), p(1), p(2), p(3))) < kBadThreshold;
+  return static_cast<Quality>(std::abs(minimum_sine(p(0), p(1), p(2), p(3)))) < kBadThreshold;
 }
 
 /// Bad tets that touch the middle of two_labels(): they have a free-standing vertex there or a face.
