@@ -193,6 +193,7 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"notes", result.notes},
           {"build", to_json(result.build)},
           {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
+          {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},
           {"before", tetmend::to_json(result.before)},
           {"after", tetmend::to_json(result.after)},
           {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},

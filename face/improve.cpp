@@ -18,6 +18,7 @@
 #endif
 #include <tetmend/improve.h>
 
+#include "face/advice.h"
 #include "face/arena.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
@@ -144,6 +145,7 @@ class Improvement {
       run_schedule(kAllPasses);
       measure_after();
       if (!result_.worse().empty()) go_back();
+      note(face::advice_after(mesh_, options_, result_));
       map_entities();
     } catch (...) {
       give_back();
@@ -167,6 +169,10 @@ class Improvement {
   std::size_t best_pass() const;
   void map_entities();
   void check_promises() const;
+  void note(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) watcher_.noted(text);
+    result_.notes.insert(result_.notes.end(), texts.begin(), texts.end());
+  }
   void give_back() {
     trim_heap();
     user_mesh_ = MeshAccess::make(std::move(mesh_).to_data());
@@ -182,6 +188,7 @@ class Improvement {
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
   QualityIndicators first_;
+  std::size_t notes_before_ = 0;
   std::vector<std::uint32_t> tet_numbers_;  // in the user's mesh, by slot
   Result result_;
 };
@@ -210,9 +217,11 @@ void Improvement::build_mesh(MeshData& data) {
                                .report = &result_.build,
                                .tet_numbers = options_.maps ? &tet_numbers_ : nullptr});
   mesh_.set_standard(plan_.standard);
-  const face::ProtectedPart part = face::protect_regions(mesh_, options_);
+  const face::ProtectedPart part = face::protect(mesh_, options_);
   result_.protected_tets = part.tets;
   result_.protected_bad_tets = part.bad_tets;
+  result_.layer_tets = part.layer_tets;
+  result_.layer_bad_tets = part.layer_bad_tets;
   mesh_.set_bounds(Bounds::of(mesh_));
 }
 
@@ -223,6 +232,8 @@ void Improvement::measure_before() {
   first_ = quality_indicators(mesh_);
   surface_before_ = surface_fingerprint(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
+  note(face::advice_before(mesh_, result_));
+  notes_before_ = result_.notes.size();
 }
 
 /// The passes of the schedule, or so many of them.
@@ -251,7 +262,7 @@ void Improvement::run_schedule(std::size_t passes) {
   }
   result_.passes.clear();
   for (PassRecord& record : run.records) result_.passes.push_back(to_pass(std::move(record)));
-  result_.notes = std::move(run.notes);
+  for (std::string& text : run.notes) result_.notes.push_back(std::move(text));
   if (trace) trace->finish();
 }
 
@@ -285,6 +296,7 @@ void Improvement::go_back() {
   const std::size_t all = result_.passes.size();
   for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
     MeshData data = input_;
+    result_.notes.resize(notes_before_);
     build_mesh(data);
     if (passes > 0) {
       run_schedule(passes);
@@ -295,8 +307,7 @@ void Improvement::go_back() {
     if (passes > 0 && !result_.worse().empty()) continue;
     const std::string text = fmt::format(
         "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
-    result_.notes.push_back(text);
-    watcher_.noted(text);
+    note({text});
     return;
   }
 }

@@ -45,6 +45,12 @@ struct Progress {
   QualityIndicators now;   ///< of the mesh after the pass before; not of Stage::building
 };
 
+/// What becomes of boundary layers: prisms in layers along walls, each cut into three tets.
+enum class Layers : std::uint8_t {
+  keep,    ///< their tets stay as they are, bit for bit
+  improve  ///< like all other tets, which destroys them
+};
+
 /// An option has the name that it has on the command line (--time-limit is time_limit), and means
 /// the same.
 struct Options {
@@ -62,6 +68,7 @@ struct Options {
   // Regions are written "label:1,4" or "box:x0,y0,z0,x1,y1,z1" (tets with all vertices in the box).
   std::vector<std::string> protect = {};  ///< tets that stay as they are, bit for bit
   std::vector<std::string> only = {};     ///< if there are any: all other tets stay
+  Layers layers = Layers::keep;           ///< they are found by their structure
   bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
 
   std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then
@@ -115,10 +122,13 @@ struct Result {
   MeshStatistics after;
   Ending ending = Ending::finished;
   std::vector<Pass> passes;
-  std::vector<std::string> notes;  ///< of the schedule
-  BuildReport build;               ///< what was peculiar about the mesh
+  /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
+  std::vector<std::string> notes;
+  BuildReport build;  ///< what was peculiar about the mesh
   std::size_t protected_tets = 0;
   std::size_t protected_bad_tets = 0;  ///< of them
+  std::size_t layer_tets = 0;          ///< of boundary layers that were kept
+  std::size_t layer_bad_tets = 0;      ///< of them
   std::size_t touched_tets = 0;       ///< of the new mesh: tets that are new or have a moved vertex
   std::optional<SurfaceLimit> limit;  ///< of the new mesh
 

@@ -36,7 +36,7 @@ Range display_range(const QualityMeasure& measure) {
   return {0, measure.best};
 }
 
-std::vector<std::uint32_t> boundary_layers(const TetMesh& mesh) {
+std::vector<std::uint32_t> distances_from_boundary(const TetMesh& mesh) {
   constexpr std::uint32_t kUnreached = 0xFFFFFFFFu;
   std::vector<std::uint32_t> layer(mesh.tet_slots(), kUnreached);
   std::vector<TetHandle> queue;

@@ -25,7 +25,7 @@ TEST_CASE("every measure is taken of every tet") {
 
 TEST_CASE("layers count tets from the boundary inwards") {
   const TetMesh mesh(test::kuhn_cube(6, 0, 1));
-  const auto layers = boundary_layers(mesh);
+  const auto layers = distances_from_boundary(mesh);
   for (std::uint32_t i = 0; i < layers.size(); ++i) {
     std::uint32_t least = 1000;
     bool at_boundary = false;
