@@ -13,33 +13,13 @@
 #include <numbers>
 
 #include "kernel/chunks.h"
+#include "kernel/compensated_sum.h"
 
 namespace tetmend {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A sum whose relative error stays near one rounding however many terms it has: the exact error of
-/// every addition is carried along (Knuth's TwoSum).
-class CompensatedSum {
- public:
-  void add(double x) {
-    const double sum = sum_ + x;
-    const double added = sum - sum_;
-    error_ += (sum_ - (sum - added)) + (x - added);
-    sum_ = sum;
-  }
-  void add(const CompensatedSum& other) {
-    add(other.sum_);
-    error_ += other.error_;
-  }
-  double value() const { return sum_ + error_; }
-
- private:
-  double sum_ = 0;
-  double error_ = 0;
-};
 
 double share(double part, std::size_t whole) {
   return whole == 0 ? 0 : part / static_cast<double>(whole);
