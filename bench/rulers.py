@@ -43,7 +43,7 @@ def rows(tetmend: Path, mesh: Path, rivals: dict[str, str]) -> list[tuple[str, .
             run(tetmend, "convert", mesh, copy)
             told = json.loads(run(python, "-B", competitors.RIVALS / script, copy))
             for ruler, values in told["values"].items():
-                tolerance = told["digits"].get(ruler, 1e-10)
+                tolerance = told["tolerance"]
                 for figure, theirs in figures(ruler, values).items():
                     here = ours[ruler][figure]
                     differ = abs(theirs - here) > tolerance * max(abs(theirs), abs(here))

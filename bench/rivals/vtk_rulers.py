@@ -37,7 +37,8 @@ def main() -> None:
         array = quality.GetOutput().GetCellData().GetArray("Quality")
         told = [array.GetValue(i) for i in tets]
         values[name] = [1 / value for value in told] if inverse else told
-    print(json.dumps({"version": vtkVersion().GetVTKVersion(), "digits": {}, "values": values}))
+    print(json.dumps({"version": vtkVersion().GetVTKVersion(), "tolerance": 1e-10,
+                      "values": values}))
 
 
 main()
