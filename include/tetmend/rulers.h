@@ -44,17 +44,18 @@ inline constexpr std::array<RulerInfo, kRulerCount> kRulers = {{
     {"sicn", "SICN (Gmsh)", "signed inverse of the condition number; at best 1", true, false},
     {"sige", "SIGE (Gmsh)", "signed inverse error of a gradient; at best 1", true, false},
     {"condition", "condition number (VTK)",
-     "of the map from the regular tet, by Frobenius' norm, / 3; at best 1", false, false},
+     "of the map from the regular tet, by Frobenius' norm, / 3;\nat best 1", false, false},
     {"aspect_ratio", "aspect ratio (VTK)", "longest edge / (2 sqrt(6) r); at best 1", false, false},
     {"edge_ratio", "edge ratio", "longest edge / shortest edge of a tet; at best 1", false, false},
     {"least_altitude", "least altitude",
-     "3 V / largest face, a length; bounds the step of explicit time integration", true, false},
+     "3 V / largest face, a length; bounds the step of explicit\ntime integration", true, false},
     {"non_orthogonality", "non-orthogonality, degrees",
-     "of OpenFOAM: angle between the normal of an inner face and the line that joins the\n"
-     "centroids of its tets; at best 0. The mean is the angle of the mean cosine",
+     "of OpenFOAM: angle between the normal of an inner face and\n"
+     "the line that joins the centroids of its tets; at best 0.\n"
+     "The mean is the angle of the mean cosine",
      false, true},
     {"skewness", "skewness (OpenFOAM)",
-     "distance of a face's centroid from that line, / size of the face; at best 0", false, true},
+     "distance of a face's centroid from that line, / size of\nthe face; at best 0", false, true},
 }};
 
 /// What one ruler says about a mesh.
