@@ -397,7 +397,7 @@ int ScriptHost::measure(lua_State* lua) {
                     "measured any more",
                     wanted));
   }
-  const MeshStatistics statistics = compute_statistics(run_->mesh());
+  const MeshStatistics statistics = compute_statistics(run_->mesh(), run_->mesh().standard().goal());
   const auto keep = [&](const char* field, double value) {
     lua_pushnumber(lua, value);
     lua_setfield(lua, 1, field);

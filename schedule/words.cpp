@@ -5,6 +5,8 @@
 #include <array>
 #include <cassert>
 
+#include "kernel/quality.h"
+
 namespace tetmend {
 
 namespace {
@@ -38,7 +40,7 @@ constexpr std::array<WordField, 1> kJudgeFields = {{
      "'sine', or 'sine_and_length', which sees needles as well"},
 }};
 constexpr std::array<ParameterSpec, 1> kJudgeNumbers = {{
-    {"price", ParameterSpec::Kind::real, 0, 2, 0,
+    {"price", ParameterSpec::Kind::real, 0, 2, Standard::kUsualPrice,
      "what the worst tet must gain for each more bad tet"},
 }};
 constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{

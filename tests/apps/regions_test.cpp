@@ -74,7 +74,7 @@ Part part_of(const std::vector<Tet>& tets, const std::function<bool(const Tet&)>
   for (const Tet& tet : tets) {
     if (!is_in(tet)) continue;
     part.tets.insert(tet.key());
-    part.bad += tet.quality() < kBadThreshold;
+    part.bad += tet.quality() < 0.5f;
   }
   return part;
 }
@@ -145,7 +145,7 @@ TEST_CASE("protected tets come out bit for bit, the others improved") {
     Part now;
     for (const Tet& tet : after) now.tets.insert(tet.key());
     CHECK(std::includes(now.tets.begin(), now.tets.end(), kept.tets.begin(), kept.tets.end()));
-    for (const Tet& tet : after) now.bad += tet.quality() < kBadThreshold;
+    for (const Tet& tet : after) now.bad += tet.quality() < 0.5f;
     CHECK(now.bad < kept.bad + worked_on.bad);
     CHECK(now.bad >= kept.bad);
 
