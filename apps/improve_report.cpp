@@ -82,6 +82,14 @@ bool has_regions(const Options& options) {
   return !options.protect.empty() || !options.only.empty();
 }
 
+/// Of the promises nothing, ever; what is missed are aims.
+std::string format_worse(const Result& result) {
+  std::vector<std::string> worse = result.worse();
+  for (std::string& aim : result.missed_aims()) worse.push_back(std::move(aim));
+  return worse.empty() ? "nothing"
+                       : fmt::format("{}", fmt::join(worse, ",\n                     "));
+}
+
 std::string format_checks(const ImproveReport& report) {
   const Result& result = report.result;
   std::string text;
@@ -90,8 +98,7 @@ std::string format_checks(const ImproveReport& report) {
   };
   line("goal", fmt::format("angles from {:g} to {:g} degrees", result.goal.min_angle,
                            result.goal.max_angle));
-  const auto worse = result.worse();
-  line("worse than before", worse.empty() ? "nothing" : fmt::format("{}", fmt::join(worse, "; ")));
+  line("worse than before", format_worse(result));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
   line("volume",
@@ -196,6 +203,7 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"goal", {{"min_angle", result.goal.min_angle}, {"max_angle", result.goal.max_angle}}},
           {"measure", options.measure},
           {"worse_than_before", result.worse()},
+          {"missed_aims", result.missed_aims()},
           {"threads", options.threads},
           {"interrupted", result.ending == Ending::cancelled},
           {"out_of_time", result.ending == Ending::time_limit},

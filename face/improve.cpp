@@ -348,20 +348,44 @@ double Result::volume_change() const {
 
 std::vector<std::string> Result::worse() const {
   constexpr double kRounding = 1e-9;
+  constexpr double kEdgeRatio = 10;
   std::vector<std::string> worse;
-  const auto note = [&](std::string_view what, auto now, auto then) {
-    worse.push_back(fmt::format("{} of {:.7g} instead of {:.7g}", what, static_cast<double>(now),
-                                static_cast<double>(then)));
+  const auto compare = [&](std::string_view what, double now, double then, bool is_worse) {
+    if (is_worse) worse.push_back(fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then));
   };
-  if (after.theta_min < before.theta_min - kRounding) {
-    note("a theta_min", after.theta_min, before.theta_min);
-  }
-  if (after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding) {
-    note("a theta_max", after.theta_max, before.theta_max);
-  }
-  if (after.n_bad > before.n_bad) note("a number of bad tets", after.n_bad, before.n_bad);
-  if (after.lambda > before.lambda + kRounding) note("a lambda", after.lambda, before.lambda);
+  compare("a theta_min", after.theta_min, before.theta_min,
+          after.theta_min < before.theta_min - kRounding);
+  compare("a theta_max", after.theta_max, before.theta_max,
+          after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding);
+  compare("a number of bad tets", static_cast<double>(after.n_bad),
+          static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
+  compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
+  if (!rulers_before || !rulers_after) return worse;
+  const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
+  const double mean_ratio = worst(*rulers_before, Ruler::mean_ratio);
+  const double edge_ratio = worst(*rulers_before, Ruler::edge_ratio);
+  compare("a worst mean ratio", worst(*rulers_after, Ruler::mean_ratio), mean_ratio,
+          worst(*rulers_after, Ruler::mean_ratio) < mean_ratio - kRounding);
+  compare("a worst edge ratio", worst(*rulers_after, Ruler::edge_ratio), edge_ratio,
+          worst(*rulers_after, Ruler::edge_ratio) > std::max(edge_ratio, kEdgeRatio) + kRounding);
   return worse;
+}
+
+std::vector<std::string> Result::missed_aims() const {
+  std::vector<std::string> missed;
+  if (!rulers_before || !rulers_after) return missed;
+  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
+    const double then = (*rulers_before)[ruler].mean;
+    const double now = (*rulers_after)[ruler].mean;
+    if (now >= then) continue;
+    const std::string_view name = ruler == Ruler::mean_ratio ? "mean ratio" : "radius ratio";
+    missed.push_back(fmt::format("a mean {} of {:.4g} instead of {:.4g}", name, now, then));
+  }
+  if (rulers_after->faces_above_70 > rulers_before->faces_above_70) {
+    missed.push_back(fmt::format("{} faces above 70 degrees instead of {}",
+                                 rulers_after->faces_above_70, rulers_before->faces_above_70));
+  }
+  return missed;
 }
 
 Result improve(Mesh& mesh, const Options& options) {

@@ -155,10 +155,14 @@ struct Result {
   double measuring = 0;  ///< statistics and checks, before and after
   double improving = 0;
 
-  /// The figures that are worse than before, in words; empty for a run that kept its promises. These
-  /// are: theta_min is not smaller, theta_max is not above the larger of what it was and the goal's,
-  /// there are not more bad tets, lambda is not higher.
+  /// The figures that are worse than before, in words; empty, for that is promised: theta_min is not
+  /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad
+  /// tets, lambda is not higher. With rulers also: the worst mean ratio is not smaller, the worst
+  /// edge ratio not above the larger of what it was and 10.
   std::vector<std::string> worse() const;
+  /// What else is worse, in words. An aim, no promise: the means of mean ratio and radius ratio are
+  /// not smaller, and no more faces are above 70 degrees non-orthogonality. Empty without rulers.
+  std::vector<std::string> missed_aims() const;
 
   /// |after - before| / |before|, the rounding error of the volume if no tet was inverted before.
   double volume_change() const;
