@@ -53,7 +53,7 @@ void add_surface(CLI::App& app, Invocation& invocation) {
       ->type_name("");
   CLI::Option* bad = command->add_flag("--bad", options->bad,
                                        "Instead of the boundary the faces of the bad tets\n"
-                                       "(minimum sine of the dihedral angles < 0.5)");
+                                       "(an angle under 30 or over 150 degrees)");
   command
       ->add_flag("--constraints", options->constraints,
                  "Instead of the boundary the faces inside the\n"

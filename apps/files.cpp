@@ -51,12 +51,6 @@ std::string mesh_format_list() {
   return text + '\n';
 }
 
-std::string grouped(std::size_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
-  return digits;
-}
-
 std::string format_build(const BuildReport& report) {
   std::string text;
   const auto note = [&text](std::size_t count, std::string_view one, std::string_view many,

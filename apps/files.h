@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "face/grouped.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend::apps {
@@ -29,7 +30,6 @@ std::string mesh_format_list();
 std::string format_build(const BuildReport& report);
 nlohmann::json to_json(const BuildReport& report);
 
-/// 1234567 as 1,234,567.
-std::string grouped(std::size_t count);
+using face::grouped;
 
 }  // namespace tetmend::apps

@@ -54,6 +54,17 @@ void add_region_options(CLI::App& command, Options& options) {
   command.add_option("--only", options.only, "Leave all other tets as they are; repeatable")
       ->type_name("SPEC")
       ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--layers",
+          [&options](const std::string& choice) {
+            options.layers = choice == "improve" ? Layers::improve : Layers::keep;
+          },
+          "Boundary layers, prisms cut into tets, stay\n"
+          "as they are (keep, the default) or are\n"
+          "worked on like the rest (improve)")
+      ->type_name("keep|improve")
+      ->check(CLI::IsMember({"keep", "improve"}).description(""));
   command.add_flag("--ignore-interior", options.ignore_interior,
                    "Drop the triangles, edges and required\n"
                    "vertices that the file names inside a region");
@@ -166,6 +177,8 @@ std::string region_help() {
   box:x0,y0,z0,x1,y1,z1    the tets with all four vertices in the box, its
                            surface included; inf and -inf are allowed
 --protect prevails over --only. Protected tets keep their vertices, bit by bit.
+So do boundary layers: stacks of prisms on walls, each cut into three tets. They
+are found by their structure, and --layers improve gives them up.
 
 What the file names inside a region - triangles with tets of the same label on
 both sides, edges and required vertices - is respected, unless
@@ -181,6 +194,7 @@ void complete(ImproveOptions& options) {
   if (!options.trace_limit.empty()) run.trace_limit = read_size(options.trace_limit);
   run.limit = true;
   run.maps = false;
+  run.rulers = !options.quiet || !options.report.empty();
   try {
     tetmend::check(run);
   } catch (const OptionError& error) {

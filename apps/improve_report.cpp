@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <tetmend/catalogue.h>
 
@@ -87,6 +88,10 @@ std::string format_checks(const ImproveReport& report) {
   const auto line = [&text](std::string_view name, const std::string& value) {
     text += fmt::format("{:<21}{}\n", name, value);
   };
+  line("goal", fmt::format("angles from {:g} to {:g} degrees", result.goal.min_angle,
+                           result.goal.max_angle));
+  const auto worse = result.worse();
+  line("worse than before", worse.empty() ? "nothing" : fmt::format("{}", fmt::join(worse, "; ")));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
   line("volume",
@@ -126,7 +131,14 @@ nlohmann::json to_json(const Pass& pass) {
           {"seconds_in_blocks", pass.seconds_in_blocks},
           {"q_worst", pass.after.q_worst},
           {"n_bad", pass.after.n_bad},
+          {"n_needles", pass.after.n_needles},
           {"q_aver", pass.after.q_aver}};
+}
+
+nlohmann::json to_json(const MeshStatistics& statistics, const std::optional<MeshRulers>& rulers) {
+  nlohmann::json json = tetmend::to_json(statistics);
+  if (rulers) json["rulers"] = tetmend::to_json(*rulers);
+  return json;
 }
 
 nlohmann::json seconds_to_json(const ImproveReport& report) {
@@ -156,6 +168,9 @@ std::string format_report(const ImproveReport& report) {
   if (!text.empty()) text += '\n';
   text += format_comparison(result.before, result.after) + '\n';
   text += format_histogram(result.before, &result.after) + '\n';
+  if (result.rulers_before && result.rulers_after) {
+    text += format_rulers(*result.rulers_before, &*result.rulers_after) + '\n';
+  }
   for (const std::string& note : result.notes) text += note + '\n';
   if (!result.notes.empty()) text += '\n';
   const std::string passes = format_passes(report);
@@ -178,14 +193,18 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"output", report.options.output.string()},
           {"schedule", options.schedule},
           {"settings", settings},
+          {"goal", {{"min_angle", result.goal.min_angle}, {"max_angle", result.goal.max_angle}}},
+          {"measure", options.measure},
+          {"worse_than_before", result.worse()},
           {"threads", options.threads},
           {"interrupted", result.ending == Ending::cancelled},
           {"out_of_time", result.ending == Ending::time_limit},
           {"notes", result.notes},
           {"build", to_json(result.build)},
           {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
-          {"before", tetmend::to_json(result.before)},
-          {"after", tetmend::to_json(result.after)},
+          {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},
+          {"before", to_json(result.before, result.rulers_before)},
+          {"after", to_json(result.after, result.rulers_after)},
           {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
           {"surface",
            {{"unchanged", true},  // improve() fails otherwise

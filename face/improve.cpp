@@ -5,16 +5,20 @@
 //
 // The plain arrays are taken apart on the way in, and the mesh on the way out: neither is in memory
 // twice.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 #include <tetmend/improve.h>
 
+#include "face/advice.h"
 #include "face/arena.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
@@ -22,8 +26,10 @@
 #include "face/registry.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
+#include "kernel/bounds.h"
 #include "kernel/chunks.h"
 #include "kernel/integrity.h"
+#include "kernel/rulers.h"
 #include "kernel/surface_fingerprint.h"
 #include "schedule/limit/surface_limit.h"
 
@@ -133,11 +139,15 @@ class Improvement {
       : user_mesh_(mesh), options_(options), plan_(plan), watcher_(options), file_(mesh.file()) {}
 
   Result run() {
+    result_.goal = options_.goal;
     build();
     try {
       measure_before();
-      run_schedule();
+      run_schedule(kAllPasses);
       measure_after();
+      if (!result_.worse().empty()) go_back();
+      note(face::advice_after(mesh_, options_, result_));
+      map_entities();
     } catch (...) {
       give_back();
       throw;
@@ -149,11 +159,21 @@ class Improvement {
   }
 
  private:
+  static constexpr std::size_t kAllPasses = std::numeric_limits<std::size_t>::max();
+
   void build();
+  void build_mesh(MeshData& data);
   void measure_before();
-  void run_schedule();
+  void run_schedule(std::size_t passes);
   void measure_after();
+  void go_back();
+  std::size_t best_pass() const;
+  void map_entities();
   void check_promises() const;
+  void note(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) watcher_.noted(text);
+    result_.notes.insert(result_.notes.end(), texts.begin(), texts.end());
+  }
   void give_back() {
     trim_heap();
     user_mesh_ = MeshAccess::make(std::move(mesh_).to_data());
@@ -164,9 +184,12 @@ class Improvement {
   Plan& plan_;
   face::Watcher watcher_;
   const std::filesystem::path file_;
+  MeshData input_;  // to go back to
   TetMesh mesh_;
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
+  QualityIndicators first_;
+  std::size_t notes_before_ = 0;
   std::vector<std::uint32_t> tet_numbers_;  // in the user's mesh, by slot
   Result result_;
 };
@@ -180,59 +203,120 @@ void Improvement::build() {
   try {
     plan_.trace.locate(data);
     face::find_regions(data, options_);
-    mesh_ = face::build_located(file_, data,
-                                {.interior = options_.ignore_interior ? InteriorConstraints::dropped
-                                                                      : InteriorConstraints::kept,
-                                 .report = &result_.build,
-                                 .tet_numbers = options_.maps ? &tet_numbers_ : nullptr});
+    input_ = data;
+    build_mesh(data);
   } catch (...) {
     user_mesh_ = MeshAccess::make(std::move(data), file_);
     throw;
   }
+}
+
+void Improvement::build_mesh(MeshData& data) {
+  mesh_ = face::build_located(file_, data,
+                              {.interior = options_.ignore_interior ? InteriorConstraints::dropped
+                                                                    : InteriorConstraints::kept,
+                               .report = &result_.build,
+                               .tet_numbers = options_.maps ? &tet_numbers_ : nullptr});
   mesh_.set_standard(plan_.standard);
-  const face::ProtectedPart part = face::protect_regions(mesh_, options_);
+  const face::ProtectedPart part = face::protect(mesh_, options_);
   result_.protected_tets = part.tets;
   result_.protected_bad_tets = part.bad_tets;
+  result_.layer_tets = part.layer_tets;
+  result_.layer_bad_tets = part.layer_bad_tets;
+  mesh_.set_bounds(Bounds::of(mesh_));
 }
 
 void Improvement::measure_before() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  result_.before = compute_statistics(mesh_);
+  result_.before = compute_statistics(mesh_, options_.goal);
+  first_ = quality_indicators(mesh_);
+  if (options_.rulers) result_.rulers_before = measure_rulers(mesh_);
   surface_before_ = surface_fingerprint(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
+  note(face::advice_before(mesh_, result_));
+  notes_before_ = result_.notes.size();
 }
 
-void Improvement::run_schedule() {
+/// The passes of the schedule, or so many of them.
+void Improvement::run_schedule(std::size_t passes) {
   const auto trace = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
   Run run(mesh_, plan_.registry);
   run.set_listener(&watcher_);
-  run.set_cancel_flag(options_.cancel);
   run.set_trace(trace.get());
   watcher_.watch(&run, quality_indicators(mesh_));
   watcher_.begin(Stage::improving);
   {
     const Stopwatch watch(result_.improving);
-    if (options_.time_limit > 0) run.set_time_limit(options_.time_limit);
+    if (passes == kAllPasses) {
+      run.set_cancel_flag(options_.cancel);
+      if (options_.time_limit > 0) run.set_time_limit(options_.time_limit);
+    } else {
+      run.stop_after(passes);
+    }
     tetmend::improve(run, plan_.schedule, options_.set);
   }
   watcher_.watch(nullptr, quality_indicators(mesh_));
-  result_.ending = run.out_of_time() ? Ending::time_limit
-                   : run.cancelled() ? Ending::cancelled
-                                     : Ending::finished;
+  if (passes == kAllPasses) {
+    result_.ending = run.out_of_time() ? Ending::time_limit
+                     : run.cancelled() ? Ending::cancelled
+                                       : Ending::finished;
+  }
+  result_.passes.clear();
   for (PassRecord& record : run.records) result_.passes.push_back(to_pass(std::move(record)));
-  result_.notes = std::move(run.notes);
+  for (std::string& text : run.notes) result_.notes.push_back(std::move(text));
   if (trace) trace->finish();
 }
 
 void Improvement::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  result_.after = compute_statistics(mesh_);
+  result_.after = compute_statistics(mesh_, options_.goal);
+  if (options_.rulers) result_.rulers_after = measure_rulers(mesh_);
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
   if (options_.limit) result_.limit = compute_surface_limit(mesh_);
+}
+
+/// Passes up to the one that left the fewest bad tets, the last of such; 0 if all left more than
+/// there were.
+std::size_t Improvement::best_pass() const {
+  std::size_t best = 0;
+  std::size_t n_bad = first_.n_bad;
+  for (std::size_t i = 0; i < result_.passes.size(); ++i) {
+    if (result_.passes[i].after.n_bad > n_bad) continue;
+    n_bad = result_.passes[i].after.n_bad;
+    best = i + 1;
+  }
+  return best;
+}
+
+/// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
+/// back. The same passes do the same, so no state needs to be kept in memory.
+void Improvement::go_back() {
+  const std::string reason = fmt::format("{}", fmt::join(result_.worse(), "; "));
+  const std::size_t all = result_.passes.size();
+  for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
+    MeshData data = input_;
+    result_.notes.resize(notes_before_);
+    build_mesh(data);
+    if (passes > 0) {
+      run_schedule(passes);
+    } else {
+      result_.passes.clear();
+    }
+    measure_after();
+    if (passes > 0 && !result_.worse().empty()) continue;
+    const std::string text = fmt::format(
+        "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
+    note({text});
+    return;
+  }
+}
+
+void Improvement::map_entities() {
+  input_ = {};
   if (!options_.maps) return;
   result_.vertex_map = face::map_vertices(mesh_, vertices_before_);
   result_.tet_map = face::map_tets(mesh_, tet_numbers_);
@@ -260,6 +344,24 @@ void Improvement::check_promises() const {
 double Result::volume_change() const {
   const double difference = std::abs(after.volume - before.volume);
   return difference == 0 ? 0 : difference / std::abs(before.volume);
+}
+
+std::vector<std::string> Result::worse() const {
+  constexpr double kRounding = 1e-9;
+  std::vector<std::string> worse;
+  const auto note = [&](std::string_view what, auto now, auto then) {
+    worse.push_back(fmt::format("{} of {:.7g} instead of {:.7g}", what, static_cast<double>(now),
+                                static_cast<double>(then)));
+  };
+  if (after.theta_min < before.theta_min - kRounding) {
+    note("a theta_min", after.theta_min, before.theta_min);
+  }
+  if (after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding) {
+    note("a theta_max", after.theta_max, before.theta_max);
+  }
+  if (after.n_bad > before.n_bad) note("a number of bad tets", after.n_bad, before.n_bad);
+  if (after.lambda > before.lambda + kRounding) note("a lambda", after.lambda, before.lambda);
+  return worse;
 }
 
 Result improve(Mesh& mesh, const Options& options) {

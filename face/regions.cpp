@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "kernel/boundary_layers.h"
+
 namespace tetmend::face {
 
 namespace {
@@ -143,18 +145,29 @@ void find_regions(const MeshData& data, const Options& options) {
   check_not_empty(data, parse_all("only", options.only));
 }
 
-ProtectedPart protect_regions(TetMesh& mesh, const Options& options) {
+ProtectedPart protect(TetMesh& mesh, const Options& options) {
   ProtectedPart part;
-  if (options.protect.empty() && options.only.empty()) return part;
   const std::vector<Region> protect = parse_all("protect", options.protect);
   const std::vector<Region> only = parse_all("only", options.only);
-  part.tets = mesh.freeze([&](TetHandle t) {
-    return contain(protect, mesh, t) || (!only.empty() && !contain(only, mesh, t));
-  });
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_frozen(t) && mesh.quality(t) < kBadThreshold) ++part.bad_tets;
+  BoundaryLayers layers;
+  if (options.layers == Layers::keep) layers = find_boundary_layers(mesh);
+  if (protect.empty() && only.empty() && layers.tets.empty()) return part;
+
+  const auto is_bad = [&](TetHandle t) { return mesh.quality(t) < kBadThreshold; };
+  part.layer_tets = layers.tets.size();
+  std::vector<char> in_layer(mesh.tet_slots(), 0);
+  for (const TetHandle t : layers.tets) {
+    in_layer[t.index()] = 1;
+    part.layer_bad_tets += is_bad(t) ? 1 : 0;
   }
+  mesh.freeze([&](TetHandle t) {
+    if (!contain(protect, mesh, t) && (only.empty() || contain(only, mesh, t))) {
+      return in_layer[t.index()] != 0;
+    }
+    ++part.tets;
+    part.bad_tets += is_bad(t) ? 1 : 0;
+    return true;
+  });
   return part;
 }
 

@@ -16,13 +16,15 @@ void check_regions(const Options& options);
 /// @throws OptionError that names the region when no tet has one of its labels or lies in its box.
 void find_regions(const MeshData& data, const Options& options);
 
-/// What protect_regions() did.
+/// What protect() did. A tet may be one of both kinds.
 struct ProtectedPart {
-  std::size_t tets = 0;
-  std::size_t bad_tets = 0;  ///< of them
+  std::size_t tets = 0;            ///< in regions
+  std::size_t bad_tets = 0;        ///< of them
+  std::size_t layer_tets = 0;      ///< in boundary layers
+  std::size_t layer_bad_tets = 0;  ///< of them
 };
 
-/// Freezes what the options protect.
-ProtectedPart protect_regions(TetMesh& mesh, const Options& options);
+/// Freezes what the options protect: regions, and boundary layers unless they are to be improved.
+ProtectedPart protect(TetMesh& mesh, const Options& options);
 
 }  // namespace tetmend::face

@@ -41,6 +41,20 @@ bool reaches_goal(const Change& change, double goal) {
          mesh.quality(change.aimed_at) > goal - kQualityTolerance;
 }
 
+/// Every new tet keeps the bounds of the mesh.
+bool keeps_bounds(const Transaction& transaction, const Comparison& qualities) {
+  const TetMesh& mesh = transaction.mesh();
+  const Bounds& bounds = mesh.bounds();
+  if (!qualities.has_both() || qualities.worst_now() >= bounds.safe()) return true;
+  std::vector<TetHandle> changed;
+  transaction.list_changed(changed);
+  return std::all_of(changed.begin(), changed.end(), [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    return mesh.quality(t) >= bounds.safe() ||
+           bounds.admit(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  });
+}
+
 double largest_angle_sine(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   std::vector<TetHandle> changed;
@@ -128,7 +142,8 @@ Judge Judge::opening(double share) {
 std::string_view Judge::promise() const {
   switch (kind_) {
     case Kind::strict:
-      return "the quality vector of what changed is better";
+      return "the quality vector of what changed is better, and the worst tet gained the "
+             "standard's price of each more bad tet";
     case Kind::fair:
       return "the quality vector is better, and the bad tets lack no more in sum or a desperate "
              "worst tet gained the price of each more bad tet";
@@ -172,19 +187,22 @@ bool Judge::accepts(const Change& change) const {
   }
   change.qualities.look_at(change.transaction);
   Aim aim;
+  aim.price = change.transaction.mesh().standard().price();
   if (kind_ == Kind::reaches) aim.reached = reaches_goal(change, bound_);
   if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
-  return holds_for(change.qualities, aim);
+  return holds_for(change.qualities, aim) &&
+         (kind_ == Kind::opening || keeps_bounds(change.transaction, change.qualities));
 }
 
 bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
   switch (kind_) {
     case Kind::strict:
-      return is_better(qualities);
+      return is_better(qualities) && pays_price(qualities, aim.price);
     case Kind::fair:
-      return is_better(qualities) && is_fair(qualities);
+      return is_better(qualities) && pays_price(qualities, aim.price) && is_fair(qualities);
     case Kind::reaches:
-      return is_better(qualities) || (aim.reached && spares_bad(qualities));
+      return (is_better(qualities) && pays_price(qualities, aim.price)) ||
+             (aim.reached && spares_bad(qualities));
     case Kind::lowers_angle:
       return lowers_angle(qualities, aim.sine);
     case Kind::opening:
@@ -196,6 +214,15 @@ bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
 bool Judge::keeps_share(const Comparison& qualities) const {
   if (!qualities.has_both()) return true;
   return qualities.worst_now() >= floor(qualities.worst_before()) - kQualityTolerance;
+}
+
+bool Judge::pays_price(Comparison& qualities, double price) {
+  if (price <= 0) return true;
+  const std::ptrdiff_t more_bad = count_more_bad(qualities);
+  if (more_bad <= 0) return true;
+  if (!qualities.has_both()) return false;
+  const double gain = qualities.worst_now() - qualities.worst_before();
+  return gain >= price * static_cast<double>(more_bad);
 }
 
 bool Judge::is_fair(Comparison& qualities) const {

@@ -94,9 +94,12 @@ class Judge {
  public:
   enum class Kind : std::uint8_t { strict, fair, reaches, lowers_angle, opening };
 
-  /// The quality vector of what changed is better.
+  /// The quality vector of what changed is better. Where the standard has a price, more bad tets
+  /// are paid for: the worst tet gains the price of each.
+  /// DEVIATION: the paper has no price. Without one, a worst tet that rises a little may leave many
+  /// mild bad tets behind, and each round begins with more to do.
   static Judge strict() { return Judge(Kind::strict); }
-  /// It is better, and the bad tets lack no more in sum, or a desperate worst tet gained the price.
+  /// The same, and the bad tets lack no more in sum, or a desperate worst tet gained a price.
   /// DEVIATION: the paper's order alone lets an insertion raise the worst tet a little and leave
   /// more bad tets than it found.
   static Judge fair(const Fairness& fairness);
@@ -119,12 +122,14 @@ class Judge {
   /// The most that new tets may lack in sum, see deficit(), when the old ones lack `lack`.
   double deficit_limit(double worst, double lack) const;
 
-  /// Leaves the qualities that it compared in the change. False for a change without edits. Cost:
+  /// The promise, and no new tet beyond the bounds of the mesh, which an opening may leave for a
+  /// while. Leaves the qualities that it compared in the change. False for a change without edits. Cost:
   /// linear in the tets that changed, mostly; n log n where the worst do not decide.
   bool accepts(const Change& change) const;
 
   /// What a judge may ask beside the qualities.
   struct Aim {
+    double price = 0;      ///< Standard::price()
     bool reached = false;  ///< the tet aimed at is gone, or as good as the goal
     double sine = 1;       ///< of the largest angle of what changed; 1 if none is obtuse
   };
@@ -134,6 +139,7 @@ class Judge {
  private:
   explicit Judge(Kind kind) : kind_(kind) {}
 
+  static bool pays_price(Comparison& qualities, double price);
   bool is_fair(Comparison& qualities) const;
   bool pays(Comparison& qualities) const;
   bool keeps_share(const Comparison& qualities) const;

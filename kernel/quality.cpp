@@ -65,9 +65,10 @@ constexpr double kFlat = 0.4;
 
 }  // namespace
 
-Standard::Standard(const Goal& goal, Terms terms)
+Standard::Standard(const Goal& goal, Terms terms, double price)
     : goal_(goal),
       terms_(terms),
+      price_(price),
       acute2_(1 / (sine_of(goal.min_angle) * sine_of(goal.min_angle))),
       obtuse2_(1 / (sine_of(goal.max_angle) * sine_of(goal.max_angle))) {
   if (terms == Terms::sine) return;

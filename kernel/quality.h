@@ -45,6 +45,8 @@ struct QualityMeasure {
 /// not hide the angles. A value of a few words; immutable.
 class Standard {
  public:
+  /// The paper has no price, so for sines alone there is none unless one is given.
+  static constexpr double kUsualPrice = 0.1;
   /// The measures that a run may have.
   enum class Terms : unsigned char {
     sine,            ///< of [chen, 6.1]
@@ -52,10 +54,14 @@ class Standard {
   };
   /// No goal: the quality is minimum_sine().
   Standard() = default;
-  explicit Standard(const Goal& goal, Terms terms = Terms::sine_and_length);
+  explicit Standard(const Goal& goal, Terms terms = Terms::sine_and_length)
+      : Standard(goal, terms, terms == Terms::sine ? 0 : kUsualPrice) {}
+  Standard(const Goal& goal, Terms terms, double price);
 
   const Goal& goal() const { return goal_; }
   Terms terms() const { return terms_; }
+  /// What the worst tet must gain for each more bad tet that a change leaves; see Judge.
+  double price() const { return price_; }
   /// The quality of a tet whose worst angle is `degrees` and that is no needle.
   double quality_of_angle(double degrees) const;
 
@@ -83,6 +89,7 @@ class Standard {
  private:
   Goal goal_ = {90, 90};
   Terms terms_ = Terms::sine;
+  double price_ = 0;
   double acute2_ = 1;
   double obtuse2_ = 1;
   double flat2_ = kOff;

@@ -91,8 +91,11 @@ std::size_t TetMesh::freeze(const std::function<bool(TetHandle)>& is_frozen) {
 }
 
 void TetMesh::set_standard(const Standard& standard) {
-  if (standard == standard_) return;
+  const bool same_qualities =
+      standard.goal() == standard_.goal() && standard.terms() == standard_.terms();
   standard_ = standard;
+  bounds_ = bounds_.under(standard);
+  if (same_qualities) return;
   for_chunks(cells_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const TetVertices& tv = cells_[i].vertices;

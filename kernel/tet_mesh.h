@@ -15,6 +15,7 @@
 
 #include <tetmend/statistics.h>
 
+#include "kernel/bounds.h"
 #include "kernel/handles.h"
 #include "kernel/mesh_data.h"
 #include "kernel/properties.h"
@@ -154,6 +155,9 @@ class TetMesh {
   const Standard& standard() const { return standard_; }
   /// Another standard. Cost: linear, unless it is the same.
   void set_standard(const Standard& standard);
+  /// What no change may make worse; at first nothing.
+  const Bounds& bounds() const { return bounds_; }
+  void set_bounds(const Bounds& bounds) { bounds_ = bounds.under(standard_); }
   /// Quality computed from the points; what quality() caches.
   Quality evaluate(const TetVertices& tv) const {
     return static_cast<Quality>(
@@ -267,6 +271,7 @@ class TetMesh {
                std::span<const std::uint32_t> tet_order);
 
   Standard standard_ = Standard(Goal{});
+  Bounds bounds_;
   std::vector<Cell> cells_;
   std::vector<Quality> quality_;
   std::vector<Label> label_;

@@ -166,6 +166,7 @@ PassScope::~PassScope() {
   run_.report_done(record_);
   run_.records.push_back(std::move(record_));
   run_.is_measured_ = true;
+  if (run_.records.size() >= run_.most_passes_) run_.stop();
 }
 
 PassScope::Scan::~Scan() {

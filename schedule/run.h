@@ -81,6 +81,8 @@ class Run {
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
   /// The same, now. May be called by any thread.
   void stop() { stopped_.store(true, std::memory_order_relaxed); }
+  /// The run stops when that many passes are done. Precondition: fewer are.
+  void stop_after(std::size_t passes) { most_passes_ = passes; }
   /// The run stops at the next consistent state that many seconds from now.
   void set_time_limit(double seconds);
   /// True once the run is to stop, for either reason.
@@ -143,6 +145,7 @@ class Run {
            (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed));
   }
 
+  std::size_t most_passes_ = std::numeric_limits<std::size_t>::max();
   std::atomic<bool> stopped_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -117,6 +117,7 @@ void ScriptHost::add_words() {
     lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
   }
   add("goal", &ScriptHost::goal);
+  add("judge_by", &ScriptHost::judge_by);
   add("quality_of_angle", &ScriptHost::quality_of_angle);
   add("quality", &ScriptHost::quality);
   add("limit", &ScriptHost::limit);
@@ -331,6 +332,7 @@ int ScriptHost::quality(lua_State* lua) {
   };
   number("q_worst", now.q_worst);
   count("n_bad", now.n_bad);
+  count("n_needles", now.n_needles);
   number("q_aver", now.q_aver);
   count("tets", run_->mesh().tet_count());
   count("vertices", run_->mesh().vertex_count());
@@ -343,18 +345,31 @@ int ScriptHost::quality(lua_State* lua) {
 int ScriptHost::goal(lua_State* lua) {
   begin_work();
   const WordInfo& word = find_word("goal");
-  const ScriptValue value = read_table(lua, 1, word);
+  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const Standard now = run_->mesh().standard();
   Goal goal = now.goal();
-  Standard::Terms terms = now.terms();
-  if (const ScriptValue* measure = value.field("measure")) {
-    terms = to_terms(read_text({"goal: measure"}, *measure));
-  }
-  const Arguments arguments = read_arguments(word, value, {});
-  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   if (numbers.real("min") > 0) goal = Goal::symmetric(numbers.real("min"));
   if (numbers.real("max") > 0) goal.max_angle = numbers.real("max");
-  run_->set_standard(Standard(goal, terms));
+  if (!is_sound(goal)) {
+    throw Error(fmt::format("goal: {},{} is no goal", goal.min_angle, goal.max_angle));
+  }
+  run_->set_standard(Standard(goal, now.terms(), now.price()));
+  return 0;
+}
+
+int ScriptHost::judge_by(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("judge_by");
+  const ScriptValue value = read_table(lua, 1, word);
+  const Arguments arguments = read_arguments(word, value, {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  const Standard now = run_->mesh().standard();
+  Standard::Terms terms = now.terms();
+  if (const ScriptValue* measure = value.field("measure")) {
+    terms = to_terms(read_text({"judge_by: measure"}, *measure));
+  }
+  run_->set_standard(Standard(now.goal(), terms, numbers.real("price")));
   return 0;
 }
 
@@ -370,10 +385,10 @@ int ScriptHost::measure(lua_State* lua) {
   const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "?";
   const std::string_view wanted = name;
   if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda") {
-    throw Error(
-        fmt::format("quality() has no '{}'; valid: lambda, n_bad, passes, q_aver, q_worst, "
-                    "seconds, tets, theta_max, theta_min, vertices",
-                    wanted));
+    throw Error(fmt::format(
+        "quality() has no '{}'; valid: lambda, n_bad, n_needles, passes, q_aver, q_worst, "
+        "seconds, tets, theta_max, theta_min, vertices",
+        wanted));
   }
   lua_getfield(lua, 1, "passes");
   if (lua_tointeger(lua, -1) != static_cast<lua_Integer>(run_->records.size())) {
@@ -382,7 +397,7 @@ int ScriptHost::measure(lua_State* lua) {
                     "measured any more",
                     wanted));
   }
-  const MeshStatistics statistics = compute_statistics(run_->mesh());
+  const MeshStatistics statistics = compute_statistics(run_->mesh(), run_->mesh().standard().goal());
   const auto keep = [&](const char* field, double value) {
     lua_pushnumber(lua, value);
     lua_setfield(lua, 1, field);

@@ -49,6 +49,7 @@ class ScriptHost {
   int quality(lua_State* lua);
   int measure(lua_State* lua);
   int goal(lua_State* lua);
+  int judge_by(lua_State* lua);
   int quality_of_angle(lua_State* lua);
   int limit(lua_State* lua);
   int is_progress(lua_State* lua);

@@ -262,7 +262,7 @@ Selection read_selection(const Subject& subject, const ScriptValue& value) {
   for (const auto& [name, condition] : value.fields) {
     const Subject field = subject.of(name);
     if (name == "below") {
-      selection.below = static_cast<Quality>(read_in_range(field, condition, -1, 1));
+      selection.below = static_cast<Quality>(read_in_range(field, condition, -100, 100));
     } else if (name == "at_least") {
       selection.at_least = read_count(field, condition);
     } else if (name == "worst") {

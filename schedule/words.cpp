@@ -5,6 +5,8 @@
 #include <array>
 #include <cassert>
 
+#include "kernel/quality.h"
+
 namespace tetmend {
 
 namespace {
@@ -33,8 +35,13 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"again", ParameterSpec::Kind::flag, 0, 1, 0, "try also what has not changed since last time"},
 }};
 
-constexpr std::array<WordField, 1> kGoalFields = {{
-    {"measure", "name", "as it is", "'sine', or 'sine_and_length', which sees needles as well"},
+constexpr std::array<WordField, 1> kJudgeFields = {{
+    {"measure", "name", "'sine_and_length'",
+     "'sine', or 'sine_and_length', which sees needles as well"},
+}};
+constexpr std::array<ParameterSpec, 1> kJudgeNumbers = {{
+    {"price", ParameterSpec::Kind::real, 0, 2, Standard::kUsualPrice,
+     "what the worst tet must gain for each more bad tet"},
 }};
 constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
     {"min", ParameterSpec::Kind::real, 0, 70, 0,
@@ -43,7 +50,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 20> kWords = {{
+constexpr std::array<WordInfo, 21> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -92,15 +99,24 @@ constexpr std::array<WordInfo, 20> kWords = {{
      "with a larger angle, and what follows works on such tets as well. The result then stays if "
      "the worst tet gets no worse and the sine of the largest angle gains 0.002, and as much for "
      "each more bad tet"},
-    {"goal", "goal{min = 35, max = 140, measure = \"sine\"}",
+    {"goal",
+     "goal{min = 35, max = 140}",
      "from now on another goal: a tet is bad that misses it, and a quality of 1 means that it is "
      "just met. Nothing counts as tried then",
-     kGoalFields, kGoalNumbers},
+     {},
+     kGoalNumbers},
+    {"judge_by", "judge_by{measure = \"sine\", price = 0.1}",
+     "from now on other judges: what they take for the quality of a tet, and what new bad tets "
+     "cost. Nothing counts as tried then",
+     kJudgeFields, kJudgeNumbers},
     {"quality_of_angle", "quality_of_angle(degrees)",
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",
-     "the mesh now: q_worst, n_bad, q_aver, theta_min, theta_max, lambda, tets, vertices, seconds "
-     "(since the start), passes (so far). theta_min, theta_max and lambda are measured when they "
+     "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
+     "(others "
+     "of a quality below 1), q_aver (mean quality of both), theta_min, "
+     "theta_max, lambda, tets, vertices, seconds (since the start), passes (so far). theta_min, "
+     "theta_max and lambda are measured when they "
      "are read, which must be before the next pass"},
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "

@@ -284,7 +284,7 @@ void Document::update_lists() {
 
 void Document::update_scene() {
   if (drawn_ == view.scene) return;
-  if (view.scene.peel > 0 && layers_.empty()) layers_ = boundary_layers(mesh_);
+  if (view.scene.peel > 0 && layers_.empty()) layers_ = distances_from_boundary(mesh_);
   SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, {}, ball_};
   if (view.scene.isolate) input.only = near_;
   if (view.scene.colour != "region") {

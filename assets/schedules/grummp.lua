@@ -15,7 +15,7 @@ local function smooth_twice()
   end
 end
 
-goal{measure = "sines"}
+judge_by{measure = "sine", price = 0}
 begin_round()
 for _ = 1, 3 do
   apply(all_of{"flip_2_3", "edge_removal"}, {on = "all"})

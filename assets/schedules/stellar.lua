@@ -9,7 +9,7 @@ local desperate  = parameter{"desperate_share", default = 0.035, low = 0, high =
 local coarsen    = parameter{"coarsen", default = false,
                              help = "contract over all tets at the beginning, as Stellar does; the paper's tests leave that out"}
 
-goal{measure = "sines"}
+judge_by{measure = "sine", price = 0}
 
 -- Tets with an angle below 40 or above 140 degrees.
 local mild = {below = quality_of_angle(40)}

@@ -24,6 +24,7 @@
 #include <tetmend/io.h>
 #include <tetmend/limit.h>
 #include <tetmend/mesh.h>
+#include <tetmend/rulers.h>
 #include <tetmend/statistics.h>
 #include <tetmend/verdict.h>
 
@@ -45,6 +46,12 @@ struct Progress {
   QualityIndicators now;   ///< of the mesh after the pass before; not of Stage::building
 };
 
+/// What becomes of boundary layers: prisms in layers along walls, each cut into three tets.
+enum class Layers : std::uint8_t {
+  keep,    ///< their tets stay as they are, bit for bit
+  improve  ///< like all other tets, which destroys them
+};
+
 /// An option has the name that it has on the command line (--time-limit is time_limit), and means
 /// the same.
 struct Options {
@@ -62,6 +69,7 @@ struct Options {
   // Regions are written "label:1,4" or "box:x0,y0,z0,x1,y1,z1" (tets with all vertices in the box).
   std::vector<std::string> protect = {};  ///< tets that stay as they are, bit for bit
   std::vector<std::string> only = {};     ///< if there are any: all other tets stay
+  Layers layers = Layers::keep;           ///< they are found by their structure
   bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
 
   std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then
@@ -71,7 +79,9 @@ struct Options {
   std::uint64_t trace_limit = 0;  ///< bytes at which the trace ends; 0: none
 
   bool limit = false;  ///< prove what the surface allows; seconds for a large mesh
-  bool maps = true;    ///< give Result::vertex_map and tet_map; 4 bytes for each entity
+  /// Give Result::rulers_before and rulers_after; about 0.2 s for a million tets.
+  bool rulers = true;
+  bool maps = true;  ///< give Result::vertex_map and tet_map; 4 bytes for each entity
   /// Called often, by any thread, never by two at once; must be quick. False stops the run.
   std::function<bool(const Progress&)> progress = {};
   /// Called with what the schedule has to say, in between.
@@ -110,14 +120,20 @@ enum class Ending : std::uint8_t {
 inline constexpr std::uint32_t kGone = 0xFFFFFFFF;
 
 struct Result {
+  Goal goal;  ///< what the run worked towards
   MeshStatistics before;
   MeshStatistics after;
+  std::optional<MeshRulers> rulers_before;  ///< the measures of other programs
+  std::optional<MeshRulers> rulers_after;
   Ending ending = Ending::finished;
   std::vector<Pass> passes;
-  std::vector<std::string> notes;  ///< of the schedule
-  BuildReport build;               ///< what was peculiar about the mesh
+  /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
+  std::vector<std::string> notes;
+  BuildReport build;  ///< what was peculiar about the mesh
   std::size_t protected_tets = 0;
   std::size_t protected_bad_tets = 0;  ///< of them
+  std::size_t layer_tets = 0;          ///< of boundary layers that were kept
+  std::size_t layer_bad_tets = 0;      ///< of them
   std::size_t touched_tets = 0;       ///< of the new mesh: tets that are new or have a moved vertex
   std::optional<SurfaceLimit> limit;  ///< of the new mesh
 
@@ -138,6 +154,11 @@ struct Result {
   double building = 0;   ///< adjacency, order along a space-filling curve
   double measuring = 0;  ///< statistics and checks, before and after
   double improving = 0;
+
+  /// The figures that are worse than before, in words; empty for a run that kept its promises. These
+  /// are: theta_min is not smaller, theta_max is not above the larger of what it was and the goal's,
+  /// there are not more bad tets, lambda is not higher.
+  std::vector<std::string> worse() const;
 
   /// |after - before| / |before|, the rounding error of the volume if no tet was inverted before.
   double volume_change() const;

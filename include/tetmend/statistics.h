@@ -26,7 +26,7 @@ struct MeshStatistics {
   std::array<double, 5> lambda_bands{};
   double q_worst = 0;     ///< smallest minimum sine
   double q_mean = 0;      ///< mean minimum sine of all tets
-  std::size_t n_bad = 0;  ///< tets of minimum sine < 0.5, in single precision
+  std::size_t n_bad = 0;  ///< tets that miss the goal, in single precision
   double q_aver = 0;      ///< mean minimum sine of the bad tets; 0 without bad tets
   /// Dihedral angles in bins of 5 degrees, [5 i, 5 (i+1)); the last contains 180.
   std::array<std::size_t, 36> histogram{};
@@ -35,9 +35,10 @@ struct MeshStatistics {
 /// The three indicators by which a schedule gauges progress ([chen, 6.2]), of the tets that are not
 /// protected: the others tell nothing about what is left to do.
 struct QualityIndicators {
-  double q_worst = 0;
-  std::size_t n_bad = 0;
-  double q_aver = 0;  ///< mean quality of the bad tets; 0 without bad tets
+  double q_worst = 0;         ///< 1: the goal is just met
+  std::size_t n_bad = 0;      ///< tets that miss the goal
+  double q_aver = 0;          ///< mean quality of these and the needles; 0 without any
+  std::size_t n_needles = 0;  ///< other tets of a quality below 1
 };
 
 /// Any quality measure over a whole mesh.

@@ -146,7 +146,7 @@ class Bound {
   int best_ = kSteps;  // not allowed by some wall, or the largest
 };
 
-struct Bounds {
+struct AngleBounds {
   Bound quality;
   Bound smallest;
   Bound largest;
@@ -157,7 +157,7 @@ struct Bounds {
     smallest.tighten(probe, [](int n) { return AngleRange{n * kStep, std::numbers::pi}; });
     largest.tighten(probe, [](int n) { return AngleRange{0, std::numbers::pi - n * kStep}; });
   }
-  void tighten(const Bounds& other) {
+  void tighten(const AngleBounds& other) {
     quality.tighten(other.quality);
     smallest.tighten(other.smallest);
     largest.tighten(other.largest);
@@ -199,23 +199,23 @@ std::vector<SharpWall> find_sharp_walls(const TetMesh& mesh) {
   return all;
 }
 
-Bounds find_bounds(const TetMesh& mesh) {
+AngleBounds find_bounds(const TetMesh& mesh) {
   const std::vector<SharpWall> walls = find_sharp_walls(mesh);
-  const auto tighten = [&](Bounds& bounds, std::size_t begin, std::size_t end) {
+  const auto tighten = [&](AngleBounds& bounds, std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) bounds.tighten(WallProbe(mesh, walls[n].wall));
   };
-  Bounds all;
+  AngleBounds all;
   const std::size_t first = std::min(walls.size(), kWallsPerChunk);
   tighten(all, 0, first);  // so that the others have little to do
-  const auto parts = map_chunks<Bounds>(
+  const auto parts = map_chunks<AngleBounds>(
       walls.size() - first,
       [&](std::size_t begin, std::size_t end) {
-        Bounds part = all;
+        AngleBounds part = all;
         tighten(part, first + begin, first + end);
         return part;
       },
       kWallsPerChunk);
-  for (const Bounds& part : parts) all.tighten(part);
+  for (const AngleBounds& part : parts) all.tighten(part);
   return all;
 }
 
@@ -315,7 +315,7 @@ SurfaceLimit compute_surface_limit(const TetMesh& mesh) {
   const std::vector<TetHandle> bad_tets = find_bad_tets(mesh);
   const std::vector<Argument> arguments = find_arguments(mesh, walls_around(mesh, bad_tets));
   const ForcedTets forced(mesh, arguments);
-  const Bounds bounds = find_bounds(mesh);
+  const AngleBounds bounds = find_bounds(mesh);
   SurfaceLimit limit;
   for (const TetHandle t : bad_tets) {
     const Hindrance hindrance = hindrance_of(mesh, t, forced);

@@ -12,6 +12,7 @@
 #include "kernel/integrity.h"
 #include "kernel/surface.h"
 #include "tests/apps/program.h"
+#include "tests/support/layered_mesh.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
@@ -73,7 +74,7 @@ Part part_of(const std::vector<Tet>& tets, const std::function<bool(const Tet&)>
   for (const Tet& tet : tets) {
     if (!is_in(tet)) continue;
     part.tets.insert(tet.key());
-    part.bad += tet.quality() < kBadThreshold;
+    part.bad += tet.quality() < 0.5f;
   }
   return part;
 }
@@ -144,7 +145,7 @@ TEST_CASE("protected tets come out bit for bit, the others improved") {
     Part now;
     for (const Tet& tet : after) now.tets.insert(tet.key());
     CHECK(std::includes(now.tets.begin(), now.tets.end(), kept.tets.begin(), kept.tets.end()));
-    for (const Tet& tet : after) now.bad += tet.quality() < kBadThreshold;
+    for (const Tet& tet : after) now.bad += tet.quality() < 0.5f;
     CHECK(now.bad < kept.bad + worked_on.bad);
     CHECK(now.bad >= kept.bad);
 
@@ -165,6 +166,41 @@ TEST_CASE("a run without protected tets says nothing of them") {
   CHECK(outcome.status == 0);
   CHECK(!contains(outcome.out, "protected"));
   CHECK(!contains(outcome.out, "dropped"));
+}
+
+TEST_CASE("boundary layers come out bit for bit, are counted, and can be given up") {
+  const TempFolder folder;
+  const auto input = folder / "in.mesh";
+  const auto out = folder / "out.mesh";
+  const auto report_file = folder / "report.json";
+  const LayeredMesh layered =
+      make_layered(plane_wall(8), {.heights = growing_heights(4, 0.05, 1.4), .core = {0.6, 0.9}});
+  write_mesh(input, layered.data);
+  const std::vector<Tet> before = tets_of(input);
+  const auto end = before.begin() + static_cast<std::ptrdiff_t>(layered.layer_tets);
+  const Part layers = part_of({before.begin(), end}, [](const Tet&) { return true; });
+  const auto kept_layers = [&](const std::string& choice) {
+    const Outcome outcome = run_program({"improve", input.string(), "-o", out.string(), "--layers",
+                                         choice, "--report", report_file.string()});
+    REQUIRE(outcome.status == 0);
+    const bool keeps = choice == "keep";
+    const std::string note = "1,536 tets of boundary layers kept; --layers improve works on them";
+    const auto report = nlohmann::json::parse(read_text(report_file));
+    CHECK(contains(outcome.out, note) == keeps);
+    CHECK(contains(report["notes"].dump(), note) == keeps);
+    CHECK(report["layers"]["tets"] == (keeps ? layers.tets.size() : 0));
+    CHECK(report["layers"]["bad_tets"] == (keeps ? layers.bad : 0));
+    const Part now = part_of(tets_of(out), [](const Tet&) { return true; });
+    return std::includes(now.tets.begin(), now.tets.end(), layers.tets.begin(), layers.tets.end());
+  };
+  CHECK(kept_layers("keep"));
+  CHECK(!kept_layers("improve"));
+
+  const Outcome wrong =
+      run_program({"improve", input.string(), "-o", out.string(), "--layers", "drop"});
+  CHECK(wrong.status == 2);
+  CHECK(contains(wrong.err, "--layers"));
+  CHECK(contains(wrong.err, "keep"));
 }
 
 TEST_CASE("what the mesh is protected by may be all of it") {

@@ -11,6 +11,7 @@
 #include <tetmend/improve.h>
 #include <tetmend/measure.h>
 
+#include "contract/zoo.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "schedule/schedule.h"
@@ -18,6 +19,7 @@
 #include "tests/kernel/formats/fixtures.h"
 
 using namespace tetmend;
+using namespace tetmend::contract;
 using namespace tetmend::test;
 
 namespace {
@@ -53,6 +55,7 @@ TEST_CASE("improving gives the same mesh as the layers below, for any number of 
   for (const std::string name : {"sheet.mesh", "two_materials.mesh"}) {
     CAPTURE(name);
     TetMesh plain = TetMesh::sorted(read_mesh(asset(name)));
+    plain.set_bounds(Bounds::of(plain));
     Registry registry = Registry::builtin();
     Run run(plain, registry);
     improve(run);
@@ -96,7 +99,7 @@ TEST_CASE("the result tells what the mesh was, what it is, and what was done") {
 }
 
 TEST_CASE("maps lead from old vertices and tets to new ones") {
-  const Mesh old = load(asset("two_materials.mesh"));
+  const Mesh old = load(asset("bracket.meshb"));
   Mesh mesh = old;
   const Result result = improve(mesh);
   REQUIRE(result.vertex_map.size() == old.point_count());
@@ -148,13 +151,20 @@ TEST_CASE("a mesh that nothing is done to keeps all its vertices and tets") {
   const Mesh old = load(asset("sheet.mesh"));
   Mesh mesh = old;
   const Result result = improve(mesh, {.script = "log 'nothing to do'"});
-  CHECK(result.notes == std::vector<std::string>{"nothing to do"});
+  REQUIRE(result.notes.size() == 2);
+  CHECK(result.notes[0] == "nothing to do");
+  CHECK(result.notes[1].starts_with("94 named inner triangles hold "));
   CHECK(result.touched_tets == 0);
   for (std::uint32_t v = 0; v < old.point_count(); ++v) CHECK(result.vertex_map[v] == v);
   for (std::size_t t = 0; t < old.tet_count(); ++t) {
     CHECK(mesh.tets()[result.tet_map[t]] == old.tets()[t]);
   }
-  CHECK(improve(mesh, {.script = "log 'again'", .maps = false}).vertex_map.empty());
+  REQUIRE((result.rulers_before && result.rulers_after));
+  CHECK((*result.rulers_before)[Ruler::sige].mean > 0);
+  CHECK((*result.rulers_after)[Ruler::sige].mean == (*result.rulers_before)[Ruler::sige].mean);
+  const Result again = improve(mesh, {.script = "log 'again'", .rulers = false, .maps = false});
+  CHECK(again.vertex_map.empty());
+  CHECK((!again.rulers_before && !again.rulers_after));
 }
 
 TEST_CASE("a mesh of broken topology is told with its place and stays as it was") {
@@ -256,6 +266,36 @@ TEST_CASE("a mistake in a script has its line, and the mesh is sound and improve
   CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file + ":1: "));
 }
 
+TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {
+  // Rather flat boxes: most tets are bad, and more vertices make more of them.
+  MeshData data = kuhn_cube(5, 0.3, 3);
+  for (Point& p : data.points) p.z() *= 0.4;
+  const TempFolder folder;
+  write_mesh(folder / "flat.mesh", MeshView(TetMesh(data)));
+  const std::string spoil =
+      "judge_by{measure = 'sine'} "
+      "for _ = 1, 3 do apply({'centroid_insertion', desperate = 2}, {on = 'all'}) end";
+  const auto improved = [&](const std::string& script) {
+    Mesh mesh = load(folder / "flat.mesh");
+    const Result result = improve(mesh, {.script = script});
+    CHECK(result.worse().empty());
+    CHECK(result.after.tets == mesh.tet_count());
+    return std::pair(result, mesh);
+  };
+  const auto [good, good_mesh] = improved("local_reconnection{}");
+  CHECK(good.after.n_bad < good.before.n_bad);
+  CHECK(good.notes.empty());
+  const auto [back, back_mesh] = improved("local_reconnection{} " + spoil);
+  CHECK(equal(back_mesh, good_mesh));
+  CHECK(back.passes.size() == 1);
+  REQUIRE(back.notes.size() == 1);
+  CHECK(
+      back.notes[0].starts_with("went back to the state after pass 1 of 4: at the end there was "));
+  const auto [none, none_mesh] = improved(spoil);
+  CHECK(equal(none_mesh, improved("").second));
+  CHECK(none.passes.empty());
+}
+
 TEST_CASE("a run tells how far it has come: stages, passes, notes") {
   Mesh mesh = load(asset("sheet.mesh"));
   std::vector<Stage> stages;
@@ -282,7 +322,9 @@ TEST_CASE("a run tells how far it has come: stages, passes, notes") {
   CHECK(stages ==
         std::vector{Stage::building, Stage::measuring, Stage::improving, Stage::measuring});
   for (const Pass& pass : result.passes) CHECK(phases.contains(pass.name));
-  CHECK(notes == std::vector<std::string>{"half"});
+  REQUIRE(!notes.empty());
+  CHECK(notes[0] == "half");
+  CHECK(notes == result.notes);
   CHECK(bad == result.after.n_bad);
 }
 

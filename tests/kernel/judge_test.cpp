@@ -126,6 +126,20 @@ TEST_CASE("with a large exponent mild bad tets hardly count, and with 1 each cou
   CHECK_FALSE(takes(Judge::fair({.exponent = 1, .desperate = 0}), now, before));
 }
 
+TEST_CASE("where a new bad tet has a price, the worst tet must gain it for each") {
+  const Values before = {0.2f, 1.8f};
+  const Judge::Aim priced = {.price = 0.1};
+  for (const Judge& judge : {Judge::strict(), Judge::reaches(1.2f)}) {
+    CHECK(takes(judge, {0.29f, 1.8f}, before, priced));  // none is new
+    CHECK(takes(judge, {0.31f, 0.9f}, before, priced));
+    CHECK_FALSE(takes(judge, {0.29f, 0.9f}, before, priced));
+    CHECK(takes(judge, {0.29f, 0.9f}, before));
+    CHECK_FALSE(takes(judge, {0.31f, 0.9f, 0.9f}, before, priced));
+    CHECK(takes(judge, {0.41f, 0.9f, 0.9f}, before, priced));
+  }
+  CHECK_FALSE(takes(Judge::fair({.desperate = 1, .price = 0}), {0.29f, 0.9f}, before, priced));
+}
+
 TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for each 0.002") {
   const Values before = {0.2f, 0.9f, 1.6f};
   // An exponent of 1, so that the sum never speaks for these.

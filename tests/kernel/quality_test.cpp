@@ -374,3 +374,80 @@ TEST_CASE("an unknown quality measure is an error that names the word and the va
   }
   CHECK_THROWS_AS(find_quality_measure(""), Error);
 }
+
+TEST_CASE("quality is 1 where the goal is just met, whichever side of it is missed") {
+  const auto wedge = [](double degrees) {
+    const double turn = degrees * std::numbers::pi / 180;
+    return Corners{Point(0, 0, -0.5), Point(0, 0, 0.5), Point(1, 0, 0),
+                   Point(std::cos(turn), std::sin(turn), 0)};
+  };
+  for (const Goal goal : {Goal{}, Goal{35, 140}, Goal{20, 160}, Goal{40, 138}}) {
+    CAPTURE(goal.min_angle);
+    const Standard standard(goal);
+    const auto quality = [&](double degrees) {
+      const Corners p = wedge(degrees);
+      return standard.quality(p[0], p[1], p[2], p[3]);
+    };
+    for (const double angle : {goal.min_angle, goal.max_angle}) {
+      CHECK(quality(angle) == doctest::Approx(1));
+      CHECK(standard.quality_of_angle(angle) == doctest::Approx(1));
+    }
+    CHECK(quality(goal.min_angle - 0.1) < 1);
+    CHECK(quality(goal.min_angle + 0.1) > 1);
+    CHECK(quality(goal.max_angle + 0.1) < 1);
+    CHECK(quality(goal.max_angle - 0.1) > 1);
+  }
+}
+
+TEST_CASE("the default goal takes sines of exactly a half, so qualities are twice the sine") {
+  const Standard standard(Goal{}, Standard::Terms::sine);
+  for (const Corners& p : random_tets(200)) {
+    CHECK(standard.quality(p[0], p[1], p[2], p[3]) == 2 * minimum_sine(p[0], p[1], p[2], p[3]));
+  }
+}
+
+TEST_CASE("a needle is bad though its angles are good, but never worse than a share of the goal") {
+  const auto needle = [](double length) {
+    const double turn = 2 * std::numbers::pi / 3;
+    const double radius = 1 / std::sqrt(3.0);
+    Corners p;
+    for (int i = 0; i < 3; ++i) {
+      p[static_cast<std::size_t>(i)] =
+          Point(radius * std::cos(turn * i), radius * std::sin(turn * i), 0);
+    }
+    p[3] = Point(0, 0, -std::sqrt(length * length - 1.0 / 3));
+    std::swap(p[0], p[1]);
+    if (volume6(p[0], p[1], p[2], p[3]) < 0) std::swap(p[0], p[1]);
+    return p;
+  };
+  const Standard both(Goal{});
+  const Standard sine(Goal{}, Standard::Terms::sine);
+  const auto of = [](const Standard& standard, const Corners& p) {
+    return standard.quality(p[0], p[1], p[2], p[3]);
+  };
+  CHECK(of(both, needle(4)) == doctest::Approx(1));
+  CHECK(of(sine, needle(4)) > 1.5);
+  double last = 2;
+  for (const double length : {5.0, 8.0, 20.0, 100.0}) {
+    const double quality = of(both, needle(length));
+    CHECK(quality < last);
+    CHECK(quality > 0.4);
+    last = quality;
+  }
+  CHECK(last == doctest::Approx(0.4).epsilon(0.01));
+}
+
+TEST_CASE("quality follows from sines and the volume-length measure") {
+  const Standard standard(Goal{35, 140});
+  const double flat = std::sqrt(standard.flat2());
+  for (const Corners& p : random_tets(500)) {
+    const auto angles = angles_of(p);
+    double sines = 1e9;
+    for (const double angle : angles) sines = std::min(sines, standard.quality_of_angle(angle));
+    const double vl = volume_length(p[0], p[1], p[2], p[3]);
+    const double needle2 = 432 * (1 - flat * flat) / standard.length();
+    const double length = std::sqrt(flat * flat + (1 - flat * flat) * vl * vl / needle2);
+    const double expected = std::copysign(std::min(sines, length), vl);
+    CHECK(standard.quality(p[0], p[1], p[2], p[3]) == doctest::Approx(expected).epsilon(1e-6));
+  }
+}

@@ -534,7 +534,7 @@ TEST_CASE("tets below a limit are visited in the order of their slots, deleted o
   Workspace workspace(mesh);
   workspace.provide(mesh, 100, 0);  // deleted slots at the end
   REQUIRE(mesh.tet_slots() > mesh.tet_count());
-  const Quality limit = 0.6f;
+  const Quality limit = 1.2f;
   using Range = std::pair<std::size_t, std::size_t>;
   for (const Range& range :
        {Range{0, mesh.tet_slots()}, Range{5, 5}, Range{7, 200}, Range{33, 64}}) {

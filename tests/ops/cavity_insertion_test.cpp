@@ -101,7 +101,7 @@ TEST_CASE("the cavity ends at constrained faces and at other regions") {
                                   {0, 2, 3, 6}, {0, 2, 5, 6}, {1, 2, 3, 6}, {1, 2, 5, 6}};
   for (const MeshData& data : {faces, regions}) {
     LoneWorker worker(data);
-    REQUIRE(insert(worker, kTarget, {{"desperate", 1}}) == Verdict::accepted);
+    REQUIRE(insert(worker, kTarget, {{"desperate", 2}}) == Verdict::accepted);
     CHECK(worker.tets() == half);
   }
 }
@@ -116,7 +116,7 @@ TEST_CASE("a better worst tet is not worth many new bad ones, unless it is despe
     return insert(worker, kTarget, settings);
   };
   CHECK(verdict({}) == Verdict::no_improvement);
-  CHECK(verdict({{"desperate", 1}}) == Verdict::accepted);
+  CHECK(verdict({{"desperate", 2}}) == Verdict::accepted);
 }
 
 TEST_CASE("the larger the exponent, the less do mild bad tets count against a better worst tet") {
@@ -141,7 +141,7 @@ TEST_CASE("no more than max_tets give way") {
   for (const int most : {1, 2, 3}) {
     CAPTURE(most);
     LoneWorker worker(octahedron(3, 1, 1));
-    const ParameterSettings settings = {{"max_tets", most}, {"relax", 0}, {"desperate", 1}};
+    const ParameterSettings settings = {{"max_tets", most}, {"relax", 0}, {"desperate", 2}};
     const bool taken = insert(worker, kTarget, settings) == Verdict::accepted;
     std::size_t old_tets = 0;
     for (const Corners& tet : worker.tets()) old_tets += tet[3] < 6 ? 1 : 0;

@@ -28,7 +28,7 @@ struct Surroundings {
       for (unsigned f = 0; f < 4; ++f) {
         const HalfFace face(TetHandle(t), f);
         const auto [a, b, c] = mesh.vertices(face);
-        quality[t][f] = minimum_sine(point, mesh.point(a), mesh.point(b), mesh.point(c));
+        quality[t][f] = mesh.standard().quality(point, mesh.point(a), mesh.point(b), mesh.point(c));
         behind[t][f] = mesh.is_free(face) ? Mask{1} << mesh.twin(face).tet().index() : 0;
       }
     }

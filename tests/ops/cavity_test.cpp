@@ -51,7 +51,7 @@ TEST_CASE("a vertex in the middle of an octahedron takes all tets, the target fi
   CHECK(site.cavity.tets()[0] == site.target);
   CHECK(site.cavity.faces().size() == 8);
   // Each new tet is a corner of a cube: three right angles and three of 54.7 degrees.
-  CHECK(site.cavity.worst() == doctest::Approx(std::sqrt(2.0 / 3)));
+  CHECK(site.cavity.worst() == doctest::Approx(2 * std::sqrt(2.0 / 3)));
   CHECK(site.cavity.point() == Point(0, 0, 0));
 }
 
@@ -124,10 +124,10 @@ TEST_CASE("the best place is kept, in whatever order places come") {
 }
 
 TEST_CASE("a cavity that is not better than what is asked for is refused") {
-  Site site(octahedron(1, 1, 1), {}, 0.82);
+  Site site(octahedron(1, 1, 1), {}, 1.64);
   CHECK(site.offer(0, 0, 0) == Verdict::no_improvement);
-  CHECK(site.cavity.worst() == 0.82);
-  site.cavity.begin(site.target, 0.81, {});
+  CHECK(site.cavity.worst() == 1.64);
+  site.cavity.begin(site.target, 1.62, {});
   CHECK(site.offer(0, 0, 0) == Verdict::accepted);
 }
 

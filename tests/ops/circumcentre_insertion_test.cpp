@@ -37,12 +37,16 @@ const MeshData kCentreOutside = uneven_octahedron(1, 2, 3, 3);
 const std::set<Corners> kEightTets = {{0, 2, 3, 6}, {0, 3, 4, 6}, {0, 4, 5, 6}, {0, 2, 5, 6},
                                       {1, 2, 3, 6}, {1, 3, 4, 6}, {1, 4, 5, 6}, {1, 2, 5, 6}};
 
+// These octahedra are flat: needles would be in the way.
+const Standard kSine = Standard(Goal{}, Standard::Terms::sine);
+
 }  // namespace
 
 TEST_CASE("all tets whose circumspheres hold the circumcentre of the target give way to it") {
   for (const auto& [data, centre] : {std::pair(kCentreInTarget, Point(0.875, 0.875, 0)),
                                      std::pair(kCentreOpposite, Point(-4, -1.25, 0))}) {
     LoneWorker worker(data);
+    worker.mesh.set_standard(kSine);
     const Quality before = worker.worst();
     REQUIRE(insert(worker, kTarget, kUnsmoothed) == Verdict::accepted);
     CHECK(worker.tets() == kEightTets);
@@ -55,6 +59,7 @@ TEST_CASE("all tets whose circumspheres hold the circumcentre of the target give
 TEST_CASE("smoothing moves the new vertex away from the circumcentre before it is judged") {
   LoneWorker plain(kCentreOpposite);
   LoneWorker smoothed(kCentreOpposite);
+  for (LoneWorker* worker : {&plain, &smoothed}) worker->mesh.set_standard(kSine);
   REQUIRE(insert(plain, kTarget, kUnsmoothed) == Verdict::accepted);
   REQUIRE(insert(smoothed, kTarget) == Verdict::accepted);
   CHECK(smoothed.tets() == kEightTets);

@@ -30,7 +30,7 @@ struct Worker : LoneWorker {
 };
 
 const std::vector<std::string> kBoth = {"shell_transformation", "edge_removal"};
-constexpr double kRegular = 0.942809041582063366;
+constexpr double kRegular = 2 * 0.942809041582063366;
 
 /// Around the edge 0 1, ring 2, 3, ...
 MeshData shell_around(const Point& a, const Point& b, const std::vector<Point>& ring) {

@@ -49,7 +49,7 @@ TEST_CASE("a vertex displaced in an octahedron goes back to the centre") {
   Worker worker(octahedron({0.2, 0.1, -0.3}));
   CHECK(worker.attempt(0) == Verdict::accepted);
   CHECK(worker.centre().norm() < 1e-12);
-  CHECK(worker.worst() == doctest::Approx(0.8164966));
+  CHECK(worker.worst() == doctest::Approx(2 * 0.8164966));
   CHECK(worker.attempt(0) == Verdict::no_improvement);
 }
 

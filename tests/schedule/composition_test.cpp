@@ -184,7 +184,7 @@ TEST_CASE("a sequence with a theta_max lowers larger angles and leaves the worst
   constexpr double kThetaMax = 135;
   Composition what = sequence({op("edge_split"), op("recursive_shell_transformation"),
                                op("smoothing"), op("joint_smoothing")});
-  const Selection on = {.below = 0.8f};
+  const Selection on = {.below = 1.6f};
   TetMesh mesh(delaunay_ball(200, 4));
   Run run(mesh, kRegistry);
   do {

@@ -175,7 +175,7 @@ Content content_of(const MeshData& data) {
     const long double volume = volume6(x[0], x[1], x[2], x[3]);
     p.volumes[tet.label] += volume;
     p.absolute += std::abs(volume);
-    p.bad += minimum_sine(x[0], x[1], x[2], x[3]) < kBadThreshold;
+    p.bad += minimum_sine(x[0], x[1], x[2], x[3]) < 0.5;
     for (const auto& local : kFaceVertices) {
       const std::array<std::uint32_t, 3> face = {v[local[0]], v[local[1]], v[local[2]]};
       Corners outwards = corners(data, face);

@@ -58,7 +58,7 @@ std::vector<float> evaluate_tets(const TetMesh& mesh, const TetValue& value) {
   return values;
 }
 
-std::vector<std::uint32_t> boundary_layers(const TetMesh& mesh) {
+std::vector<std::uint32_t> distances_from_boundary(const TetMesh& mesh) {
   constexpr std::uint32_t kUnreached = 0xFFFFFFFFu;
   std::vector<std::uint32_t> layer(mesh.tet_slots(), kUnreached);
   std::vector<TetHandle> queue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers that belong to each tet of a mesh: values of a quality measure, layers from the boundary.
+// Numbers that belong to each tet of a mesh: values of a quality measure, distances from the
+// boundary.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ std::vector<float> evaluate_tets(const TetMesh& mesh, const TetValue& value);
 
 /// How many tets lie between a tet and the boundary, by slot: 0 for tets with a boundary face.
 /// Cost: linear.
-std::vector<std::uint32_t> boundary_layers(const TetMesh& mesh);
+std::vector<std::uint32_t> distances_from_boundary(const TetMesh& mesh);
 
 /// The `count` tets of least value, worst first, in the order of their numbers among equals; those
 /// that are not a number are left out. Cost: linear, and count log count.

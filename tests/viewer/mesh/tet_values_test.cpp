@@ -40,7 +40,7 @@ TEST_CASE("the quality of a tet is relative to the goal, which lies in the middl
 
 TEST_CASE("layers count tets from the boundary inwards") {
   const TetMesh mesh(test::kuhn_cube(6, 0, 1));
-  const auto layers = boundary_layers(mesh);
+  const auto layers = distances_from_boundary(mesh);
   for (std::uint32_t i = 0; i < layers.size(); ++i) {
     std::uint32_t least = 1000;
     bool at_boundary = false;

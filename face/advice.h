@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What a user should know about a mesh before a run, and about what held the run back.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tetmend/improve.h>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::face {
+
+/// Says which boundary layers are kept, and warns of a mesh that is stretched throughout. Reads the
+/// statistics before the run and the numbers of layers. Cost: none unless a third of the tets is
+/// bad, else linear.
+std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result);
+
+/// Says which constraints hold a tenth or more of the bad tets that are left, and what would free
+/// them. A constraint holds a tet if a face or an edge of the tet is one, or if it alone fixes one
+/// of its vertices. Cost: linear, little where no constraints are inside.
+std::vector<std::string> advice_after(const TetMesh& mesh, const Options& options,
+                                      const Result& result);
+
+}  // namespace tetmend::face

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "kernel/bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernel/chunks.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+namespace {
+
+/// Edges of a tet may differ by this factor, also where those of the mesh do not.
+constexpr double kEdgeRatio = 10;
+
+/// The figures of a tet that have bounds.
+struct Shape {
+  double sine2 = 1;         // least of the acute angles
+  double obtuse_sine2 = 1;  // least of the obtuse ones
+  double volume_length2 = 1;
+  double edge_ratio2 = 1;
+
+  Shape() = default;
+  /// Of a positive tet.
+  Shape(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const std::array<Point, 4> p = {a, b, c, d};
+    std::array<Point, 4> normal;
+    for (std::size_t f = 0; f < 4; ++f) {
+      const auto& [i, j, k] = kFaceVertices[f];
+      normal[f] = (p[j] - p[i]).cross(p[k] - p[i]);
+    }
+    const double v6 = volume6(a, b, c, d);
+    double sum = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const double length2 = (p[kEdgeVertices[e][1]] - p[kEdgeVertices[e][0]]).squaredNorm();
+      const auto& [k, l] = kEdgeVertices[5 - e];  // the faces at an edge are opposite these
+      const double product = normal[k].squaredNorm() * normal[l].squaredNorm();
+      const double square = v6 * v6 * length2 / product;
+      double& least = normal[k].dot(normal[l]) > 0 ? obtuse_sine2 : sine2;
+      least = std::min(least, square);
+      sum += length2;
+      shortest = std::min(shortest, length2);
+      longest = std::max(longest, length2);
+    }
+    volume_length2 = 432 * v6 * v6 / (sum * sum * sum);
+    edge_ratio2 = longest / shortest;
+  }
+  void include(const Shape& other) {
+    sine2 = std::min(sine2, other.sine2);
+    obtuse_sine2 = std::min(obtuse_sine2, other.obtuse_sine2);
+    volume_length2 = std::min(volume_length2, other.volume_length2);
+    edge_ratio2 = std::max(edge_ratio2, other.edge_ratio2);
+  }
+};
+
+/// Worst of the mesh.
+Shape worst_shape(const TetMesh& mesh) {
+  const auto parts = map_chunks<Shape>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    Shape worst;
+    for (std::size_t i = begin; i < end; ++i) {
+      const TetHandle t(static_cast<std::uint32_t>(i));
+      if (mesh.is_deleted(t)) continue;
+      const TetVertices& v = mesh.vertices(t);
+      if (!mesh.is_certified_positive(v)) {
+        worst = {};
+        worst.sine2 = worst.obtuse_sine2 = worst.volume_length2 = 0;
+        worst.edge_ratio2 = std::numeric_limits<double>::infinity();
+        break;
+      }
+      worst.include(Shape(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])));
+    }
+    return worst;
+  });
+  Shape worst;
+  for (const Shape& part : parts) worst.include(part);
+  return worst;
+}
+
+}  // namespace
+
+Bounds Bounds::of(const TetMesh& mesh) {
+  const Standard& standard = mesh.standard();
+  const Shape worst = worst_shape(mesh);
+  Bounds bounds;
+  bounds.least_sine2_ = worst.sine2;
+  bounds.least_obtuse_sine2_ = std::min(worst.obtuse_sine2, 1 / standard.obtuse2());
+  bounds.least_volume_length2_ = worst.volume_length2;
+  bounds.most_edge_ratio2_ = std::max(worst.edge_ratio2, kEdgeRatio * kEdgeRatio);
+  bounds.any_ = true;
+  return bounds.under(standard);
+}
+
+Bounds Bounds::under(const Standard& standard) const {
+  Bounds bounds = *this;
+  if (!any_) return bounds;
+  bounds.safe_ = std::numeric_limits<Quality>::infinity();
+  if (standard.terms() != Standard::Terms::sine_and_length) return bounds;
+  const double safe2 =
+      std::max({standard.acute2() * least_sine2_, standard.obtuse2() * least_obtuse_sine2_,
+                standard.flat2() + standard.length() / 432 * least_volume_length2_,
+                1.0});  // no tet of quality 1 has an edge ratio of 10
+  bounds.safe_ = static_cast<Quality>(std::sqrt(safe2) * (1 + 1e-6));
+  return bounds;
+}
+
+bool Bounds::admit(const Point& a, const Point& b, const Point& c, const Point& d) const {
+  const Shape shape(a, b, c, d);
+  return shape.sine2 >= least_sine2_ && shape.obtuse_sine2 >= least_obtuse_sine2_ &&
+         shape.volume_length2 >= least_volume_length2_ && shape.edge_ratio2 <= most_edge_ratio2_;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What no change may make worse, whatever else it brings.
+#pragma once
+
+#include <limits>
+
+#include "kernel/quality.h"
+
+namespace tetmend {
+
+class TetMesh;
+
+/// Bounds on every new tet: those of the worst tets that a run began with. The quality of a tet
+/// does not hold them: it takes large and small angles for the same, and a needle may be better
+/// than a tet with a sharp angle. A value; immutable.
+class Bounds {
+ public:
+  /// No bounds.
+  Bounds() = default;
+  /// Of the mesh as it is: no smaller dihedral angle, no larger one than in the mesh or its goal, no
+  /// smaller mean ratio, no larger ratio of the longest to the shortest edge of a tet than in the
+  /// mesh or 10. Cost: one pass over the tets. Inverted tets bound nothing.
+  static Bounds of(const TetMesh& mesh);
+
+  /// The same bounds where tets are judged by another standard.
+  Bounds under(const Standard& standard) const;
+
+  /// Tets of this quality or more keep the bounds, whatever their shape.
+  Quality safe() const { return safe_; }
+  /// Precondition: the tet is in positive order.
+  bool admit(const Point& a, const Point& b, const Point& c, const Point& d) const;
+
+ private:
+  double least_sine2_ = 0;           // of an acute angle
+  double least_obtuse_sine2_ = 0;    // of an obtuse one
+  double least_volume_length2_ = 0;  // mean ratio = volume-length^(2/3)
+  double most_edge_ratio2_ = std::numeric_limits<double>::infinity();
+  bool any_ = false;
+  Quality safe_ = -std::numeric_limits<Quality>::infinity();
+};
+
+}  // namespace tetmend

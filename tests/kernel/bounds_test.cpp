@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// What no change may make worse: single tets against a mesh, then judges and whole runs.
+#include "kernel/bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "contract/zoo.h"
+#include "kernel/statistics.h"
+#include "kernel/tet_mesh.h"
+#include "ops/registry.h"
+#include "schedule/schedule.h"
+
+using namespace tetmend;
+using namespace tetmend::contract;
+
+namespace {
+
+using Corners = std::array<Point, 4>;
+
+const Registry kRegistry = Registry::builtin();
+
+bool admits(const Bounds& bounds, const Corners& p) {
+  return bounds.admit(p[0], p[1], p[2], p[3]);
+}
+
+/// A tet with an edge along z of the given dihedral angle, in degrees.
+Corners wedge(double angle) {
+  const double turn = angle * 3.14159265358979323846 / 180;
+  return {Point(0, 0, -0.5), Point(0, 0, 0.5), Point(1, 0, 0),
+          Point(std::cos(turn), std::sin(turn), 0)};
+}
+
+TetMesh mesh_of(const Corners& p) {
+  MeshData data;
+  data.points.assign(p.begin(), p.end());
+  data.tets.push_back({{0, 1, 2, 3}, 0});
+  return TetMesh(data);
+}
+
+double edge_ratio(const Corners& p) {
+  double shortest = 1e300;
+  double longest = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = i + 1; k < 4; ++k) {
+      shortest = std::min(shortest, (p[i] - p[k]).norm());
+      longest = std::max(longest, (p[i] - p[k]).norm());
+    }
+  }
+  return longest / shortest;
+}
+
+/// The four figures that have bounds, of a whole mesh.
+struct Figures {
+  double theta_min, theta_max, mean_ratio, edge_ratio = 0;
+
+  explicit Figures(const TetMesh& mesh) {
+    const MeshStatistics s = compute_statistics(mesh);
+    theta_min = s.theta_min;
+    theta_max = s.theta_max;
+    mean_ratio = summarize(mesh, find_quality_measure("mean_ratio")).worst;
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      if (mesh.is_deleted(TetHandle(i))) continue;
+      const TetVertices& v = mesh.vertices(TetHandle(i));
+      edge_ratio = std::max(edge_ratio, of_tet(mesh, v));
+    }
+  }
+  static double of_tet(const TetMesh& mesh, const TetVertices& v) {
+    return ::edge_ratio({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a tet may have no smaller and no larger angle than the worst of the mesh") {
+  const Bounds sharp = Bounds::of(mesh_of(wedge(10)));
+  CHECK(admits(sharp, wedge(10.001)));
+  CHECK_FALSE(admits(sharp, wedge(9.999)));
+  CHECK(admits(sharp, wedge(149)));  // within the goal
+  CHECK_FALSE(admits(sharp, wedge(151)));
+  const Bounds blunt = Bounds::of(mesh_of(wedge(160)));
+  CHECK(admits(blunt, wedge(159)));
+  CHECK_FALSE(admits(blunt, wedge(160.001)));
+}
+
+TEST_CASE("a mesh without bounds, and one with an inverted tet, admit all") {
+  CHECK(admits({}, wedge(0.01)));
+  CHECK(Bounds().safe() < -1e30f);
+  MeshData data;
+  const Corners p = wedge(60);
+  data.points.assign(p.begin(), p.end());
+  data.points.push_back({1, 0.5, 0.1});
+  data.tets = {{{0, 1, 2, 3}, 0}};
+  TetMesh mesh(data);
+  CHECK_FALSE(admits(Bounds::of(mesh), wedge(10)));
+}
+
+TEST_CASE("a tet of the quality that is called safe keeps the bounds") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (const double angle : {5.0, 12.0, 170.0}) {
+    const TetMesh mesh = mesh_of(wedge(angle));
+    const Bounds bounds = Bounds::of(mesh);
+    unsigned safe = 0;
+    for (int i = 0; i < 200'000; ++i) {
+      Corners p;
+      for (Point& x : p) x = Point(coordinate(random), coordinate(random), coordinate(random));
+      if (i % 2 == 0) p[1] = p[0] + 0.1 * p[1];  // a short edge
+      if (mesh.standard().quality(p[0], p[1], p[2], p[3]) < bounds.safe()) continue;
+      ++safe;
+      REQUIRE(admits(bounds, p));
+      REQUIRE(edge_ratio(p) < 10);
+    }
+    CHECK(safe > 100);
+  }
+}
+
+TEST_CASE("no schedule leaves a tet beyond the bounds of its mesh") {
+  for (const MeshData& data : {delaunay_ball(120, 3), kuhn_cube(4, 0.35, 2)}) {
+    for (const char* name : {"shell", "conservative", "stellar"}) {
+      CAPTURE(name);
+      TetMesh mesh(data);
+      mesh.set_bounds(Bounds::of(mesh));
+      const Figures before(mesh);
+      Run run(mesh, kRegistry);
+      improve(run, Schedule::builtin(name));
+      const Figures now(mesh);
+      CHECK(now.theta_min >= before.theta_min - 1e-9);
+      CHECK(now.theta_max <= std::max(before.theta_max, 150.0) + 1e-9);
+      CHECK(now.mean_ratio >= before.mean_ratio - 1e-9);
+      CHECK(now.edge_ratio <= std::max(before.edge_ratio, 10.0) + 1e-9);
+    }
+  }
+}
