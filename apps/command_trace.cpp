@@ -96,21 +96,32 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
   out.commit();
 }
 
+/// What was tried, as a script writes it.
+std::string script_of(const TraceFile& file, const Call& call) {
+  const std::string_view name = file.name(call.operator_name);
+  const std::string_view settings = file.name(call.settings);
+  if (name == kSequenceName) return fmt::format("{}{{{}}}", name, settings);
+  return fmt::format("{{\"{}\"{}{}}}", name, settings.empty() ? "" : ", ", settings);
+}
+
 /// A folder with all that repeating one call needs.
 void write_extract(const Options& options, const TraceFile& file) {
   check_call(file, *options.extract);
   Replay replay(file, 0);
   const CallExtract kit = extract_call(file, replay, *options.extract);
   const Call& call = file.calls()[kit.call];
-  const std::string_view settings = file.name(call.settings);
+  const Goal& goal = kit.standard.goal();
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
   write_mesh(options.output / "call.mesh", kit.mesh);
   write_text(options.output / "call.lua",
-             fmt::format("-- Call {} of {}: {} -> {}\nattempt({{\"{}\"{}{}}}, {{{}}}{})\n",
+             fmt::format("-- Call {} of {}: {} -> {}\n"
+                         "goal{{min = {}, max = {}, measure = \"{}\"}}\n"
+                         "attempt({}, {{{}}}{})\n",
                          kit.call, options.file.filename().string(), describe_call(file, kit.call),
-                         call.verdict_text(), file.name(call.operator_name),
-                         settings.empty() ? "" : ", ", settings, fmt::join(kit.target, ", "),
+                         call.verdict_text(), goal.min_angle, goal.max_angle,
+                         to_string(kit.standard.terms()), script_of(file, call),
+                         fmt::join(kit.target, ", "),
                          kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
   write_text(options.output / "README.txt",
              fmt::format("Repeats call {} of a run of {}\n\n"

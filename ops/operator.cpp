@@ -27,6 +27,22 @@ TetHandle tet_of(Target target) {
 
 }  // namespace
 
+TargetVertices::TargetVertices(const TetMesh& mesh, Target target) {
+  const auto take = [&](const auto& vertices) {
+    for (const VertexHandle v : vertices) vertices_[count_++] = v;
+  };
+  switch (target.kind) {
+    case TargetKind::tet:
+      return take(mesh.vertices(target.tet()));
+    case TargetKind::edge:
+      return take(mesh.vertices(target.edge()));
+    case TargetKind::face:
+      return take(mesh.vertices(target.face()));
+    case TargetKind::vertex:
+      return take(std::array{target.vertex()});
+  }
+}
+
 OperatorState& OperatorStates::of(const Operator& op) {
   const std::type_info* type = &typeid(op);
   for (const Entry& entry : entries_) {
@@ -106,26 +122,8 @@ Verdict Operator::attempt(OperatorContext& outer, Target target) const {
   if (context.judge == nullptr) context.judge = &judge_;
   if (context.trace == nullptr) return try_target(context, target);
 
-  std::array<VertexHandle, 4> vertices;
-  std::size_t count = 0;
-  const auto take = [&](const auto& of) {
-    for (const VertexHandle v : of) vertices[count++] = v;
-  };
-  switch (target.kind) {
-    case TargetKind::tet:
-      take(context.mesh.vertices(target.tet()));
-      break;
-    case TargetKind::edge:
-      take(context.mesh.vertices(target.edge()));
-      break;
-    case TargetKind::face:
-      take(context.mesh.vertices(target.face()));
-      break;
-    case TargetKind::vertex:
-      vertices[count++] = target.vertex();
-      break;
-  }
-  context.trace->attempt_begins({info_.name, {vertices.data(), count}, context.level, settings_});
+  const TargetVertices vertices(context.mesh, target);
+  context.trace->attempt_begins({info_.name, vertices.all(), context.level, settings_});
   const Verdict verdict = try_target(context, target);
   report_end(context, verdict);
   return verdict;

@@ -39,6 +39,18 @@ struct Target {
   VertexHandle vertex() const { return VertexHandle(code); }
 };
 
+/// The vertices of a target, which outlive its handle: 1 of a vertex, 2 of an edge, 3 of a face, 4
+/// of a tet.
+class TargetVertices {
+ public:
+  TargetVertices(const TetMesh& mesh, Target target);
+  std::span<const VertexHandle> all() const { return {vertices_.data(), count_}; }
+
+ private:
+  std::array<VertexHandle, 4> vertices_;
+  std::size_t count_ = 0;
+};
+
 class Operator;
 class Registry;
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "kernel/error.h"
 
@@ -120,11 +122,16 @@ constexpr std::string_view to_string(Composition::Kind kind) {
     case Composition::Kind::all_of:
       return "all_of";
     case Composition::Kind::sequence:
-      return "sequence";
+      return kSequenceName;
     case Composition::Kind::one:
       break;
   }
   return "";
+}
+
+constexpr std::string_view to_string(EdgeOrder order) {
+  constexpr std::array<std::string_view, 4> kNames = {"sine", "angle", "longest", "shortest"};
+  return kNames[static_cast<std::size_t>(order)];
 }
 
 }  // namespace
@@ -172,7 +179,7 @@ TetAttempts::TetAttempts(const Registry& registry, const Composition& compositio
     : root_(build(registry, composition)) {}
 
 TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition& composition) {
-  Node node{composition.kind, {}, {}, composition.desperate, composition.theta_max};
+  Node node{composition.kind, {}, {}, composition.desperate, composition.theta_max, {}};
   switch (composition.kind) {
     case Composition::Kind::one:
       node.leaf = build_leaf(registry, composition);
@@ -189,12 +196,40 @@ TetAttempts::Node TetAttempts::build(const Registry& registry, const Composition
         node.parts.push_back(build(registry, parts[i]));
       }
       bits_ = bits;
+      node.settings = script_of_parts(node);
       break;
     }
     default:
       for (const Composition& part : composition.parts) node.parts.push_back(build(registry, part));
   }
   return node;
+}
+
+std::string TetAttempts::script_of(const Leaf& leaf) {
+  std::string text = fmt::format("{{\"{}\"", leaf.op->info().name);
+  if (!leaf.op->settings().empty()) text += ", " + leaf.op->settings();
+  if (leaf.op->info().target == TargetKind::edge) {
+    text +=
+        fmt::format(", order = \"{}\", most_edges = {}", to_string(leaf.order), leaf.most_edges);
+  }
+  return text + "}";
+}
+
+/// As a script writes it, with the values of all parameters.
+std::string TetAttempts::script_of(const Node& node) {
+  if (node.kind == Composition::Kind::one) return script_of(node.leaf);
+  return fmt::format("{}{{{}}}", to_string(node.kind), script_of_parts(node));
+}
+
+std::string TetAttempts::script_of_parts(const Node& node) {
+  std::vector<std::string> parts;
+  if (node.kind == Composition::Kind::sequence) parts.push_back(script_of(node.leaf));
+  for (const Node& part : node.parts) parts.push_back(script_of(part));
+  if (node.kind == Composition::Kind::sequence) {
+    parts.push_back(fmt::format("desperate = {}", node.desperate));
+    parts.push_back(fmt::format("theta_max = {}", node.theta_max));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 TetAttempts::Leaf TetAttempts::build_leaf(const Registry& registry,
@@ -292,6 +327,11 @@ bool TetAttempts::try_once(const Node& node, Progress& progress, Target target, 
   return true;
 }
 
+Verdict TetAttempts::attempt_once(Worker& worker, Target target, const TetVertices& tet) const {
+  worker.provide_memory(leaves_);
+  return worker.count(attempt(root_, worker, target, tet));
+}
+
 Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
                              const TetVertices& tet) const {
   if (node.kind == Composition::Kind::sequence) {
@@ -300,9 +340,23 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
   return node.leaf.op->attempt(worker.context(), target);
 }
 
+/// To the trace a sequence is an attempt like that of an operator, with those of its parts in it.
 Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target target,
                                       const TetVertices& tet) const {
   OperatorContext& context = worker.context();
+  if (context.trace == nullptr) return try_sequence(node, worker, target, tet);
+  const TargetVertices vertices(context.mesh, target);
+  context.trace->attempt_begins({kSequenceName, vertices.all(), context.level, node.settings});
+  const Verdict verdict = try_sequence(node, worker, target, tet);
+  report_end(context, verdict);
+  return verdict;
+}
+
+/// Undone, unless accepted, when it returns; the last comparison then is its own.
+Verdict TetAttempts::try_sequence(const Node& node, Worker& worker, Target target,
+                                  const TetVertices& tet) const {
+  OperatorContext& context = worker.context();
+  Comparison& comparison = context.states.comparison;
   // Of 180 degrees 0: below it, no tet is.
   const double blunt =
       node.theta_max < 180 ? context.mesh.standard().quality_of_angle(node.theta_max) : 0;
@@ -315,8 +369,11 @@ Verdict TetAttempts::attempt_sequence(const Node& node, Worker& worker, Target t
   OperatorContext opening = context;
   opening.judge = &hopeful;
   const Verdict verdict = node.leaf.op->attempt(opening, target);
-  if (verdict != Verdict::accepted) return verdict;
-  Comparison& comparison = context.states.comparison;
+  if (verdict != Verdict::accepted) {
+    comparison.forget();  // of what the operator compared
+    return verdict;
+  }
+  if (context.trace != nullptr) context.trace->candidate_found();
   bool all_tried = true;
   for (const Node& part : node.parts) {
     comparison.look_at(sequence);

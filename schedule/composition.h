@@ -62,6 +62,12 @@ class TetAttempts {
   /// Makes the attempts that the entry still has to do. False if some were deferred; these are
   /// noted in the entry.
   bool work_off(Worker& worker, QueuedTet& entry, Date since) const;
+  /// What the operator is aimed at, or the one that opens the sequence.
+  /// Precondition: the composition is one of these.
+  TargetKind target_kind() const { return root_.leaf.op->info().target; }
+  /// One attempt, which is counted. `tet` has the vertices of the tet that the target belongs to.
+  /// Precondition: as for target_kind().
+  Verdict attempt_once(Worker& worker, Target target, const TetVertices& tet) const;
 
  private:
   struct Leaf {
@@ -77,10 +83,14 @@ class TetAttempts {
     std::vector<Node> parts;  ///< of a sequence, what follows
     double desperate;
     double theta_max;
+    std::string settings;  ///< of a sequence: its parts, as a script writes them
   };
   struct Progress;
 
   Node build(const Registry& registry, const Composition& composition);
+  static std::string script_of(const Leaf& leaf);
+  static std::string script_of(const Node& node);
+  static std::string script_of_parts(const Node& node);
   Leaf build_leaf(const Registry& registry, const Composition& composition);
   void run(const Node& node, Progress& progress) const;
   void run_leaf(const Node& node, Progress& progress) const;
@@ -89,6 +99,8 @@ class TetAttempts {
   Verdict attempt(const Node& node, Worker& worker, Target target, const TetVertices& tet) const;
   Verdict attempt_sequence(const Node& node, Worker& worker, Target target,
                            const TetVertices& tet) const;
+  Verdict try_sequence(const Node& node, Worker& worker, Target target,
+                       const TetVertices& tet) const;
   bool follow_up(const Node& part, Worker& worker, const Transaction& sequence, Quality limit,
                  double blunt) const;
   static void forget(const Node& node, Worker& worker);

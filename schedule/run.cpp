@@ -38,6 +38,7 @@ void Run::set_standard(const Standard& standard) {
   mesh_.set_standard(standard);
   last_sweep_.clear();
   is_measured_ = false;
+  if (trace_ != nullptr) trace_->standard_changed(standard);
 }
 
 QualityIndicators Run::indicators() const {

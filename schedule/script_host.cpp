@@ -294,13 +294,13 @@ int ScriptHost::apply(lua_State* lua) {
 int ScriptHost::attempt(lua_State* lua) {
   begin_work();
   const Composition what = read_composition(run_->registry(), {"attempt"}, read_value(lua, 1));
-  if (what.kind != Composition::Kind::one) throw Error("attempt: must be one operator");
+  if (what.kind != Composition::Kind::one && what.kind != Composition::Kind::sequence) {
+    throw Error("attempt: must be one operator or a sequence");
+  }
   const std::vector<std::uint32_t> vertices = read_vertices(read_value(lua, 2));
   std::vector<std::uint32_t> tet;
   if (!lua_isnoneornil(lua, 3)) tet = read_vertices(read_value(lua, 3));
-  return make_pass(lua, [&] {
-    attempt_once(*run_, {what.operator_name, what.settings, vertices, tet});
-  });
+  return make_pass(lua, [&] { attempt_once(*run_, {what, vertices, tet}); });
 }
 
 int ScriptHost::compose(lua_State* lua, const char* how) {

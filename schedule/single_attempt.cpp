@@ -35,11 +35,16 @@ bool are_same(std::span<const VertexHandle> some, std::span<const VertexHandle> 
   return std::is_permutation(some.begin(), some.end(), others.begin(), others.end());
 }
 
+struct Place {
+  Target target;
+  TetVertices tet;  // that it was found in
+};
+
 /// In the tet of vertices `from`, or in any if there are none.
-std::optional<Target> find_target(const TetMesh& mesh, TargetKind kind,
-                                  std::span<const VertexHandle> wanted,
-                                  std::span<const VertexHandle> from) {
-  std::optional<Target> found;
+std::optional<Place> find_target(const TetMesh& mesh, TargetKind kind,
+                                 std::span<const VertexHandle> wanted,
+                                 std::span<const VertexHandle> from) {
+  std::optional<Place> found;
   bool in_order = false;
   for (std::uint32_t i = 0; i < mesh.tet_slots() && !in_order; ++i) {
     const TetHandle t(i);
@@ -47,7 +52,7 @@ std::optional<Target> find_target(const TetMesh& mesh, TargetKind kind,
     visit_targets(mesh, t, kind, [&](Target target, std::span<const VertexHandle> vertices) {
       if (in_order || !are_same(vertices, wanted)) return;
       in_order = std::equal(vertices.begin(), vertices.end(), wanted.begin());
-      if (in_order || !found) found = target;
+      if (in_order || !found) found = {target, mesh.vertices(t)};
     });
   }
   return found;
@@ -70,19 +75,19 @@ std::vector<VertexHandle> to_handles(const MeshView& view, std::span<const std::
 
 void attempt_once(Run& run, const SingleAttempt& options) {
   PassScope scope(run, "attempt");
-  const auto op = run.registry().make(options.operator_name, options.settings);
+  const TetAttempts attempts(run.registry(), options.what);
   const MeshView view(run.mesh());
-  const TargetKind kind = op->info().target;
-  const auto target = find_target(run.mesh(), kind, to_handles(view, options.vertices),
-                                  to_handles(view, options.tet));
-  if (!target) {
-    throw Error(fmt::format("attempt: {}: no {} has the vertices {}{}{}", options.operator_name,
+  const TargetKind kind = attempts.target_kind();
+  const auto place = find_target(run.mesh(), kind, to_handles(view, options.vertices),
+                                 to_handles(view, options.tet));
+  if (!place) {
+    throw Error(fmt::format("attempt: {}: no {} has the vertices {}{}{}", options.what.name(),
                             to_string(kind), fmt::join(options.vertices, ", "),
                             options.tet.empty() ? "" : " in a tet of ",
                             fmt::join(options.tet, ", ")));
   }
   scope.expect(1);
-  run.worker().attempt(*op, *target);
+  attempts.attempt_once(run.worker(), place->target, place->tet);
   scope.take_verdicts(run.worker());
   run.note_added_vertices(run.worker());
 }

@@ -3,16 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "schedule/composition.h"
 #include "schedule/run.h"
 
 namespace tetmend {
 
 struct SingleAttempt {
-  std::string operator_name;
-  ParameterSettings settings = {};
+  Composition what;  ///< an operator or a sequence
   /// Of the target; numbers as in MeshView(mesh), so at first those of the mesh's file.
   std::vector<std::uint32_t> vertices;
   /// Of the tet that names the target; empty: any. Operators start their walks there, so what they

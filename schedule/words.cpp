@@ -83,10 +83,10 @@ constexpr std::array<WordInfo, 21> kWords = {{
      "operator on edges, faces or vertices is tried on those of the tet",
      kOnlyOn, kApplyNumbers},
     {"attempt", "attempt(what, {vertex, ...}, {vertex, vertex, vertex, vertex})",
-     "tries one operator once; `what` is as for apply, without order. The target is the vertex, or "
-     "the edge, face or tet of these vertices, by their numbers (from 0) in the mesh as it would "
-     "be written now. An edge or face is seen from the tet of the last four vertices, if they are "
-     "given: that may decide what is tried first"},
+     "tries one operator or one sequence once; `what` is as for apply, without order. The target "
+     "is the vertex, or the edge, face or tet of these vertices, by their numbers (from 0) in the "
+     "mesh as it would be written now. An edge or face is seen from the tet of the last four "
+     "vertices, if they are given: that may decide what is tried first"},
     {"first_of", "first_of{what, what, ...}",
      "for apply: tries the parts on one tet in turn until an attempt is accepted"},
     {"all_of", "all_of{what, what, ...}",

@@ -82,6 +82,7 @@ CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t ca
   }
   CallExtract result;
   result.call = call;
+  result.standard = mesh.standard();
   std::vector<std::uint32_t> slots;
   result.mesh = mesh.extract(tets, &slots);
   result.frozen = mark_frozen(mesh.frozen_tets(), tets, result.mesh);

@@ -17,6 +17,7 @@ struct CallExtract {
   std::vector<std::uint32_t> target;  ///< vertices of the target, by their numbers in `mesh`
   std::vector<std::uint32_t> tet;     ///< the tet visited, which names the target; empty: none
   std::optional<Label> frozen;        ///< label that tets have here which the run had to keep
+  Standard standard;                  ///< by which the call judged tets
 };
 
 /// All tets around the targets of the call and of those in it and around what these changed, and

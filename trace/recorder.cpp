@@ -3,6 +3,7 @@
 #include "trace/recorder.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -161,6 +162,12 @@ void TraceRecorder::visit_ends() {
   visit_.reset();
 }
 
+void TraceRecorder::standard_changed(const Standard& standard) {
+  if (!active_) return;
+  encoder_.standard_changes(standard, ticks());
+  wrote_event();
+}
+
 bool TraceRecorder::is_near(const AttemptEvent& event) const {
   if (!open_.empty()) return open_.back().near;
   return !filter_.around ||
@@ -222,6 +229,7 @@ void TraceRecorder::edit_made(const TetMesh& mesh, const Journal& journal) {
 /// In an attempt that is not written nothing is known of edits that were undone.
 void TraceRecorder::edit_undone() {
   if (!active_) return;
+  assert(!edits_.empty());  // an edit is undone in the outermost attempt that it was made in
   const std::size_t begin = edits_.back();
   edits_.pop_back();
   if (begin >= fence_ && !is_written()) {

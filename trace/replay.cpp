@@ -46,6 +46,7 @@ void Replay::forget_log() {
   log_.steps.clear();
   log_.tets.clear();
   log_.vertices.clear();
+  log_.standards.clear();
   log_.open.clear();
 }
 
@@ -82,8 +83,11 @@ void Replay::back_to(std::uint64_t position) {
     log_.steps.pop_back();
     log_.tets.resize(step.tets_begin);
     log_.vertices.resize(step.vertices_begin);
-    if (step.is_undo) {
+    if (step.kind == EventKind::undo) {
       log_.open.push_back(step.undone);
+    } else if (step.kind == EventKind::standard_changes) {
+      mesh_.set_standard(log_.standards.back());
+      log_.standards.pop_back();
     } else {
       log_.open.pop_back();
     }
@@ -97,14 +101,17 @@ TetVertices Replay::content(TetHandle t) const {
 
 /// Logs and makes the step that an event is, if it is one.
 void Replay::play(const TraceEvent& event) {
-  if (!changes_mesh(event.kind)) return;
+  if (!changes_mesh(event.kind) && event.kind != EventKind::standard_changes) return;
   Step& step = log_.steps.emplace_back();
   step.event = position_;
   step.tets_begin = static_cast<std::uint32_t>(log_.tets.size());
   step.vertices_begin = static_cast<std::uint32_t>(log_.vertices.size());
-  step.is_undo = event.kind == EventKind::undo;
-  if (step.is_undo) {
+  step.kind = event.kind;
+  if (step.kind == EventKind::undo) {
     log_undo();
+  } else if (step.kind == EventKind::standard_changes) {
+    log_.standards.push_back(mesh_.standard());
+    mesh_.set_standard(event.standard);
   } else {
     log_.open.push_back(static_cast<std::uint32_t>(log_.steps.size() - 1));
     if (event.kind == EventKind::replace_cavity) {

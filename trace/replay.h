@@ -66,8 +66,8 @@ class Replay {
     std::uint64_t event;
     std::uint32_t tets_begin, tets_end;
     std::uint32_t vertices_begin, vertices_end;
-    bool is_undo;
-    std::uint32_t undone;  // step that it undoes
+    EventKind kind;
+    std::uint32_t undone;  // by an undo: that step
   };
   // Steps since a keyframe or a later chunk, to go back by.
   struct Log {
@@ -75,6 +75,7 @@ class Replay {
     std::vector<Step> steps;
     std::vector<TetChange> tets;
     std::vector<Cavity::VertexChange> vertices;
+    std::vector<Standard> standards;  // before each change of it
     std::vector<std::uint32_t> open;  // steps that may still be undone
   };
   struct Keyframe {

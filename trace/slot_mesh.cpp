@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "kernel/mesh_view.h"
+#include "trace/traced_standard.h"
 
 namespace tetmend {
 
@@ -163,30 +164,8 @@ std::size_t SlotMesh::bytes() const {
          points_.size() * (sizeof(Point) + 1) + triangles_.size() * sizeof(MeshData::Triangle);
 }
 
-namespace {
-
-void encode_standard(ByteWriter& out, const Standard& standard) {
-  const Goal goal = standard.goal();
-  out.put_bytes(&goal.min_angle, sizeof goal.min_angle);
-  out.put_bytes(&goal.max_angle, sizeof goal.max_angle);
-  out.put(static_cast<std::uint64_t>(standard.terms()));
-}
-
-Standard decode_standard(ByteReader& in) {
-  Goal goal;
-  in.get_bytes(&goal.min_angle, sizeof goal.min_angle);
-  in.get_bytes(&goal.max_angle, sizeof goal.max_angle);
-  const std::uint64_t terms = in.get();
-  if (!is_sound(goal) || terms > static_cast<std::uint64_t>(Standard::Terms::sine_and_length)) {
-    throw ByteReader::Damage();
-  }
-  return Standard(goal, static_cast<Standard::Terms>(terms));
-}
-
-}  // namespace
-
 void SlotMesh::encode(ByteWriter& out) const {
-  encode_standard(out, standard_);
+  put_standard(out, standard_);
   out.put(points_.size());
   out.put_bytes(live_.data(), live_.size());
   out.put_bytes(points_.data(), points_.size() * sizeof(Point));
@@ -212,7 +191,7 @@ void SlotMesh::encode(ByteWriter& out) const {
 
 SlotMesh SlotMesh::decode(ByteReader& in) {
   SlotMesh mesh;
-  mesh.standard_ = decode_standard(in);
+  mesh.standard_ = get_standard(in);
   const std::size_t vertices = in.get_count();
   mesh.live_.resize(vertices);
   in.get_bytes(mesh.live_.data(), vertices);

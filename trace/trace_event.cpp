@@ -6,6 +6,8 @@
 #include <bit>
 #include <cassert>
 
+#include "trace/traced_standard.h"
+
 namespace tetmend {
 
 // --- writing -------------------------------------------------------------------------------------
@@ -94,6 +96,12 @@ void EventEncoder::attempt_ends(Verdict verdict, std::span<const Quality> before
   put_name(to_string(verdict));
   put_qualities(before);
   put_qualities(now);
+}
+
+void EventEncoder::standard_changes(const Standard& standard, std::uint64_t ticks) {
+  put_kind(EventKind::standard_changes);
+  put_time(ticks);
+  put_standard(out_, standard);
 }
 
 void EventEncoder::edit(const TetMesh& mesh, const Journal& journal) {
@@ -217,9 +225,7 @@ void EventDecoder::next(TraceEvent& event) {
   const std::uint64_t kind = in_.get();
   if (kind >= kEventKinds) throw ByteReader::Damage();
   event.kind = static_cast<EventKind>(kind);
-  if (event.kind <= EventKind::attempt_ends && event.kind != EventKind::candidate_found) {
-    get_time(event);
-  }
+  if (has_time(event.kind)) get_time(event);
   switch (event.kind) {
     case EventKind::pass_begins:
       event.name = get_name().number;
@@ -261,6 +267,9 @@ void EventDecoder::next(TraceEvent& event) {
       if (event.kind == EventKind::remove_vertex) break;
       in_.get_bytes(event.point.data(), 3 * sizeof(double));
       if (event.kind == EventKind::move_vertex) get_star(event);
+      break;
+    case EventKind::standard_changes:
+      event.standard = get_standard(in_);
       break;
     case EventKind::visit_ends:
     case EventKind::candidate_found:

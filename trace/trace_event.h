@@ -29,20 +29,26 @@ enum class EventKind : std::uint8_t {
   move_vertex,
   add_vertex,
   remove_vertex,
-  undo  ///< of the last edit that was not undone
+  undo,             ///< of the last edit that was not undone
+  standard_changes  ///< between two passes: tets are judged by another one
 };
-inline constexpr std::size_t kEventKinds = 12;
+inline constexpr std::size_t kEventKinds = 13;
 
 constexpr std::string_view to_string(EventKind kind) {
   constexpr std::array<std::string_view, kEventKinds> kNames = {
-      "pass begins",    "pass ends",    "visit begins",   "visit ends",
-      "attempt begins", "candidate",    "attempt ends",   "cavity replaced",
-      "vertex moved",   "vertex added", "vertex removed", "undo"};
+      "pass begins",    "pass ends",    "visit begins",    "visit ends",   "attempt begins",
+      "candidate",      "attempt ends", "cavity replaced", "vertex moved", "vertex added",
+      "vertex removed", "undo",         "goal changes"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 /// True if the mesh is another after the event.
 constexpr bool changes_mesh(EventKind kind) {
-  return kind >= EventKind::replace_cavity;
+  return kind >= EventKind::replace_cavity && kind <= EventKind::undo;
+}
+
+/// Edits and candidates take their time from what is around them.
+constexpr bool has_time(EventKind kind) {
+  return kind != EventKind::candidate_found && !changes_mesh(kind);
 }
 
 /// One event. Which members mean something depends on the kind; the others are left as they were.
@@ -57,6 +63,7 @@ struct TraceEvent {
   std::vector<VertexHandle> vertices;  ///< of the target, of the visited tet, or of a vertex edit
   Quality quality = 0;                 ///< of the visited tet
   QualityIndicators now;               ///< after a pass
+  Standard standard;                   ///< from now on
   std::vector<Quality> before, after;  ///< quality vectors that were compared, ascending
   Point point = Point::Zero();         ///< of an added or moved vertex, after
   /// Slots that a cavity takes away; of a move, the star of the vertex.
@@ -84,6 +91,7 @@ class EventEncoder {
   void candidate_found();
   void attempt_ends(Verdict verdict, std::span<const Quality> before, std::span<const Quality> now,
                     std::uint64_t ticks);
+  void standard_changes(const Standard& standard, std::uint64_t ticks);
   /// The last edit of the journal.
   void edit(const TetMesh& mesh, const Journal& journal);
   void undo();

@@ -34,6 +34,7 @@ TraceFile::TraceFile(const std::filesystem::path& file) : path_(file), frames_(f
     header_ = TraceHeader::decode(header);
     ByteReader mesh = expect('M');
     mesh_ = SlotMesh::decode(mesh);
+    standard_ = mesh_.standard();
   } catch (const ByteReader::Damage&) {
     throw Error(fmt::format("{}: byte {}: damaged before its first event", path_.string(),
                             frames_.offset()));
@@ -135,7 +136,7 @@ void TraceFile::index_event(const TraceEvent& event) {
   const auto calls = static_cast<std::uint32_t>(calls_.size());
   switch (event.kind) {
     case EventKind::pass_begins:
-      passes_.push_back({begin_of(event), event.name, event.number, {}, calls, 0});
+      passes_.push_back({begin_of(event), event.name, event.number, standard_, {}, calls, 0});
       pass_open_ = true;
       break;
     case EventKind::pass_ends:
@@ -172,6 +173,9 @@ void TraceFile::index_event(const TraceEvent& event) {
       return;
     case EventKind::undo:
       return;
+    case EventKind::standard_changes:
+      standard_ = event.standard;
+      break;
   }
   seconds_ = event.seconds;
 }

@@ -28,12 +28,12 @@ struct EventRange {
   double seconds() const { return end_seconds - begin_seconds; }
 };
 
-/// One attempt of an operator. Calls are numbered in the order in which they begin. So those that a
+/// One attempt of an operator or of a sequence. Calls are numbered in the order in which they begin. So those that a
 /// call makes, directly or not, have the numbers from its own + 1 up to subtree_end.
 struct Call {
   EventRange events;
   std::uint32_t operator_name = 0;  ///< see TraceFile::name()
-  std::uint32_t settings = 0;       ///< likewise; "" for a call by an operator
+  std::uint32_t settings = 0;       ///< likewise; see AttemptEvent
   std::uint32_t parent = kNoCall;
   std::uint32_t subtree_end = 0;
   std::uint32_t edits = 0;       ///< made by itself, not by calls in it; also those undone
@@ -64,6 +64,7 @@ struct TracedPass {
   EventRange events;
   std::uint32_t name = 0;
   unsigned round = 0;
+  Standard standard;                            ///< by which tets were judged
   QualityIndicators now;                        ///< when it ended
   std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
 };
@@ -130,6 +131,7 @@ class TraceFile {
   std::vector<std::uint32_t> open_;  // calls, while events are read
   bool visit_open_ = false;
   bool pass_open_ = false;
+  Standard standard_;   // at the event read last
   double seconds_ = 0;  // of the event read last
 };
 

@@ -14,13 +14,18 @@
 
 namespace tetmend {
 
-/// One attempt of an operator as the trace sees it. Vertices name the target in a way that outlives
+/// What the trace calls an attempt of several parts, which stay or go together: a sequence of a
+/// schedule. Attempts of the parts lie in it.
+inline constexpr std::string_view kSequenceName = "sequence";
+
+/// One attempt of an operator, or of a sequence, as the trace sees it. Vertices name the target in a way that outlives
 /// tet handles.
 struct AttemptEvent {
   std::string_view operator_name;
   std::span<const VertexHandle> target;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   unsigned level = 0;                    ///< recursion level, 0 for a call by the scheduler
-  /// Values of the operator's parameters, as a script writes them; empty for a call by an operator.
+  /// Values of the operator's parameters, as a script writes them; of a sequence, its parts. Empty
+  /// for a call by an operator.
   std::string_view settings = {};
 };
 
@@ -34,7 +39,8 @@ class TraceSink : public EditListener {
   /// was compared.
   virtual void attempt_ends(Verdict verdict, std::span<const Quality> before,
                             std::span<const Quality> now) = 0;
-  /// The innermost attempt knows what to do, and is about to do it.
+  /// The innermost attempt knows what to do, and is about to do it; of a sequence, its first part is
+  /// done.
   virtual void candidate_found() {}
 
   virtual void pass_begins(std::string_view /*name*/, unsigned /*round*/) {}
@@ -42,6 +48,8 @@ class TraceSink : public EditListener {
   /// A pass turns to a tet that it wants to get rid of.
   virtual void visit_begins(const TetVertices& /*tet*/, Quality /*quality*/) {}
   virtual void visit_ends() {}
+  /// Between two passes: from now on tets are judged by another standard.
+  virtual void standard_changed(const Standard& /*standard*/) {}
 
   void edit_made(const TetMesh& /*mesh*/, const Journal& /*journal*/) override {}
   void edit_undone() override {}

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "trace/call_tree.h"
+#include "trace/traced_standard.h"
 
 namespace tetmend {
 
@@ -92,6 +93,7 @@ std::string format_summary(const TraceFile& file, const TraceSummary& summary) {
   const SlotMesh& mesh = file.initial_mesh();
   fmt::format_to(out, "mesh at the beginning: {} tets, {} vertices\n", mesh.tet_count(),
                  mesh.vertex_count());
+  fmt::format_to(out, "goal: {}\n", describe(mesh.standard()));
   fmt::format_to(out, "{} calls, {} of them outermost, {} deep at most; {} tets visited; ",
                  summary.calls, summary.outermost_calls, summary.deepest, summary.visits);
   fmt::format_to(out, "{} edits, {} of them undone\n\n", summary.edits, summary.undos);
@@ -115,7 +117,10 @@ std::string format_summary(const TraceFile& file, const TraceSummary& summary) {
   }
   fmt::format_to(out, "\n{:<24} {:>5} {:>9} {:>9} {:>8} {:>8}\n", "pass", "round", "calls",
                  "seconds", "q_worst", "n_bad");
+  Standard standard = mesh.standard();
   for (const TracedPass& pass : file.passes()) {
+    if (pass.standard != standard) fmt::format_to(out, "goal: {}\n", describe(pass.standard));
+    standard = pass.standard;
     fmt::format_to(out, "{:<24} {:>5} {:>9} {:>9.3f} {:>8.5f} {:>8}\n", file.name(pass.name),
                    pass.round, pass.last_call - pass.first_call, pass.events.seconds(),
                    pass.now.q_worst, pass.now.n_bad);

@@ -42,7 +42,9 @@ void Document::resize(const Canvas& size) {
 
 void Document::open(const std::filesystem::path& file) {
   if (is_trace(file)) return open_trace(file);
-  MeasuredMesh mesh(read_tet_mesh(file));
+  TetMesh read = read_tet_mesh(file);
+  read.set_standard(standard_);
+  MeasuredMesh mesh(std::move(read));
   live.forget();
   followed_ = LiveState::idle;
   set_mesh(std::move(mesh), file.string());
@@ -55,6 +57,7 @@ void Document::open_trace(const std::filesystem::path& file) {
   followed_ = LiveState::idle;
   set_mesh(MeasuredMesh(debugger->mesh()), file.string());
   debugger_ = std::move(debugger);
+  standard_ = debugger_->file().initial_mesh().standard();
   shown_mesh_ = debugger_->mesh_number();
   shown_root_ = kNoCall;
   show_trace();
@@ -121,13 +124,35 @@ void Document::show_trace() {
 }
 
 void Document::compare_with(const std::filesystem::path& file) {
-  before_ = compute_statistics(read_tet_mesh(file));
+  TetMesh mesh = read_tet_mesh(file);
+  mesh.set_standard(mesh_.standard());
+  before_ = compute_statistics(mesh);
+}
+
+void Document::set_goal(const Goal& goal, Standard::Terms terms) {
+  if (debugger_ != nullptr) throw Error("goal: a trace has that of its run");
+  if (!is_sound(goal)) {
+    throw Error(
+        fmt::format("goal: {} to {} degrees: the smallest angle is above 0 and at most 70 "
+                    "degrees, the largest 71 to below 180",
+                    goal.min_angle, goal.max_angle));
+  }
+  standard_ = Standard(goal, terms);
+  mesh_.set_standard(standard_);
+  statistics_ = compute_statistics(mesh_);
+  forget_derived();
 }
 
 void Document::run_live(LiveRun::From from) {
-  live.start({mesh_, statistics_}, from, file_);
+  LiveRun::Input shown{mesh_, statistics_};
+  if (mesh_.standard() != standard_) {  // a schedule has set another goal
+    shown.mesh.set_standard(standard_);
+    shown.statistics = compute_statistics(shown.mesh);
+  }
+  const MeshStatistics now = shown.statistics;
+  live.start(std::move(shown), from, file_);
   followed_ = LiveState::idle;
-  before_ = from == LiveRun::From::file ? live.input()->statistics : statistics_;
+  before_ = from == LiveRun::From::file ? live.input()->statistics : now;
 }
 
 void Document::follow_live() {
@@ -244,7 +269,7 @@ unsigned Document::highlight_revision() {
 std::span<const float> Document::values_of(const std::string& measure) {
   auto found = values_.find(measure);
   if (found == values_.end()) {
-    found = values_.emplace(measure, measure_tets(mesh_, find_quality_measure(measure))).first;
+    found = values_.emplace(measure, evaluate_tets(mesh_, find_tet_value(measure))).first;
   }
   return found->second;
 }
@@ -252,7 +277,7 @@ std::span<const float> Document::values_of(const std::string& measure) {
 void Document::update_lists() {
   if (listed_measure_ == view.scene.measure) return;
   const auto values_now = values();
-  histogram_ = Histogram(values_now, display_range(find_quality_measure(view.scene.measure)));
+  histogram_ = Histogram(values_now, find_tet_value(view.scene.measure).range);
   worst_ = worst_tets(values_now, kWorstListed);
   listed_measure_ = view.scene.measure;
 }
@@ -264,7 +289,7 @@ void Document::update_scene() {
   if (view.scene.isolate) input.only = near_;
   if (view.scene.colour != "region") {
     input.colour_values = values_of(view.scene.colour);
-    input.colour_range = display_range(find_quality_measure(view.scene.colour));
+    input.colour_range = find_tet_value(view.scene.colour).range;
   }
   scene_ = build_scene(input);
   drawn_ = view.scene;

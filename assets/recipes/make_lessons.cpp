@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -162,7 +163,7 @@ class LessonWriter {
   }
   Quality worst(std::uint64_t at) {
     replay_.seek(at);
-    Quality worst = 1;
+    Quality worst = std::numeric_limits<Quality>::infinity();
     for (std::uint32_t i = 0; i < replay_.mesh().tet_slots(); ++i) {
       if (replay_.mesh().is_deleted(TetHandle(i))) continue;
       worst = std::min(worst, replay_.mesh().quality(TetHandle(i)));
@@ -393,6 +394,7 @@ void record(const Recipe& recipe, const std::filesystem::path& mesh_file,
             const std::filesystem::path& trace_file) {
   Registry registry = Registry::builtin();
   TetMesh mesh(recipe.mesh);
+  mesh.set_standard(Standard(Goal{}, Standard::Terms::sine));  // as in the paper
   const Schedule schedule(fmt::format("{}.lua", recipe.name), std::string(recipe.schedule));
   TraceRecorder recorder(trace_file, mesh,
                          {.program = "make_lessons",

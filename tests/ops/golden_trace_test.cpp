@@ -19,6 +19,7 @@ std::string trace_of(const MeshData& data, std::string_view name, Target target,
                      const ParameterSettings& settings = {}) {
   Registry registry = Registry::builtin();
   TetMesh mesh(data);
+  mesh.set_standard(Standard(Goal{}, Standard::Terms::sine));
   Workspace workspace(mesh);
   OperatorStates states;
   TextTrace trace;
@@ -44,7 +45,7 @@ TEST_CASE("the trace of an edge removal names the edge and both quality vectors"
   const MeshData data = shell_mesh({.degree = 3, .height = 1.4142135623730951});
   CHECK(trace_of(data, "edge_removal", Target::of(TetEdge(TetHandle(0), 0))) ==
         "edge_removal(0 1) level 0\n"
-        "-> accepted, 3 tets 0.5774 -> 2 tets 0.9428\n");
+        "-> accepted, 3 tets 1.1547 -> 2 tets 1.8856\n");
 }
 
 TEST_CASE("the trace of a refusal has no quality vectors") {
@@ -70,11 +71,11 @@ TEST_CASE("the trace of a recursion shows the calls on the way") {
         "  -> constrained\n"
         "  recursive_shell_transformation(0 4) level 1\n"
         "    shell_transformation(0 4) level 1\n"
-        "    -> accepted, 3 tets 0.1965 -> 2 tets 0.5583\n"
+        "    -> accepted, 3 tets 0.3930 -> 2 tets 1.1167\n"
         "  -> accepted\n"
         "  shell_transformation(0 1) level 0\n"
-        "  -> accepted, 4 tets 0.3529 -> 4 tets 0.5465\n"
-        "-> accepted, 6 tets 0.1965 -> 5 tets 0.5465\n");
+        "  -> accepted, 4 tets 0.7059 -> 4 tets 1.0930\n"
+        "-> accepted, 6 tets 0.3930 -> 5 tets 1.0930\n");
   CHECK(trace_of(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) ==
         "recursive_shell_transformation(0 1) level 0\n"
         "  shell_transformation(0 1) level 0\n"

@@ -34,18 +34,22 @@ Composition sequence(std::vector<Composition> parts, double desperate = kDespera
   return {.kind = Composition::Kind::sequence, .desperate = desperate, .parts = std::move(parts)};
 }
 
-/// Names and verdicts of all attempts.
+/// Names and verdicts of all attempts of operators.
 struct Attempts final : TraceSink {
   void attempt_begins(const AttemptEvent& event) override {
+    open_sequences.push_back(event.operator_name == kSequenceName);
+    if (open_sequences.back()) return;
     if (event.level == 0) names.emplace_back(event.operator_name);
     targets.emplace_back(event.target.begin(), event.target.end());
   }
   void attempt_ends(Verdict verdict, std::span<const Quality>, std::span<const Quality>) override {
-    verdicts.push_back(verdict);
+    if (!open_sequences.back()) verdicts.push_back(verdict);
+    open_sequences.pop_back();
   }
   std::vector<std::string> names;
   std::vector<std::vector<VertexHandle>> targets;
   std::vector<Verdict> verdicts;
+  std::vector<bool> open_sequences;  // of the attempts under way: whether it is one
 };
 
 /// Works off the worst tet inside a ball.

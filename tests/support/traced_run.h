@@ -44,6 +44,10 @@ class Witness final : public TraceSink {
     recorder_.visit_ends();
     look();
   }
+  void standard_changed(const Standard& standard) override {
+    recorder_.standard_changed(standard);
+    look();
+  }
   void attempt_begins(const AttemptEvent& event) override {
     recorder_.attempt_begins(event);
     look();

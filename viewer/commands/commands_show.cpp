@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "kernel/quality.h"
 #include "viewer/commands/command_group.h"
+#include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
 
@@ -35,7 +35,7 @@ json ghosts(Session& s, const json& a) {
   return nullptr;
 }
 
-/// "region", then the measures.
+/// "region", then the values of tets.
 json colour(Session& s, const json& a) {
   std::string& now = s.document.view.scene.colour;
   if (!a.empty()) {
@@ -44,10 +44,23 @@ json colour(Session& s, const json& a) {
     return nullptr;
   }
   std::vector<std::string> names = {"region"};
-  for (const QualityMeasure& m : quality_measures()) names.emplace_back(m.name);
+  for (const TetValue& value : tet_values()) names.emplace_back(value.name);
   const auto found = std::find(names.begin(), names.end(), now);
   const auto next = found + 1 == names.end() ? names.begin() : found + 1;
   return colour(s, json::array({*next}));
+}
+
+/// Changes what is given; returns what is in force then.
+json goal(Session& s, const json& a) {
+  const Arguments arguments("goal", a);
+  const Standard now = s.document.mesh().standard();
+  Goal goal = now.goal();
+  Standard::Terms terms = now.terms();
+  if (arguments.has(0)) goal = Goal::symmetric(arguments.number(0));
+  if (arguments.has(1)) goal.max_angle = arguments.number(1);
+  if (arguments.has(2)) terms = to_terms(arguments.text(2));
+  if (!a.empty()) s.document.set_goal(goal, terms);
+  return {{"min", goal.min_angle}, {"max", goal.max_angle}, {"measure", to_string(terms)}};
 }
 
 json filter(Session& s, const json& a) {
@@ -146,8 +159,13 @@ constexpr std::array kCommands = {
     Command{"constraints", "C", kShow, "constraints()", "Constraint faces inside the volume",
             &toggle<&SceneSettings::constraints>},
     Command{"ghosts", "G", kShow, "ghosts(0.15)", "Ghosts of hidden tets; opacity", &ghosts},
-    Command{"colour", "M", kShow, "colour(\"min_sine\")",
+    Command{"colour", "M", kShow, "colour(\"quality\")",
             "Colour by region or by a measure; the key takes the next", &colour},
+    Command{
+        "goal", "", "", "goal(MIN, MAX, \"MEASURE\")",
+        "The angles of a good tet, in degrees, and \"sine_and_length\" or \"sine\": for what is "
+        "shown and for live runs; the result is what holds",
+        &goal},
     Command{"filter", "R", kShow, "filter(LOW, HIGH)",
             "Show only tets with values in a range; without one the filter is off", &filter},
     Command{"brush", "", "", "brush(FROM, TO)",

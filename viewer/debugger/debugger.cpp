@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "trace/traced_standard.h"
+
 namespace tetmend::viewer {
 
 Debugger::Debugger(const std::filesystem::path& file)
@@ -41,6 +43,8 @@ std::string Debugger::last_event() const {
       return "the last edit is undone";
     case EventKind::candidate_found:
       return "a candidate is found";
+    case EventKind::standard_changes:
+      return fmt::format("the goal becomes {}", describe(event.standard));
     case EventKind::pass_ends:
     case EventKind::visit_ends:
       break;
@@ -146,6 +150,7 @@ TetMesh to_tet_mesh(const SlotMesh& mesh) {
   }
   TetMesh result(mesh.to_data());
   result.scatter(vertices, tets);
+  result.set_standard(mesh.standard());
   return result;
 }
 

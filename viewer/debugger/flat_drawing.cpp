@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "viewer/debugger/call_highlight.h"
+#include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
 
@@ -18,7 +19,8 @@ constexpr double kRadius = 0.76;  // of the polygon
 constexpr double kNames = 0.9;    // of the circle on which the names of its corners are
 
 Colour colour_of(Quality quality, const ColourMap& map) {
-  return quality < kBadThreshold ? kBadColour : map.at(static_cast<double>(quality));
+  if (quality < kBadThreshold) return kBadColour;
+  return map.at(static_cast<double>(quality) / tet_values().front().range.high);
 }
 
 Colour faint(Colour colour, double opacity) {

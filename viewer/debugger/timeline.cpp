@@ -12,7 +12,9 @@ namespace {
 /// Number of bad tets and worst quality of a mesh whose tets come and go.
 class Gauge {
  public:
-  explicit Gauge(const SlotMesh& mesh) {
+  explicit Gauge(const SlotMesh& mesh) { set_all(mesh); }
+
+  void set_all(const SlotMesh& mesh) {
     for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
       if (!mesh.is_deleted(TetHandle(i))) set(i, mesh.quality(TetHandle(i)));
     }
@@ -76,10 +78,15 @@ Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t sample
   const std::uint64_t end = file.event_count();
   const std::uint64_t distance = std::max<std::uint64_t>(1, end / samples);
   for (std::uint64_t position = 1; position <= end; ++position) {
-    if (changes_mesh(cursor.next().kind)) {
+    const EventKind kind = cursor.next().kind;
+    if (changes_mesh(kind) || kind == EventKind::standard_changes) {
       timeline.changes.push_back(position);
       replay.seek(position);
-      follow(gauge, replay.mesh(), replay.cavity());
+      if (changes_mesh(kind)) {
+        follow(gauge, replay.mesh(), replay.cavity());
+      } else {
+        gauge.set_all(replay.mesh());
+      }
     }
     if (position % distance == 0 || position == end) {
       timeline.samples.push_back({position, gauge.bad(), gauge.worst()});

@@ -16,7 +16,8 @@ struct Timeline {
     double q_worst = 0;
   };
   std::vector<Sample> samples;         ///< the first at 0, the last at the end
-  std::vector<std::uint64_t> changes;  ///< positions right after events that changed the mesh
+  std::vector<std::uint64_t> changes;  ///< positions right after events that changed the mesh,
+                                       ///< or by what its tets are judged
 
   /// The last sample that is not after `position`.
   const Sample& at(std::uint64_t position) const;

@@ -208,6 +208,10 @@ void LiveJob::visit_ends() {
   if (recorder_) recorder_->visit_ends();
 }
 
+void LiveJob::standard_changed(const Standard& standard) {
+  if (recorder_) recorder_->standard_changed(standard);
+}
+
 void LiveJob::attempt_begins(const AttemptEvent& event) {
   if (recorder_) recorder_->attempt_begins(event);
   if (depth_++ > 0) return;

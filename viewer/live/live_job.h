@@ -81,6 +81,7 @@ class LiveJob final : private TraceSink, private ProgressListener {
   void pass_ends(const QualityIndicators& now) override;
   void visit_begins(const TetVertices& tet, Quality quality) override;
   void visit_ends() override;
+  void standard_changed(const Standard& standard) override;
   void attempt_begins(const AttemptEvent& event) override;
   void candidate_found() override;
   void attempt_ends(Verdict verdict, std::span<const Quality> before,

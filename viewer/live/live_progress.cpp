@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/live/live_progress.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace tetmend::viewer {
 
@@ -14,10 +11,6 @@ std::string_view to_string(LiveState state) {
   constexpr std::array<std::string_view, 7> kNames = {"idle",    "running",  "paused", "stopping",
                                                       "stopped", "finished", "failed"};
   return kNames[static_cast<std::size_t>(state)];
-}
-
-double LivePass::theta() const {
-  return std::asin(std::clamp(after.q_worst, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
 namespace {
@@ -30,8 +23,7 @@ json to_json(const LivePass& pass) {
           {"seconds", pass.seconds},
           {"n_bad", pass.after.n_bad},
           {"q_worst", pass.after.q_worst},
-          {"q_aver", pass.after.q_aver},
-          {"theta", pass.theta()}};
+          {"q_aver", pass.after.q_aver}};
 }
 
 json to_json(const LiveCall& call) {

@@ -34,9 +34,6 @@ struct LivePass {
   std::size_t accepted = 0;
   double seconds = 0;  ///< without pauses
   QualityIndicators after;
-
-  /// Degrees between the worst dihedral angle and 0 or 180, whichever is nearer.
-  double theta() const;
 };
 
 /// An attempt by the schedule that was accepted.

@@ -57,6 +57,12 @@ void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
   Schedule schedule = load(name_);  // the file may have changed
   LivePlan plan{std::move(schedule), settings_, file, trace};
   if (!input_) input_ = std::make_unique<Input>(shown);
+  if (input_->mesh.standard() != shown.mesh.standard()) {
+    Input judged = *input_;
+    judged.mesh.set_standard(shown.mesh.standard());
+    judged.statistics = compute_statistics(judged.mesh);
+    input_ = std::make_unique<Input>(std::move(judged));
+  }
   TetMesh mesh = from == From::shown ? std::move(shown.mesh) : input_->mesh;
   job_.reset();
   job_ = std::make_unique<LiveJob>(std::move(mesh), std::move(plan));

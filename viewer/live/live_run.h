@@ -42,8 +42,8 @@ class LiveRun {
     file,  ///< the mesh that the first run since forget() began with
     shown
   };
-  /// Begins a run on `shown`, a mesh of `file`, or on a copy of the mesh before. A file of a
-  /// schedule is read again.
+  /// Begins a run on `shown`, a mesh of `file`, or on a copy of the mesh before, both by the
+  /// standard of `shown`. A file of a schedule is read again.
   /// @throws Error when a run is at work, or for a mistake in the file.
   void start(Input shown, From from, const std::filesystem::path& file);
   /// @throws Error when no run is at work.

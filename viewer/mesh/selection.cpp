@@ -144,9 +144,12 @@ class Teller {
     row("region", fmt::format("{}", mesh_.label(t)));
     row("vertices",
         fmt::format("{} {} {} {}", v[0].index(), v[1].index(), v[2].index(), v[3].index()));
-    row("min sine", fmt::format("{:.4f}{}", mesh_.quality(t),
-                                mesh_.quality(t) < kBadThreshold ? "  (bad)" : ""));
-    for (const QualityMeasure& m : quality_measures().subspan(1)) {
+    const bool is_bad = mesh_.quality(t) < kBadThreshold;
+    row("quality", fmt::format("{:.4f}{}", mesh_.quality(t),
+                               !is_bad                 ? ""
+                               : misses_goal(mesh_, t) ? "  (misses the goal)"
+                                                       : "  (a needle)"));
+    for (const QualityMeasure& m : quality_measures()) {
       row(std::string(m.name), fmt::format("{:.4f}", m.evaluate(p[0], p[1], p[2], p[3])));
     }
     row("volume", fmt::format("{:.4g}", volume6(p[0], p[1], p[2], p[3]) / 6));
@@ -172,7 +175,7 @@ class Teller {
       ids += fmt::format("{}{}", ids.empty() ? "" : " ", e.tet().index());
     }
     row("degree (tets)", fmt::format("{}", tets));
-    row("worst min sine", fmt::format("{:.4f}", worst));
+    row("worst quality", fmt::format("{:.4f}", worst));
     row("tets", ids);
     const bool is_closed = kind == ShellKind::closed;
     if (!is_closed) return;
@@ -195,7 +198,7 @@ class Teller {
     const auto ball = star(mesh_, v, workspace);
     for (const TetHandle t : ball) worst = std::min(worst, mesh_.quality(t));
     row("ball (tets)", fmt::format("{}", ball.size()));
-    row("worst min sine", fmt::format("{:.4f}", worst));
+    row("worst quality", fmt::format("{:.4f}", worst));
     row("one-ring", fmt::format("{} vertices", one_ring(mesh_, v, workspace).size()));
   }
 

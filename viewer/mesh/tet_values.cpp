@@ -6,6 +6,11 @@
 #include <limits>
 #include <set>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "kernel/error.h"
+
 namespace tetmend::viewer {
 
 namespace {
@@ -19,21 +24,38 @@ void for_each_tet(const TetMesh& mesh, Visit visit) {
 
 }  // namespace
 
-std::vector<float> measure_tets(const TetMesh& mesh, const QualityMeasure& measure) {
-  std::vector<float> values(mesh.tet_slots(), std::numeric_limits<float>::quiet_NaN());
-  const bool is_cached = &measure == &quality_measures().front();
-  for_each_tet(mesh, [&](TetHandle t) {
-    const TetVertices& v = mesh.vertices(t);
-    values[t.index()] =
-        is_cached ? mesh.quality(t)
-                  : static_cast<float>(measure.evaluate(mesh.point(v[0]), mesh.point(v[1]),
-                                                        mesh.point(v[2]), mesh.point(v[3])));
-  });
+std::span<const TetValue> tet_values() {
+  static const std::vector<TetValue> values = [] {
+    std::vector<TetValue> all = {
+        {"quality", "relative to the goal: below 1 the tet is bad", nullptr, {0, 2}}};
+    for (const QualityMeasure& m : quality_measures()) {
+      all.push_back({m.name, m.help, &m, {0, m.best}});
+    }
+    return all;
+  }();
   return values;
 }
 
-Range display_range(const QualityMeasure& measure) {
-  return {0, measure.best};
+const TetValue& find_tet_value(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const TetValue& value : tet_values()) {
+    if (value.name == name) return value;
+    names.push_back(value.name);
+  }
+  throw Error(fmt::format("unknown quality measure '{}'; valid: {}", name, fmt::join(names, ", ")));
+}
+
+std::vector<float> evaluate_tets(const TetMesh& mesh, const TetValue& value) {
+  std::vector<float> values(mesh.tet_slots(), std::numeric_limits<float>::quiet_NaN());
+  for_each_tet(mesh, [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    values[t.index()] =
+        value.measure == nullptr
+            ? mesh.quality(t)
+            : static_cast<float>(value.measure->evaluate(mesh.point(v[0]), mesh.point(v[1]),
+                                                         mesh.point(v[2]), mesh.point(v[3])));
+  });
+  return values;
 }
 
 std::vector<std::uint32_t> distances_from_boundary(const TetMesh& mesh) {

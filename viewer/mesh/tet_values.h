@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kernel/quality.h"
@@ -13,11 +14,23 @@
 
 namespace tetmend::viewer {
 
-/// The measure of every tet, by slot; not a number for deleted slots. Cost: one evaluation a tet.
-std::vector<float> measure_tets(const TetMesh& mesh, const QualityMeasure& measure);
+/// What tets can be coloured, listed and filtered by.
+struct TetValue {
+  std::string_view name;
+  std::string_view help;                    ///< one line
+  const QualityMeasure* measure = nullptr;  ///< null: the quality that the mesh stores
+  /// That histograms and colours cover: 0 to the value of the regular tet; for the quality that the
+  /// mesh stores, with the goal in the middle.
+  Range range;
+};
 
-/// The range that histograms and colours of a measure cover: 0 to the value of the regular tet.
-Range display_range(const QualityMeasure& measure);
+/// The quality by the standard of the mesh, which is the default; then all measures.
+std::span<const TetValue> tet_values();
+/// @throws Error for an unknown name, with the valid ones.
+const TetValue& find_tet_value(std::string_view name);
+
+/// Of every tet, by slot; not a number for deleted slots. Cost: at most one evaluation a tet.
+std::vector<float> evaluate_tets(const TetMesh& mesh, const TetValue& value);
 
 /// How many tets lie between a tet and the boundary, by slot: 0 for tets with a boundary face.
 /// Cost: linear.

@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
-#include "kernel/quality.h"
 #include "viewer/mesh/colour_map.h"
+#include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
 
@@ -160,7 +160,7 @@ void visit(Visitor& v, View& view) {
   v("map", s.map);
   v("measure", s.measure);
   v("bad", s.bad);
-  v("bad_below", s.bad_below, {-1, 1});
+  v("bad_below", s.bad_below, {-1, 2});
   v("filtered", s.filtered);
   v("range", s.range);
   v("outside", s.outside);
@@ -186,8 +186,8 @@ void visit(Visitor& v, View& view) {
 }
 
 void check(const ViewSettings& view) {
-  if (view.scene.colour != "region") find_quality_measure(view.scene.colour);
-  find_quality_measure(view.scene.measure);
+  if (view.scene.colour != "region") find_tet_value(view.scene.colour);
+  find_tet_value(view.scene.measure);
   find_colour_map(view.scene.map);
   for (const CutPlane& cut : view.scene.cuts) {
     if (!(glm::length(cut.normal) > 0)) throw Error("view: the normal of a cut must not be 0");

@@ -26,12 +26,12 @@ struct CutPlane {
 
 /// What is drawn of the mesh and in which colours; the camera and the looks of the window apart.
 struct SceneSettings {
-  std::string colour = "region";  ///< "region" or the name of a quality measure
+  std::string colour = "region";  ///< or the name of a TetValue
   std::string map = "ember";
-  std::string measure = "min_sine";  ///< of the histogram, the filter and the list of the worst
-  bool bad = true;                   ///< bad tets in red, seen through the rest
-  double bad_below = 0.5;            ///< minimum sine below which a tet counts as bad
-  bool filtered = false;             ///< show only tets whose value lies in `range`
+  std::string measure = "quality";  ///< of the histogram, the filter and the list of the worst
+  bool bad = true;                  ///< bad tets in red, seen through the rest
+  double bad_below = 1;             ///< quality below which a tet is shown as bad; 1: it is bad
+  bool filtered = false;            ///< show only tets whose value lies in `range`
   Range range;
   bool outside = false;  ///< show those outside of `range` instead
   std::array<CutPlane, 3> cuts = {CutPlane{.normal = {1, 0, 0}}, CutPlane{.normal = {0, 1, 0}},

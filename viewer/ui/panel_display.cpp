@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Colours, regions, and what else is drawn.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "kernel/quality.h"
+#include "kernel/error.h"
+#include "viewer/mesh/tet_values.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -15,11 +17,11 @@ namespace {
 void choose_colour(SceneSettings& scene) {
   if (ImGui::BeginCombo("colour", scene.colour.c_str())) {
     if (ImGui::Selectable("region", scene.colour == "region")) scene.colour = "region";
-    for (const QualityMeasure& m : quality_measures()) {
-      if (ImGui::Selectable(m.name.data(), scene.colour == m.name)) {
-        scene.colour = m.name;
-        if (scene.measure != m.name) scene.filtered = false;
-        scene.measure = m.name;
+    for (const TetValue& value : tet_values()) {
+      if (ImGui::Selectable(value.name.data(), scene.colour == value.name)) {
+        scene.colour = value.name;
+        if (scene.measure != value.name) scene.filtered = false;
+        scene.measure = value.name;
       }
     }
     ImGui::EndCombo();
@@ -29,6 +31,36 @@ void choose_colour(SceneSettings& scene) {
       if (ImGui::Selectable(map.name.data(), scene.map == map.name)) scene.map = map.name;
     }
     ImGui::EndCombo();
+  }
+}
+
+/// A new goal counts when Enter is pressed: it takes a pass over the mesh.
+void choose_goal(Document& document) {
+  const Standard& now = document.mesh().standard();
+  Standard::Terms terms = now.terms();
+  std::array<double, 2> angles = {now.goal().min_angle, now.goal().max_angle};
+  const bool is_trace = document.debugger() != nullptr;
+  ImGui::BeginDisabled(is_trace);
+  bool changed = ImGui::InputScalarN("goal", ImGuiDataType_Double, angles.data(), 2, nullptr,
+                                     nullptr, "%.4g°", ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip(
+        "smallest and largest angle of a good tet\nfor live runs as well; Enter sets it");
+  }
+  if (ImGui::BeginCombo("judged by", to_string(terms).data())) {
+    for (const auto choice : {Standard::Terms::sine, Standard::Terms::sine_and_length}) {
+      if (!ImGui::Selectable(to_string(choice).data(), choice == terms)) continue;
+      terms = choice;
+      changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::EndDisabled();
+  if (!changed || is_trace) return;
+  try {
+    document.set_goal({angles[0], angles[1]}, terms);
+  } catch (const Error& error) {
+    document.message = {error.what(), true};
   }
 }
 
@@ -71,8 +103,16 @@ void draw_display_panel(Session& session) {
   SceneSettings& scene = view.scene;
   ImGui::PushItemWidth(0.6F * ImGui::GetContentRegionAvail().x);
   choose_colour(scene);
+  choose_goal(session.document);
   ImGui::Checkbox("bad tets in red", &scene.bad);
-  slide("bad below", scene.bad_below, 0, 1, "%.2f");
+  if (ImGui::IsItemHovered()) {
+    const Standard& standard = session.document.mesh().standard();
+    ImGui::SetTooltip("misses the goal: an angle below %g° or above %g°%s",
+                      standard.goal().min_angle, standard.goal().max_angle,
+                      standard.terms() == Standard::Terms::sine ? "" : ", or is a needle");
+  }
+  slide("bad below", scene.bad_below, 0, 2, "%.2f");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("quality; 1: the goal is just met");
   ImGui::Checkbox("edges", &view.edges);
   ImGui::SameLine();
   ImGui::Checkbox("constraints", &scene.constraints);

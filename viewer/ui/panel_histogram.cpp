@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "kernel/quality.h"
+#include "viewer/mesh/tet_values.h"
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 
@@ -16,14 +16,14 @@ namespace {
 void choose_measure(SceneSettings& scene) {
   ImGui::SetNextItemWidth(-1);
   if (!ImGui::BeginCombo("##measure", scene.measure.c_str())) return;
-  for (const QualityMeasure& m : quality_measures()) {
-    if (ImGui::Selectable(m.name.data(), scene.measure == m.name)) {
+  for (const TetValue& value : tet_values()) {
+    if (ImGui::Selectable(value.name.data(), scene.measure == value.name)) {
       const bool follow = scene.colour == scene.measure;
-      scene.measure = m.name;
+      scene.measure = value.name;
       scene.filtered = false;
-      if (follow) scene.colour = m.name;
+      if (follow) scene.colour = value.name;
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", m.help.data());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", value.help.data());
   }
   ImGui::EndCombo();
 }

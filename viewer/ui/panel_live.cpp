@@ -185,7 +185,7 @@ void list_passes(const LiveProgress& run) {
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("bad", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("theta", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("worst", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("s", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableHeadersRow();
   for (auto pass = run.passes.rbegin(); pass != run.passes.rend(); ++pass) {
@@ -193,13 +193,13 @@ void list_passes(const LiveProgress& run) {
     ImGui::TableNextColumn();
     ImGui::Text("%u %s", pass->round, pass->name.c_str());
     if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("round %u, %s\n%zu of %zu calls accepted\nq_worst %.4f", pass->round,
-                        pass->name.c_str(), pass->accepted, pass->attempts, pass->after.q_worst);
+      ImGui::SetTooltip("round %u, %s\n%zu of %zu calls accepted", pass->round, pass->name.c_str(),
+                        pass->accepted, pass->attempts);
     }
     ImGui::TableNextColumn();
     ImGui::Text("%zu", pass->after.n_bad);
     ImGui::TableNextColumn();
-    ImGui::Text("%.2f°", pass->theta());
+    ImGui::Text("%.4f", pass->after.q_worst);
     ImGui::TableNextColumn();
     ImGui::Text("%.2f", pass->seconds);
   }

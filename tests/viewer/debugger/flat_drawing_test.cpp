@@ -90,7 +90,7 @@ TEST_CASE("after a refusal without a candidate the best complete triangulation i
 }
 
 TEST_CASE("bad tets are drawn red, the nearer ones last, and only sides that face the camera") {
-  LocalTet good{TetHandle(0), {}, {}, 0.9F};
+  LocalTet good{TetHandle(0), {}, {}, 1.8F};
   good.corners = {glm::dvec3(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   LocalTet bad = good;
   bad.quality = 0.1F;

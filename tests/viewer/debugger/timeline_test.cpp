@@ -47,6 +47,31 @@ TEST_CASE("equal numbers of changes mean equal meshes, and each change makes ano
   }
 }
 
+TEST_CASE("the curves follow a run that changes its goal") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  test::record(mesh, folder / "trace", {}, {},
+               Schedule("goals", "smooth{} goal{min = 40} smooth{} goal{min = 10} smooth{}"));
+  const TraceFile file(folder / "trace");
+  Replay replay(file);
+  const Timeline timeline = make_timeline(file, replay, file.event_count());
+  std::size_t goals = 0;
+  for (const Timeline::Sample& sample : timeline.samples) {
+    const Goal before = replay.mesh().standard().goal();
+    replay.seek(sample.position);
+    const TetMesh then = to_tet_mesh(replay.mesh());
+    CHECK(then.standard() == replay.mesh().standard());
+    const QualityIndicators truth = quality_indicators(then);
+    CHECK(sample.n_bad == truth.n_bad);
+    CHECK(sample.q_worst == truth.q_worst);
+    if (replay.mesh().standard().goal() == before) continue;
+    ++goals;
+    CHECK(timeline.changes_before(sample.position) ==
+          timeline.changes_before(sample.position - 1) + 1);
+  }
+  CHECK(goals == 2);
+}
+
 TEST_CASE("the sample of a position is the last one that is not after it") {
   Timeline timeline;
   timeline.samples = {{0, 9, 0.1}, {10, 5, 0.2}, {20, 1, 0.3}};

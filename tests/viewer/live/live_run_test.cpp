@@ -332,6 +332,41 @@ TEST_CASE(
   CHECK(s.document.debugger() != nullptr);
 }
 
+TEST_CASE("the goal of the viewer is that of the figures, of live runs and of their traces") {
+  TestSession s(test::delaunay_ball(100, 1));
+  const test::TempFolder folder;
+  const std::size_t bad = s.document.statistics().n_bad;
+  CHECK(s.run("goal")["measure"] == "sine_and_length");
+  CHECK_THROWS_WITH_AS(s.run("goal", {80}), doctest::Contains("at most 70"), Error);
+  CHECK_THROWS_WITH_AS(s.run("goal", {30, 150, "size"}), doctest::Contains("sine"), Error);
+  CHECK(s.document.statistics().n_bad == bad);
+  CHECK(s.run("goal", {40})["max"] == 140);
+  const std::size_t more = s.document.statistics().n_bad;
+  CHECK(more > bad);
+  CHECK(s.document.scene().bad_shown == more);
+
+  test::write_text(folder / "goals.lua", "smooth{} goal{min = 10} smooth{}");
+  s.run("live_schedule", {(folder / "goals.lua").string()});
+  s.run("live_record", {(folder / "run.trace").string()});
+  for (int i = 0; i < 2; ++i) {  // the second begins with the goal of the viewer, too
+    s.run("live_run");
+    REQUIRE(s.run("live_wait")["state"] == "finished");
+    REQUIRE(s.document.statistics_before());
+    CHECK(s.document.statistics_before()->n_bad == more);
+    CHECK(s.run("goal")["min"] == 10);  // of the mesh that is shown
+  }
+  s.run("goal", {30});
+  s.run("live_run");
+  REQUIRE(s.run("live_wait")["state"] == "finished");
+  CHECK(s.document.statistics_before()->n_bad == bad);
+  s.run("live_debug");
+  CHECK(s.run("goal")["min"] == 30);
+  CHECK(s.document.statistics().n_bad == bad);
+  s.run("to_end");
+  CHECK(s.run("goal")["min"] == 10);
+  CHECK_THROWS_WITH_AS(s.run("goal", {20}), doctest::Contains("trace"), Error);
+}
+
 TEST_CASE("a run at work is not debugged") {
   Endless endless;
   endless.run.forget();

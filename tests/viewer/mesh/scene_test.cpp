@@ -74,7 +74,7 @@ TEST_CASE("three exact cuts through the middle leave an eighth") {
 TEST_CASE("a filter shows the tets of a range, or those outside of it") {
   TestSession s(test::delaunay_ball(200, 3));
   const std::size_t all = s.document.scene().tets_shown;
-  s.run("filter", {0, 0.5});
+  s.run("filter", {0, 0.999999});
   const std::size_t inside = s.document.scene().tets_shown;
   s.document.view.scene.outside = true;
   CHECK(s.document.scene().tets_shown + inside == all);
@@ -116,7 +116,7 @@ TEST_CASE("bad tets are red and seen through the rest, unless that is off or the
   CHECK(has_colour(s.document.scene().through, kBadColour));
   s.run("view", {{{"bad_below", -1}}});
   CHECK(s.document.scene().bad_shown == 0);
-  s.run("view", {{{"bad_below", 0.5}}});
+  s.run("view", {{{"bad_below", 1}}});
   s.run("bad");
   CHECK(s.document.scene().through.empty());
   CHECK_FALSE(has_colour(s.document.scene().surface, kBadColour));
@@ -137,7 +137,7 @@ TEST_CASE("bad tets are seen where a cut or peeling hides them, but not where a 
     s.run("show_all");
     s.run("peel", {1});
     CHECK(s.document.scene().bad_shown == bad);
-    s.run("filter", {0.5, 1});
+    s.run("filter", {1, 2});
     CHECK(s.document.scene().bad_shown == 0);
   }
 }

@@ -2,6 +2,7 @@
 #include "viewer/mesh/selection.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <doctest/doctest.h>
 
@@ -97,10 +98,29 @@ TEST_CASE("a tet is described by its number, region, quality and six angles") {
   s.run("select_tet", {0});
   const Rows rows = describe(s.document.mesh(), s.document.selection());
   CHECK(value_of(rows, "tet") == "0");
-  CHECK(value_of(rows, "min sine") == "0.9428");
+  CHECK(value_of(rows, "quality") == "1.8856");  // of 1 where the goal is just met
+  CHECK(value_of(rows, "min_sine") == "0.9428");
   CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& row) {
           return row.first.starts_with("angle") && row.second == "70.53°";
         }) == 6);
+}
+
+TEST_CASE("of a bad tet it is told whether it misses the goal or is a needle") {
+  constexpr double kHeight = 8;
+  const double r = std::sqrt(1.0 / 3);
+  MeshData data;
+  data.points = {{r, 0, 0}, {-r / 2, 0.5, 0}, {-r / 2, -0.5, 0}, {0, 0, kHeight}};
+  data.tets = {{{0, 1, 2, 3}, 1}};
+  TestSession s(data);
+  s.run("select_tet", {0});
+  const auto quality = [&] {
+    return value_of(describe(s.document.mesh(), s.document.selection()), "quality");
+  };
+  CHECK(quality().ends_with("  (a needle)"));
+  s.run("goal", {30, 150, "sine"});
+  CHECK(quality().find("(") == std::string::npos);
+  s.run("goal", {65});
+  CHECK(quality().ends_with("  (misses the goal)"));
 }
 
 TEST_CASE("a vertex is described by its ball") {

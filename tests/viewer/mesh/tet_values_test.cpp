@@ -14,13 +14,28 @@ using namespace tetmend::viewer;
 TEST_CASE("every measure is taken of every tet") {
   const TetMesh mesh(test::kuhn_cube(2, 0.2, 1));
   for (const QualityMeasure& measure : quality_measures()) {
-    const auto values = measure_tets(mesh, measure);
+    const TetValue& value = find_tet_value(measure.name);
+    const auto values = evaluate_tets(mesh, value);
     REQUIRE(values.size() == mesh.tet_slots());
     const auto& v = mesh.vertices(TetHandle(7));
     CHECK(static_cast<double>(values[7]) ==
           doctest::Approx(measure.evaluate(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]),
                                            mesh.point(v[3]))));
+    CHECK(value.range.high == measure.best);
   }
+  CHECK(tet_values().size() == quality_measures().size() + 1);
+}
+
+TEST_CASE("the quality of a tet is relative to the goal, which lies in the middle of its range") {
+  TetMesh mesh(test::kuhn_cube(2, 0.2, 1));
+  const TetValue& quality = tet_values().front();
+  CHECK(quality.range.low + quality.range.high == 2 * kBadThreshold);
+  for (const double least_angle : {30.0, 45.0}) {
+    mesh.set_standard(Standard(Goal::symmetric(least_angle)));
+    CHECK(evaluate_tets(mesh, quality)[7] == mesh.quality(TetHandle(7)));
+  }
+  CHECK_THROWS_WITH_AS(find_tet_value("speed"), doctest::Contains("valid: quality, min_sine, "),
+                       Error);
 }
 
 TEST_CASE("layers count tets from the boundary inwards") {

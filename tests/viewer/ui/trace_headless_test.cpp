@@ -27,8 +27,8 @@ Outcome run_script(const TempFolder& folder, const std::filesystem::path& trace,
 /// An accepted call that has bad tets before, and none after.
 std::uint32_t find_cure(const std::filesystem::path& trace) {
   viewer::Debugger debugger(trace);
-  const auto is_bad = [](const viewer::LocalTet& tet) { return tet.quality < 0.45F; };
-  const auto is_good = [](const viewer::LocalTet& tet) { return tet.quality > 0.5F; };
+  const auto is_bad = [](const viewer::LocalTet& tet) { return tet.quality < 0.9F; };
+  const auto is_good = [](const viewer::LocalTet& tet) { return tet.quality > 1; };
   for (std::uint32_t k = 0; k < debugger.file().calls().size(); ++k) {
     if (!debugger.file().calls()[k].accepted()) continue;
     debugger.enter(k);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "trace/traced_standard.h"
+
+#include <fmt/format.h>
+
+namespace tetmend {
+
+void put_standard(ByteWriter& out, const Standard& standard) {
+  out.put_raw(standard.goal().min_angle);
+  out.put_raw(standard.goal().max_angle);
+  out.put(static_cast<std::uint64_t>(standard.terms()));
+}
+
+Standard get_standard(ByteReader& in) {
+  Goal goal;
+  goal.min_angle = in.get_raw<double>();
+  goal.max_angle = in.get_raw<double>();
+  const std::uint64_t terms = in.get();
+  if (!is_sound(goal) || terms > static_cast<std::uint64_t>(Standard::Terms::sine_and_length)) {
+    throw ByteReader::Damage();
+  }
+  return Standard(goal, static_cast<Standard::Terms>(terms));
+}
+
+std::string describe(const Standard& standard) {
+  return fmt::format("{} to {} degrees, {}", standard.goal().min_angle, standard.goal().max_angle,
+                     to_string(standard.terms()));
+}
+
+}  // namespace tetmend
