@@ -33,13 +33,16 @@ TargetVertices::TargetVertices(const TetMesh& mesh, Target target) {
   };
   switch (target.kind) {
     case TargetKind::tet:
-      return take(mesh.vertices(target.tet()));
+      take(mesh.vertices(target.tet()));
+      break;
     case TargetKind::edge:
-      return take(mesh.vertices(target.edge()));
+      take(mesh.vertices(target.edge()));
+      break;
     case TargetKind::face:
-      return take(mesh.vertices(target.face()));
+      take(mesh.vertices(target.face()));
+      break;
     case TargetKind::vertex:
-      return take(std::array{target.vertex()});
+      take(std::array{target.vertex()});
   }
 }
 

@@ -1,67 +1,102 @@
 -- Algorithm 6 of Chen et al., Tetrahedral Mesh Improvement by Shell Transformation.
-description "Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of points, each followed by smoothing, until rounds bring little; then costly operators for the worst tets"
+description "Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of points, each followed by smoothing, until rounds bring little; then costly operators, for the worst tets first"
 
 local max_rounds     = parameter{"max_rounds", default = 30, low = 0, high = 10000, help = "rounds in all"}
-local least_progress = parameter{"least_progress", default = 0.4, low = 0, high = 1,
+local least_progress = parameter{"least_progress", default = 0.1, low = 0, high = 1,
                                  help = "least share of the bad tets that a plain round must remove"}
-local last_sweeps    = parameter{"last_sweeps", default = 3, low = 0, high = 1000,
-                                 help = "most sweeps of costly operators over the worst tets in the last round"}
+local last_sweeps    = parameter{"last_sweeps", default = 4, low = 0, high = 1000,
+                                 help = "most sweeps of costly operators over the worst tets"}
+local least_yield    = parameter{"least_yield", default = 0.1, low = 0, high = 10,
+                                 help = "least number of bad tets that a costly attempt must remove on average"}
 
 -- DEVIATION: Algorithm 5 tries all edges. The choice matters little for the mesh, but much for the time
 -- (docs/deviations.md).
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.5, at_least = 100}
-local worst = {below = 0, at_least = 32}
+local worst = {below = 1, worst = 100}
+local few   = {below = 1, worst = 32}
 
--- DEVIATION: new bad tets have a price (docs/deviations.md). The worst tets are worth more than that.
-local price = 0.1
+-- DEVIATION: a new bad tet has a price (docs/deviations.md). Without one, the worst tet gains a little, mild
+-- bad ones remain, and the next round has more to do. Only the worst tets are worth any number of mild ones.
+local full_price, half_price = 0.1, 0.02
 
-local function clean_up()
+-- Returns the share of the bad tets that remains.
+local rounds = 0
+local function plain_round()
+  local n_bad = quality().n_bad
+  if rounds == max_rounds or n_bad == 0 then return 1 end
+  rounds = rounds + 1
+  begin_round()
+  -- DEVIATION: Algorithm 6 smooths before the first reconnection (docs/deviations.md).
+  local_reconnection{edges = quick}
   smooth{}
   suppress_points{}
   smooth{}
-end
-
--- DEVIATION: Algorithm 6 smooths before the first reconnection (docs/deviations.md).
-local function plain_round()
-  begin_round()
-  local_reconnection{edges = quick}
-  clean_up()
   insert_points{}
   smooth{}
+  return quality().n_bad / n_bad
 end
-
--- DEVIATION: only the recursion is in the paper. With so few tets, a new mild bad one is no reason to
--- refuse.
-local function sweep_worst()
-  return local_reconnection{on = dire, reflex_only = false}
-       + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = dire})
-       + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
-                max_vertices = 14, max_nodes = 50, desperate = 0.7}, {on = worst})
-       + smooth{on = dire}
-end
-
-local function last_round()
-  begin_round()
-  judge_by{price = 0}
-  for _ = 1, last_sweeps do
-    if sweep_worst() == 0 then break end
-  end
-  clean_up()
-  local_reconnection{edges = quick}
-  smooth{}
-end
-
-judge_by{price = price}
-local rounds, before, now = 0, nil, quality()
 
 -- DEVIATION: Algorithm 6 ends after three rounds without progress (docs/deviations.md).
-repeat
-  if rounds == max_rounds or now.n_bad == 0 then break end
-  before = now
-  plain_round()
-  rounds = rounds + 1
-  now = quality()
-until now.n_bad > (1 - least_progress) * before.n_bad
+local function plain_rounds()
+  repeat until plain_round() > 1 - least_progress
+end
 
-if rounds < max_rounds and last_sweeps > 0 and now.n_bad > 0 then last_round() end
+-- DEVIATION: only the recursion is in the paper.
+local function sweep_worst(on)
+  return local_reconnection{on = on, reflex_only = false}
+       + apply({"cavity_insertion", desperate = 0}, {on = on})
+       + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
+                max_vertices = 14, max_nodes = 50, desperate = 0.7}, {on = few})
+end
+
+-- What makes things worse at first may help where nothing else does.
+local function split_worst()
+  return apply(sequence{"edge_split", "recursive_shell_transformation", "smoothing", "joint_smoothing",
+                        desperate = 0.7}, {on = few})
+end
+
+-- Needles count first: they would spoil what is around them. Sines alone count last, so that needles which
+-- the surface forces do not hide them.
+local function rescue_worst()
+  judge_by{price = half_price}
+  plain_round()
+  begin_round()
+  judge_by{price = 0}
+  for _ = 1, last_sweeps // 2 do
+    if sweep_worst(dire) + smooth{on = dire} == 0 then break end
+  end
+  judge_by{price = 0, measure = "sine"}
+  for _ = 1, last_sweeps - last_sweeps // 2 do
+    if sweep_worst(worst) + split_worst() + smooth{on = worst} == 0 then break end
+  end
+  judge_by{price = full_price}
+  plain_rounds()
+end
+
+-- The worst bad tets first, then four times as many, as long as attempts pay.
+local function insert_while_it_pays()
+  begin_round()
+  local now, count, removed, tried = quality(), 200, 1, 0
+  while now.n_bad > 0 and removed > 0 and removed >= least_yield * tried do
+    local n_bad = now.n_bad
+    local accepted
+    accepted, tried = apply({"cavity_insertion", desperate = 0}, {on = {below = 1, worst = count}})
+    smooth{}
+    local_reconnection{edges = quick}
+    smooth{}
+    now = quality()
+    removed, count = n_bad - now.n_bad, 4 * count
+  end
+end
+
+local start = quality()
+judge_by{price = full_price}
+plain_rounds()
+
+-- Where the surface forces most of the bad tets, costly operators only make more of them.
+local is_free = quality().n_bad < 2 / 3 * start.n_bad
+if rounds < max_rounds and last_sweeps > 0 then
+  if is_free and quality().n_bad > 0 then rescue_worst() end
+  insert_while_it_pays()
+end
