@@ -116,18 +116,19 @@ void write_extract(const Options& options, const TraceFile& file) {
   write_mesh(options.output / "call.mesh", kit.mesh);
   write_text(options.output / "call.lua",
              fmt::format("-- Call {} of {}: {} -> {}\n"
-                         "goal{{min = {}, max = {}, measure = \"{}\"}}\n"
+                         "goal{{min = {}, max = {}}}\njudge_by{{measure = \"{}\", price = {}}}\n"
                          "attempt({}, {{{}}}{})\n",
                          kit.call, options.file.filename().string(), describe_call(file, kit.call),
                          call.verdict_text(), goal.min_angle, goal.max_angle,
-                         to_string(kit.standard.terms()), script_of(file, call),
-                         fmt::join(kit.target, ", "),
+                         to_string(kit.standard.terms()), kit.standard.price(),
+                         script_of(file, call), fmt::join(kit.target, ", "),
                          kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
   write_text(options.output / "README.txt",
              fmt::format("Repeats call {} of a run of {}\n\n"
-                         "  tetmend improve call.mesh -o out.mesh --schedule call.lua{} --trace "
-                         "out.trace\n  tetmend trace out.trace --tree 0\n\nIn the run:\n\n{}",
-                         kit.call, file.header().program,
+                         "  tetmend improve call.mesh -o out.mesh --schedule call.lua --layers "
+                         "improve --goal {},{}{} --trace out.trace\n"
+                         "  tetmend trace out.trace --tree 0\n\nIn the run:\n\n{}",
+                         kit.call, file.header().program, kit.goal.min_angle, kit.goal.max_angle,
                          kit.frozen ? fmt::format(" --protect label:{}", *kit.frozen) : "",
                          call_tree_text(file, kit.call)));
 }

@@ -2,6 +2,8 @@
 #include "trace/call_extract.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace tetmend {
 
@@ -38,12 +40,57 @@ bool touches(const SlotMesh& mesh, TetHandle t, const std::vector<std::uint8_t>&
   });
 }
 
+std::array<Point, 4> corners(const SlotMesh& mesh, TetHandle t) {
+  const TetVertices& v = mesh.vertices(t);
+  return {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])};
+}
+
 /// Null for a call outside of visits.
 const Visit* visit_of(const TraceFile& file, std::uint32_t call) {
   const std::span<const Visit> visits = file.visits();
   const auto after = std::ranges::upper_bound(visits, call, {}, &Visit::first_call);
   if (after == visits.begin() || call >= (after - 1)->last_call) return nullptr;
   return &*(after - 1);
+}
+
+/// What Bounds looks at; the less, the worse.
+std::array<double, 4> figures(const std::array<Point, 4>& p) {
+  const auto angles = dihedral_angles(p[0], p[1], p[2], p[3]);
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (const auto& [i, j] : kEdgeVertices) {
+    const double length2 = (p[i] - p[j]).squaredNorm();
+    shortest = std::min(shortest, length2);
+    longest = std::max(longest, length2);
+  }
+  return {*std::ranges::min_element(angles), -*std::ranges::max_element(angles),
+          volume_length(p[0], p[1], p[2], p[3]), -longest / shortest};
+}
+
+/// Adds those tets of the mesh, apart from the others, by which it bounds every new tet.
+void add_bounds(const SlotMesh& mesh, MeshData& data) {
+  std::array<TetHandle, 4> worst;
+  std::array<double, 4> least{};
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_deleted(t)) continue;
+    const auto now = figures(corners(mesh, t));
+    for (std::size_t k = 0; k < worst.size(); ++k) {
+      if (worst[k].is_valid() && now[k] >= least[k]) continue;
+      worst[k] = t;
+      least[k] = now[k];
+    }
+  }
+  for (const TetHandle t : worst) {
+    if (!t.is_valid()) continue;
+    MeshData::Tet& tet = data.tets.emplace_back();
+    const auto points = corners(mesh, t);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      tet.vertices[i] = static_cast<std::uint32_t>(data.points.size());
+      data.points.push_back(points[i]);
+    }
+    tet.label = mesh.label(t);
+  }
 }
 
 /// Gives frozen tets a label of their own, by which a run can be told to keep them.
@@ -83,8 +130,10 @@ CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t ca
   CallExtract result;
   result.call = call;
   result.standard = mesh.standard();
+  result.goal = file.initial_mesh().standard().goal();
   std::vector<std::uint32_t> slots;
   result.mesh = mesh.extract(tets, &slots);
+  add_bounds(file.initial_mesh(), result.mesh);
   result.frozen = mark_frozen(mesh.frozen_tets(), tets, result.mesh);
   const auto numbers_of = [&slots](std::span<const VertexHandle> vertices) {
     std::vector<std::uint32_t> numbers;

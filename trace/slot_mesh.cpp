@@ -101,6 +101,14 @@ Quality SlotMesh::quality(TetHandle t) const {
       standard_.quality(point(v[0]), point(v[1]), point(v[2]), point(v[3])));
 }
 
+bool misses_goal(const SlotMesh& mesh, TetHandle t) {
+  if (mesh.quality(t) >= kBadThreshold) return false;
+  const TetVertices& v = mesh.vertices(t);
+  return static_cast<Quality>(mesh.standard().of_angles().quality(
+             mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <
+         kBadThreshold;
+}
+
 MeshData SlotMesh::to_data() const {
   std::vector<TetHandle> all;
   all.reserve(tet_count_);

@@ -78,4 +78,7 @@ class SlotMesh {
   std::vector<std::uint32_t> frozen_tets_;
 };
 
+/// As of a TetMesh.
+bool misses_goal(const SlotMesh& mesh, TetHandle t);
+
 }  // namespace tetmend

@@ -62,6 +62,7 @@ void EventEncoder::pass_ends(const QualityIndicators& now, std::uint64_t ticks) 
   out_.put_raw(now.q_worst);
   out_.put(now.n_bad);
   out_.put_raw(now.q_aver);
+  out_.put(now.n_needles);
 }
 
 void EventEncoder::visit_begins(const TetVertices& tet, Quality quality, std::uint64_t ticks) {
@@ -235,6 +236,7 @@ void EventDecoder::next(TraceEvent& event) {
       event.now.q_worst = in_.get_raw<double>();
       event.now.n_bad = in_.get();
       event.now.q_aver = in_.get_raw<double>();
+      event.now.n_needles = in_.get();
       break;
     case EventKind::visit_begins:
       get_vertices(event);

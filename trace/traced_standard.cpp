@@ -9,6 +9,7 @@ void put_standard(ByteWriter& out, const Standard& standard) {
   out.put_raw(standard.goal().min_angle);
   out.put_raw(standard.goal().max_angle);
   out.put(static_cast<std::uint64_t>(standard.terms()));
+  out.put_raw(standard.price());
 }
 
 Standard get_standard(ByteReader& in) {
@@ -16,15 +17,17 @@ Standard get_standard(ByteReader& in) {
   goal.min_angle = in.get_raw<double>();
   goal.max_angle = in.get_raw<double>();
   const std::uint64_t terms = in.get();
-  if (!is_sound(goal) || terms > static_cast<std::uint64_t>(Standard::Terms::sine_and_length)) {
+  const auto price = in.get_raw<double>();
+  if (!is_sound(goal) || terms > static_cast<std::uint64_t>(Standard::Terms::sine_and_length) ||
+      !(price >= 0)) {
     throw ByteReader::Damage();
   }
-  return Standard(goal, static_cast<Standard::Terms>(terms));
+  return Standard(goal, static_cast<Standard::Terms>(terms), price);
 }
 
 std::string describe(const Standard& standard) {
-  return fmt::format("{} to {} degrees, {}", standard.goal().min_angle, standard.goal().max_angle,
-                     to_string(standard.terms()));
+  return fmt::format("{} to {} degrees, by {}, price {}", standard.goal().min_angle,
+                     standard.goal().max_angle, to_string(standard.terms()), standard.price());
 }
 
 }  // namespace tetmend

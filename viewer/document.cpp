@@ -110,7 +110,7 @@ void Document::show_trace() {
   if (debugger_->mesh_number() != shown_mesh_) {
     mesh_ = debugger_->mesh();
     shown_mesh_ = debugger_->mesh_number();
-    statistics_ = compute_statistics(mesh_);
+    statistics_ = compute_statistics(mesh_, mesh_.standard().goal());
     forget_derived();
   }
   const CallStudy* study = debugger_->study();
@@ -124,12 +124,10 @@ void Document::show_trace() {
 }
 
 void Document::compare_with(const std::filesystem::path& file) {
-  TetMesh mesh = read_tet_mesh(file);
-  mesh.set_standard(mesh_.standard());
-  before_ = compute_statistics(mesh);
+  before_ = compute_statistics(read_tet_mesh(file), mesh_.standard().goal());
 }
 
-void Document::set_goal(const Goal& goal, Standard::Terms terms) {
+void Document::set_goal(const Goal& goal) {
   if (debugger_ != nullptr) throw Error("goal: a trace has that of its run");
   if (!is_sound(goal)) {
     throw Error(
@@ -137,9 +135,9 @@ void Document::set_goal(const Goal& goal, Standard::Terms terms) {
                     "degrees, the largest 71 to below 180",
                     goal.min_angle, goal.max_angle));
   }
-  standard_ = Standard(goal, terms);
+  standard_ = Standard(goal);
   mesh_.set_standard(standard_);
-  statistics_ = compute_statistics(mesh_);
+  statistics_ = compute_statistics(mesh_, mesh_.standard().goal());
   forget_derived();
 }
 
@@ -147,7 +145,7 @@ void Document::run_live(LiveRun::From from) {
   LiveRun::Input shown{mesh_, statistics_};
   if (mesh_.standard() != standard_) {  // a schedule has set another goal
     shown.mesh.set_standard(standard_);
-    shown.statistics = compute_statistics(shown.mesh);
+    shown.statistics = compute_statistics(shown.mesh, standard_.goal());
   }
   const MeshStatistics now = shown.statistics;
   live.start(std::move(shown), from, file_);

@@ -74,10 +74,10 @@ class Document {
   /// Reads a mesh for its statistics only: the state before. @throws Error, and nothing changes.
   void compare_with(const std::filesystem::path& file);
 
-  /// What tets are judged by from now on: those shown, of files opened later, and of live runs. At
-  /// first the default goal; that of a trace when one is opened. Cost: a few passes over the mesh.
+  /// The goal from now on: of the mesh that is shown, of files opened later, and of live runs. At
+  /// first the default; that of a trace when one is opened. Cost: a few passes over the mesh.
   /// @throws Error for a goal that is none, and while a trace is open.
-  void set_goal(const Goal& goal, Standard::Terms terms);
+  void set_goal(const Goal& goal);
 
   LiveRun live;
   /// Begins a run over the mesh. Its statistics become those of the state before.

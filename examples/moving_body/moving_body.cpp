@@ -188,9 +188,11 @@ bool has_turned_tets(const MeshData& mesh) {
 /// change lies around them. New vertices are for tets that a round has not cured, so that the mesh
 /// does not grow at every step. Returns how many tets are new or have moved.
 std::size_t improve(MeshData& data, const tetmend::Registry& registry) {
-  const tetmend::Selection needy = {.below = 0.35f};  // sine of an angle
   constexpr int kRounds = 3;
   tetmend::TetMesh mesh(std::move(data));
+  mesh.set_standard(tetmend::Standard(tetmend::Goal{}, tetmend::Standard::Terms::sine));
+  const tetmend::Selection needy = {
+      .below = static_cast<tetmend::Quality>(mesh.standard().quality_of_angle(20.5))};
   tetmend::Run run(mesh, registry);
   const auto is_good = [&] { return tetmend::quality_indicators(mesh).q_worst >= needy.below; };
   for (int round = 0; round < kRounds && !is_good(); ++round) {

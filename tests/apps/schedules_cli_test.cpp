@@ -103,7 +103,7 @@ TEST_CASE("a script runs with its settings, and report and notes tell it") {
   const std::string report = (bench.folder / "r.json").string();
   const Outcome outcome = bench.improve(
       "local n = parameter{'n', default = 1, low = 1, high = 9}\n"
-      "for i = 1, n do begin_round() smooth{} end log('rounds', n)",
+      "for i = 1, n do begin_round() local_reconnection{} end log('rounds', n)",
       {"--set", "n=3", "--report", report});
   CHECK(outcome.status == 0);
   CHECK(contains(outcome.out, "rounds 3"));

@@ -163,7 +163,8 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
   SUBCASE("a sequence, by a goal that the schedule sets") {
     const std::string schedule = (bench.folder / "sequences.lua").string();
     write_text(schedule, R"(
-        goal{min = 36, max = 150, measure = "sine"}
+        goal{min = 36, max = 150}
+        judge_by{measure = "sine"}
         apply(sequence{{"edge_split", relax = true}, {"shell_transformation", order = "longest"},
                        all_of{"smoothing", "multi_face_removal"}, desperate = 0.9},
               {on = {worst = 60}}))");
@@ -187,11 +188,12 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
         "--schedule", kit + "/call.lua",  "--trace", again,
         "-q"};
     const std::string told = read_text(kit + "/README.txt");
-    if (const std::size_t at = told.find("--protect label:"); at != std::string::npos) {
-      const std::size_t label = at + std::string("--protect ").size();
-      command.insert(command.end(),
-                     {"--protect", told.substr(label, told.find(' ', label) - label)});
-      ++protected_again;
+    for (const std::string option : {"--layers", "--goal", "--protect"}) {
+      const std::size_t at = told.find(option + " ");
+      if (at == std::string::npos) continue;
+      const std::size_t value = at + option.size() + 1;
+      command.insert(command.end(), {option, told.substr(value, told.find(' ', value) - value)});
+      protected_again += option == "--protect" ? 1 : 0;
     }
     const Outcome outcome = run_program(command);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);

@@ -50,7 +50,7 @@ MeshData two_labels() {
 /// Whichever way round its vertices are listed.
 bool is_bad(const MeshData& data, const MeshData::Tet& tet) {
   const auto p = [&](std::size_t i) { return data.points[tet.vertices[i]]; };
-  return static_cast<Quality>(std::abs(minimum_sine(p(0), p(1), p(2), p(3)))) < kBadThreshold;
+  return static_cast<Quality>(std::abs(minimum_sine(p(0), p(1), p(2), p(3)))) < 0.5f;
 }
 
 /// Bad tets that touch the middle of two_labels(): they have a free-standing vertex there or a face.

@@ -173,6 +173,7 @@ TEST_CASE("an operator that throws in a pass ends it, on any number of threads, 
   for (const int threads : {1, 3}) {
     CAPTURE(threads);
     TetMesh mesh = TetMesh::sorted(kuhn_cube(12, 0.33, 3));
+    mesh.set_standard(Standard(Goal{}, Standard::Terms::sine));
     const double volume = compute_statistics(mesh).volume;
     on_threads(threads, [&] {
       Run run(mesh, registry);

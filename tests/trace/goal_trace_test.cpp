@@ -20,14 +20,14 @@ const Schedule kThreeGoals("goals", R"(
     goal{min = 40, max = 130}
     smooth{}
     local_reconnection{}
-    goal{min = 20, measure = "sine"}
+    goal{min = 20}
+    judge_by{measure = "sine", price = 0.05}
     smooth{})");
 
 std::size_t count_bad(const SlotMesh& mesh) {
   std::size_t bad = 0;
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (!mesh.is_deleted(t) && mesh.quality(t) < kBadThreshold) ++bad;
+    if (!mesh.is_deleted(TetHandle(i)) && misses_goal(mesh, TetHandle(i))) ++bad;
   }
   return bad;
 }
@@ -42,7 +42,7 @@ TEST_CASE("replay judges by the goal in force, forwards, backwards and from keyf
   REQUIRE(file.passes().size() == 4);
   const Standard first = Standard(Goal{});
   const Standard second = Standard({40, 130});
-  const Standard third = Standard({20, 160}, Standard::Terms::sine);
+  const Standard third = Standard({20, 160}, Standard::Terms::sine, 0.05);
   CHECK(file.passes()[0].standard == first);
   CHECK(file.passes()[1].standard == second);
   CHECK(file.passes()[2].standard == second);
@@ -77,9 +77,9 @@ TEST_CASE("the summary of a trace tells the goal, and each other one where it be
   record(mesh, folder / "trace", {}, {}, kThreeGoals);
   const TraceFile file(folder / "trace");
   const std::string text = format_summary(file, summarize(file));
-  CHECK(contains(text, "goal: 30 to 150 degrees, sine_and_length\n"));
-  const std::size_t second = text.find("goal: 40 to 130 degrees, sine_and_length\n");
-  const std::size_t third = text.find("goal: 20 to 160 degrees, sine\n");
+  CHECK(contains(text, "goal: 30 to 150 degrees, by sine_and_length, price 0.1\n"));
+  const std::size_t second = text.find("goal: 40 to 130 degrees, by sine_and_length, price 0.1\n");
+  const std::size_t third = text.find("goal: 20 to 160 degrees, by sine, price 0.05\n");
   REQUIRE(second != std::string::npos);
   REQUIRE(third != std::string::npos);
   CHECK(second < text.find("local_reconnection", second));
@@ -92,7 +92,7 @@ TEST_CASE("a standard that is none is damage") {
   ByteReader in(out.bytes());
   CHECK_THROWS_AS(get_standard(in), ByteReader::Damage);
   ByteWriter sound;
-  put_standard(sound, Standard({20, 140}, Standard::Terms::sine));
+  put_standard(sound, Standard({20, 140}, Standard::Terms::sine, 0.2));
   ByteReader again(sound.bytes());
-  CHECK(get_standard(again) == Standard({20, 140}, Standard::Terms::sine));
+  CHECK(get_standard(again) == Standard({20, 140}, Standard::Terms::sine, 0.2));
 }

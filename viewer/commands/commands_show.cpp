@@ -53,14 +53,11 @@ json colour(Session& s, const json& a) {
 /// Changes what is given; returns what is in force then.
 json goal(Session& s, const json& a) {
   const Arguments arguments("goal", a);
-  const Standard now = s.document.mesh().standard();
-  Goal goal = now.goal();
-  Standard::Terms terms = now.terms();
+  Goal goal = s.document.mesh().standard().goal();
   if (arguments.has(0)) goal = Goal::symmetric(arguments.number(0));
   if (arguments.has(1)) goal.max_angle = arguments.number(1);
-  if (arguments.has(2)) terms = to_terms(arguments.text(2));
-  if (!a.empty()) s.document.set_goal(goal, terms);
-  return {{"min", goal.min_angle}, {"max", goal.max_angle}, {"measure", to_string(terms)}};
+  if (!a.empty()) s.document.set_goal(goal);
+  return {{"min", goal.min_angle}, {"max", goal.max_angle}};
 }
 
 json filter(Session& s, const json& a) {

@@ -16,20 +16,15 @@ class Gauge {
 
   void set_all(const SlotMesh& mesh) {
     for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-      if (!mesh.is_deleted(TetHandle(i))) set(i, mesh.quality(TetHandle(i)));
+      if (!mesh.is_deleted(TetHandle(i))) set(mesh, TetHandle(i));
     }
   }
-
-  void set(std::uint32_t slot, Quality quality) {
-    if (slot >= quality_.size()) quality_.resize(slot + 1, kNone);
-    count(quality_[slot], -1);
-    quality_[slot] = quality;
-    count(quality, 1);
-    if (quality != kNone) worst_.emplace(quality, slot);
+  void set(const SlotMesh& mesh, TetHandle t) {
+    set(t.index(), mesh.quality(t), misses_goal(mesh, t));
   }
-  void remove(std::uint32_t slot) { set(slot, kNone); }
+  void remove(TetHandle t) { set(t.index(), kNone, false); }
 
-  std::size_t bad() const { return static_cast<std::size_t>(bad_); }
+  std::size_t bad() const { return bad_; }
   double worst() {
     while (!worst_.empty() && quality_[worst_.top().second] != worst_.top().first) worst_.pop();
     return worst_.empty() ? 0 : static_cast<double>(worst_.top().first);
@@ -39,20 +34,29 @@ class Gauge {
   static constexpr Quality kNone = std::numeric_limits<Quality>::infinity();
   using Entry = std::pair<Quality, std::uint32_t>;
 
-  void count(Quality quality, int change) {
-    if (quality < kBadThreshold) bad_ += change;
+  void set(std::uint32_t slot, Quality quality, bool is_bad) {
+    if (slot >= quality_.size()) {
+      quality_.resize(slot + 1, kNone);
+      is_bad_.resize(slot + 1, false);
+    }
+    bad_ += is_bad ? 1 : 0;
+    bad_ -= is_bad_[slot] ? 1 : 0;
+    is_bad_[slot] = is_bad;
+    quality_[slot] = quality;
+    if (quality != kNone) worst_.emplace(quality, slot);
   }
 
   std::vector<Quality> quality_;                                          // by slot
+  std::vector<bool> is_bad_;                                              // likewise
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> worst_;  // with some of old times
-  std::ptrdiff_t bad_ = 0;
+  std::size_t bad_ = 0;
 };
 
 void follow(Gauge& gauge, const SlotMesh& mesh, const Cavity& cavity) {
   for (const CavityTet& tet : cavity.removed) {
-    if (mesh.is_deleted(tet.tet)) gauge.remove(tet.tet.index());
+    if (mesh.is_deleted(tet.tet)) gauge.remove(tet.tet);
   }
-  for (const CavityTet& tet : cavity.created) gauge.set(tet.tet.index(), mesh.quality(tet.tet));
+  for (const CavityTet& tet : cavity.created) gauge.set(mesh, tet.tet);
 }
 
 }  // namespace

@@ -114,7 +114,8 @@ void LiveJob::work() {
 }
 
 void LiveJob::run_schedule() {
-  mesh_.sort_spatially();  // as `tetmend improve` does
+  mesh_.set_bounds(Bounds::of(mesh_));  // as `tetmend improve` does
+  mesh_.sort_spatially();
   {
     const QualityIndicators before = quality_indicators(mesh_);
     const std::lock_guard lock(lock_);

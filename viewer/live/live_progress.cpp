@@ -22,6 +22,7 @@ json to_json(const LivePass& pass) {
           {"accepted", pass.accepted},
           {"seconds", pass.seconds},
           {"n_bad", pass.after.n_bad},
+          {"n_needles", pass.after.n_needles},
           {"q_worst", pass.after.q_worst},
           {"q_aver", pass.after.q_aver}};
 }

@@ -60,7 +60,7 @@ void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
   if (input_->mesh.standard() != shown.mesh.standard()) {
     Input judged = *input_;
     judged.mesh.set_standard(shown.mesh.standard());
-    judged.statistics = compute_statistics(judged.mesh);
+    judged.statistics = compute_statistics(judged.mesh, judged.mesh.standard().goal());
     input_ = std::make_unique<Input>(std::move(judged));
   }
   TetMesh mesh = from == From::shown ? std::move(shown.mesh) : input_->mesh;

@@ -48,7 +48,7 @@ MeasuredMesh::MeasuredMesh(TetMesh measured)
     : mesh(std::move(measured)),
       box(box_corners(mesh)),
       ball(enclosing_ball(mesh, box.front() / 2.0 + box.back() / 2.0)),
-      statistics(compute_statistics(mesh)),
+      statistics(compute_statistics(mesh, mesh.standard().goal())),
       regions(region_labels(mesh)) {}
 
 }  // namespace tetmend::viewer

@@ -31,6 +31,7 @@ class Builder {
       : in_(input),
         mesh_(input.mesh),
         settings_(input.settings),
+        angles_(input.mesh.standard().of_angles()),
         map_(find_colour_map(input.settings.map)),
         exact_(planes_of(input.settings, input.ball, true)) {
     scene_.origin = input.ball.centre;
@@ -60,8 +61,15 @@ class Builder {
     const HalfFace twin = mesh_.twin(face);
     return twin.is_outside() || !is_shown(twin.tet());
   }
+  /// A needle whose angles are good is not.
   bool is_bad(TetHandle t) const {
-    return settings_.bad && static_cast<double>(mesh_.quality(t)) < settings_.bad_below;
+    if (!settings_.bad || static_cast<double>(mesh_.quality(t)) >= settings_.bad_below) {
+      return false;
+    }
+    const TetVertices& v = mesh_.vertices(t);
+    const double of_angles =
+        angles_.quality(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
+    return static_cast<double>(static_cast<Quality>(of_angles)) < settings_.bad_below;
   }
 
   Colour colour_of(TetHandle t) const {
@@ -211,6 +219,7 @@ class Builder {
   const SceneInput& in_;
   const TetMesh& mesh_;
   const SceneSettings& settings_;
+  const Standard angles_;
   const ColourMap& map_;
   std::vector<Plane> exact_;
   std::vector<std::uint8_t> shown_;

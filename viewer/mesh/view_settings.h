@@ -30,7 +30,7 @@ struct SceneSettings {
   std::string map = "ember";
   std::string measure = "quality";  ///< of the histogram, the filter and the list of the worst
   bool bad = true;                  ///< bad tets in red, seen through the rest
-  double bad_below = 1;             ///< quality below which a tet is shown as bad; 1: it is bad
+  double bad_below = 1;             ///< tets whose angles are of less quality; 1: the goal
   bool filtered = false;            ///< show only tets whose value lies in `range`
   Range range;
   bool outside = false;  ///< show those outside of `range` instead

@@ -36,29 +36,20 @@ void choose_colour(SceneSettings& scene) {
 
 /// A new goal counts when Enter is pressed: it takes a pass over the mesh.
 void choose_goal(Document& document) {
-  const Standard& now = document.mesh().standard();
-  Standard::Terms terms = now.terms();
-  std::array<double, 2> angles = {now.goal().min_angle, now.goal().max_angle};
+  const Goal now = document.mesh().standard().goal();
+  std::array<double, 2> angles = {now.min_angle, now.max_angle};
   const bool is_trace = document.debugger() != nullptr;
   ImGui::BeginDisabled(is_trace);
-  bool changed = ImGui::InputScalarN("goal", ImGuiDataType_Double, angles.data(), 2, nullptr,
-                                     nullptr, "%.4g°", ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool changed = ImGui::InputScalarN("goal", ImGuiDataType_Double, angles.data(), 2, nullptr,
+                                           nullptr, "%.4g°", ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::EndDisabled();
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip(
-        "smallest and largest angle of a good tet\nfor live runs as well; Enter sets it");
+        "smallest and largest angle of a good tet, also for live runs; Enter sets it");
   }
-  if (ImGui::BeginCombo("judged by", to_string(terms).data())) {
-    for (const auto choice : {Standard::Terms::sine, Standard::Terms::sine_and_length}) {
-      if (!ImGui::Selectable(to_string(choice).data(), choice == terms)) continue;
-      terms = choice;
-      changed = true;
-    }
-    ImGui::EndCombo();
-  }
-  ImGui::EndDisabled();
   if (!changed || is_trace) return;
   try {
-    document.set_goal({angles[0], angles[1]}, terms);
+    document.set_goal({angles[0], angles[1]});
   } catch (const Error& error) {
     document.message = {error.what(), true};
   }
@@ -106,13 +97,12 @@ void draw_display_panel(Session& session) {
   choose_goal(session.document);
   ImGui::Checkbox("bad tets in red", &scene.bad);
   if (ImGui::IsItemHovered()) {
-    const Standard& standard = session.document.mesh().standard();
-    ImGui::SetTooltip("misses the goal: an angle below %g° or above %g°%s",
-                      standard.goal().min_angle, standard.goal().max_angle,
-                      standard.terms() == Standard::Terms::sine ? "" : ", or is a needle");
+    const Goal goal = session.document.mesh().standard().goal();
+    ImGui::SetTooltip("misses the goal: an angle below %g° or above %g°", goal.min_angle,
+                      goal.max_angle);
   }
   slide("bad below", scene.bad_below, 0, 2, "%.2f");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("quality; 1: the goal is just met");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("1: the goal is just met");
   ImGui::Checkbox("edges", &view.edges);
   ImGui::SameLine();
   ImGui::Checkbox("constraints", &scene.constraints);

@@ -22,8 +22,8 @@ constexpr Row kRows[] = {
     {"theta_max", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_max); }},
     {"lambda", [](const MeshStatistics& s) { return fmt::format("{:.3f} %", s.lambda); }},
     {"bad tets", [](const MeshStatistics& s) { return fmt::format("{}", s.n_bad); }},
-    {"q_worst", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
-    {"q_aver", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
+    {"worst sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
+    {"mean bad sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
     {"inverted", [](const MeshStatistics& s) { return fmt::format("{}", s.inverted); }},
     {"volume", [](const MeshStatistics& s) { return fmt::format("{:.6g}", s.volume); }},
 };

@@ -67,7 +67,8 @@ tetmend::Result improve_by_own_script(tetmend::Mesh& mesh, const std::string& pl
     local steps = parameter{"steps", default = 2, low = 1, high = 9}
     for i = 1, steps do
       begin_round()
-      apply({"odt_smoothing", halvings = 4}, {on = {below = 0.6}})
+      local_reconnection{}
+      apply({"odt_smoothing", halvings = 4}, {on = {below = 1.2}})
       log("bad tets:", quality().n_bad)
     end)";
   options.set = {{"steps", "3"}};
@@ -106,7 +107,9 @@ int main(int argc, char** argv) {
 
   mesh = part;
   const tetmend::Result result = improve_by_own_script(mesh, argv[1]);
-  expect(result.notes.size() == 3, "the script ran its three rounds");
+  std::size_t rounds = 0;
+  for (const std::string& note : result.notes) rounds += note.rfind("bad tets:", 0) == 0 ? 1 : 0;
+  expect(rounds == 3, "the script ran its three rounds");
   std::size_t accepted = 0;
   for (const tetmend::Pass& pass : result.passes) accepted += pass.accepted();
   std::printf("odt_smoothing: %zu accepted\n", accepted);

@@ -63,6 +63,7 @@ void check_sound(const TetMesh& mesh, const LiveRun::Input& before) {
 
 TEST_CASE("a live run gives the mesh of a plain run, bit for bit, as often as it is made") {
   TetMesh plain = test::asset_mesh("sheet.mesh");
+  plain.set_bounds(Bounds::of(plain));
   Registry registry = Registry::builtin();
   Run direct(plain, registry);
   improve(direct);
@@ -336,9 +337,7 @@ TEST_CASE("the goal of the viewer is that of the figures, of live runs and of th
   TestSession s(test::delaunay_ball(100, 1));
   const test::TempFolder folder;
   const std::size_t bad = s.document.statistics().n_bad;
-  CHECK(s.run("goal")["measure"] == "sine_and_length");
   CHECK_THROWS_WITH_AS(s.run("goal", {80}), doctest::Contains("at most 70"), Error);
-  CHECK_THROWS_WITH_AS(s.run("goal", {30, 150, "size"}), doctest::Contains("sine"), Error);
   CHECK(s.document.statistics().n_bad == bad);
   CHECK(s.run("goal", {40})["max"] == 140);
   const std::size_t more = s.document.statistics().n_bad;
