@@ -24,6 +24,12 @@ const Schedule kThreeGoals("goals", R"(
     judge_by{measure = "sine", price = 0.05}
     smooth{})");
 
+TetMesh priced_sheet() {
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  mesh.set_standard(Standard(Goal{}, Standard::Terms::sine_and_length, 0.1));
+  return mesh;
+}
+
 std::size_t count_bad(const SlotMesh& mesh) {
   std::size_t bad = 0;
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
@@ -36,12 +42,12 @@ std::size_t count_bad(const SlotMesh& mesh) {
 
 TEST_CASE("replay judges by the goal in force, forwards, backwards and from keyframes") {
   const TempFolder folder;
-  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh mesh = priced_sheet();
   record(mesh, folder / "trace", {}, {}, kThreeGoals);
   const TraceFile file(folder / "trace");
   REQUIRE(file.passes().size() == 4);
-  const Standard first = Standard(Goal{});
-  const Standard second = Standard({40, 130});
+  const Standard first = Standard(Goal{}, Standard::Terms::sine_and_length, 0.1);
+  const Standard second = Standard({40, 130}, Standard::Terms::sine_and_length, 0.1);
   const Standard third = Standard({20, 160}, Standard::Terms::sine, 0.05);
   CHECK(file.passes()[0].standard == first);
   CHECK(file.passes()[1].standard == second);
@@ -73,7 +79,7 @@ TEST_CASE("replay judges by the goal in force, forwards, backwards and from keyf
 
 TEST_CASE("the summary of a trace tells the goal, and each other one where it begins") {
   const TempFolder folder;
-  TetMesh mesh = asset_mesh("sheet.mesh");
+  TetMesh mesh = priced_sheet();
   record(mesh, folder / "trace", {}, {}, kThreeGoals);
   const TraceFile file(folder / "trace");
   const std::string text = format_summary(file, summarize(file));

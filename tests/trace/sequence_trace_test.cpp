@@ -18,11 +18,11 @@ using namespace tetmend::test;
 namespace {
 
 const Schedule kSequences("sequences", R"(
-    apply(sequence{"edge_split", "shell_transformation", {"smoothing", steps = 5}}, {sweeps = 2}))");
+    apply(sequence{"edge_split", "shell_transformation", {"smoothing", steps = 5}}))");
 
 struct Recorded {
   TempFolder folder;
-  TetMesh before = TetMesh(delaunay_ball(200, 4));
+  TetMesh before = TetMesh(delaunay_ball(80, 4));
   TetMesh mesh = before;
   std::map<std::uint64_t, std::uint64_t> truth;  // by event: all of them
 
@@ -122,13 +122,7 @@ TEST_CASE("what filters leave of sequences leads to the same mesh") {
     const TraceFile file(recorded.folder / "trace");
     REQUIRE(!file.calls().empty());
     Replay replay(file);
-    std::size_t wrong = 0;
-    for (const auto& [k, print] : recorded.truth) {
-      replay.seek(k);
-      // Of what is left out, edits that are undone later are cut off when that is known.
-      if (k == file.event_count()) wrong += replay.mesh().fingerprint() != print ? 1 : 0;
-    }
-    CHECK(wrong == 0);
+    replay.seek(file.event_count());
     CHECK(replay.mesh().fingerprint() == SlotMesh(recorded.mesh).fingerprint());
   }
 }
@@ -137,7 +131,7 @@ TEST_CASE("no chunk of a trace begins inside a sequence") {
   const TempFolder folder;
   TetMesh mesh = asset_mesh("folded_sheet.mesh");
   record(mesh, folder / "trace", {}, {}, Schedule("sequences", R"(
-    apply(sequence{"flip_2_3", "smoothing", "smoothing"}, {on = {below = 1, worst = 400}}))"));
+    apply(sequence{"edge_split", "shell_transformation", "smoothing"}, {on = {worst = 300}}))"));
   const TraceFile file(folder / "trace");
   REQUIRE(file.chunk_begins().size() > 1);
   for (const std::uint64_t begin : file.chunk_begins()) {

@@ -15,15 +15,16 @@ TEST_CASE("the mesh at any place has the handle numbers, tets and points of the 
   Debugger debugger(trace.path());
   Replay truth(debugger.file());
   const std::uint64_t end = debugger.end();
-  for (const std::uint64_t position : {end / 3, end, end / 2, std::uint64_t{1}, end - 1}) {
+  bool has_holes = false;
+  for (const std::uint64_t position : {end / 3, end, end / 2, std::uint64_t{1}, end - 1, end / 5}) {
     debugger.seek(position);
     truth.seek(position);
     const TetMesh mesh = debugger.mesh();
     CHECK(SlotMesh(mesh).fingerprint() == truth.mesh().fingerprint());
     CHECK(mesh.tet_count() == truth.mesh().tet_count());
+    has_holes = has_holes || mesh.tet_slots() > mesh.tet_count();
   }
-  debugger.seek(end);
-  CHECK(debugger.mesh().tet_slots() > debugger.mesh().tet_count());
+  CHECK(has_holes);
 }
 
 TEST_CASE("steps lead on, and back to where they began") {

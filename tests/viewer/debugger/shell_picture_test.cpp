@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -27,6 +28,7 @@ struct ShellProblem {
   ShellProblem(const SlotMesh& mesh, const ShellPicture& s) {
     for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
     for (const auto& side : s.before.core) sides.push_back(side.quality);
+    problem.standard = mesh.standard();
     problem.a = mesh.point(s.a);
     problem.b = mesh.point(s.b);
     problem.ring = ring;
@@ -47,12 +49,13 @@ double best_removal(const SlotMesh& mesh, const ShellPicture& s) {
   CoveringSearch search;
   Covering covering;
   if (!search.run(shell.problem, covering)) return 0;
-  double worst = 1;
+  double worst = std::numeric_limits<double>::infinity();
   for (unsigned n = 0; n < covering.triangle_count; ++n) {
     const auto& [i, k, j] = covering.triangles[n];
-    worst =
-        std::min({worst, minimum_sine(shell.problem.a, shell.ring[i], shell.ring[k], shell.ring[j]),
-                  minimum_sine(shell.ring[i], shell.ring[k], shell.ring[j], shell.problem.b)});
+    const Standard& standard = mesh.standard();
+    worst = std::min(
+        {worst, standard.quality(shell.problem.a, shell.ring[i], shell.ring[k], shell.ring[j]),
+         standard.quality(shell.ring[i], shell.ring[k], shell.ring[j], shell.problem.b)});
   }
   return worst;
 }
@@ -80,7 +83,7 @@ TEST_CASE("the old mesh is a core of all sides, and its worst tet the floor") {
   const ShellPicture s = picture({.degree = 7, .squash = 0.5});
   CHECK(s.before.core.size() == 7);
   CHECK(s.before.triangles.empty());
-  Quality worst = 1;
+  Quality worst = std::numeric_limits<Quality>::infinity();
   for (const auto& side : s.before.core) {
     CHECK(side.to == (side.from + 1) % 7);
     worst = std::min(worst, side.quality);
