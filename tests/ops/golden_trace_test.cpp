@@ -71,10 +71,10 @@ TEST_CASE("the trace of a recursion shows the calls on the way") {
         "  -> constrained\n"
         "  recursive_shell_transformation(0 4) level 1\n"
         "    shell_transformation(0 4) level 1\n"
-        "    -> accepted, 3 tets 0.3930 -> 2 tets 1.1167\n"
+        "    -> accepted, 3 tets 0.3930 -> 2 tets 1.1166\n"
         "  -> accepted\n"
         "  shell_transformation(0 1) level 0\n"
-        "  -> accepted, 4 tets 0.7059 -> 4 tets 1.0930\n"
+        "  -> accepted, 4 tets 0.7058 -> 4 tets 1.0930\n"
         "-> accepted, 6 tets 0.3930 -> 5 tets 1.0930\n");
   CHECK(trace_of(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) ==
         "recursive_shell_transformation(0 1) level 0\n"

@@ -27,6 +27,7 @@ struct ShellProblem {
   ShellProblem(const SlotMesh& mesh, const ShellPicture& s) {
     for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
     for (const auto& side : s.before.core) sides.push_back(side.quality);
+    problem.standard = mesh.standard();
     problem.a = mesh.point(s.a);
     problem.b = mesh.point(s.b);
     problem.ring = ring;
