@@ -91,7 +91,9 @@ struct Plan {
                                             options.goal.min_angle, options.goal.max_angle));
     }
     try {
-      standard = Standard(options.goal, to_terms(options.measure));
+      const Standard::Terms terms = to_terms(options.measure);
+      const bool has_price = terms != Standard::Terms::sine;
+      standard = Standard(options.goal, terms, has_price ? Standard::kUsualPrice : 0);
     } catch (const Error& error) {
       throw OptionError("measure", fmt::format("measure: {}", error.what()));
     }

@@ -666,8 +666,6 @@ MeshData MeshBuilder::give_back() {
 TetMesh TetMesh::build(MeshData& data, const BuildDetails& details) {
   BuildReport own;
   TetMesh mesh;
-  // What new bad tets cost is for a run to say.
-  mesh.standard_ = Standard(Goal{}, Standard::Terms::sine_and_length, 0);
   MeshBuilder builder(std::move(data), mesh, details.report ? *details.report : own,
                       details.interior, details.first_number);
   try {

