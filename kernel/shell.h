@@ -47,8 +47,9 @@ struct Shell {
   VertexHandle previous(unsigned i) const { return ring[i == 0 ? degree - 1 : i - 1]; }
 };
 
-/// Walks around an edge. Fills `shell` completely only for ShellKind::closed. Precondition: the tet
-/// of the edge lies in the territory. Cost: one step for each tet, no memory.
+/// Walks around an edge. The ring begins at the tet that names the edge: tets[0] is that tet. Fills
+/// `shell` completely only for ShellKind::closed. Precondition: the tet of the edge lies in the
+/// territory. Cost: one step for each tet, no memory.
 ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
                      const Territory& territory = {});
 

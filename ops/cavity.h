@@ -19,9 +19,9 @@ namespace tetmend {
 /// DEVIATION: the source collects all tets that the vertex might see and then cuts that graph. Here
 /// the cavity grows one tet at a time, always through the outer face that makes the worst tet with
 /// the vertex. The state with the best worst tet is taken. That is the same optimum without the
-/// graph: a state that is part of the best cavity, but has a worse face, must take in the tet
-/// behind that face as well. Faces that the vertex does not see make tets of negative quality and
-/// are crossed in the same way.
+/// graph. Why: let a state be part of the best cavity and have a worse face. Then the best cavity
+/// holds the tet behind that face, too. Faces that the vertex does not see make tets of negative
+/// quality and are crossed in the same way.
 class VertexCavity {
  public:
   struct Limits {

@@ -91,7 +91,7 @@ class PolyhedronReconnection final : public OperatorOf<State> {
   }
 
   /// A vertex to be added has the number after those of the polyhedron, so with it the table is
-  /// made anew for each size.
+  /// built again for each size.
   void load_points(const TetMesh& mesh, VertexHandle added, RefillingState& state) const {
     const auto vertices = state.polyhedron.vertices();
     PolyhedronSearch& search = state.search;

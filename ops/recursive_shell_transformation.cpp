@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // [chen, Alg. 4], with the tail call as a loop:
 //
-//   reduce(e, f, level):
+//   reduce(e, f, level):  removes edge e, or at least face f = (e, apex); at level 0 there is no f
 //     loop: transform the shell of e; done when e or f is gone; give up at the last level
 //           for each supporting face of e with a promising link edge e':
-//             reduce(e', face, level + 1)
+//             reduce(e', that face, level + 1)
 //             when the shell of e became smaller: next round of the loop
 //           give up when no face helped
 #include "ops/recursive_shell_transformation.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "ops/shell_search.h"
 #include "trace/algorithm.h"
@@ -42,13 +43,21 @@ class Recursion {
   Verdict remove(Shell& shell) { return reduce(State::found, shell, VertexHandle(), 0); }
 
  private:
-  enum class State { gone, reduced, found, blocked };
-  Verdict reduce(State state, Shell& shell, VertexHandle face, int level);
+  /// What is left of an edge e and its face f.
+  enum class State {
+    gone,     ///< e is gone
+    reduced,  ///< f is gone
+    found,    ///< both are there
+    blocked   ///< e is there, but its shell cannot be searched; or the search for e met the border
+  };
+  Verdict reduce(State state, Shell& shell, VertexHandle apex, int level);
+  std::optional<State> reduce_faces(Shell& shell, VertexHandle apex, int level);
+  bool reduce_face(const Shell& shell, unsigned i, int level);
   Verdict reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level);
   using Ancestor = std::array<VertexHandle, 2>;
 
-  State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle face, Shell& shell);
-  State relocate(VertexHandle face, Shell& shell);
+  State locate(VertexHandle a, VertexHandle b, TetHandle hint, VertexHandle apex, Shell& shell);
+  State relocate(VertexHandle apex, Shell& shell);
   Verdict transform(const Shell& shell, int level);
   Verdict try_transform(const Shell& shell, int level);
   ShellLocks locks(const Shell& shell, int level) const;
@@ -67,9 +76,9 @@ class Recursion {
   std::array<Ancestor, kDeepest> ancestors_;  // supporting edges of the callers, [0, level)
 };
 
-/// Finds the shell of ab. `gone`: no such edge; `reduced`: the face (a, b, face) is not in it.
+/// Finds the shell of ab, and looks whether the face (a, b, apex) is in it.
 Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hint,
-                                   VertexHandle face, Shell& shell) {
+                                   VertexHandle apex, Shell& shell) {
   const auto edge = find_edge(mesh_, a, b, context_.workspace, hint);
   if (!edge) return context_.workspace.met_border() ? State::blocked : State::gone;
   if (find_searchable_shell(context_, *edge, shell) != Verdict::accepted) return State::blocked;
@@ -79,12 +88,12 @@ Recursion::State Recursion::locate(VertexHandle a, VertexHandle b, TetHandle hin
     std::reverse(shell.tets.begin(), shell.tets.begin() + shell.degree - 1);
   }
   const auto end = shell.ring.begin() + shell.degree;
-  if (face.is_valid() && std::find(shell.ring.begin(), end, face) == end) return State::reduced;
+  if (apex.is_valid() && std::find(shell.ring.begin(), end, apex) == end) return State::reduced;
   return State::found;
 }
 
 /// As locate(), with the tets of the old shell as hints: often one of them still holds the edge.
-Recursion::State Recursion::relocate(VertexHandle face, Shell& shell) {
+Recursion::State Recursion::relocate(VertexHandle apex, Shell& shell) {
   const VertexHandle a = shell.a;
   const VertexHandle b = shell.b;
   TetHandle hint;
@@ -92,7 +101,7 @@ Recursion::State Recursion::relocate(VertexHandle face, Shell& shell) {
     const TetHandle t = shell.tets[i];
     if (t.index() < mesh_.tet_slots() && !mesh_.is_deleted(t) && edge_in(mesh_, t, a, b)) hint = t;
   }
-  return locate(a, b, hint, face, shell);
+  return locate(a, b, hint, apex, shell);
 }
 
 ShellLocks Recursion::locks(const Shell& shell, int level) const {
@@ -124,15 +133,13 @@ Verdict Recursion::try_transform(const Shell& shell, int level) {
 
 /// A tet at the face that also belongs to the shell of an ancestor must stay ([chen, 5.2 (2)]).
 bool Recursion::overlaps_ancestor(const Shell& shell, unsigned i, int level) const {
-  const std::array<VertexHandle, 5> around = {shell.a, shell.b, shell.ring[i], shell.previous(i),
-                                              shell.next(i)};
-  for (int n = 0; n < level; ++n) {
-    const auto [x, y] = ancestors_[static_cast<std::size_t>(n)];
-    const auto has = [&](VertexHandle v, VertexHandle apex) {
-      return v == around[0] || v == around[1] || v == around[2] || v == apex;
+  for (const VertexHandle fourth : {shell.previous(i), shell.next(i)}) {
+    const auto in_tet = [&](VertexHandle v) {
+      return v == shell.a || v == shell.b || v == shell.ring[i] || v == fourth;
     };
-    for (const VertexHandle apex : {around[3], around[4]}) {
-      if (has(x, apex) && has(y, apex)) return true;
+    for (int n = 0; n < level; ++n) {
+      const auto& [x, y] = ancestors_[static_cast<std::size_t>(n)];
+      if (in_tet(x) && in_tet(y)) return true;
     }
   }
   return false;
@@ -147,9 +154,10 @@ std::array<VertexHandle, 2> Recursion::pick_link_edges(const Shell& shell, unsig
   return {promising_end(shell, i), VertexHandle()};
 }
 
-/// The end whose link edge to ring vertex i is worth removing, or nothing. (g, A, B) are the
-/// weights of (p_i, b, a) of the point where the line p- p+ meets the plane of the face: only if p-
-/// p+ passes beyond exactly one of the link edges does removing that edge remove the face.
+/// The end whose link edge to p = ring[i] is worth removing, or nothing. The line through the ring
+/// neighbours of p meets the plane of the face (a, b, p) in a point. A link edge is *reflex* if the
+/// point lies beyond it, or on it. Removing a link edge removes the face only if that edge is the
+/// only reflex one, and the point does not lie beyond ab.
 VertexHandle Recursion::promising_end(const Shell& shell, unsigned i) const {
   const Point& a = mesh_.point(shell.a);
   const Point& b = mesh_.point(shell.b);
@@ -159,19 +167,20 @@ VertexHandle Recursion::promising_end(const Shell& shell, unsigned i) const {
   if (volume6(a, b, before, after) <= 0) return {};
   const bool a_reflex = volume6(a, before, p, after) <= 0;
   const bool b_reflex = volume6(before, p, after, b) <= 0;
-  if (a_reflex == b_reflex) return limits_.reflex_only || a_reflex ? VertexHandle() : shell.a;
+  if (a_reflex && b_reflex) return {};
+  if (!a_reflex && !b_reflex) return limits_.reflex_only ? VertexHandle() : shell.a;
   return a_reflex ? shell.a : shell.b;
 }
 
 /// The recursive call for the supporting face at ring vertex i: removes the link edge from `end`.
 Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle end, int level) {
   const VertexHandle p = shell.ring[i];
-  const VertexHandle face = end == shell.a ? shell.b : shell.a;
+  const VertexHandle other_end = end == shell.a ? shell.b : shell.a;
   ancestors_[static_cast<std::size_t>(level)] = {shell.a, shell.b};
   Shell next;
   const auto reduce_next = [&] {
-    const State state = locate(end, p, shell.tets[i], face, next);
-    return reduce(state, next, face, level + 1);
+    const State state = locate(end, p, shell.tets[i], other_end, next);
+    return reduce(state, next, other_end, level + 1);
   };
   if (context_.trace == nullptr) return reduce_next();
   const std::array<VertexHandle, 2> edge = {end, p};
@@ -182,40 +191,50 @@ Verdict Recursion::reduce_link_edge(const Shell& shell, unsigned i, VertexHandle
   return verdict;
 }
 
-Verdict Recursion::reduce(State state, Shell& shell, VertexHandle face, int level) {
-  for (;;) {
-    if (state == State::gone || state == State::reduced) return Verdict::accepted;
-    if (state == State::blocked) return Verdict::constrained;
+/// Tries the link edges of the supporting face at ring vertex i. True as soon as the mesh is another
+/// one; then the shell is out of date.
+bool Recursion::reduce_face(const Shell& shell, unsigned i, int level) {
+  const std::size_t changes = changes_;
+  for (const VertexHandle end : pick_link_edges(shell, i, level)) {
+    if (!end.is_valid()) continue;
+    reduce_link_edge(shell, i, end, level);
+    if (changes_ != changes) return true;
+  }
+  return false;
+}
+
+/// Tries the supporting faces in the order of the ring, until the shell is smaller or not `found`.
+/// Nothing if no face helped.
+std::optional<Recursion::State> Recursion::reduce_faces(Shell& shell, VertexHandle apex,
+                                                        int level) {
+  const unsigned degree = shell.degree;
+  for (unsigned i = 0; i < shell.degree; ++i) {
+    if (!reduce_face(shell, i, level)) continue;
+    const State state = relocate(apex, shell);
+    if (state != State::found || shell.degree < degree) return state;
+  }
+  return std::nullopt;
+}
+
+Verdict Recursion::reduce(State state, Shell& shell, VertexHandle apex, int level) {
+  while (state == State::found) {
     if (budget_ <= 0) return Verdict::budget_spent;
     if (transform(shell, level) == Verdict::accepted) {
-      state = relocate(face, shell);
-      if (state == State::gone || state == State::reduced) return Verdict::accepted;
-      if (state == State::blocked) return Verdict::constrained;
+      state = relocate(apex, shell);
+      if (state != State::found) break;
     }
     if (level >= limits_.max_level) {
       too_deep_ = true;
       return Verdict::depth_spent;
     }
-    const unsigned degree = shell.degree;
-    bool smaller = false;
-    for (unsigned i = 0; i < shell.degree && !smaller; ++i) {
-      for (const VertexHandle end : pick_link_edges(shell, i, level)) {
-        if (!end.is_valid()) continue;
-        const std::size_t changes = changes_;
-        reduce_link_edge(shell, i, end, level);
-        if (changes_ == changes) continue;
-        state = relocate(face, shell);
-        if (state == State::gone || state == State::reduced) return Verdict::accepted;
-        if (state == State::blocked) return Verdict::constrained;
-        smaller = shell.degree < degree;
-        break;  // the ring is another one
-      }
+    const std::optional<State> smaller = reduce_faces(shell, apex, level);
+    if (!smaller) {
+      if (budget_ <= 0) return Verdict::budget_spent;
+      return too_deep_ ? Verdict::depth_spent : Verdict::no_improvement;
     }
-    if (!smaller)
-      return budget_ <= 0 ? Verdict::budget_spent
-             : too_deep_  ? Verdict::depth_spent
-                          : Verdict::no_improvement;
+    state = *smaller;
   }
+  return state == State::blocked ? Verdict::constrained : Verdict::accepted;
 }
 
 class RecursiveShellTransformation final : public OperatorOf<ShellState> {
@@ -232,6 +251,7 @@ class RecursiveShellTransformation final : public OperatorOf<ShellState> {
                        ShellState& state) const override {
     return find_searchable_shell(context, target.edge(), state.shell);
   }
+  /// Nothing to find beforehand: what a step of apply() finds depends on the steps before it.
   Verdict evaluate(OperatorContext&, Target, ShellState&) const override {
     return Verdict::accepted;
   }

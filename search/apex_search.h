@@ -21,9 +21,9 @@ struct AngleRange {
 /// rounding of the angles, and that of qualities to single precision.
 inline constexpr double kAngleSlack = 1e-7;
 
-/// False only if no tet on the triangle has all its angles in the ranges, give or take kAngleSlack:
-/// at the three edges of the triangle in `base`, at the other three in `side`. The search for an
-/// apex is limited in depth, and an open question counts as true.
+/// False only if no tet on the triangle has all its angles in the ranges, give or take kAngleSlack.
+/// `base` has the ranges at the three edges of the triangle, `side` that at the other three. The
+/// search for an apex is limited in depth, and an open question counts as true.
 /// @param corners angles of the triangle; base[i] belongs to the edge opposite corner i. All ranges
 ///   lie within (0, pi).
 /// Cost: about 1 us where a tet in mid-range will do, up to a millisecond in close cases.

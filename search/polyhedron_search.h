@@ -4,9 +4,9 @@
 //
 //   The search keeps a front, the faces with a tet on one side only. It fills the one with the
 //   fewest apexes left, in the order of the quality of the tet, until no face is open or one has no
-//   apex. At each step it is known for each open face which tets are still possible: those that are
-//   better than the best filling so far, overlap no tet that has been placed, and do not cross the
-//   surface.
+//   apex. At each step it is known for each open face which tets are still possible. Such a tet is
+//   better than the best filling so far. It overlaps no tet that has been placed, and does not
+//   cross the surface.
 //
 //   The result tiles the polyhedron, whatever the tests of overlap may have missed by rounding. All
 //   tets are positive and every face has both its sides, so each point inside the surface lies in

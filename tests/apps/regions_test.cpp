@@ -175,7 +175,7 @@ TEST_CASE("boundary layers come out bit for bit, are counted, and can be given u
   const auto report_file = folder / "report.json";
   const LayeredMesh layered =
       make_layered(plane_wall(8), {.heights = growing_heights(4, 0.05, 1.4), .core = {0.6, 0.9}});
-  write_mesh(input, layered.data);
+  write_mesh(input, TetMesh(layered.data).to_data());  // each tet the right way round
   const std::vector<Tet> before = tets_of(input);
   const auto end = before.begin() + static_cast<std::ptrdiff_t>(layered.layer_tets);
   const Part layers = part_of({before.begin(), end}, [](const Tet&) { return true; });
