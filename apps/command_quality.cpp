@@ -47,6 +47,7 @@ void print_json(const std::filesystem::path& file, const Measurement& measured) 
   nlohmann::json result = tetmend::to_json(measured.statistics);
   result["file"] = file.string();
   result["build"] = to_json(measured.build);
+  if (measured.rulers) result["rulers"] = tetmend::to_json(*measured.rulers);
   if (measured.limit) result["limit"] = tetmend::to_json(*measured.limit);
   for (const MeasureSummary& summary : measured.measures) {
     result["measures"][std::string(summary.name)] = {{"worst", summary.worst},
@@ -76,8 +77,20 @@ int run_quality(const Options& options) {
   }
   fmt::print("{}\n{}", format_statistics(measured.statistics, measured.measures),
              format_histogram(measured.statistics, nullptr));
+  if (measured.rulers) fmt::print("\n{}", format_rulers(*measured.rulers, nullptr));
   if (measured.limit) fmt::print("\n{}", format_limit(*measured.limit));
   return 0;
+}
+
+std::string ruler_list() {
+  std::string text;
+  for (const RulerInfo& each : kRulers) {
+    std::string help = fmt::format("  {:<19}", each.name);
+    for (const char c : each.help)
+      help += c == '\n' ? "\n" + std::string(21, ' ') : std::string(1, c);
+    text += help + '\n';
+  }
+  return text;
 }
 
 std::string measure_list() {
@@ -112,6 +125,9 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   q_worst, q_aver the smallest q, and the mean over the bad tets
 In JSON the names are the same; histogram counts the angles by 5 degrees.
 
+Of the measures of other programs: the worst value, the one that 1 % of the tets
+(or faces) do not surpass, and the mean.
+{}
 --limit proves what no mesh of this surface can beat: a bad tet is forced if
 every mesh with the same surface and constraints has one there. It counts these
 and bounds the smallest and largest angle; more may be forced than is found.
@@ -125,7 +141,7 @@ Examples:
   tetmend quality part.vtk --measure radius_ratio --measure mean_ratio --json
 
 Exit status: 0 success, 1 the file cannot be read, 2 wrong usage)",
-                              measure_list(), mesh_format_list()));
+                              ruler_list(), measure_list(), mesh_format_list()));
   command->callback(
       [options, &invocation] { invocation.action = [options] { return run_quality(*options); }; });
 }

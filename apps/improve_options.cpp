@@ -165,6 +165,7 @@ void complete(ImproveOptions& options) {
   if (!options.trace_limit.empty()) run.trace_limit = read_size(options.trace_limit);
   run.limit = true;
   run.maps = false;
+  run.rulers = !options.quiet || !options.report.empty();
   try {
     tetmend::check(run);
   } catch (const OptionError& error) {

@@ -129,6 +129,12 @@ nlohmann::json to_json(const Pass& pass) {
           {"q_aver", pass.after.q_aver}};
 }
 
+nlohmann::json to_json(const MeshStatistics& statistics, const std::optional<MeshRulers>& rulers) {
+  nlohmann::json json = tetmend::to_json(statistics);
+  if (rulers) json["rulers"] = tetmend::to_json(*rulers);
+  return json;
+}
+
 nlohmann::json seconds_to_json(const ImproveReport& report) {
   const Result& result = report.result;
   return {{"total", report.total_seconds()}, {"reading", report.reading},
@@ -156,6 +162,9 @@ std::string format_report(const ImproveReport& report) {
   if (!text.empty()) text += '\n';
   text += format_comparison(result.before, result.after) + '\n';
   text += format_histogram(result.before, &result.after) + '\n';
+  if (result.rulers_before && result.rulers_after) {
+    text += format_rulers(*result.rulers_before, &*result.rulers_after) + '\n';
+  }
   for (const std::string& note : result.notes) text += note + '\n';
   if (!result.notes.empty()) text += '\n';
   const std::string passes = format_passes(report);
@@ -185,8 +194,8 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"build", to_json(result.build)},
           {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
           {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},
-          {"before", tetmend::to_json(result.before)},
-          {"after", tetmend::to_json(result.after)},
+          {"before", to_json(result.before, result.rulers_before)},
+          {"after", to_json(result.after, result.rulers_after)},
           {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
           {"surface",
            {{"unchanged", true},  // improve() fails otherwise

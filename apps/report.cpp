@@ -128,6 +128,16 @@ std::string bar(std::size_t count, std::size_t largest, std::size_t width) {
       1 + static_cast<std::size_t>(std::lround(part * static_cast<double>(width - 1))), '#');
 }
 
+/// At most 8 characters, with as many digits as that leaves, four at most.
+std::string short_number(double value) {
+  if (std::isnan(value)) return "nan";
+  for (int digits = 4; digits > 1; --digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    if (text.size() <= 8) return text;
+  }
+  return fmt::format("{:.1g}", value);
+}
+
 nlohmann::json number(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
@@ -153,6 +163,40 @@ std::string format_statistics(const MeshStatistics& statistics,
     table.add_row(fmt::format("{}, mean", summary.name), {decimal(summary.mean, 5)});
   }
   return table.str("", {});
+}
+
+std::string format_rulers(const MeshRulers& before, const MeshRulers* after) {
+  constexpr std::size_t kNameWidth = 26;
+  std::vector<const MeshRulers*> meshes = {&before};
+  if (after != nullptr) meshes.push_back(after);
+  std::string text;
+  const auto line = [&](std::string_view name, auto&& cell) {
+    std::string row = fmt::format("{:<{}}", name, kNameWidth);
+    for (std::size_t figure = 0; figure < 3; ++figure) {
+      for (std::size_t m = 0; m < meshes.size(); ++m) row += fmt::format(" {:>8}", cell(figure, m));
+    }
+    strip_trailing_spaces(row);
+    text += row + '\n';
+  };
+  constexpr std::array<std::string_view, 3> kFigures = {"worst", "1 %", "mean"};
+  line("measures of other programs", [&](std::size_t figure, std::size_t m) {
+    return m == 0 ? kFigures[figure] : std::string_view();
+  });
+  if (after != nullptr) {
+    line("", [](std::size_t, std::size_t m) { return m == 0 ? "before" : "after"; });
+  }
+  text += std::string(kNameWidth + 3 * 9 * meshes.size(), '-') + '\n';
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    line(kRulers[r].title, [&](std::size_t figure, std::size_t m) {
+      const RulerFigures& of = meshes[m]->figures[r];
+      return short_number(figure == 0 ? of.worst : figure == 1 ? of.one_percent : of.mean);
+    });
+    if (static_cast<Ruler>(r) != Ruler::non_orthogonality) continue;
+    line("  faces above 70 degrees", [&](std::size_t figure, std::size_t m) {
+      return figure == 0 ? fmt::format("{}", meshes[m]->faces_above_70) : std::string();
+    });
+  }
+  return text;
 }
 
 std::string format_histogram(const MeshStatistics& before, const MeshStatistics* after) {
@@ -225,6 +269,18 @@ std::string format_limit(const SurfaceLimit& limit) {
     heading.clear();
   }
   return text;
+}
+
+nlohmann::json to_json(const MeshRulers& rulers) {
+  nlohmann::json result = {{"inner_faces", rulers.inner_faces},
+                           {"faces_above_70", rulers.faces_above_70}};
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    const RulerFigures& of = rulers.figures[r];
+    result[std::string(kRulers[r].name)] = {{"worst", number(of.worst)},
+                                            {"one_percent", number(of.one_percent)},
+                                            {"mean", number(of.mean)}};
+  }
+  return result;
 }
 
 nlohmann::json to_json(const SurfaceLimit& limit) {

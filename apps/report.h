@@ -7,6 +7,7 @@
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
+#include <tetmend/rulers.h>
 
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
@@ -25,6 +26,11 @@ std::string format_comparison(const MeshStatistics& before, const MeshStatistics
 std::string format_statistics(const MeshStatistics& statistics,
                               std::span<const MeasureSummary> extra = {});
 
+/// Table of the measures of other programs: worst, 1 % and mean; with `after` those of two meshes
+/// beside each other.
+/// @param after may be null
+std::string format_rulers(const MeshRulers& before, const MeshRulers* after);
+
 /// Histogram of the dihedral angles in 18 bins of 10 degrees, counts and bars; with `after` the two
 /// meshes stand side by side on one scale. The scale is logarithmic, so that a few bad angles among
 /// millions show.
@@ -37,6 +43,8 @@ std::string format_limit(const SurfaceLimit& limit);
 /// An object with the names of the fields of MeshStatistics; lambda_bands and histogram are arrays.
 /// A number that is not finite becomes null, which JSON can express.
 nlohmann::json to_json(const MeshStatistics& statistics);
+/// An object with an object for each ruler by its name, and inner_faces and faces_above_70.
+nlohmann::json to_json(const MeshRulers& rulers);
 /// The same for SurfaceLimit; `bad` is an object by hindrance, a bound that is not known is null.
 nlohmann::json to_json(const SurfaceLimit& limit);
 

@@ -1,7 +1,7 @@
 # Warnings, floating-point rules and sanitizers that every target of this project shares.
 add_library(tetmend_flags INTERFACE)
 target_compile_options(tetmend_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
   # No fused multiply-add: the same bits on every x86-64, whichever instruction set is used.
   -ffp-contract=off -fno-math-errno)
 if(TETMEND_SANITIZE)

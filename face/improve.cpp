@@ -25,6 +25,7 @@
 #include "face/watcher.h"
 #include "kernel/chunks.h"
 #include "kernel/integrity.h"
+#include "kernel/rulers.h"
 #include "kernel/surface_fingerprint.h"
 #include "schedule/limit/surface_limit.h"
 
@@ -194,6 +195,7 @@ void Improvement::measure_before() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh_);
+  if (options_.rulers) result_.rulers_before = measure_rulers(mesh_);
   surface_before_ = surface_fingerprint(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
   note(face::advice_before(mesh_, result_));
@@ -225,6 +227,7 @@ void Improvement::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
   result_.after = compute_statistics(mesh_);
+  if (options_.rulers) result_.rulers_after = measure_rulers(mesh_);
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);

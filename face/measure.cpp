@@ -4,6 +4,7 @@
 
 #include "face/arena.h"
 #include "face/mesh_access.h"
+#include "kernel/rulers.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
 
@@ -39,6 +40,7 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
     const TetMesh built =
         face::build_located(file, data, {.sorted = false, .report = &result.build});
     result.statistics = compute_statistics(built);
+    if (options.rulers) result.rulers = measure_rulers(built);
     for (const QualityMeasure* each : measures) result.measures.push_back(summarize(built, *each));
     if (options.limit) result.limit = compute_surface_limit(built);
     return result;

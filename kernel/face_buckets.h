@@ -2,6 +2,7 @@
 // The faces of all tets, found by their smallest vertex: how neighbours are matched.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -96,43 +97,40 @@ class FacePairs {
   void begin(std::size_t faces) {
     std::size_t size = 64;
     while (size < 2 * faces) size *= 2;
-    if (size > slots_.size()) {
-      slots_.assign(size, Slot());
-      stamp_ = 0;
+    if (size > keys_.size()) {
+      keys_.resize(size);
+      sides_.resize(size);
     }
     mask_ = size - 1;
-    if (++stamp_ == 0) {
-      slots_.assign(slots_.size(), Slot());
-      stamp_ = 1;
-    }
+    std::fill_n(keys_.begin(), size, kNone);
   }
   enum class Found { first, second, third };
+  struct Side {
+    HalfFace face;
+    bool even = false;
+  };
   /// Adds a side; `other` becomes its counterpart if it is the second of its face.
-  Found add(const FaceBuckets::Entry& entry, FaceBuckets::Entry& other) {
-    const std::uint64_t mixed =
-        (std::uint64_t{entry.high} << 32 | entry.low) * 0x9E3779B97F4A7C15ull;
-    std::size_t i = (mixed >> 40) & mask_;
-    while (slots_[i].stamp == stamp_ && !slots_[i].entry.same_face(entry)) i = (i + 1) & mask_;
-    Slot& slot = slots_[i];
-    if (slot.stamp != stamp_) {
-      slot = {entry, stamp_, false};
+  Found add(const FaceBuckets::Entry& entry, Side& other) {
+    const std::uint64_t key = std::uint64_t{entry.high} << 32 | entry.low;
+    std::size_t i = (key * 0x9E3779B97F4A7C15ull >> 40) & mask_;
+    while (keys_[i] != kNone && keys_[i] != key) i = (i + 1) & mask_;
+    if (keys_[i] == kNone) {
+      keys_[i] = key;
+      sides_[i] = {entry.face, entry.even};
       return Found::first;
     }
-    if (slot.paired) return Found::third;
-    slot.paired = true;
-    other = slot.entry;
+    if (sides_[i].face == HalfFace()) return Found::third;
+    other = sides_[i];
+    sides_[i] = {};  // paired
     return Found::second;
   }
 
  private:
-  struct Slot {
-    FaceBuckets::Entry entry{};
-    std::uint32_t stamp = 0;
-    bool paired = false;
-  };
-  std::vector<Slot> slots_;
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};  // no face: it is no vertex's number
+
+  std::vector<std::uint64_t> keys_;  // of the two vertices that are not the smallest
+  std::vector<Side> sides_;
   std::size_t mask_ = 0;
-  std::uint32_t stamp_ = 0;
 };
 
 }  // namespace tetmend

@@ -24,6 +24,7 @@
 #include "kernel/face_buckets.h"
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
+#include "kernel/tet_batch.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -86,6 +87,8 @@ class MeshBuilder {
   void place_vertices(bool sorted);
   Grouping place_tets(bool sorted);
   Signs evaluate();
+  Signs evaluate(std::size_t begin, std::size_t end);
+  void add_sign(std::size_t t, bool certified, Signs& signs) const;
   void orient();
   void match_faces(const FaceBuckets& buckets);
   std::vector<std::uint32_t> match(const FaceBuckets& buckets);
@@ -225,10 +228,12 @@ Grouping MeshBuilder::place_tets(bool sorted) {
     groups = group_by_key(smallest, static_cast<std::uint32_t>(mesh_.points_.size()));
   }
   if (sorted) file_tet_ = std::exchange(groups.order, {});
+  constexpr std::size_t kAhead = 16;  // tets of the file that memory is asked for in advance
   resize_with_room(mesh_.cells_, n);
   resize_with_room(mesh_.label_, n);
   for_chunks(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
+      if (t + kAhead < end) __builtin_prefetch(&data_.tets[file_tet(t + kAhead)]);
       const MeshData::Tet& tet = data_.tets[file_tet(t)];
       for (std::size_t i = 0; i < 4; ++i) mesh_.cells_[t].vertices[i] = vertex(tet.vertices[i]);
       mesh_.label_[t] = tet.label;
@@ -242,26 +247,45 @@ Grouping MeshBuilder::place_tets(bool sorted) {
   return groups;
 }
 
+void MeshBuilder::add_sign(std::size_t t, bool certified, Signs& signs) const {
+  if (certified) {
+    ++signs.positive;
+    return;
+  }
+  const TetVertices& v = mesh_.cells_[t].vertices;
+  const double v6 = tet_volume6(t);
+  signs.positive += v6 > 0 ? 1 : 0;
+  signs.negative += v6 < 0 ? 1 : 0;
+  const bool inverted = v6 < 0 && mesh_.is_certified_positive({v[0], v[1], v[3], v[2]});
+  ++(inverted ? signs.inverted : signs.flat);
+}
+
+/// Of a range of tets.
+MeshBuilder::Signs MeshBuilder::evaluate(std::size_t begin, std::size_t end) {
+  constexpr std::size_t kBatch = 128;  // stays in the first cache
+  Signs signs;
+  TetBatch batch;
+  for (std::size_t first = begin; first < end; first += kBatch) {
+    const std::size_t last = std::min(end, first + kBatch);
+    batch.clear();
+    for (std::size_t t = first; t < last; ++t) {
+      const TetVertices& v = mesh_.cells_[t].vertices;
+      batch.add(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
+    }
+    batch.evaluate();
+    for (std::size_t t = first; t < last; ++t) {
+      mesh_.quality_[t] = batch.quality(t - first);
+      add_sign(t, batch.is_certified_positive(t - first), signs);
+    }
+  }
+  return signs;
+}
+
 /// Computes the qualities, and counts signs on the way.
 MeshBuilder::Signs MeshBuilder::evaluate() {
   const auto parts =
-      map_chunks<Signs>(mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {
-        Signs signs;
-        for (std::size_t t = begin; t < end; ++t) {
-          const TetVertices& v = mesh_.cells_[t].vertices;
-          mesh_.quality_[t] = mesh_.evaluate(v);
-          if (mesh_.is_certified_positive(v)) {
-            ++signs.positive;
-            continue;
-          }
-          const double v6 = tet_volume6(t);
-          signs.positive += v6 > 0 ? 1 : 0;
-          signs.negative += v6 < 0 ? 1 : 0;
-          const bool inverted = v6 < 0 && mesh_.is_certified_positive({v[0], v[1], v[3], v[2]});
-          ++(inverted ? signs.inverted : signs.flat);
-        }
-        return signs;
-      });
+      map_chunks<Signs>(mesh_.cells_.size(),
+                        [&](std::size_t begin, std::size_t end) { return evaluate(begin, end); });
   Signs sum;
   for (const Signs& part : parts) {
     sum.positive += part.positive;
@@ -310,7 +334,7 @@ std::vector<std::uint32_t> MeshBuilder::match(const FaceBuckets& buckets) {
           bool sound = true;
           pairs.begin(buckets.bound(v));
           buckets.visit(v, [&](const Entry& entry) {
-            Entry other;
+            FacePairs::Side other;
             const FacePairs::Found found = pairs.add(entry, other);
             if (found == FacePairs::Found::first) return;
             sound &= found == FacePairs::Found::second && entry.even != other.even;
@@ -495,11 +519,13 @@ void MeshBuilder::build_surface(const FaceBuckets& buckets) {
 /// Faces of the boundary and between two labels that no triangle names, as the file orders their
 /// tets.
 std::vector<HalfFace> MeshBuilder::unnamed_faces() const {
+  const bool has_labels = std::any_of(mesh_.label_.begin(), mesh_.label_.end(),
+                                      [&](Label label) { return label != mesh_.label_[0]; });
   const auto is_wanted = [&](HalfFace f) {
     const HalfFace twin = mesh_.twin(f);
     if (twin.is_outside()) return twin == HalfFace();
-    return mesh_.label(f.tet()) != mesh_.label(twin.tet()) && !mesh_.is_constrained(f) &&
-           file_code(f) < file_code(twin);
+    return has_labels && mesh_.label(f.tet()) != mesh_.label(twin.tet()) &&
+           !mesh_.is_constrained(f) && file_code(f) < file_code(twin);
   };
   const auto parts = map_chunks<std::vector<HalfFace>>(
       mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {

@@ -2,7 +2,8 @@
 // Statistics of a mesh in one pass, without a transcendental function per angle.
 //
 //   an angle enters as  key = cos |cos| = c |c| / (c^2 + s^2),  monotone, no root needed
-//   bins (5 degrees) and bands (6 degrees) together cut 0..180 into classes: count the classes
+//   bins (5 degrees) and bands (a fifth of what is bad) together cut 0..180 into classes: count the
+//   classes
 //   a uniform grid over the keys finds the class; bins and bands are added up at the end
 //   the extreme angles are compared as signed squares of the cotangent, exact near 0 and 180
 #include "kernel/statistics.h"
@@ -11,35 +12,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
+#include "kernel/angle_rows.h"
 #include "kernel/chunks.h"
+#include "kernel/compensated_sum.h"
 
 namespace tetmend {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A sum whose relative error stays near one rounding however many terms it has: the exact error of
-/// every addition is carried along (Knuth's TwoSum).
-class CompensatedSum {
- public:
-  void add(double x) {
-    const double sum = sum_ + x;
-    const double added = sum - sum_;
-    error_ += (sum_ - (sum - added)) + (x - added);
-    sum_ = sum;
-  }
-  void add(const CompensatedSum& other) {
-    add(other.sum_);
-    error_ += other.error_;
-  }
-  double value() const { return sum_ + error_; }
-
- private:
-  double sum_ = 0;
-  double error_ = 0;
-};
 
 double share(double part, std::size_t whole) {
   return whole == 0 ? 0 : part / static_cast<double>(whole);
@@ -52,15 +35,20 @@ class AngleClasses {
   static constexpr std::size_t kMaxEdges = 48;
   using Counts = std::array<std::size_t, 2 * kMaxEdges + 1>;
 
-  AngleClasses() {
-    for (int degrees = 1; degrees < 180; ++degrees) {
-      const bool band_edge = degrees % 6 == 0 && std::min(degrees, 180 - degrees) <= 30;
-      if (degrees % 5 == 0 || band_edge) {
-        edge_[edges_] = degrees;
-        reached_[edges_] = key_of(degrees - kAngleTolerance);
-        passed_[edges_] = key_of(degrees + kAngleTolerance);
-        ++edges_;
-      }
+  explicit AngleClasses(const Goal& goal) : goal_(goal) {
+    std::vector<double> edges;
+    for (int degrees = 5; degrees < 180; degrees += 5) edges.push_back(degrees);
+    for (int band = 1; band <= 5; ++band) {
+      edges.push_back(band * goal.min_angle / 5);
+      edges.push_back(180 - band * (180 - goal.max_angle) / 5);
+    }
+    std::sort(edges.begin(), edges.end());
+    for (const double degrees : edges) {
+      if (edges_ > 0 && degrees - edge_[edges_ - 1] <= 3 * kAngleTolerance) continue;
+      edge_[edges_] = degrees;
+      reached_[edges_] = angle_key(degrees - kAngleTolerance);
+      passed_[edges_] = angle_key(degrees + kAngleTolerance);
+      ++edges_;
     }
     reached_[edges_] = passed_[edges_] = -kInfinity;  // no angle gets past 180
     for (std::size_t cell = 0; cell < first_.size(); ++cell) {
@@ -70,7 +58,7 @@ class AngleClasses {
     }
   }
 
-  /// @param key cos |cos| of the angle, within [-1, 1]
+  /// @param key of the angle, within [-1, 1]
   std::size_t find(double key) const {
     std::size_t j = first_[cell_of(key)];
     while (key < passed_[j]) ++j;
@@ -80,14 +68,19 @@ class AngleClasses {
   void write(const Counts& counts, MeshStatistics& result) const {
     std::array<std::size_t, 5> band_count{};
     std::size_t all = 0;
+    const auto count_band = [&](double outside, double width, std::size_t count) {
+      const double band = std::floor(outside / width + kAngleTolerance);
+      band_count[std::min<std::size_t>(4, static_cast<std::size_t>(band))] += count;
+    };
     for (std::size_t c = 0; c <= 2 * edges_; ++c) {
       const double low = c < 2 ? 0 : edge_[c / 2 - 1];
       const double high = c / 2 < edges_ ? edge_[c / 2] : 180;
       const double angle = c % 2 == 1 ? high : 0.5 * (low + high);  // stands for its class
-      const double distance = std::min(angle, 180 - angle);
-      result.histogram[static_cast<std::size_t>(angle / 5)] += counts[c];
-      if (distance <= 30) {
-        band_count[std::min<std::size_t>(4, static_cast<std::size_t>(distance / 6))] += counts[c];
+      result.histogram[static_cast<std::size_t>(angle / 5 + kAngleTolerance)] += counts[c];
+      if (angle <= goal_.min_angle) {
+        count_band(angle, goal_.min_angle / 5, counts[c]);
+      } else if (angle >= goal_.max_angle) {
+        count_band(180 - angle, (180 - goal_.max_angle) / 5, counts[c]);
       }
       all += counts[c];
     }
@@ -103,72 +96,67 @@ class AngleClasses {
   // Fine enough for one edge a cell, small enough for L1.
   static constexpr double kCellsPerUnit = 512;
 
-  static double key_of(double degrees) {
-    const double cosine = std::cos(degrees * std::numbers::pi / 180);
-    return cosine * std::abs(cosine);
-  }
   static std::size_t cell_of(double key) {
     return static_cast<std::size_t>((1 - key) * kCellsPerUnit);
   }
 
+  Goal goal_;
   std::size_t edges_ = 0;
-  std::array<int, kMaxEdges> edge_{};        // degrees, ascending
+  std::array<double, kMaxEdges> edge_{};     // degrees, ascending
   std::array<double, kMaxEdges> reached_{};  // keys at most this are at the edge or beyond
   std::array<double, kMaxEdges> passed_{};   // keys below this are beyond the edge
   std::array<std::uint8_t, 2 * static_cast<std::size_t>(kCellsPerUnit) + 1> first_{};
 };
 
-/// The angles of one tet: cosine and sine of each, times one factor and squared, with the sign of
-/// the cosine.
-struct TetAngles {
-  std::array<double, 6> cosine_square;
-  std::array<double, 6> sine_square;
+/// Keys of the angles that a bad tet surpasses. The queues of bad tets see sines in single
+/// precision, so half a unit of it is granted.
+KeyLimits limits_of(const Goal& goal) {
+  constexpr double kGranted = 1 - 0x1p-25;
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const auto granted = [](double degrees) {
+    return std::asin(std::min(1.0, std::sin(degrees / kDegrees)) * kGranted) * kDegrees;
+  };
+  return {angle_key(granted(goal.min_angle)), angle_key(180 - granted(180 - goal.max_angle))};
+}
 
-  TetAngles(const std::array<Point, 4>& p, double v6) {
-    std::array<Point, 4> normal;
-    for (std::size_t f = 0; f < 4; ++f) {
-      const auto& [i, j, k] = kFaceVertices[f];
-      normal[f] = (p[j] - p[i]).cross(p[k] - p[i]);
-    }
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto& [i, j] = kEdgeVertices[e];
-      const auto& [k, l] = kEdgeVertices[5 - e];  // the faces at edge ij lie opposite k and l
-      const double cosine = -normal[k].dot(normal[l]);
-      cosine_square[e] = cosine * std::abs(cosine);
-      sine_square[e] = v6 * v6 * (p[j] - p[i]).squaredNorm();
-    }
+/// The squares of the cotangents of a tet's angles, with the signs of these: exact near 0 and 180,
+/// where keys cannot tell angles apart.
+std::array<double, 6> cotangents_of(const std::array<Point, 4>& p) {
+  std::array<Point, 4> normal;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const auto& [i, j, k] = kFaceVertices[f];
+    normal[f] = (p[j] - p[i]).cross(p[k] - p[i]);
   }
-  double key(std::size_t e) const {
-    const double scale = std::abs(cosine_square[e]) + sine_square[e];
-    const double value = scale > 0 ? cosine_square[e] / scale : 1.0;
-    return value > -1 ? std::min(value, 1.0) : -1.0;  // not a number after overflow
+  const double v6 = volume6(p[0], p[1], p[2], p[3]);
+  std::array<double, 6> squares{};
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto& [i, j] = kEdgeVertices[e];
+    const auto& [k, l] = kEdgeVertices[5 - e];  // the faces at edge ij lie opposite k and l
+    const double cosine = -normal[k].dot(normal[l]);
+    const double cosine_square = cosine * std::abs(cosine);
+    const double sine_square = v6 * v6 * (p[j] - p[i]).squaredNorm();
+    const double scale = std::abs(cosine_square) + sine_square;
+    squares[e] = scale > 0 ? cosine_square / sine_square : kInfinity;
   }
-  double cotangent_square(std::size_t e) const {
-    const double scale = std::abs(cosine_square[e]) + sine_square[e];
-    return scale > 0 ? cosine_square[e] / sine_square[e] : kInfinity;
-  }
-};
+  return squares;
+}
 
 /// The smallest and the largest angle of many tets, and whose they are. Keys choose the few tets of
-/// which the cotangents, which tell angles near 0 and 180 apart, are worth a division.
+/// which the cotangents are worth their divisions.
 class ExtremeAngles {
  public:
-  void add(TetHandle t, const TetAngles& angles, double greatest_key, double smallest_key) {
+  /// True if the tet with these extreme keys may have one of the extremes of all.
+  bool may_take(double greatest_key, double smallest_key) const {
     constexpr double kRounding = 1e-12;
-    if (sharpest_tet_.is_valid() && greatest_key < greatest_key_ - kRounding &&
-        smallest_key > smallest_key_ + kRounding) {
-      return;
-    }
+    return greatest_key >= greatest_key_ - kRounding || smallest_key <= smallest_key_ + kRounding ||
+           !sharpest_tet_.is_valid();
+  }
+  void take(TetHandle t, const std::array<Point, 4>& p, double greatest_key, double smallest_key) {
     greatest_key_ = std::max(greatest_key_, greatest_key);
     smallest_key_ = std::min(smallest_key_, smallest_key);
-    double sharpest = -kInfinity;
-    double bluntest = kInfinity;
-    for (std::size_t e = 0; e < 6; ++e) {
-      const double cotangent = angles.cotangent_square(e);
-      sharpest = std::max(sharpest, cotangent);
-      bluntest = std::min(bluntest, cotangent);
-    }
-    add(t, sharpest, t, bluntest);
+    const auto cotangents = cotangents_of(p);
+    add(t, *std::max_element(cotangents.begin(), cotangents.end()), t,
+        *std::min_element(cotangents.begin(), cotangents.end()));
   }
   /// Precondition: the tets of `later` follow those met so far.
   void add(const ExtremeAngles& later) {
@@ -221,34 +209,6 @@ struct PartialStatistics {
   AngleClasses::Counts angles{};
   ExtremeAngles extremes;
 
-  void add(const TetMesh& mesh, TetHandle t, const AngleClasses& classes) {
-    const std::array<Point, 4> p = corners(mesh, t);
-    const double volume = volume6(p[0], p[1], p[2], p[3]);
-    v6.add(volume);
-    if (!certified_positive(p[0], p[1], p[2], p[3])) {
-      ++(certified_positive(p[0], p[1], p[3], p[2]) ? inverted : flat);
-    }
-    for (const HalfFace twin : mesh.neighbours(t)) boundary_triangles += twin.is_outside() ? 1 : 0;
-
-    const double q = minimum_sine(p[0], p[1], p[2], p[3]);
-    quality.add(q);
-    q_worst = std::min(q_worst, q);
-    if (static_cast<Quality>(q) < kBadThreshold) {  // as the queues of bad tets see it
-      ++n_bad;
-      bad.add(q);
-    }
-
-    const TetAngles of_tet(p, volume);
-    double greatest = -kInfinity;
-    double smallest = kInfinity;
-    for (std::size_t e = 0; e < 6; ++e) {
-      const double key = of_tet.key(e);
-      ++angles[classes.find(key)];
-      greatest = std::max(greatest, key);
-      smallest = std::min(smallest, key);
-    }
-    extremes.add(t, of_tet, greatest, smallest);
-  }
   void add(const PartialStatistics& later) {
     boundary_triangles += later.boundary_triangles;
     inverted += later.inverted;
@@ -262,6 +222,53 @@ struct PartialStatistics {
     extremes.add(later.extremes);
   }
 };
+
+/// Counts the angles of a block, and looks for extremes.
+void count_angles(const TetMesh& mesh, const TetRows& rows, const AngleRows& angles,
+                  const AngleClasses& classes, std::array<AngleClasses::Counts, 2>& counts,
+                  PartialStatistics& part) {
+  const std::size_t size = rows.points.size();
+  // Two tables, so that equal angles in a row need not wait for each other's count.
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto* keys = reinterpret_cast<const double*>(angles.keys[e].data());
+    for (std::size_t i = 0; i < size; ++i) ++counts[i % 2][classes.find(keys[i])];
+  }
+  const auto* greatest = reinterpret_cast<const double*>(angles.greatest.data());
+  const auto* smallest = reinterpret_cast<const double*>(angles.smallest.data());
+  for (std::size_t i = 0; i < size; ++i) {
+    const TetHandle t = rows.tets[i];
+    for (const HalfFace twin : mesh.neighbours(t)) {
+      part.boundary_triangles += twin.is_outside() ? 1 : 0;
+    }
+    if (!part.extremes.may_take(greatest[i], smallest[i])) continue;
+    part.extremes.take(t, corners(mesh, t), greatest[i], smallest[i]);
+  }
+}
+
+PartialStatistics measure_part(const TetMesh& mesh, const AngleClasses& classes,
+                               const KeyLimits& limits, std::size_t begin, std::size_t end) {
+  PartialStatistics part;
+  AngleTally tally;
+  AngleRows angles;
+  std::array<AngleClasses::Counts, 2> counts{};
+  std::size_t tets = 0;
+  visit_rows(mesh, begin, end, 1, [&](const TetRows& rows) {
+    compute_angles(rows.points, limits, angles, tally);
+    count_angles(mesh, rows, angles, classes, counts, part);
+    tets += rows.points.size();
+  });
+  for (std::size_t c = 0; c < part.angles.size(); ++c) part.angles[c] = counts[0][c] + counts[1][c];
+  part.n_bad = total_count(tally.bad);
+  part.inverted = total_count(tally.inverted);
+  part.flat = tets - part.inverted - total_count(tally.positive);
+  for (std::size_t i = 0; i < kWideLanes; ++i) {
+    part.q_worst = std::min<double>(part.q_worst, tally.worst_sine[i]);
+  }
+  part.v6 = tally.volume6.total();
+  part.quality = tally.sine.total();
+  part.bad = tally.bad_sine.total();
+  return part;
+}
 
 /// Sums up in chunks: `Partial` takes tets by add(mesh, tet, arguments...) and later chunks by
 /// add().
@@ -282,9 +289,15 @@ Partial sum_up(const TetMesh& mesh, const Arguments&... arguments) {
 
 }  // namespace
 
-MeshStatistics compute_statistics(const TetMesh& mesh) {
-  const AngleClasses classes;
-  const auto sum = sum_up<PartialStatistics>(mesh, classes);
+MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
+  const AngleClasses classes(goal);
+  const KeyLimits limits = limits_of(goal);
+  const auto parts =
+      map_chunks<PartialStatistics>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        return measure_part(mesh, classes, limits, begin, end);
+      });
+  PartialStatistics sum;
+  for (const PartialStatistics& part : parts) sum.add(part);
   MeshStatistics result;
   result.tets = mesh.tet_count();
   result.vertices = mesh.vertex_count();

@@ -21,6 +21,33 @@ struct alignas(sizeof(WideVector)) WideRows {
   const WideVector* vectors() const { return reinterpret_cast<const WideVector*>(this); }
 };
 
+/// Four points or vectors, each in a lane of its own. Must be inlined: into functions of any
+/// instruction set.
+struct WidePoint {
+  WideVector x, y, z;
+};
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // no call is left of these
+#define TETMEND_WIDE_INLINE inline __attribute__((always_inline))
+
+TETMEND_WIDE_INLINE WidePoint operator-(const WidePoint& p, const WidePoint& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+TETMEND_WIDE_INLINE WidePoint cross(const WidePoint& p, const WidePoint& q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+TETMEND_WIDE_INLINE WideVector dot(const WidePoint& p, const WidePoint& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+TETMEND_WIDE_INLINE WideVector smaller(const WideVector& p, const WideVector& q) {
+  return p < q ? p : q;
+}
+TETMEND_WIDE_INLINE WideVector magnitude(const WideVector& p) {
+  return p < 0.0 ? -p : p;
+}
+#pragma GCC diagnostic pop
+
 }  // namespace tetmend
 
 // For functions on WideVectors: a version for processors that have wide registers, chosen at run

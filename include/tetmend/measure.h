@@ -9,18 +9,21 @@
 
 #include <tetmend/limit.h>
 #include <tetmend/mesh.h>
+#include <tetmend/rulers.h>
 #include <tetmend/statistics.h>
 
 namespace tetmend {
 
 struct MeasureOptions {
   std::vector<std::string> measure = {};  ///< names of further measures, see measures()
+  bool rulers = true;                     ///< give Measurement::rulers
   bool limit = false;  ///< prove what the surface allows; seconds for a large mesh
   int threads = 1;     ///< 1 to 1024; the result is the same for every number
 };
 
 struct Measurement {
   MeshStatistics statistics;
+  std::optional<MeshRulers> rulers;      ///< the measures of other programs
   BuildReport build;                     ///< what is peculiar about the mesh
   std::vector<MeasureSummary> measures;  ///< in the order asked for
   std::optional<SurfaceLimit> limit;

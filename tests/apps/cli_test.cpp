@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include <tetmend/rulers.h>
 
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
@@ -205,6 +206,9 @@ TEST_CASE("improving each asset keeps its surface and reports what happened") {
     CHECK(report["before"]["tets"] == before.tet_count());
     CHECK(report["after"]["tets"] == after.tet_count());
     CHECK(report["after"]["n_bad"] == now.n_bad);
+    CHECK(report["before"]["rulers"]["inner_faces"].get<std::size_t>() > before.tet_count());
+    CHECK(report["after"]["rulers"]["mean_ratio"]["mean"] >
+          report["before"]["rulers"]["mean_ratio"]["mean"]);
     CHECK(report["after"]["theta_min"].get<double>() == doctest::Approx(now.theta_min));
     CHECK(report["limit"]["n_bad"] == now.n_bad);
     std::size_t by_hindrance = 0;
@@ -363,12 +367,16 @@ TEST_CASE("statistics as JSON are those of the library, with every measure asked
     CHECK(json["lambda"].get<double>() == doctest::Approx(expected.lambda));
     CHECK(json["histogram"].size() == expected.histogram.size());
     CHECK(json["measures"].size() == quality_measures().size());
+    CHECK(json["rulers"].size() == kRulerCount + 2);
+    CHECK(json["rulers"]["radius_ratio"]["worst"].get<double>() ==
+          doctest::Approx(json["measures"]["radius_ratio"]["worst"].get<double>()));
     CHECK(json["measures"]["min_sine"]["worst"].get<double>() == doctest::Approx(expected.q_worst));
   }
   const Outcome text = run_program({"quality", asset("sheet.mesh"), "--measure", "radius_ratio"});
   CHECK(contains(text.out, "radius_ratio, worst"));
   CHECK(!contains(text.out, "mean_ratio"));
   CHECK(contains(text.out, "dihedral angles by 10 degrees"));
+  CHECK(contains(text.out, "measures of other programs"));
 }
 
 TEST_CASE("the limit of the surface is added when asked for") {

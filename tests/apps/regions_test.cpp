@@ -26,16 +26,17 @@ std::string asset(const std::string& name) {
   return (kMeshes / name).string();
 }
 
-/// Label and corners, coordinate by coordinate.
+/// Label and corners, coordinate by coordinate, the corners in an order of their own.
 struct Tet {
   Label label = 0;
   std::array<Point, 4> corners;
 
   std::array<double, 13> key() const {
+    std::array<std::array<double, 3>, 4> sorted{};
+    for (std::size_t i = 0; i < 4; ++i) sorted[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
+    std::sort(sorted.begin(), sorted.end());
     std::array<double, 13> key{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) key[3 * i + k] = corners[i][static_cast<Eigen::Index>(k)];
-    }
+    for (std::size_t i = 0; i < 12; ++i) key[i] = sorted[i / 3][i % 3];
     key[12] = label;
     return key;
   }

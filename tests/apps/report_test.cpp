@@ -239,6 +239,44 @@ TEST_CASE("numbers that are not finite become null in JSON") {
   CHECK(nlohmann::json::parse(built.dump()) == built);
 }
 
+TEST_CASE("the table of rulers has worst, 1 % and mean, of two meshes beside each other") {
+  MeshRulers before;
+  before.figures.fill({0.123456, 2127.736086, -1.924043224e-06});
+  before.figures[static_cast<std::size_t>(Ruler::condition)].worst =
+      std::numeric_limits<double>::infinity();
+  before.faces_above_70 = 1234567;
+  MeshRulers after = before;
+  after.figures[0].worst = 0.5;
+  after.faces_above_70 = 7;
+  const std::string one = format_rulers(before, nullptr);
+  check_layout(one);
+  CHECK(has_line(one, "measures of other programs worst 1 % mean"));
+  CHECK(has_line(one, "mean ratio 0.1235 2128 -1.9e-06"));
+  CHECK(has_line(one, "condition number (VTK) inf 2128 -1.9e-06"));
+  CHECK(has_line(one, "faces above 70 degrees 1234567"));
+  CHECK(lines(one).size() == kRulerCount + 3);
+  const std::string two = format_rulers(before, &after);
+  check_layout(two);
+  CHECK(has_line(two, "before after before after before after"));
+  CHECK(has_line(two, "mean ratio 0.1235 0.5 2128 2128 -1.9e-06 -1.9e-06"));
+  CHECK(has_line(two, "faces above 70 degrees 1234567 7"));
+}
+
+TEST_CASE("rulers as JSON have their names, and null for what is infinite") {
+  MeshRulers rulers;
+  rulers.inner_faces = 9;
+  rulers.faces_above_70 = 2;
+  rulers.figures[0] = {0.25, 0.5, 0.75};
+  rulers.figures[4].worst = std::numeric_limits<double>::infinity();
+  const nlohmann::json json = nlohmann::json::parse(to_json(rulers).dump());
+  CHECK(json.size() == kRulerCount + 2);
+  CHECK(json.at("inner_faces") == 9);
+  CHECK(json.at("faces_above_70") == 2);
+  CHECK(json.at("mean_ratio") ==
+        nlohmann::json({{"worst", 0.25}, {"one_percent", 0.5}, {"mean", 0.75}}));
+  CHECK(json.at("condition").at("worst").is_null());
+}
+
 TEST_CASE("the limit is told with bounds rounded outward, and the bad tets by what holds them") {
   SurfaceLimit limit;
   limit.n_bad = 1014;

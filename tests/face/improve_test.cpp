@@ -156,7 +156,12 @@ TEST_CASE("a mesh that nothing is done to keeps all its vertices and tets") {
   for (std::size_t t = 0; t < old.tet_count(); ++t) {
     CHECK(mesh.tets()[result.tet_map[t]] == old.tets()[t]);
   }
-  CHECK(improve(mesh, {.script = "log 'again'", .maps = false}).vertex_map.empty());
+  REQUIRE((result.rulers_before && result.rulers_after));
+  CHECK((*result.rulers_before)[Ruler::sige].mean > 0);
+  CHECK((*result.rulers_after)[Ruler::sige].mean == (*result.rulers_before)[Ruler::sige].mean);
+  const Result again = improve(mesh, {.script = "log 'again'", .rulers = false, .maps = false});
+  CHECK(again.vertex_map.empty());
+  CHECK((!again.rulers_before && !again.rulers_after));
 }
 
 TEST_CASE("a mesh of broken topology is told with its place and stays as it was") {

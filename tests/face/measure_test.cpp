@@ -4,6 +4,7 @@
 #include <tetmend/measure.h>
 
 #include "kernel/formats/mesh_io.h"
+#include "kernel/rulers.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
 #include "tests/face/meshes.h"
@@ -23,6 +24,9 @@ TEST_CASE("a mesh is measured as the kernel does, and stays as it is") {
   REQUIRE(measured.measures.size() == 1);
   CHECK(measured.measures[0].name == "radius_ratio");
   CHECK(measured.measures[0].worst == summarize(plain, find_quality_measure("radius_ratio")).worst);
+  REQUIRE(measured.rulers);
+  CHECK((*measured.rulers)[Ruler::sicn].mean == measure_rulers(plain)[Ruler::sicn].mean);
+  CHECK(!measure(mesh, {.rulers = false}).rulers);
   REQUIRE(measured.limit);
   CHECK(measured.limit->theta_max == compute_surface_limit(plain).theta_max);
   CHECK(measured.build.constrained_faces > 0);

@@ -381,6 +381,39 @@ TEST_CASE("coordinates whose products overflow still give one entry for each ang
   CHECK(total(compute_statistics(TetMesh(data)).histogram) == 36);
 }
 
+TEST_CASE("bad tets and lambda are those of the goal asked for") {
+  const TetMesh mesh(jittered(kuhn_cube(8), 0.04));
+  for (const Goal goal : {Goal{35, 140}, Goal{15, 168}, Goal{25.1, 150}}) {
+    CAPTURE(goal.min_angle);
+    std::size_t n_bad = 0;
+    std::size_t outside = 0;
+    std::array<std::size_t, 5> bands{};
+    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+      const TetVertices& v = mesh.vertices(TetHandle(slot));
+      std::size_t of_tet = 0;
+      for (const double angle : dihedral_angles(mesh.point(v[0]), mesh.point(v[1]),
+                                                mesh.point(v[2]), mesh.point(v[3]))) {
+        if (angle > goal.min_angle && angle < goal.max_angle) continue;
+        const double share = angle <= goal.min_angle ? angle / goal.min_angle
+                                                     : (180 - angle) / (180 - goal.max_angle);
+        ++bands[static_cast<std::size_t>(5 * share)];
+        ++of_tet;
+      }
+      outside += of_tet;
+      n_bad += of_tet > 0 ? 1 : 0;
+    }
+    REQUIRE(n_bad > 0);
+    const MeshStatistics s = compute_statistics(mesh, goal);
+    const double angles = 6 * static_cast<double>(mesh.tet_count());
+    CHECK(s.n_bad == n_bad);
+    CHECK(s.lambda == doctest::Approx(100 * static_cast<double>(outside) / angles));
+    for (std::size_t i = 0; i < 5; ++i) {
+      CHECK(s.lambda_bands[i] == doctest::Approx(100 * static_cast<double>(bands[i]) / angles));
+    }
+    CHECK(s.histogram == direct_statistics(mesh).histogram);
+  }
+}
+
 TEST_CASE("quality indicators from the cache agree with the statistics") {
   const TetMesh mesh(jittered(kuhn_cube(6), 0.05));
   const MeshStatistics s = compute_statistics(mesh);

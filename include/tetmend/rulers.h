@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Rulers: the measures by which users of other programs judge a mesh, as these define them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace tetmend {
+
+enum class Ruler : std::uint8_t {
+  mean_ratio,
+  radius_ratio,
+  sicn,
+  sige,
+  condition,
+  aspect_ratio,
+  edge_ratio,
+  least_altitude,
+  non_orthogonality,
+  skewness
+};
+
+/// Of one ruler.
+struct RulerInfo {
+  std::string_view name;   ///< as in JSON: "mean_ratio"
+  std::string_view title;  ///< as in tables: with unit and program
+  std::string_view help;   ///< formula and value of the regular tet
+  bool large_is_good;
+  bool of_faces;  ///< a value for each face, not for each tet
+};
+
+inline constexpr std::size_t kRulerCount = 10;
+
+/// All rulers, by Ruler. V is the volume, r and R the radii of the inner and the outer sphere. The
+/// first four have the sign of the volume, as has the altitude. The condition number and the aspect
+/// ratio of a tet without positive volume are infinite.
+inline constexpr std::array<RulerInfo, kRulerCount> kRulers = {{
+    {"mean_ratio", "mean ratio", "12 (3 V)^(2/3) / sum of the squared edges; at best 1", true,
+     false},
+    {"radius_ratio", "radius ratio, gamma (Gmsh)",
+     "3 r / R; at best 1. VTK's radius ratio is its inverse", true, false},
+    {"sicn", "SICN (Gmsh)", "signed inverse of the condition number; at best 1", true, false},
+    {"sige", "SIGE (Gmsh)", "signed inverse error of a gradient; at best 1", true, false},
+    {"condition", "condition number (VTK)",
+     "of the map from the regular tet, by Frobenius' norm, / 3;\nat best 1", false, false},
+    {"aspect_ratio", "aspect ratio (VTK)", "longest edge / (2 sqrt(6) r); at best 1", false, false},
+    {"edge_ratio", "edge ratio", "longest edge / shortest edge of a tet; at best 1", false, false},
+    {"least_altitude", "least altitude",
+     "3 V / largest face, a length; bounds the step of explicit\ntime integration", true, false},
+    {"non_orthogonality", "non-orthogonality, degrees",
+     "of OpenFOAM: angle between the normal of an inner face and\n"
+     "the line that joins the centroids of its tets; at best 0.\n"
+     "The mean is the angle of the mean cosine",
+     false, true},
+    {"skewness", "skewness (OpenFOAM)",
+     "distance of a face's centroid from that line, / size of\nthe face; at best 0", false, true},
+}};
+
+/// What one ruler says about a mesh.
+struct RulerFigures {
+  double worst = 0;
+  double one_percent = 0;  ///< 1 % of the tets, or faces, are as bad as that or worse
+  double mean = 0;
+};
+
+/// What all of them say. All 0 for a mesh without tets, or for a ruler without a face.
+struct MeshRulers {
+  std::array<RulerFigures, kRulerCount> figures{};  ///< by Ruler
+  std::size_t inner_faces = 0;
+  std::size_t faces_above_70 = 0;  ///< inner faces of more than 70 degrees non-orthogonality
+
+  const RulerFigures& operator[](Ruler ruler) const {
+    return figures[static_cast<std::size_t>(ruler)];
+  }
+};
+
+}  // namespace tetmend

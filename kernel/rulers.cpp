@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: MIT
+// Rulers of a mesh in one pass, four tets or faces at a time.
+//
+//   a value enters as a score: smaller is worse; a large value that is bad changes its sign, and an
+//   angle is represented by its cosine
+//   a sample of the tets tells a limit that about 3 % of the scores lie below
+//   the pass sums up, and keeps the scores below the limit; the 1 % that are worst are among them
+#include "kernel/rulers.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kernel/chunks.h"
+#include "kernel/compensated_sum.h"
+#include "kernel/tet_rows.h"
+
+namespace tetmend {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // no score: below no limit
+constexpr std::size_t kTetRulers = 8;
+constexpr std::size_t kFaceRulers = 2;
+static_assert(kTetRulers + kFaceRulers == kRulerCount);
+
+constexpr std::size_t at(Ruler ruler) {
+  return static_cast<std::size_t>(ruler);
+}
+
+using Limits = std::array<double, kRulerCount>;
+
+/// Of one ruler: the scores below a limit, and how many are just there.
+struct Sieve {
+  std::vector<double> kept;
+  std::size_t equal = 0;
+
+  void add(const WideVector& scores, double limit) {
+    for (std::size_t i = 0; i < kWideLanes; ++i) {
+      if (scores[i] < limit) kept.push_back(scores[i]);
+      equal += scores[i] == limit ? 1 : 0;
+    }
+  }
+};
+
+/// The scores of N rulers for one block of tets or faces, and what they come to so far.
+template <std::size_t N>
+struct Tally {
+  static constexpr std::size_t kGroups = PointRows<4>::kMost / kWideLanes;
+  std::array<std::array<WideVector, kGroups>, N> scores;
+  std::array<double, N> limits;
+  std::array<std::uint32_t, N>
+      low{};  // a bit for each group with a score that is not above the limit
+  static_assert(kGroups == 32);
+  std::array<WideVector, N> worst;
+  std::array<WideSum, N> sums{};
+  Tally(const Limits& all, std::size_t first) {
+    worst.fill(WideVector{} + kInfinity);
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), N, limits.begin());
+  }
+};
+
+/// Enters the scores of the lanes that count. Not a number, after overflow, is as bad as can be.
+template <std::size_t N, class Mask>
+TETMEND_WIDE_INLINE void enter(Tally<N>& tally, std::size_t ruler, std::size_t n, WideVector score,
+                               const Mask& counts) {
+  const WideVector nothing = WideVector{} + kNothing;
+  score = score == score ? score : WideVector{} - kInfinity;
+  const WideVector counted = counts ? score : nothing;
+  tally.scores[ruler][n] = counted;
+  tally.worst[ruler] = smaller(counted, tally.worst[ruler]);
+  const auto low = counted <= tally.limits[ruler];
+  tally.low[ruler] |= (low[0] | low[1] | low[2] | low[3]) != 0 ? 1u << n : 0u;
+  add_to(tally.sums[ruler], counts ? score : WideVector{});
+}
+
+TETMEND_WIDE_INLINE WideVector larger(const WideVector& p, const WideVector& q) {
+  return p < q ? q : p;
+}
+TETMEND_WIDE_INLINE WideVector root(const WideVector& p) {
+  WideVector result = {};
+  for (std::size_t i = 0; i < kWideLanes; ++i) result[i] = std::sqrt(p[i]);
+  return result;
+}
+TETMEND_WIDE_INLINE WidePoint operator*(const WideVector& f, const WidePoint& p) {
+  return {f * p.x, f * p.y, f * p.z};
+}
+TETMEND_WIDE_INLINE WidePoint operator+(const WidePoint& p, const WidePoint& q) {
+  return {p.x + q.x, p.y + q.y, p.z + q.z};
+}
+
+/// Of a number that is not negative, to the last bit but one. A third of the exponent and Halley's
+/// method, which triples the digits in each step.
+TETMEND_WIDE_INLINE WideVector cube_root(const WideVector& x) {
+  WideVector y = {};
+  for (std::size_t i = 0; i < kWideLanes; ++i) {
+    const double lane = x[i];
+    y[i] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(lane) / 3 + 0x2A9F789300000000ull);
+  }
+  for (int step = 0; step < 3; ++step) {
+    const WideVector cube = y * y * y;
+    y *= (cube + 2 * x) / (2 * cube + x);
+  }
+  return x > 0.0 ? y : WideVector{};
+}
+
+/// With r_i = 1 / l_i, the sum of r_i r_j r_k over the pairs ij of opposite edges and the four other
+/// edges k: what SIGE has besides the volume.
+TETMEND_WIDE_INLINE WideVector inverse_lengths(const std::array<WideVector, 6>& l) {
+  const WideVector p = l[0] * l[5], q = l[1] * l[4], r = l[2] * l[3];  // opposite edges
+  const WideVector inverse = 1.0 / (p * q * r);
+  const WideVector qr = inverse * (q * r), pr = inverse * (p * r), pq = inverse * (p * q);
+  const WideVector by_p = (l[0] + l[5]) * qr, by_q = (l[1] + l[4]) * pr, by_r = (l[2] + l[3]) * pq;
+  return qr * (by_q + by_r) + pr * (by_p + by_r) + pq * (by_p + by_q);
+}
+
+/// Enters the scores of a block of tets. With u, v, w the edges from the first vertex and n_i the
+/// four normals, twice the areas:
+///   circumradius = ||u|^2 v x w + |v|^2 w x u + |w|^2 u x v| / (2 V6), inradius = V6 / sum |n_i|
+///   |S|^2 |S^-1|^2 = (sum of l^2 / 2) (sum of |n|^2 / (2 V6^2)), S the map from the regular tet
+TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally) {
+  const WideVector zero = {};
+  const WideVector infinity = zero + kInfinity;
+  for (std::size_t g = 0; g < rows.groups(); ++g) {
+    const auto in_use = lanes_in_use(rows, g);
+    const WidePoint p0 = wide_point(rows.group(g), 0), p1 = wide_point(rows.group(g), 1);
+    const WidePoint p2 = wide_point(rows.group(g), 2), p3 = wide_point(rows.group(g), 3);
+    const WidePoint u = p1 - p0, v = p2 - p0, w = p3 - p0, r = p2 - p1, s = p3 - p1, t = p3 - p2;
+    const WidePoint a = cross(r, s), b = cross(v, w), c = cross(w, u), d = cross(u, v);
+    const WideVector aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), dd = dot(d, d);
+    const WideVector uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+    const std::array<WideVector, 6> l = {root(uu),        root(vv),        root(ww),
+                                         root(dot(r, r)), root(dot(s, s)), root(dot(t, t))};
+    const WideVector longest = larger(larger(larger(l[0], l[1]), larger(l[2], l[3])),  //
+                                      larger(l[4], l[5]));
+    const WideVector shortest =
+        smaller(smaller(smaller(l[0], l[1]), smaller(l[2], l[3])), smaller(l[4], l[5]));
+    const WideVector v6 = dot(u, b);
+    const WideVector size = magnitude(v6);
+    const WideVector squares = uu + vv + ww + dot(r, r) + dot(s, s) + dot(t, t);
+    const WideVector area = root(aa) + root(bb) + root(cc) + root(dd);  // twice
+
+    const WideVector third = cube_root(0.5 * size);
+    const WideVector mean_ratio = 12.0 * third * third / squares;
+    enter(tally, at(Ruler::mean_ratio), g,
+          size > 0.0 ? (v6 < 0.0 ? -mean_ratio : mean_ratio) : zero, in_use);
+    const WidePoint alpha = uu * b + vv * c + ww * d;
+    const WideVector spheres = area * root(dot(alpha, alpha));
+    enter(tally, at(Ruler::radius_ratio), g, spheres > 0.0 ? 6.0 * v6 * size / spheres : zero,
+          in_use);
+    const WideVector norms = root(squares * (aa + bb + cc + dd));
+    enter(tally, at(Ruler::sicn), g, norms > 0.0 ? 6.0 * v6 / norms : zero, in_use);
+    const WideVector sige = (std::numbers::sqrt2 / 12) * v6 * inverse_lengths(l);
+    enter(tally, at(Ruler::sige), g, shortest > 0.0 ? sige : zero, in_use);
+    enter(tally, at(Ruler::condition), g, v6 > 0.0 ? -norms / (6.0 * v6) : -infinity, in_use);
+    const WideVector aspect = longest * area / (2 * std::sqrt(6.0) * v6);
+    enter(tally, at(Ruler::aspect_ratio), g, v6 > 0.0 ? -aspect : -infinity, in_use);
+    enter(tally, at(Ruler::edge_ratio), g, shortest > 0.0 ? -longest / shortest : -infinity,
+          in_use);
+    const WideVector largest = root(larger(larger(aa, bb), larger(cc, dd)));
+    enter(tally, at(Ruler::least_altitude), g, largest > 0.0 ? v6 / largest : zero, in_use);
+  }
+}
+
+/// What the four faces of each tet of a block have beyond them: a vertex of the tet there.
+struct Surroundings {
+  enum Kind { elsewhere, inner, boundary };  // a face that another tet counts, and those that count
+  PointRows<4> points;
+  std::array<std::array<WideVector, PointRows<4>::kMost / kWideLanes>, 4> kinds;
+
+  /// Lanes that are left over count for nothing.
+  void pad() {
+    points.pad();
+    for (std::size_t lane = points.size(); lane % kWideLanes != 0; ++lane) {
+      for (auto& kind : kinds) kind[lane / kWideLanes][lane % kWideLanes] = elsewhere;
+    }
+  }
+};
+
+/// Cosine of the non-orthogonality, and skewness with changed sign.
+struct FaceScores {
+  WideVector cosine;
+  WideVector skewness;
+};
+
+/// Of the face opposite `apex`, as OpenFOAM defines them; f0, f1, f2 counterclockwise as seen from
+/// outside. Beyond the boundary there is the mirror image of the tet's centroid.
+template <class Mask>
+TETMEND_WIDE_INLINE FaceScores score_face(const WidePoint& apex, const WidePoint& f0,
+                                          const WidePoint& f1, const WidePoint& f2,
+                                          const WidePoint& beyond, const Mask& on_boundary) {
+  constexpr double kTiny = 1e-150;
+  const WideVector third = WideVector{} + 1.0 / 3, quarter = WideVector{} + 0.25;
+  const WidePoint p = f1 - f0, q = f2 - f0, r = apex - f0;
+  const WidePoint normal = cross(p, q);
+  const WideVector square = dot(normal, normal);
+  const WidePoint centre = third * (p + q);  // as all that follows: from f0
+  const WidePoint to_face = centre - quarter * (p + q + r);
+  const WideVector height = dot(normal, to_face);
+  const WidePoint to_other = quarter * (beyond - apex);
+  const WideVector along = dot(normal, to_other);
+  const WideVector distance = root(dot(to_other, to_other));
+  const WideVector norm = root(square);
+  // Where the line from centroid to centroid meets the face's plane: `share` of its way.
+  const WideVector share = height / ((on_boundary ? square : along) + kTiny);
+  const WidePoint way = {on_boundary ? normal.x : to_other.x, on_boundary ? normal.y : to_other.y,
+                         on_boundary ? normal.z : to_other.z};
+  const WidePoint skew = to_face - share * way;
+  const WideVector skew2 = dot(skew, skew);
+  const WideVector reach =
+      larger(magnitude(dot(skew, centre)),
+             larger(magnitude(dot(skew, p - centre)), magnitude(dot(skew, q - centre))));
+  const WideVector apart = on_boundary ? 2.0 * magnitude(share) * norm : distance;
+  const WideVector extent = larger(0.2 * apart * root(skew2), reach);  // times the skewness vector
+  const WideVector lengths = distance * norm;
+  return {lengths > 0.0 ? along / lengths : WideVector{}, -(skew2 / (extent + kTiny))};
+}
+
+/// Enters the scores of face f of each tet of a block.
+TETMEND_WIDE void measure_faces(const PointRows<4>& rows, const Surroundings& surroundings,
+                                unsigned f, Tally<kFaceRulers>& tally) {
+  const auto& [i, j, k] = kFaceVertices[f];
+  for (std::size_t g = 0; g < rows.groups(); ++g) {
+    const auto& group = rows.group(g);
+    const WideVector kind = surroundings.kinds[f][g];
+    const FaceScores scores =
+        score_face(wide_point(group, f), wide_point(group, i), wide_point(group, j),
+                   wide_point(group, k), wide_point(surroundings.points.group(g), f),
+                   kind == static_cast<double>(Surroundings::boundary));
+    enter(tally, 0, g, scores.cosine, kind == static_cast<double>(Surroundings::inner));
+    enter(tally, 1, g, scores.skewness, kind != static_cast<double>(Surroundings::elsewhere));
+  }
+}
+
+/// The rulers of some tets and of their faces, before shares are taken.
+struct Part {
+  struct Scores {
+    std::size_t count = 0;
+    double worst = kInfinity;
+    CompensatedSum sum;
+    Sieve sieve;
+  };
+  std::array<Scores, kRulerCount> of;
+  std::size_t faces_above_70 = 0;
+};
+
+/// Measures the tets of a chunk, or every step-th of them.
+class Surveyor {
+ public:
+  Surveyor(const TetMesh& mesh, const Limits& limits)
+      : mesh_(mesh),
+        above_70_(std::cos(70 * std::numbers::pi / 180)),
+        tets_(limits, 0),
+        faces_(limits, kTetRulers) {}
+
+  Part run(std::size_t begin, std::size_t end, std::size_t step) {
+    visit_rows(mesh_, begin, end, step, [&](const TetRows& rows) {
+      for (std::size_t i = 0; i < rows.points.size(); ++i) {
+        for (const HalfFace twin : mesh_.neighbours(rows.tets[i])) {
+          if (!twin.is_outside()) mesh_.prefetch(twin.tet());
+        }
+      }
+      measure(rows.points, tets_);
+      sift(tets_, 0);
+      look_around(rows);
+      for (unsigned f = 0; f < 4; ++f) {
+        measure_faces(rows.points, surroundings_, f, faces_);
+        sift(faces_, kTetRulers);
+        const auto* cosines = reinterpret_cast<const double*>(faces_.scores[0].data());
+        for (std::size_t i = 0; i < rows.points.size(); ++i) {
+          part_.faces_above_70 += cosines[i] < above_70_ ? 1 : 0;
+        }
+      }
+    });
+    for (std::size_t r = 0; r < kTetRulers; ++r) close(tets_, r, r);
+    for (std::size_t r = 0; r < kFaceRulers; ++r) close(faces_, r, kTetRulers + r);
+    return std::move(part_);
+  }
+
+ private:
+  template <std::size_t N>
+  void sift(Tally<N>& tally, std::size_t first) {
+    for (std::size_t r = 0; r < N; ++r) {
+      Sieve& sieve = part_.of[first + r].sieve;
+      for (std::uint32_t low = std::exchange(tally.low[r], 0u); low != 0; low &= low - 1) {
+        sieve.add(tally.scores[r][static_cast<std::size_t>(std::countr_zero(low))],
+                  tally.limits[r]);
+      }
+    }
+  }
+  template <std::size_t N>
+  void close(const Tally<N>& tally, std::size_t row, std::size_t ruler) {
+    Part::Scores& scores = part_.of[ruler];
+    for (std::size_t i = 0; i < kWideLanes; ++i) {
+      scores.worst = std::min<double>(scores.worst, tally.worst[row][i]);
+    }
+    scores.sum.add(tally.sums[row].total());
+  }
+
+  /// Each inner face counts once, with the tet of the lower number.
+  void look_around(const TetRows& rows) {
+    surroundings_.points.clear();
+    const std::size_t size = rows.points.size();
+    std::array<std::size_t, 3> count{};
+    for (std::size_t i = 0; i < size; ++i) {
+      const TetHandle t = rows.tets[i];
+      std::array<const Point*, 4> beyond;
+      for (unsigned f = 0; f < 4; ++f) {
+        const HalfFace twin = mesh_.neighbours(t)[f];
+        const bool outside = twin.is_outside();
+        const HalfFace other = outside ? HalfFace(t, f) : twin;
+        beyond[f] = &mesh_.point(mesh_.vertices(other.tet())[other.face()]);
+        const auto kind = outside           ? Surroundings::boundary
+                          : t < other.tet() ? Surroundings::inner
+                                            : Surroundings::elsewhere;
+        surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] = kind;
+        ++count[kind];
+      }
+      surroundings_.points.add(beyond);
+    }
+    surroundings_.pad();
+    const std::size_t inner = count[Surroundings::inner];
+    for (std::size_t r = 0; r < kTetRulers; ++r) part_.of[r].count += size;
+    part_.of[at(Ruler::non_orthogonality)].count += inner;
+    part_.of[at(Ruler::skewness)].count += inner + count[Surroundings::boundary];
+  }
+
+  const TetMesh& mesh_;
+  const double above_70_;
+  Surroundings surroundings_;
+  Tally<kTetRulers> tets_;
+  Tally<kFaceRulers> faces_;
+  Part part_;
+};
+
+std::vector<Part> survey(const TetMesh& mesh, const Limits& limits, std::size_t step) {
+  return map_chunks<Part>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    return Surveyor(mesh, limits).run(begin, end, step);
+  });
+}
+
+/// Score number `rank`, from 0 for the worst; nothing if too few lie below the limit.
+std::optional<double> find_score(std::vector<Part>& parts, std::size_t ruler, std::size_t rank,
+                                 double limit) {
+  std::vector<double> kept;
+  std::size_t equal = 0;
+  for (Part& part : parts) {
+    Sieve& sieve = part.of[ruler].sieve;
+    kept.insert(kept.end(), sieve.kept.begin(), sieve.kept.end());
+    equal += sieve.equal;
+  }
+  if (rank < kept.size()) {
+    const auto place = kept.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(kept.begin(), place, kept.end());
+    return *place;
+  }
+  return rank < kept.size() + equal ? std::optional(limit) : std::nullopt;
+}
+
+std::size_t count_scores(const std::vector<Part>& parts, std::size_t ruler) {
+  std::size_t count = 0;
+  for (const Part& part : parts) count += part.of[ruler].count;
+  return count;
+}
+
+/// For each ruler a score that more than 1 % of all lie below, most likely. It decides what a pass
+/// keeps, never a result.
+Limits estimate_limits(const TetMesh& mesh) {
+  constexpr std::size_t kStep = 61;
+  constexpr std::size_t kLeast = 1000;  // tets of a sample that tells anything
+  Limits limits;
+  limits.fill(kInfinity);
+  if (mesh.tet_count() < kLeast * kStep) return limits;
+  auto sample = survey(mesh, limits, kStep);
+  Limits estimate;
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    const std::size_t rank = 3 * count_scores(sample, r) / 100;
+    estimate[r] = find_score(sample, r, rank, kInfinity).value_or(kInfinity);
+  }
+  return estimate;
+}
+
+/// What a score stands for.
+double value_of(Ruler ruler, double score) {
+  if (ruler == Ruler::non_orthogonality) {
+    return std::acos(std::clamp(score, -1.0, 1.0)) * 180 / std::numbers::pi;
+  }
+  return kRulers[at(ruler)].large_is_good ? score : 0 - score;
+}
+
+/// Nothing if the limit was too low.
+std::optional<RulerFigures> figures_of(Ruler ruler, std::vector<Part>& parts, double limit) {
+  const std::size_t count = count_scores(parts, at(ruler));
+  if (count == 0) return RulerFigures();
+  const auto one_percent = find_score(parts, at(ruler), (count + 99) / 100 - 1, limit);
+  if (!one_percent) return std::nullopt;
+  double worst = kInfinity;
+  CompensatedSum sum;
+  for (const Part& part : parts) {
+    worst = std::min(worst, part.of[at(ruler)].worst);
+    sum.add(part.of[at(ruler)].sum);
+  }
+  const double mean = std::isinf(worst) ? worst : sum.value() / static_cast<double>(count);
+  return RulerFigures{value_of(ruler, worst), value_of(ruler, *one_percent), value_of(ruler, mean)};
+}
+
+}  // namespace
+
+MeshRulers measure_rulers(const TetMesh& mesh) {
+  Limits limits = estimate_limits(mesh);
+  auto parts = survey(mesh, limits, 1);
+  MeshRulers result;
+  for (const Part& part : parts) {
+    result.inner_faces += part.of[at(Ruler::non_orthogonality)].count;
+    result.faces_above_70 += part.faces_above_70;
+  }
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    auto figures = figures_of(static_cast<Ruler>(r), parts, limits[r]);
+    if (!figures) {  // the sample was misleading: keep all
+      limits.fill(kInfinity);
+      parts = survey(mesh, limits, 1);
+      figures = figures_of(static_cast<Ruler>(r), parts, kInfinity);
+    }
+    result.figures[r] = *figures;
+  }
+  return result;
+}
+
+}  // namespace tetmend
