@@ -33,7 +33,8 @@ struct Tet {
 
   std::array<double, 13> key() const {
     std::array<std::array<double, 3>, 4> sorted{};
-    for (std::size_t i = 0; i < 4; ++i) sorted[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
+    for (std::size_t i = 0; i < 4; ++i)
+      sorted[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
     std::sort(sorted.begin(), sorted.end());
     std::array<double, 13> key{};
     for (std::size_t i = 0; i < 12; ++i) key[i] = sorted[i / 3][i % 3];
