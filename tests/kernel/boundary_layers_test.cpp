@@ -65,7 +65,9 @@ TEST_CASE("layers are found to the last tet, whatever the wall, the heights and 
   const std::vector<std::pair<std::string, Wall>> walls = {
       {"plane", plane_wall(8)}, {"pipe", pipe_wall(60, 4)}, {"ball", ball_wall(3)}};
   std::uint64_t seed = 0;
-  for (const auto& [name, wall] : walls) {
+  for (const auto& each : walls) {
+    const auto& name = each.first;
+    const auto& wall = each.second;
     CAPTURE(name);
     for (const double first : {0.22, 0.1, 0.01, 0.001}) {
       CAPTURE(first);
