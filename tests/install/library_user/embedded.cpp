@@ -106,7 +106,9 @@ int main(int argc, char** argv) {
 
   mesh = part;
   const tetmend::Result result = improve_by_own_script(mesh, argv[1]);
-  expect(result.notes.size() == 3, "the script ran its three rounds");
+  std::size_t rounds = 0;
+  for (const std::string& note : result.notes) rounds += note.rfind("bad tets:", 0) == 0 ? 1 : 0;
+  expect(rounds == 3, "the script ran its three rounds");
   std::size_t accepted = 0;
   for (const tetmend::Pass& pass : result.passes) accepted += pass.accepted();
   std::printf("odt_smoothing: %zu accepted\n", accepted);
