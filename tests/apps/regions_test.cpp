@@ -33,7 +33,8 @@ struct Tet {
 
   std::array<double, 13> key() const {
     std::array<std::array<double, 3>, 4> sorted{};
-    for (std::size_t i = 0; i < 4; ++i) sorted[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
+    for (std::size_t i = 0; i < 4; ++i)
+      sorted[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
     std::sort(sorted.begin(), sorted.end());
     std::array<double, 13> key{};
     for (std::size_t i = 0; i < 12; ++i) key[i] = sorted[i / 3][i % 3];
@@ -176,7 +177,7 @@ TEST_CASE("boundary layers come out bit for bit, are counted, and can be given u
   const auto report_file = folder / "report.json";
   const LayeredMesh layered =
       make_layered(plane_wall(8), {.heights = growing_heights(4, 0.05, 1.4), .core = {0.6, 0.9}});
-  write_mesh(input, layered.data);
+  write_mesh(input, TetMesh(layered.data).to_data());  // each tet the right way round
   const std::vector<Tet> before = tets_of(input);
   const auto end = before.begin() + static_cast<std::ptrdiff_t>(layered.layer_tets);
   const Part layers = part_of({before.begin(), end}, [](const Tet&) { return true; });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -64,7 +65,9 @@ TEST_CASE("layers are found to the last tet, whatever the wall, the heights and 
   const std::vector<std::pair<std::string, Wall>> walls = {
       {"plane", plane_wall(8)}, {"pipe", pipe_wall(60, 4)}, {"ball", ball_wall(3)}};
   std::uint64_t seed = 0;
-  for (const auto& [name, wall] : walls) {
+  for (const auto& each : walls) {
+    const auto& name = each.first;
+    const auto& wall = each.second;
     CAPTURE(name);
     for (const double first : {0.22, 0.1, 0.01, 0.001}) {
       CAPTURE(first);
@@ -189,13 +192,15 @@ TEST_CASE("slivers on walls and flattened Delaunay meshes are no layers") {
     for (Point& p : ball.points) p.z() /= 20;
     CHECK(found_in(TetMesh(ball)).empty());
 
-    // Some of the vertices above the floor are pressed to it.
-    Random random(seed);
-    MeshData pressed = make_lattice(even_axis(12, 1), even_axis(12, 1), even_axis(4, 1));
-    for (Point& p : pressed.points) {
-      if (p.z() == 1 && random.real() < 0.4) p.z() = random.real(0.01, 0.1);
+    // Some of the vertices above the floor are pressed to it: prisms here and there.
+    for (const auto& [cells, share] : {std::pair<std::size_t, double>{12, 0.4}, {50, 0.3}}) {
+      Random random(seed);
+      MeshData pressed = make_lattice(even_axis(cells, 1), even_axis(cells, 1), even_axis(2, 1));
+      for (Point& p : pressed.points) {
+        if (p.z() == 1 && random.real() < share) p.z() = random.real(0.02, 0.1);
+      }
+      CHECK(found_in(TetMesh(pressed)).empty());
     }
-    CHECK(found_in(TetMesh(pressed)).empty());
   }
 }
 
@@ -212,4 +217,6 @@ TEST_CASE("a few prisms are no layer") {
   const Stack stack = {.heights = growing_heights(5, 0.02, 1.3), .core = {0.9}};
   CHECK(found_in(TetMesh(make_layered(plane_wall(1), stack).data)).empty());
   CHECK(!found_in(TetMesh(make_layered(plane_wall(2), stack).data)).empty());
+  const Stack high = {.heights = growing_heights(20, 0.02, 1.2), .core = {0.9}};
+  CHECK(found_in(TetMesh(make_layered(plane_wall(1), high).data)).empty());
 }
