@@ -165,7 +165,7 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
     write_text(schedule, R"(
         goal{min = 36, max = 150}
         judge_by{measure = "sine"}
-        apply(sequence{{"edge_split", relax = true}, {"shell_transformation", order = "longest"},
+        apply(sequence{{"edge_split"}, {"shell_transformation", order = "longest"},
                        all_of{"smoothing", "multi_face_removal"}, desperate = 0.9},
               {on = {worst = 60}}))");
     options = {"--schedule", schedule, "--goal", "20"};
@@ -175,9 +175,10 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
   std::size_t repeated = 0;
   std::size_t accepted = 0;
   std::size_t protected_again = 0;
+  std::size_t outermost = 0;
   for (std::uint32_t c = 0; c < file.calls().size(); c = file.calls()[c].subtree_end) {
     const Call& call = file.calls()[c];
-    if (c % 97 != 0 && !(call.accepted() && c % 7 == 0)) continue;
+    if (outermost++ % 7 != 0 && !call.accepted()) continue;
     if (++repeated > 40) break;
     CAPTURE(describe_call(file, c));
     const std::string kit = (bench.folder / "kit").string();

@@ -181,7 +181,6 @@ TEST_CASE("an operator that throws in a pass ends it, on any number of threads, 
       local_reconnection(run, {});
       LocalReconnectionOptions broken;
       broken.edge_operator = "throws_at_edges";
-      broken.on.below = Selection::kAll;
       CHECK_THROWS_AS(local_reconnection(run, broken), Error);
       CHECK(to_string(check_integrity(mesh)) == "");
       smooth(run, {});

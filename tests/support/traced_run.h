@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -62,8 +63,13 @@ class Witness final : public TraceSink {
     look();
   }
   void edit_made(const TetMesh& mesh, const Journal& journal) override {
+    // Vertices that move together are all in place when the first of them is told of: the states
+    // between were never there.
+    const bool is_move = journal.edits.back().kind == Edit::Kind::move_vertex;
+    if (is_move && last_move_ == last_) fingerprints.erase(last_);
     recorder_.edit_made(mesh, journal);
     look();
+    if (is_move) last_move_ = last_;
   }
   void edit_undone() override {
     recorder_.edit_undone();
@@ -87,6 +93,7 @@ class Witness final : public TraceSink {
   const TetMesh& mesh_;
   std::set<std::uint64_t> wanted_;
   std::uint64_t last_ = 0;
+  std::optional<std::uint64_t> last_move_;  // number of events right after it
 };
 
 inline std::set<std::uint64_t> random_numbers(std::size_t count, std::uint64_t below) {

@@ -24,7 +24,7 @@ struct Recorded {
     TetMesh again = mesh;
     record(mesh, folder / "trace", filter, {}, schedule);
     const std::uint64_t events = TraceFile(folder / "trace").event_count();
-    std::set<std::uint64_t> wanted = random_numbers(300, events);
+    std::set<std::uint64_t> wanted = random_numbers(330, events);
     wanted.insert({0, events});
     truth = record(again, folder / "trace", filter, wanted, schedule);
   }

@@ -41,15 +41,15 @@ TEST_CASE("in the window a run is recorded, and opened in the debugger when it i
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
   click(800, 300);  // unfolds the panel
-  click(729, 435);  // record
-  click(737, 462);  // run
+  click(729, 462);  // record
+  click(737, 489);  // run
   wait_for("tetmend-live.trace");
   type("sleep 1");  // its last mesh is shown
-  click(890, 482);  // debug this run
-  type("mousemove 500 350 key Right Right Right");
+  click(890, 509);  // debug this run
+  type("mousemove 500 350 key Right Right Right Right");
   const nlohmann::json state = viewer.quit();
   REQUIRE(state.contains("trace"));
-  CHECK(state["trace"]["position"] == 3);
+  CHECK(state["trace"]["position"] == 4);
   CHECK(state["trace"]["call"]["operator"] == "recursive_shell_transformation");
 }
 
