@@ -55,6 +55,27 @@ std::vector<std::uint32_t> read_vertices(const ScriptValue& value) {
   return vertices;
 }
 
+/// {name = value, ...} as a user would write it behind --set.
+ScheduleSettings read_settings(const WordInfo& word, const ScriptValue& value) {
+  if (!value.list.empty()) {
+    throw Error(fmt::format("{} takes named parameters only: {}", word.name, word.usage));
+  }
+  ScheduleSettings settings;
+  for (const auto& [name, field] : value.fields) {
+    switch (field.kind) {
+      case ScriptValue::Kind::number:
+        settings.emplace_back(name, fmt::format("{}", field.number));
+        break;
+      case ScriptValue::Kind::flag:
+        settings.emplace_back(name, field.number != 0 ? "true" : "false");
+        break;
+      default:
+        settings.emplace_back(name, read_text(Subject{std::string(word.name)}.of(name), field));
+    }
+  }
+  return settings;
+}
+
 QualityIndicators read_indicators(const Subject& subject, const ScriptValue& value) {
   const auto number = [&](std::string_view name) {
     const ScriptValue* field = value.field(name);
@@ -107,6 +128,7 @@ void ScriptHost::add_words() {
   add("description", &ScriptHost::describe);
   add("parameter", &ScriptHost::declare);
   add("begin_round", &ScriptHost::begin_round);
+  add("run_schedule", &ScriptHost::run_schedule);
   add("local_reconnection", &ScriptHost::local_reconnection);
   add("smooth", &ScriptHost::smooth);
   add("suppress_points", &ScriptHost::suppress_points);
@@ -168,6 +190,18 @@ int ScriptHost::begin_round(lua_State* lua) {
   begin_work();
   lua_pushinteger(lua, ++run_->round);
   return 1;
+}
+
+/// In an interpreter of its own. A script can run a built-in schedule only, so that none can run
+/// itself.
+int ScriptHost::run_schedule(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("run_schedule");
+  const Schedule schedule = Schedule::builtin(read_text({"run_schedule"}, read_value(lua, 1)));
+  const ScheduleSettings settings = read_settings(word, read_table(lua, 2, word));
+  ScriptHost(run_, settings).execute(schedule);
+  watch();
+  return 0;
 }
 
 ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const ScriptValue& value,
@@ -397,7 +431,8 @@ int ScriptHost::measure(lua_State* lua) {
                     "measured any more",
                     wanted));
   }
-  const MeshStatistics statistics = compute_statistics(run_->mesh(), run_->mesh().standard().goal());
+  const MeshStatistics statistics =
+      compute_statistics(run_->mesh(), run_->mesh().standard().goal());
   const auto keep = [&](const char* field, double value) {
     lua_pushnumber(lua, value);
     lua_setfield(lua, 1, field);

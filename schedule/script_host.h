@@ -39,6 +39,7 @@ class ScriptHost {
   int describe(lua_State* lua);
   int declare(lua_State* lua);
   int begin_round(lua_State* lua);
+  int run_schedule(lua_State* lua);
   int local_reconnection(lua_State* lua);
   int smooth(lua_State* lua);
   int suppress_points(lua_State* lua);

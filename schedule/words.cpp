@@ -50,7 +50,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 21> kWords = {{
+constexpr std::array<WordInfo, 22> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -58,6 +58,8 @@ constexpr std::array<WordInfo, 21> kWords = {{
      "the default. Before the first pass"},
     {"begin_round", "begin_round()",
      "begins the next round and returns its number; for the report"},
+    {"run_schedule", "run_schedule(\"shell\", {max_rounds = 10})",
+     "does what a built-in schedule does, with these values for its parameters"},
     {"local_reconnection", "local_reconnection{...}",
      "Algorithm 5: removes selected tets, the worst first, by operators on their edges and faces",
      kReconnectionFields, kReconnectionNumbers,

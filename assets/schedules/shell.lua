@@ -97,7 +97,7 @@ plain_rounds()
 
 -- Where the surface forces most of the bad tets, costly operators only make more of them.
 local is_free = quality().n_bad < 2 / 3 * start.n_bad
-if rounds < max_rounds and last_sweeps > 0 then
-  if is_free and quality().n_bad > 0 then rescue_worst() end
+if rounds < max_rounds and last_sweeps > 0 and quality().n_bad > 0 then
+  if is_free then rescue_worst() end
   insert_while_it_pays()
 end

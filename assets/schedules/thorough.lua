@@ -1,5 +1,5 @@
 -- The best mesh that the fixed surface allows, for the time it takes.
-description "The rounds of Algorithm 6; then rounds of costly operators for the worst tets, and insertion by cavity for all bad ones, until nothing helps"
+description "What the default does; then rounds of costly operators for the worst tets, and insertion by cavity for all bad ones, until nothing helps"
 
 local max_rounds = parameter{"max_rounds", default = 20, low = 0, high = 10000,
                              help = "rounds of costly operators on the worst tets"}
@@ -8,35 +8,10 @@ local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
 local time_limit = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                              help = "seconds after which no further round begins; 0: none"}
 
--- As in the default schedule: the choice of edges matters for the time alone, and new bad tets have a price,
--- but where the worst ones are rescued.
-local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
-local dire  = {below = 0.5, at_least = 100}
 local worst = {below = 1, worst = 100}
-local full_price, half_price = 0.1, 0.02
 
 local function is_enough()
   return quality().n_bad == 0 or time_limit > 0 and quality().seconds >= time_limit
-end
-
-local function plain_round()
-  begin_round()
-  local_reconnection{edges = quick}
-  smooth{}
-  suppress_points{}
-  smooth{}
-  insert_points{}
-  smooth{}
-end
-
--- As long as it removes a tenth of the bad tets.
-local function repeat_while_it_pays(pass)
-  local n_bad
-  repeat
-    n_bad = quality().n_bad
-    if is_enough() then return end
-    pass()
-  until quality().n_bad > 0.9 * n_bad
 end
 
 -- A small polyhedron without the tet but with a new vertex, smoothed.
@@ -50,11 +25,11 @@ local function open_by(operator)
 end
 
 -- With a steep exponent, a new mild bad tet hardly counts against a worse one that vanishes.
-local function rescue(on, exponent)
-  local_reconnection{on = on, reflex_only = false}
-  apply({"cavity_insertion", exponent = exponent, desperate = exponent > 4 and 0.7 or 0}, {on = on})
+local function rescue(exponent)
+  local_reconnection{on = worst, reflex_only = false}
+  apply({"cavity_insertion", exponent = exponent, desperate = exponent > 4 and 0.7 or 0}, {on = worst})
   apply(refill, {on = worst})
-  smooth{on = on, desperate = 0.7, steps = 30}
+  smooth{on = worst, desperate = 0.7, steps = 30}
 end
 
 -- Fewer bad tets, but none that is worse: with the exponent 1 the many mild ones count.
@@ -67,29 +42,26 @@ local function reduce()
 end
 
 local start = quality()
-judge_by{price = full_price}
-repeat_while_it_pays(plain_round)
+run_schedule("shell")
 
 -- Where the surface forces most of the bad tets, a rescue only makes more of them.
 local is_free = quality().n_bad < 2 / 3 * start.n_bad
-if is_free and max_rounds > 0 and not is_enough() then
-  -- Needles first: they would spoil what is around them. Then sines alone.
-  judge_by{price = half_price}
-  plain_round()
-  judge_by{price = 0}
-  for _ = 1, 3 do rescue(dire, 12) end
-end
 
 local rounds, failed, before = 0, 0, quality()
 while is_free and rounds < max_rounds and failed < max_failed and not is_enough() do
   rounds = rounds + 1
   judge_by{price = 0, measure = "sine"}
-  rescue(worst, rounds % 2 == 0 and 12 or 4)
+  rescue(rounds % 2 == 0 and 12 or 4)
   for _, opening in ipairs{"edge_removal", "edge_split"} do apply(open_by(opening), {on = worst}) end
-  judge_by{price = full_price}
-  repeat_while_it_pays(plain_round)
+  run_schedule("shell", {last_sweeps = 0})
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1
   before = now
 end
-if max_rounds > 0 then repeat_while_it_pays(reduce) end
+
+-- As long as it removes a tenth of the bad tets.
+while max_rounds > 0 and not is_enough() do
+  local n_bad = quality().n_bad
+  reduce()
+  if quality().n_bad > 0.9 * n_bad then break end
+end

@@ -5,7 +5,7 @@ import common
 import compare
 import report
 
-SCHEDULE = compare.ROOT / "assets" / "schedules" / "thorough.lua"
+SCHEDULES = compare.ROOT / "assets" / "schedules"
 LEFT_OUT = ["local_reconnection", "smooth", "suppress_points", "insert_points", "cavity_insertion",
             "polyhedron_reconnection", "joint_smoothing", "sequence"]
 TEXT = (
@@ -36,18 +36,26 @@ local function unless_left_out(name, word)
 end
 local all_apply = apply
 local function apply(what, options)
-  return is_left_out(what) and 0 or all_apply(without(what), options)
+  if is_left_out(what) then return 0, 0 end
+  return all_apply(without(what), options)
 end
 local local_reconnection = unless_left_out("local_reconnection", local_reconnection)
 local smooth = unless_left_out("smooth", smooth)
 local suppress_points = unless_left_out("suppress_points", suppress_points)
 local insert_points = unless_left_out("insert_points", insert_points)
+local function run_schedule(_, settings)
+  local function description() end
+  local function parameter(spec)
+    local value = settings and settings[spec[1]]
+    return value == nil and spec.default or value
+  end
 """
 
 
 def write_script(left_out: str, options) -> str:
     script = options.output / f"thorough-without-{left_out}.lua"
-    script.write_text(PRELUDE.format(left_out=left_out) + SCHEDULE.read_text())
+    shell, thorough = ((SCHEDULES / name).read_text() for name in ("shell.lua", "thorough.lua"))
+    script.write_text(f"{PRELUDE.format(left_out=left_out)}{shell}end\n{thorough}")
     return str(script)
 
 

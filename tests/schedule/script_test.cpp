@@ -323,6 +323,22 @@ TEST_CASE("a script learns what the surface allows, and what holds its bad tets"
   CHECK(std::stod(run.notes[3]) == doctest::Approx(limit.theta_max.value()));
 }
 
+TEST_CASE("a script does what a built-in schedule does, with the parameters that it names") {
+  const auto same = [](const Outcome& a, const Outcome& b) {
+    return a.error.empty() && pass_names(a) == pass_names(b) && a.round == b.round &&
+           a.mesh.tet_count() == b.mesh.tet_count();
+  };
+  const std::string shell(Schedule::builtin("shell").text());
+  CHECK(same(run("run_schedule('shell')"), run(shell)));
+  const Outcome once = run("run_schedule('shell', {max_rounds = 1, last_sweeps = 0})");
+  CHECK(same(once, run(shell, {{"max_rounds", "1"}, {"last_sweeps", "0"}})));
+  CHECK(once.round == 1);
+  CHECK(contains(run("run_schedule('grummp', {mode = 'x'})").error, "has no parameter 'mode'"));
+  CHECK(contains(run("run_schedule('shell', {max_rounds = 0.5})").error, "max_rounds"));
+  CHECK(contains(run("run_schedule('shell', {4})").error, "named parameters only"));
+  CHECK(contains(run("run_schedule('test.lua')").error, "there is no schedule 'test.lua'"));
+}
+
 TEST_CASE("scripts see the operators that are registered") {
   CHECK(note("#operators()") == std::to_string(kRegistry.operators().size()));
   CHECK(note("operators()[1]") == std::string(kRegistry.operators()[0]->name));
