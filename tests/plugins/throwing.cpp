@@ -44,7 +44,8 @@ struct ThrowsAtEdges final : VertexMover {
     return Verdict::accepted;
   }
   Verdict evaluate(OperatorContext& context, Target target, State&) const override {
-    if (context.mesh.quality(target.edge().tet()) < kBadThreshold) throw std::runtime_error("a sliver");
+    if (context.mesh.quality(target.edge().tet()) < kBadThreshold)
+      throw std::runtime_error("a sliver");
     return Verdict::no_improvement;
   }
   inline static const OperatorInfo kInfo = {
