@@ -65,6 +65,14 @@ void add_region_options(CLI::App& command, Options& options) {
           "worked on like the rest (improve)")
       ->type_name("keep|improve")
       ->check(CLI::IsMember({"keep", "improve"}).description(""));
+  command
+      .add_option("--tets", options.tets,
+                  "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all "
+                  "(default:\nas far as it pays)")
+      ->type_name("P%|N");
+  command.add_flag("--keep-size", options.keep_size,
+                   "Make no edge that is shorter than half or\nlonger than twice what edges are "
+                   "there in IN");
   command.add_flag("--ignore-interior", options.ignore_interior,
                    "Drop the triangles, edges and required\n"
                    "vertices that the file names inside a region");

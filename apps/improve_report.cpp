@@ -90,6 +90,21 @@ std::string format_worse(const Result& result) {
                        : fmt::format("{}", fmt::join(worse, ",\n                     "));
 }
 
+std::string format_growth(const Result& result) {
+  const double before = static_cast<double>(result.before.tets);
+  const double added = static_cast<double>(result.after.tets) - before;
+  std::string text = fmt::format("{:+.0f}, {:+.1f} %", added, 100 * added / std::max(before, 1.0));
+  if (result.rulers_before && result.rulers_after) {
+    text += fmt::format("; shortest edge {:.4g}, was {:.4g}", result.rulers_after->shortest_edge,
+                        result.rulers_before->shortest_edge);
+  }
+  if (!result.size_drift) return text;
+  const SizeDrift& drift = *result.size_drift;
+  return text +
+         fmt::format(",\n{:21}local edge length x {:.2f} (1 %), {:.2f} (median), {:.2f} (99 %)", "",
+                     drift.one_percent, drift.median, drift.ninety_nine_percent);
+}
+
 std::string format_checks(const ImproveReport& report) {
   const Result& result = report.result;
   std::string text;
@@ -99,6 +114,7 @@ std::string format_checks(const ImproveReport& report) {
   line("goal", fmt::format("angles from {:g} to {:g} degrees", result.goal.min_angle,
                            result.goal.max_angle));
   line("worse than before", format_worse(result));
+  line("tets added", format_growth(result));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
   line("volume",
@@ -146,6 +162,13 @@ nlohmann::json to_json(const MeshStatistics& statistics, const std::optional<Mes
   nlohmann::json json = tetmend::to_json(statistics);
   if (rulers) json["rulers"] = tetmend::to_json(*rulers);
   return json;
+}
+
+nlohmann::json to_json(const std::optional<SizeDrift>& drift) {
+  if (!drift) return nullptr;
+  return {{"one_percent", drift->one_percent},
+          {"median", drift->median},
+          {"ninety_nine_percent", drift->ninety_nine_percent}};
 }
 
 nlohmann::json seconds_to_json(const ImproveReport& report) {
@@ -204,6 +227,7 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"measure", options.measure},
           {"worse_than_before", result.worse()},
           {"missed_aims", result.missed_aims()},
+          {"size_drift", to_json(result.size_drift)},
           {"threads", options.threads},
           {"interrupted", result.ending == Ending::cancelled},
           {"out_of_time", result.ending == Ending::time_limit},

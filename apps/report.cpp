@@ -48,6 +48,9 @@ class Table {
     rows_.push_back({std::move(name), std::move(values)});
   }
 
+  /// That all figures refer to.
+  Goal goal() const { return meshes_.front()->goal; }
+
   bool any(std::size_t MeshStatistics::*count) const {
     return std::any_of(meshes_.begin(), meshes_.end(),
                        [&](const MeshStatistics* mesh) { return mesh->*count > 0; });
@@ -96,10 +99,15 @@ void add_rows(Table& table) {
   if (table.any(&S::flat)) table.add("flat tets", [](const S& s) { return grouped(s.flat); });
   table.add("theta_min, degrees", [](const S& s) { return decimal(s.theta_min, 4); });
   table.add("theta_max, degrees", [](const S& s) { return decimal(s.theta_max, 4); });
-  table.add("lambda %  (<= 30 or >= 150)", [](const S& s) { return decimal(s.lambda, 4); });
+  const auto [low, high] = table.goal();
+  table.add(fmt::format("lambda %  (<= {:g} or >= {:g})", low, high),
+            [](const S& s) { return decimal(s.lambda, 4); });
   for (std::size_t i = 0; i < 5; ++i) {
-    const std::size_t low = 6 * i;
-    table.add(fmt::format("lambda_{} %  ({}-{}, {}-{})", i + 1, low, low + 6, 174 - low, 180 - low),
+    const double a = low / 5;  // widths of the bands
+    const double b = (180 - high) / 5;
+    const double n = static_cast<double>(i);
+    table.add(fmt::format("lambda_{} %  ({:g}-{:g}, {:g}-{:g})", i + 1, a * n, a * (n + 1),
+                          180 - b * (n + 1), 180 - b * n),
               [i](const S& s) { return decimal(s.lambda_bands[i], 4); });
   }
   table.add("bad tets  (miss the goal)", [](const S& s) { return grouped(s.n_bad); });
@@ -272,7 +280,8 @@ std::string format_limit(const SurfaceLimit& limit) {
 }
 
 nlohmann::json to_json(const MeshRulers& rulers) {
-  nlohmann::json result = {{"inner_faces", rulers.inner_faces},
+  nlohmann::json result = {{"shortest_edge", number(rulers.shortest_edge)},
+                           {"inner_faces", rulers.inner_faces},
                            {"faces_above_70", rulers.faces_above_70}};
   for (std::size_t r = 0; r < kRulerCount; ++r) {
     const RulerFigures& of = rulers.figures[r];

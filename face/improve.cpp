@@ -20,6 +20,7 @@
 
 #include "face/advice.h"
 #include "face/arena.h"
+#include "face/growth.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
 #include "face/regions.h"
@@ -30,6 +31,7 @@
 #include "kernel/chunks.h"
 #include "kernel/integrity.h"
 #include "kernel/rulers.h"
+#include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
 #include "schedule/limit/surface_limit.h"
 
@@ -77,12 +79,14 @@ struct Plan {
   Registry registry;
   Schedule schedule;
   face::TracePlan trace;
+  face::Growth growth;
   Standard standard;
 
   explicit Plan(const Options& options)
       : registry(face::load_registry(options.plugin)),
         schedule(find_schedule(options)),
-        trace(options, registry) {
+        trace(options, registry),
+        growth(options.tets) {
     face::check_threads(options.threads);
     face::check_regions(options);
     if (!is_sound(options.goal)) {
@@ -191,6 +195,8 @@ class Improvement {
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
   QualityIndicators first_;
+  face::LocalLengths lengths_;
+  std::shared_ptr<const SizeField> size_field_;
   std::size_t notes_before_ = 0;
   std::vector<std::uint32_t> tet_numbers_;  // in the user's mesh, by slot
   Result result_;
@@ -226,6 +232,8 @@ void Improvement::build_mesh(MeshData& data) {
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
   mesh_.set_bounds(Bounds::of(mesh_));
+  if (options_.keep_size && !size_field_) size_field_ = std::make_shared<SizeField>(mesh_);
+  mesh_.set_size_field(size_field_);
 }
 
 void Improvement::measure_before() {
@@ -233,7 +241,10 @@ void Improvement::measure_before() {
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh_, options_.goal);
   first_ = quality_indicators(mesh_);
-  if (options_.rulers) result_.rulers_before = measure_rulers(mesh_);
+  if (options_.rulers) {
+    result_.rulers_before = measure_rulers(mesh_);
+    lengths_ = face::LocalLengths(mesh_, vertices_before_);
+  }
   surface_before_ = surface_fingerprint(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
   note(face::advice_before(mesh_, result_));
@@ -244,6 +255,7 @@ void Improvement::measure_before() {
 void Improvement::run_schedule(std::size_t passes) {
   const auto trace = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
   Run run(mesh_, plan_.registry);
+  if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
   run.set_trace(trace.get());
   watcher_.watch(&run, quality_indicators(mesh_));
@@ -274,7 +286,10 @@ void Improvement::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
   result_.after = compute_statistics(mesh_, options_.goal);
-  if (options_.rulers) result_.rulers_after = measure_rulers(mesh_);
+  if (options_.rulers) {
+    result_.rulers_after = measure_rulers(mesh_);
+    result_.size_drift = lengths_.drift_to(face::LocalLengths(mesh_, vertices_before_));
+  }
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
@@ -364,10 +379,13 @@ std::vector<std::string> Result::worse() const {
   compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
   if (!rulers_before || !rulers_after) return worse;
   const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
-  const double mean_ratio = worst(*rulers_before, Ruler::mean_ratio);
   const double edge_ratio = worst(*rulers_before, Ruler::edge_ratio);
-  compare("a worst mean ratio", worst(*rulers_after, Ruler::mean_ratio), mean_ratio,
-          worst(*rulers_after, Ruler::mean_ratio) < mean_ratio - kRounding);
+  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
+    const double now = worst(*rulers_after, ruler);
+    const double then = worst(*rulers_before, ruler);
+    compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
+            now < then - kRounding);
+  }
   compare("a worst edge ratio", worst(*rulers_after, Ruler::edge_ratio), edge_ratio,
           worst(*rulers_after, Ruler::edge_ratio) > std::max(edge_ratio, kEdgeRatio) + kRounding);
   return worse;

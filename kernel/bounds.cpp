@@ -20,6 +20,7 @@ struct Shape {
   double sine2 = 1;         // least of the acute angles
   double obtuse_sine2 = 1;  // least of the obtuse ones
   double volume_length2 = 1;
+  double radius_ratio = 1;
   double edge_ratio2 = 1;
 
   Shape() = default;
@@ -47,27 +48,38 @@ struct Shape {
       longest = std::max(longest, length2);
     }
     volume_length2 = 432 * v6 * v6 / (sum * sum * sum);
+    double area = 0;
+    for (const Point& n : normal) area += n.norm();
+    // Radii: of the inscribed ball v6 / area, of the ball around it |around| / (2 v6).
+    const Point u = b - a;
+    const Point v = c - a;
+    const Point w = d - a;
+    const Point around =
+        u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) + w.squaredNorm() * u.cross(v);
+    radius_ratio = 6 * v6 * v6 / (area * around.norm());
     edge_ratio2 = longest / shortest;
   }
   void include(const Shape& other) {
     sine2 = std::min(sine2, other.sine2);
     obtuse_sine2 = std::min(obtuse_sine2, other.obtuse_sine2);
     volume_length2 = std::min(volume_length2, other.volume_length2);
+    radius_ratio = std::min(radius_ratio, other.radius_ratio);
     edge_ratio2 = std::max(edge_ratio2, other.edge_ratio2);
   }
 };
 
-/// Worst of the mesh.
-Shape worst_shape(const TetMesh& mesh) {
+/// Worst of the tets of a quality from `from` to less than `to`.
+Shape worst_shape(const TetMesh& mesh, Quality from, Quality to) {
   const auto parts = map_chunks<Shape>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
     Shape worst;
     for (std::size_t i = begin; i < end; ++i) {
       const TetHandle t(static_cast<std::uint32_t>(i));
-      if (mesh.is_deleted(t)) continue;
+      const Quality quality = mesh.quality(t);
+      if (!(quality >= from && quality < to) || mesh.is_deleted(t)) continue;
       const TetVertices& v = mesh.vertices(t);
       if (!mesh.is_certified_positive(v)) {
         worst = {};
-        worst.sine2 = worst.obtuse_sine2 = worst.volume_length2 = 0;
+        worst.sine2 = worst.obtuse_sine2 = worst.volume_length2 = worst.radius_ratio = 0;
         worst.edge_ratio2 = std::numeric_limits<double>::infinity();
         break;
       }
@@ -83,15 +95,23 @@ Shape worst_shape(const TetMesh& mesh) {
 }  // namespace
 
 Bounds Bounds::of(const TetMesh& mesh) {
+  constexpr Quality kInfinity = std::numeric_limits<Quality>::infinity();
   const Standard& standard = mesh.standard();
-  const Shape worst = worst_shape(mesh);
-  Bounds bounds;
-  bounds.least_sine2_ = worst.sine2;
-  bounds.least_obtuse_sine2_ = std::min(worst.obtuse_sine2, 1 / standard.obtuse2());
-  bounds.least_volume_length2_ = worst.volume_length2;
-  bounds.most_edge_ratio2_ = std::max(worst.edge_ratio2, kEdgeRatio * kEdgeRatio);
-  bounds.any_ = true;
-  return bounds.under(standard);
+  Shape worst = worst_shape(mesh, -kInfinity, kBadThreshold);
+  const auto bounds_by = [&] {
+    Bounds bounds;
+    bounds.least_sine2_ = worst.sine2;
+    bounds.least_obtuse_sine2_ = std::min(worst.obtuse_sine2, 1 / standard.obtuse2());
+    bounds.least_volume_length2_ = worst.volume_length2;
+    bounds.least_radius_ratio_ = worst.radius_ratio;
+    bounds.most_edge_ratio2_ = std::max(worst.edge_ratio2, kEdgeRatio * kEdgeRatio);
+    bounds.any_ = true;
+    return bounds.under(standard);
+  };
+  // What is safe cannot be worse: with some bad tets that is all the rest, as a rule.
+  const Quality safe = bounds_by().safe();
+  if (safe > kBadThreshold) worst.include(worst_shape(mesh, kBadThreshold, safe));
+  return bounds_by();
 }
 
 Bounds Bounds::under(const Standard& standard) const {
@@ -99,9 +119,11 @@ Bounds Bounds::under(const Standard& standard) const {
   if (!any_) return bounds;
   bounds.safe_ = std::numeric_limits<Quality>::infinity();
   if (standard.terms() != Standard::Terms::sine_and_length) return bounds;
+  // Mean ratio^3 <= radius ratio [liu_joe].
+  const double least_length2 = std::max(least_volume_length2_, least_radius_ratio_);
   const double safe2 =
       std::max({standard.acute2() * least_sine2_, standard.obtuse2() * least_obtuse_sine2_,
-                standard.flat2() + standard.length() / 432 * least_volume_length2_,
+                standard.flat2() + standard.length() / 432 * least_length2,
                 1.0});  // no tet of quality 1 has an edge ratio of 10
   bounds.safe_ = static_cast<Quality>(std::sqrt(safe2) * (1 + 1e-6));
   return bounds;
@@ -110,7 +132,8 @@ Bounds Bounds::under(const Standard& standard) const {
 bool Bounds::admit(const Point& a, const Point& b, const Point& c, const Point& d) const {
   const Shape shape(a, b, c, d);
   return shape.sine2 >= least_sine2_ && shape.obtuse_sine2 >= least_obtuse_sine2_ &&
-         shape.volume_length2 >= least_volume_length2_ && shape.edge_ratio2 <= most_edge_ratio2_;
+         shape.volume_length2 >= least_volume_length2_ &&
+         shape.radius_ratio >= least_radius_ratio_ && shape.edge_ratio2 <= most_edge_ratio2_;
 }
 
 }  // namespace tetmend

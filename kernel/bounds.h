@@ -18,7 +18,7 @@ class Bounds {
   /// No bounds.
   Bounds() = default;
   /// Of the mesh as it is: no smaller dihedral angle, no larger one than in the mesh or its goal, no
-  /// smaller mean ratio, no larger ratio of the longest to the shortest edge of a tet than in the
+  /// smaller mean ratio or radius ratio, no larger ratio of the longest to the shortest edge of a tet than in the
   /// mesh or 10. Cost: one pass over the tets. Inverted tets bound nothing.
   static Bounds of(const TetMesh& mesh);
 
@@ -34,6 +34,7 @@ class Bounds {
   double least_sine2_ = 0;           // of an acute angle
   double least_obtuse_sine2_ = 0;    // of an obtuse one
   double least_volume_length2_ = 0;  // mean ratio = volume-length^(2/3)
+  double least_radius_ratio_ = 0;
   double most_edge_ratio2_ = std::numeric_limits<double>::infinity();
   bool any_ = false;
   Quality safe_ = -std::numeric_limits<Quality>::infinity();

@@ -2,7 +2,9 @@
 // Signed volumes and a certificate for their sign.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
@@ -14,6 +16,17 @@ namespace tetmend {
 /// positive value.
 inline double volume6(const Point& a, const Point& b, const Point& c, const Point& d) {
   return (b - a).dot((c - a).cross(d - a));
+}
+
+/// x^(1/3) to the last bits, several times faster than std::cbrt. A third of the exponent and
+/// Halley's method, which triples the digits in each step. Precondition: x > 0, normal.
+inline double cube_root(double x) {
+  double y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 3 + 0x2A9F789300000000ull);
+  for (int step = 0; step < 3; ++step) {
+    const double cube = y * y * y;
+    y *= (cube + 2 * x) / (2 * cube + x);
+  }
+  return y;
 }
 
 /// Six times the signed volume of a tet as computed, and more than its rounding error. Source:

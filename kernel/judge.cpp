@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/size_field.h"
 #include "kernel/transaction.h"
 
 namespace tetmend {
@@ -53,6 +54,34 @@ bool keeps_bounds(const Transaction& transaction, const Comparison& qualities) {
     return mesh.quality(t) >= bounds.safe() ||
            bounds.admit(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
   });
+}
+
+double gain_of_means(const Transaction& transaction, double usual) {
+  const auto sum = [usual](std::span<const std::array<Point, 4>> tets) {
+    double total = 0;
+    for (const auto& [a, b, c, d] : tets) total += mean_ratio(a, b, c, d) - usual;
+    return total;
+  };
+  const Transaction::Tets tets = transaction.tets();
+  return sum(tets.now) - sum(tets.before);
+}
+
+/// Every new edge is of about the length that edges had at its place.
+bool keeps_lengths(const Transaction& transaction) {
+  const TetMesh& mesh = transaction.mesh();
+  const SizeField* field = mesh.size_field();
+  if (field == nullptr) return true;
+  std::vector<std::array<VertexHandle, 2>> edges;
+  transaction.list_new_edges(edges);
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    return field->admits(mesh.point(edge[0]), mesh.point(edge[1]));
+  });
+}
+
+/// Whatever the promise is.
+bool keeps_limits(const Transaction& transaction, const Comparison& qualities) {
+  return keeps_bounds(transaction, qualities) && !transaction.has_too_many_tets() &&
+         keeps_lengths(transaction);
 }
 
 double largest_angle_sine(const Transaction& transaction) {
@@ -133,6 +162,12 @@ Judge Judge::lowers_angle(double sine) {
   return judge;
 }
 
+Judge Judge::raises_mean(double usual) {
+  Judge judge(Kind::raises_mean);
+  judge.bound_ = usual;
+  return judge;
+}
+
 Judge Judge::opening(double share) {
   Judge judge(Kind::opening);
   judge.bound_ = share;
@@ -153,6 +188,9 @@ std::string_view Judge::promise() const {
     case Kind::lowers_angle:
       return "the sine of the largest angle gained the price of each more bad tet, and the worst "
              "tet is no worse";
+    case Kind::raises_mean:
+      return "the mean ratios, each less a usual one, have a larger sum, and no bad tet is new or "
+             "worse";
     case Kind::opening:
       return "the worst tet keeps a share of the quality that the worst had";
   }
@@ -166,6 +204,8 @@ double Judge::floor(double worst, double least_gain) const {
       return worst + least_gain;
     case Kind::reaches:
       return std::min(worst + least_gain, static_cast<double>(kBadThreshold));
+    case Kind::raises_mean:
+      return std::min(worst, static_cast<double>(kBadThreshold));
     case Kind::lowers_angle:
       return worst;
     case Kind::opening:
@@ -190,8 +230,9 @@ bool Judge::accepts(const Change& change) const {
   aim.price = change.transaction.mesh().standard().price();
   if (kind_ == Kind::reaches) aim.reached = reaches_goal(change, bound_);
   if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
+  if (kind_ == Kind::raises_mean) aim.gain = gain_of_means(change.transaction, bound_);
   return holds_for(change.qualities, aim) &&
-         (kind_ == Kind::opening || keeps_bounds(change.transaction, change.qualities));
+         (kind_ == Kind::opening || keeps_limits(change.transaction, change.qualities));
 }
 
 bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
@@ -205,6 +246,8 @@ bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
              (aim.reached && spares_bad(qualities));
     case Kind::lowers_angle:
       return lowers_angle(qualities, aim.sine);
+    case Kind::raises_mean:
+      return aim.gain > kQualityTolerance && spares_bad(qualities);
     case Kind::opening:
       return keeps_share(qualities);
   }
@@ -251,6 +294,10 @@ double Judge::lack(std::span<const Quality> qualities) const {
 }
 
 bool Judge::spares_bad(Comparison& qualities) const {
+  if (qualities.has_both() && qualities.worst_now() >= kBadThreshold &&
+      qualities.worst_before() >= kBadThreshold) {
+    return true;
+  }
   const auto before = qualities.before();
   const auto now = qualities.now();
   const std::ptrdiff_t bad = count_bad(before);

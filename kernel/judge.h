@@ -92,7 +92,7 @@ struct Fairness {
 /// few words; immutable.
 class Judge {
  public:
-  enum class Kind : std::uint8_t { strict, fair, reaches, lowers_angle, opening };
+  enum class Kind : std::uint8_t { strict, fair, reaches, lowers_angle, raises_mean, opening };
 
   /// The quality vector of what changed is better. Where the standard has a price, more bad tets
   /// are paid for: the worst tet gains the price of each.
@@ -108,6 +108,9 @@ class Judge {
   /// The sine of the largest angle of what changed is above `sine` by the price, and by as much for
   /// each more bad tet; the worst tet is no worse.
   static Judge lowers_angle(double sine);
+  /// The mean ratios of what changed, each less `usual`, have a larger sum, and no bad tet is new or
+  /// worse. With the mean over the mesh for `usual`, that mean rises, whatever the number of tets.
+  static Judge raises_mean(double usual);
   /// The worst tet keeps a share of the quality that the worst had: whoever asks for this judges
   /// the whole of what follows.
   static Judge opening(double share = 0.2);
@@ -122,8 +125,9 @@ class Judge {
   /// The most that new tets may lack in sum, see deficit(), when the old ones lack `lack`.
   double deficit_limit(double worst, double lack) const;
 
-  /// The promise, and no new tet beyond the bounds of the mesh, which an opening may leave for a
-  /// while. Leaves the qualities that it compared in the change. False for a change without edits. Cost:
+  /// The promise, no new tet beyond the bounds of the mesh, no more tets than the workspace allows,
+  /// and no new edge that the size field of the mesh does not admit; an opening may leave these for
+  /// a while. Leaves the qualities that it compared in the change. False for a change without edits. Cost:
   /// linear in the tets that changed, mostly; n log n where the worst do not decide.
   bool accepts(const Change& change) const;
 
@@ -132,6 +136,7 @@ class Judge {
     double price = 0;      ///< Standard::price()
     bool reached = false;  ///< the tet aimed at is gone, or as good as the goal
     double sine = 1;       ///< of the largest angle of what changed; 1 if none is obtuse
+    double gain = 0;       ///< of the sum of mean ratios, each less the usual one
   };
   /// The promise itself.
   bool holds_for(Comparison& qualities, const Aim& aim) const;
@@ -149,7 +154,7 @@ class Judge {
 
   Kind kind_;
   Fairness fairness_;
-  double bound_ = 0;  // goal, sine or share
+  double bound_ = 0;  // goal, sine, usual mean ratio or share
 };
 
 }  // namespace tetmend

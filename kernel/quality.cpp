@@ -141,8 +141,11 @@ double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d
   const Frame frame(a, b, c, d);
   const double squares = frame.squared_edges();
   if (!(squares > 0)) return 0;
-  const double root = std::cbrt(0.5 * frame.v6);
-  return 12.0 * root * std::abs(root) / squares;
+  constexpr double kLeastNormal = std::numeric_limits<double>::min();
+  const double half = 0.5 * std::abs(frame.v6);
+  if (!(half >= kLeastNormal)) return 0;
+  const double root = cube_root(half);
+  return std::copysign(12.0 * root * root / squares, frame.v6);
 }
 
 namespace {

@@ -124,7 +124,8 @@ TETMEND_WIDE_INLINE WideVector inverse_lengths(const std::array<WideVector, 6>& 
 /// four normals, twice the areas:
 ///   circumradius = ||u|^2 v x w + |v|^2 w x u + |w|^2 u x v| / (2 V6), inradius = V6 / sum |n_i|
 ///   |S|^2 |S^-1|^2 = (sum of l^2 / 2) (sum of |n|^2 / (2 V6^2)), S the map from the regular tet
-TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally) {
+TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally,
+                          WideVector& shortest_edge) {
   const WideVector zero = {};
   const WideVector infinity = zero + kInfinity;
   for (std::size_t g = 0; g < rows.groups(); ++g) {
@@ -141,6 +142,7 @@ TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally) {
                                       larger(l[4], l[5]));
     const WideVector shortest =
         smaller(smaller(smaller(l[0], l[1]), smaller(l[2], l[3])), smaller(l[4], l[5]));
+    shortest_edge = smaller(in_use ? shortest : infinity, shortest_edge);
     const WideVector v6 = dot(u, b);
     const WideVector size = magnitude(v6);
     const WideVector squares = uu + vv + ww + dot(r, r) + dot(s, s) + dot(t, t);
@@ -248,6 +250,7 @@ struct Part {
   };
   std::array<Scores, kRulerCount> of;
   std::size_t faces_above_70 = 0;
+  double shortest_edge = kInfinity;
 };
 
 /// Measures the tets of a chunk, or every step-th of them.
@@ -266,7 +269,7 @@ class Surveyor {
           if (!twin.is_outside()) mesh_.prefetch(twin.tet());
         }
       }
-      measure(rows.points, tets_);
+      measure(rows.points, tets_, shortest_edge_);
       sift(tets_, 0);
       look_around(rows);
       for (unsigned f = 0; f < 4; ++f) {
@@ -278,6 +281,9 @@ class Surveyor {
         }
       }
     });
+    for (std::size_t i = 0; i < kWideLanes; ++i) {
+      part_.shortest_edge = std::min<double>(part_.shortest_edge, shortest_edge_[i]);
+    }
     for (std::size_t r = 0; r < kTetRulers; ++r) close(tets_, r, r);
     for (std::size_t r = 0; r < kFaceRulers; ++r) close(faces_, r, kTetRulers + r);
     return std::move(part_);
@@ -336,6 +342,7 @@ class Surveyor {
   Surroundings surroundings_;
   Tally<kTetRulers> tets_;
   Tally<kFaceRulers> faces_;
+  WideVector shortest_edge_ = WideVector{} + kInfinity;
   Part part_;
 };
 
@@ -416,7 +423,9 @@ MeshRulers measure_rulers(const TetMesh& mesh) {
   Limits limits = estimate_limits(mesh);
   auto parts = survey(mesh, limits, 1);
   MeshRulers result;
+  if (mesh.tet_count() > 0) result.shortest_edge = kInfinity;
   for (const Part& part : parts) {
+    result.shortest_edge = std::min(result.shortest_edge, part.shortest_edge);
     result.inner_faces += part.of[at(Ruler::non_orthogonality)].count;
     result.faces_above_70 += part.faces_above_70;
   }

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <tetmend/statistics.h>
@@ -22,6 +24,8 @@
 #include "kernel/quality.h"
 
 namespace tetmend {
+
+class SizeField;
 
 /// Counts commits or passes: which of two things happened later. 0 is "never".
 using Date = std::uint32_t;
@@ -158,6 +162,9 @@ class TetMesh {
   /// What no change may make worse; at first nothing.
   const Bounds& bounds() const { return bounds_; }
   void set_bounds(const Bounds& bounds) { bounds_ = bounds.under(standard_); }
+  /// What the lengths of new edges are held to; null: nothing.
+  const SizeField* size_field() const { return size_field_.get(); }
+  void set_size_field(std::shared_ptr<const SizeField> field) { size_field_ = std::move(field); }
   /// Quality computed from the points; what quality() caches.
   Quality evaluate(const TetVertices& tv) const {
     return static_cast<Quality>(
@@ -272,6 +279,7 @@ class TetMesh {
 
   Standard standard_ = Standard(Goal{});
   Bounds bounds_;
+  std::shared_ptr<const SizeField> size_field_;
   std::vector<Cell> cells_;
   std::vector<Quality> quality_;
   std::vector<Label> label_;

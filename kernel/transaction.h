@@ -75,6 +75,19 @@ class Transaction {
   void list_changed(std::vector<TetHandle>& out) const;
   /// The same values in no particular order.
   void list_qualities(std::vector<Quality>& before, std::vector<Quality>& now) const;
+  /// The corners of all tets that it has touched, as they were when it began and as they are now.
+  struct Tets {
+    std::span<const std::array<Point, 4>> before;
+    std::span<const std::array<Point, 4>> now;
+  };
+  /// Valid until the next question or edit. Cost: quadratic in the number of tets, with a small
+  /// factor.
+  Tets tets() const;
+  /// True if it made the mesh grow, to more tets than the workspace allows.
+  bool has_too_many_tets() const;
+  /// The edges of its new tets that were not there when it began, with both ends in their places;
+  /// of these some repeat. Cost: quadratic in the number of tets.
+  void list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) const;
 
   /// Makes the edits part of the enclosing transaction, or of the mesh if there is none. No edit
   /// may follow.
@@ -83,6 +96,7 @@ class Transaction {
   void undo();
 
  private:
+  Workspace::Past& past() const;
   EditResult check_old(std::span<const TetHandle> old);
   EditResult check_vertices(std::span<const TetHandle> old, std::span<const TetVertices> created);
   EditResult evaluate(std::span<const TetVertices> created);
@@ -110,6 +124,7 @@ class Transaction {
   TetMesh& mesh_;
   Workspace& workspace_;
   std::size_t first_edit_;
+  std::size_t tets_before_;
   bool kept_ = false;
 };
 

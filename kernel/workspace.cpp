@@ -28,9 +28,11 @@ Workspace Workspace::without_slots(const Workspace& first) {
   return workspace;
 }
 
-void Workspace::enter(const Territory& territory, FreeSlots& slots) {
+void Workspace::enter(const Territory& territory, FreeSlots& slots, std::size_t more_tets) {
+  constexpr std::size_t kMost = kAnyNumber / 4;  // differences keep their sign
   assert(depth_ == 0 && territory_.is_whole());
   territory_ = territory;
+  most_more_tets_ = more_tets_ + std::min(more_tets, kMost);
   std::swap(free_, slots);
 }
 

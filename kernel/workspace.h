@@ -2,6 +2,9 @@
 // What one worker needs besides the mesh: free slots, journal, visit marks, scratch buffers.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -55,10 +58,16 @@ class Workspace {
     std::vector<TetHandle> tets;
     std::vector<VertexHandle> vertices;
   };
+  static constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+  /// From now on judges refuse what makes the mesh grow beyond that many tets.
+  void set_most_tets(std::size_t tets) { most_tets_ = tets; }
+  std::size_t most_tets() const { return most_tets_; }
+
   /// From now on the worker keeps to a territory and makes new tets and vertices of these slots
-  /// only; the mesh does not grow. Exchanges the free slots of the workspace for `slots`.
-  /// Precondition: no transaction is open.
-  void enter(const Territory& territory, FreeSlots& slots);
+  /// only; the mesh does not grow. Exchanges the free slots of the workspace for `slots`. Judges
+  /// refuse what makes the territory grow by more than `more_tets`. Precondition: no transaction is
+  /// open.
+  void enter(const Territory& territory, FreeSlots& slots, std::size_t more_tets = kAnyNumber);
   /// Back to the whole mesh, and to the own free slots. `slots` gets those of the territory. The
   /// counts of tets and vertices of the mesh are right only after settle().
   void leave(FreeSlots& slots);
@@ -92,6 +101,10 @@ class Workspace {
   std::size_t& vertex_count(TetMesh& mesh) {
     return territory_.is_whole() ? mesh.vertex_count_ : more_vertices_;
   }
+  bool has_too_many_tets(const TetMesh& mesh) const {
+    if (territory_.is_whole()) return mesh.tet_count_ > most_tets_;
+    return static_cast<std::ptrdiff_t>(more_tets_ - most_more_tets_) > 0;
+  }
   bool has_room_for(std::size_t created, std::size_t removed) {
     if (territory_.is_whole() || created <= removed + free_.tets.size()) return true;
     met_border_ = true;
@@ -108,6 +121,8 @@ class Workspace {
   // What a territory's work changes the counts of the mesh by; modulo 2^64.
   std::size_t more_tets_ = 0;
   std::size_t more_vertices_ = 0;
+  std::size_t most_tets_ = kAnyNumber;  // of the whole mesh
+  std::size_t most_more_tets_ = 0;      // what more_tets_ may become in the territory
   std::vector<VertexHandle> added_vertices_;
   // The mesh had tets of no positive quality when the workspace was made.
   bool may_overlap_ = false;
@@ -124,6 +139,29 @@ class Workspace {
     bool constrained;
   };
   std::vector<Gluing> gluing_;
+  /// What a transaction has changed, for who asks.
+  struct Past {
+    struct Place {
+      VertexHandle vertex;
+      Point point;  // of a vertex that moved or went; any for a new one
+    };
+    std::vector<Place> displaced;
+    std::vector<TetHandle> made;  // slots whose tet was not there
+    std::vector<TetVertices> removed;
+    std::vector<TetHandle> changed;  // live
+    std::vector<std::array<Point, 4>> before;
+    std::vector<std::array<Point, 4>> now;
+
+    std::vector<Place>::const_iterator find(VertexHandle v) const {
+      return std::find_if(displaced.begin(), displaced.end(),
+                          [v](const Place& place) { return place.vertex == v; });
+    }
+    bool is_displaced(VertexHandle v) const { return find(v) != displaced.end(); }
+    bool was_made(TetHandle t) const {
+      return std::find(made.begin(), made.end(), t) != made.end();
+    }
+  };
+  Past past_;
   TetBatch batch_;  // the tets that an edit makes or moves
   std::vector<std::uint16_t> created_flags_;
   std::vector<std::array<VertexHandle, 2>> constrained_edges_;

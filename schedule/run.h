@@ -76,6 +76,8 @@ class Run {
   void set_standard(const Standard& standard);
   /// Of the mesh between two passes.
   QualityIndicators indicators() const;
+  /// From now on the mesh grows to at most that many tets, or not at all if it has more.
+  void set_most_tets(std::size_t tets) { worker_.workspace().set_most_tets(tets); }
   void set_listener(ProgressListener* listener) { listener_ = listener; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }

@@ -58,12 +58,28 @@ std::vector<Workspace::FreeSlots> deal_slots(Run& run, std::span<const BlockLoad
   return dealt;
 }
 
+/// How many tets each load may add, by its share of the items.
+std::vector<std::size_t> share_growth(Run& run, std::span<const BlockLoad> loads) {
+  const std::size_t most = run.worker().workspace().most_tets();
+  std::vector<std::size_t> shares(loads.size(), Workspace::kAnyNumber);
+  if (most == Workspace::kAnyNumber) return shares;
+  const std::size_t now = run.mesh().tet_count();
+  const std::size_t rest = most > now ? most - now : 0;
+  std::size_t items = 0;
+  for (const BlockLoad& load : loads) items += load.end - load.begin;
+  for (std::size_t n = 0; n < loads.size(); ++n) {
+    shares[n] = rest * (loads[n].end - loads[n].begin) / items;
+  }
+  return shares;
+}
+
 /// A worker in the territory of a block while this lives, also when an operator throws.
 class Stay {
  public:
-  Stay(Worker& worker, const Territory& territory, Workspace::FreeSlots& slots)
+  Stay(Worker& worker, const Territory& territory, Workspace::FreeSlots& slots,
+       std::size_t more_tets)
       : workspace_(worker.workspace()), slots_(slots) {
-    workspace_.enter(territory, slots_);
+    workspace_.enter(territory, slots_, more_tets);
   }
   ~Stay() { workspace_.leave(slots_); }
   Stay(const Stay&) = delete;
@@ -80,6 +96,7 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
                 double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work) {
   if (loads.empty()) return;
   std::vector<Workspace::FreeSlots> slots = deal_slots(run, loads, new_vertices);
+  const std::vector<std::size_t> growth = share_growth(run, loads);
   partition.include(run.mesh(), {});  // slots that were just made have a block, too
   std::vector<double> seconds(loads.size(), 0);
   std::vector<std::size_t> largest_first(loads.size());
@@ -93,7 +110,7 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
       const std::size_t n = largest_first[k];
       const auto start = std::chrono::steady_clock::now();
       {
-        const Stay stay(worker, Territory(partition.blocks(), loads[n].block), slots[n]);
+        const Stay stay(worker, Territory(partition.blocks(), loads[n].block), slots[n], growth[n]);
         work(worker, loads[n]);
       }
       seconds[n] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

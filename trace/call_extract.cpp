@@ -54,7 +54,7 @@ const Visit* visit_of(const TraceFile& file, std::uint32_t call) {
 }
 
 /// What Bounds looks at; the less, the worse.
-std::array<double, 4> figures(const std::array<Point, 4>& p) {
+std::array<double, 5> figures(const std::array<Point, 4>& p) {
   const auto angles = dihedral_angles(p[0], p[1], p[2], p[3]);
   double shortest = std::numeric_limits<double>::infinity();
   double longest = 0;
@@ -64,13 +64,14 @@ std::array<double, 4> figures(const std::array<Point, 4>& p) {
     longest = std::max(longest, length2);
   }
   return {*std::ranges::min_element(angles), -*std::ranges::max_element(angles),
-          volume_length(p[0], p[1], p[2], p[3]), -longest / shortest};
+          volume_length(p[0], p[1], p[2], p[3]), radius_ratio(p[0], p[1], p[2], p[3]),
+          -longest / shortest};
 }
 
 /// Adds those tets of the mesh, apart from the others, by which it bounds every new tet.
 void add_bounds(const SlotMesh& mesh, MeshData& data) {
-  std::array<TetHandle, 4> worst;
-  std::array<double, 4> least{};
+  std::array<TetHandle, 5> worst;
+  std::array<double, 5> least{};
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
     const TetHandle t(i);
     if (mesh.is_deleted(t)) continue;

@@ -20,6 +20,16 @@ local few   = {below = 1, worst = 32}
 -- bad ones remain, and the next round has more to do. Only the worst tets are worth any number of mild ones.
 local full_price, half_price = 0.1, 0.02
 
+-- DEVIATION: insertion has to pay. A split adds some five tets, and usually removes one bad one.
+local least_growth_yield = 0.02
+local is_growing = true
+
+local function pays_growth(before, now)
+  return before.n_bad - now.n_bad >= least_growth_yield * (now.tets - before.tets)
+end
+
+local start = quality()
+
 -- Returns the share of the bad tets that remains.
 local rounds = 0
 local function plain_round()
@@ -32,8 +42,12 @@ local function plain_round()
   smooth{}
   suppress_points{}
   smooth{}
-  insert_points{}
-  smooth{}
+  if is_growing then
+    local before = quality()
+    insert_points{}
+    smooth{}
+    is_growing = pays_growth(before, quality())
+  end
   return quality().n_bad / n_bad
 end
 
@@ -57,18 +71,26 @@ local function split_worst()
                         desperate = 0.7}, {on = few})
 end
 
+-- A rescue must not end with more bad tets than there were at the start, so it stops in time.
+local function is_too_costly()
+  return quality().n_bad > start.n_bad
+end
+
 -- Needles count first: they would spoil what is around them. Sines alone count last, so that needles which
 -- the surface forces do not hide them.
 local function rescue_worst()
   judge_by{price = half_price}
   plain_round()
+  is_growing = true
   begin_round()
   judge_by{price = 0}
   for _ = 1, last_sweeps // 2 do
+    if is_too_costly() then break end
     if sweep_worst(dire) + smooth{on = dire, desperate = 0.7} == 0 then break end
   end
   judge_by{price = 0, measure = "sine"}
   for _ = 1, last_sweeps - last_sweeps // 2 do
+    if is_too_costly() then break end
     if sweep_worst(worst) + split_worst() + smooth{on = worst, desperate = 0.7} == 0 then break end
   end
   judge_by{price = full_price}
@@ -86,12 +108,13 @@ local function insert_while_it_pays()
     smooth{}
     local_reconnection{edges = quick}
     smooth{}
+    local before = now
     now = quality()
+    if not pays_growth(before, now) then break end
     removed, count = n_bad - now.n_bad, 4 * count
   end
 end
 
-local start = quality()
 judge_by{price = full_price}
 plain_rounds()
 

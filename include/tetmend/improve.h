@@ -70,6 +70,12 @@ struct Options {
   std::vector<std::string> protect = {};  ///< tets that stay as they are, bit for bit
   std::vector<std::string> only = {};     ///< if there are any: all other tets stay
   Layers layers = Layers::keep;           ///< they are found by their structure
+  /// How far the mesh may grow: "10%" more tets than there were, or "500000" tets in all. Empty: as
+  /// far as it pays.
+  std::string tets = {};
+  /// No new edge is shorter than half or longer than twice what edges were at its midpoint: the mean
+  /// of those at the nearest vertex.
+  bool keep_size = false;
   bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
 
   std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then
@@ -119,12 +125,21 @@ enum class Ending : std::uint8_t {
 /// In maps from old to new: the vertex or tet is not there any more.
 inline constexpr std::uint32_t kGone = 0xFFFFFFFF;
 
+/// How the lengths of edges have changed: of the mean length at a vertex, after by before, over
+/// vertices that stayed, 20,000 or so of them.
+struct SizeDrift {
+  double one_percent = 1;  ///< 1 % of the ratios are less
+  double median = 1;
+  double ninety_nine_percent = 1;
+};
+
 struct Result {
   Goal goal;  ///< what the run worked towards
   MeshStatistics before;
   MeshStatistics after;
   std::optional<MeshRulers> rulers_before;  ///< the measures of other programs
   std::optional<MeshRulers> rulers_after;
+  std::optional<SizeDrift> size_drift;  ///< with rulers
   Ending ending = Ending::finished;
   std::vector<Pass> passes;
   /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
@@ -157,8 +172,8 @@ struct Result {
 
   /// The figures that are worse than before, in words; empty, for that is promised: theta_min is not
   /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad
-  /// tets, lambda is not higher. With rulers also: the worst mean ratio is not smaller, the worst
-  /// edge ratio not above the larger of what it was and 10.
+  /// tets, lambda is not higher. With rulers also: the worst mean ratio and radius ratio are not
+  /// smaller, the worst edge ratio not above the larger of what it was and 10.
   std::vector<std::string> worse() const;
   /// What else is worse, in words. An aim, no promise: the means of mean ratio and radius ratio are
   /// not smaller, and no more faces are above 70 degrees non-orthogonality. Empty without rulers.

@@ -145,7 +145,7 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
       {"improve", mesh, "-o", out, "--threads", "0"},
       {"improve", mesh, "-o", out, "--threads", "1025"},
       {"improve", mesh, "-o", out, "--threads", "two"},
-      {"improve", mesh, "-o", out, "--schedule", "polish"},
+      {"improve", mesh, "-o", out, "--schedule", "varnish"},
       {"improve", mesh, "-o", out, "--report", out},
       {"improve", mesh, "-o", (folder / "out.stl").string()},
       {"quality"},
@@ -367,7 +367,7 @@ TEST_CASE("statistics as JSON are those of the library, with every measure asked
     CHECK(json["lambda"].get<double>() == doctest::Approx(expected.lambda));
     CHECK(json["histogram"].size() == expected.histogram.size());
     CHECK(json["measures"].size() == quality_measures().size());
-    CHECK(json["rulers"].size() == kRulerCount + 2);
+    CHECK(json["rulers"].size() == kRulerCount + 3);
     CHECK(json["rulers"]["radius_ratio"]["worst"].get<double>() ==
           doctest::Approx(json["measures"]["radius_ratio"]["worst"].get<double>()));
     CHECK(json["measures"]["min_sine"]["worst"].get<double>() == doctest::Approx(expected.q_worst));

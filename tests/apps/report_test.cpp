@@ -269,7 +269,7 @@ TEST_CASE("rulers as JSON have their names, and null for what is infinite") {
   rulers.figures[0] = {0.25, 0.5, 0.75};
   rulers.figures[4].worst = std::numeric_limits<double>::infinity();
   const nlohmann::json json = nlohmann::json::parse(to_json(rulers).dump());
-  CHECK(json.size() == kRulerCount + 2);
+  CHECK(json.size() == kRulerCount + 3);
   CHECK(json.at("inner_faces") == 9);
   CHECK(json.at("faces_above_70") == 2);
   CHECK(json.at("mean_ratio") ==

@@ -35,7 +35,7 @@ TEST_CASE("a script of one's own is described, and mistakes in it are told") {
   CHECK(describe_schedule(file).parameters.at(0).range() == "1 to 9");
   write_text(file, "\nsmoth{}");
   CHECK(message_of([&] { describe_schedule(file); }).starts_with(file + ":2: "));
-  CHECK(message_of([] { describe_schedule("polish"); }).find("shell") != std::string::npos);
+  CHECK(message_of([] { describe_schedule("varnish"); }).find("shell") != std::string::npos);
 }
 
 TEST_CASE("operators are listed with target, help and parameters") {

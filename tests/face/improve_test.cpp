@@ -207,7 +207,7 @@ TEST_CASE("a mesh of broken topology from a file is told with its line, as often
 TEST_CASE("a wrong option is named, and the mesh stays as it was") {
   const Mesh old = load(asset("two_materials.mesh"));
   const std::vector<std::pair<std::string, Options>> wrong = {
-      {"schedule", {.schedule = "polish"}},
+      {"schedule", {.schedule = "varnish"}},
       {"set", {.set = {{"polish", "1"}}}},
       {"set", {.set = {{"max_rounds", "many"}}}},
       {"threads", {.threads = 0}},

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "face/growth.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "kernel/star.h"
+#include "kernel/workspace.h"
+
+namespace tetmend::face {
+
+namespace {
+
+constexpr std::size_t kSample = 20'000;
+
+template <class Number>
+std::optional<Number> read_whole(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// Mean length of the edges at a vertex.
+double local_length(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
+  const auto ring = one_ring(mesh, v, workspace);
+  double sum = 0;
+  for (const VertexHandle other : ring) sum += (mesh.point(other) - mesh.point(v)).norm();
+  return ring.empty() ? 0 : sum / static_cast<double>(ring.size());
+}
+
+double at_share(std::vector<double>& ratios, double share) {
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(ratios.size() - 1));
+  std::nth_element(ratios.begin(), ratios.begin() + place, ratios.end());
+  return ratios[static_cast<std::size_t>(place)];
+}
+
+}  // namespace
+
+Growth::Growth(const std::string& tets) {
+  if (tets.empty()) return;
+  const std::string_view text = tets;
+  if (text.back() == '%') {
+    const auto percent = read_whole<double>(text.substr(0, text.size() - 1));
+    if (percent && *percent >= 0 && std::isfinite(*percent)) share_ = *percent / 100;
+  } else {
+    number_ = read_whole<std::size_t>(text);
+  }
+  if (share_ || number_) return;
+  throw OptionError("tets",
+                    fmt::format("tets: '{}' is neither a share like 10% nor a number", tets));
+}
+
+std::optional<std::size_t> Growth::most(std::size_t now) const {
+  if (!share_) return number_;
+  const double most = (1 + *share_) * static_cast<double>(now);
+  return most < 1e18 ? std::optional(static_cast<std::size_t>(most + 1e-9)) : std::nullopt;
+}
+
+LocalLengths::LocalLengths(const TetMesh& mesh, std::size_t count) {
+  const std::size_t step = count / kSample + 1;
+  lengths_.assign((count + step - 1) / step, 0);
+  Workspace workspace(mesh);
+  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
+    const VertexHandle v(i);
+    if (mesh.is_deleted(v)) continue;
+    const std::uint32_t number = mesh.origin(v);
+    if (number == TetMesh::kNotFromFile || number % step != 0) continue;
+    lengths_[number / step] = local_length(mesh, v, workspace);
+  }
+}
+
+SizeDrift LocalLengths::drift_to(const LocalLengths& after) const {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < lengths_.size(); ++i) {
+    if (lengths_[i] > 0 && after.lengths_[i] > 0) ratios.push_back(after.lengths_[i] / lengths_[i]);
+  }
+  if (ratios.empty()) return {};
+  return {.one_percent = at_share(ratios, 0.01),
+          .median = at_share(ratios, 0.5),
+          .ninety_nine_percent = at_share(ratios, 0.99)};
+}
+
+}  // namespace tetmend::face

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// How many tets a run may make, and what becomes of the lengths of edges.
+#pragma once
+
+#include <tetmend/improve.h>
+
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::face {
+
+/// Options::tets, read.
+class Growth {
+ public:
+  /// @throws OptionError for a text that is neither a share nor a number
+  explicit Growth(const std::string& tets);
+  /// The most tets that a mesh of so many may come to; none for no bound.
+  std::optional<std::size_t> most(std::size_t now) const;
+
+ private:
+  std::optional<double> share_;        // more
+  std::optional<std::size_t> number_;  // in all
+};
+
+/// The mean lengths of edges at some vertices of a file, spread evenly.
+class LocalLengths {
+ public:
+  LocalLengths() = default;
+  /// At 20,000 vertices or so. `count`: vertices in the file. Cost: linear in the vertices, and a
+  /// walk around each of the chosen.
+  LocalLengths(const TetMesh& mesh, std::size_t count);
+
+  /// Precondition: both are of the same file.
+  SizeDrift drift_to(const LocalLengths& after) const;
+
+ private:
+  std::vector<double> lengths_;  // 0 for a vertex that is not there
+};
+
+}  // namespace tetmend::face
