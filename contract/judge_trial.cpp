@@ -38,6 +38,7 @@ std::vector<NamedTet> list_tets(const TetMesh& mesh) {
 struct Side {
   std::vector<Quality> qualities;  // ascending
   double largest_angle = 0;        // degrees
+  double mean_ratios = 0;          // sum
 };
 
 Side list_changed(const TetMesh& mesh, const TetMesh& other) {
@@ -49,6 +50,9 @@ Side list_changed(const TetMesh& mesh, const TetMesh& other) {
   Side side;
   for (const auto& [v, quality] : changed) {
     side.qualities.push_back(quality);
+    const double size = std::abs(
+        mean_ratio(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])));
+    side.mean_ratios += quality < 0 ? -size : size;  // the order of the vertices has lost the sign
     const auto angles =
         dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
     side.largest_angle =
@@ -147,6 +151,15 @@ std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
                 n.qualities[0] >= kShare * std::max(0.f, b.qualities[0]) - 2 * kQualityTolerance;
        }}};
   all.push_back(lowers_angle(mesh, t));
+  for (const double usual : {0.0, 0.7}) {
+    all.push_back({fmt::format("raises_mean, usual {}", usual), Judge::raises_mean(usual),
+                   [usual](const Side& b, const Side& n) {
+                     const auto sum = [usual](const Side& side) {
+                       return side.mean_ratios - usual * static_cast<double>(side.qualities.size());
+                     };
+                     return sum(n) > sum(b) && spares_bad(b, n);
+                   }});
+  }
   return all;
 }
 

@@ -299,6 +299,7 @@ MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
   PartialStatistics sum;
   for (const PartialStatistics& part : parts) sum.add(part);
   MeshStatistics result;
+  result.goal = goal;
   result.tets = mesh.tet_count();
   result.vertices = mesh.vertex_count();
   if (result.tets == 0) return result;

@@ -10,6 +10,7 @@
 #include "ops/flip_3_2.h"
 #include "ops/flip_4_4.h"
 #include "ops/joint_smoothing.h"
+#include "ops/mean_smoothing.h"
 #include "ops/multi_face_removal.h"
 #include "ops/polyhedron_reconnection.h"
 #include "ops/recursive_shell_transformation.h"
@@ -31,6 +32,7 @@ Registry Registry::builtin() {
   registry.add(flip_4_4_info());
   registry.add(smoothing_info());
   registry.add(joint_smoothing_info());
+  registry.add(mean_smoothing_info());
   registry.add(edge_split_info());
   registry.add(edge_contraction_info());
   registry.add(centroid_insertion_info());

@@ -23,6 +23,20 @@ Composition one(const std::string& name, const ParameterSettings& settings,
   return {.operator_name = name, .settings = settings, .order = order};
 }
 
+/// The attempts of a worker have another judge while this lives.
+class JudgedBy {
+ public:
+  JudgedBy(Worker& worker, const Judge& judge) : context_(worker.context()) {
+    context_.judge = &judge;
+  }
+  ~JudgedBy() { context_.judge = nullptr; }
+  JudgedBy(const JudgedBy&) = delete;
+  JudgedBy& operator=(const JudgedBy&) = delete;
+
+ private:
+  OperatorContext& context_;
+};
+
 /// False when there was nothing to try.
 bool sweep_tets(Run& run, PassScope& scope, const TetAttempts& attempts, const Selection& on,
                 Date since, double new_vertices) {
@@ -108,6 +122,36 @@ void apply(Run& run, const ApplyOptions& options) {
     } else {
       sweep_tets(run, scope, attempts, options.on, since, kNewVerticesPerTet);
     }
+    if (scope.accepted() == accepted) return;
+  }
+}
+
+void polish(Run& run, const PolishOptions& options) {
+  PassScope scope(run, "polish");
+  const Selection all = {.below = Selection::kAll};
+  Selection flipped = all;
+  if (options.below < 1) flipped.value = ValueRange{.name = "mean_ratio", .high = options.below};
+  const auto smoothing = run.registry().make("mean_smoothing", {});
+  const Composition flips = {
+      .kind = Composition::Kind::all_of,
+      .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
+  const TetAttempts attempts(run.registry(), flips);
+  const std::string dates = calendar("polish", flips, flipped);
+  for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
+    const std::size_t accepted = scope.accepted();
+    const Judge judge =
+        Judge::raises_mean(summarize(run.mesh(), find_quality_measure("mean_ratio")).mean);
+    const Date since = run.begin_sweep(dates);
+    work_off(run, scope, queue_vertices(scope, run.mesh(), all, since), 0,
+             [&](Worker& worker, QueuedVertex entry) {
+               const JudgedBy judged(worker, judge);
+               return worker.attempt(*smoothing, Target::of(entry.vertex)) != Verdict::deferred;
+             });
+    work_off(run, scope, queue_tets(scope, run.mesh(), flipped, since), 0,
+             [&](Worker& worker, QueuedTet& entry) {
+               const JudgedBy judged(worker, judge);
+               return attempts.work_off(worker, entry, since);
+             });
     if (scope.accepted() == accepted) return;
   }
 }

@@ -41,6 +41,11 @@ struct InsertPointsOptions {
   ParameterSettings settings = {};
 };
 
+struct PolishOptions {
+  double below = 0.7;   ///< flips are tried where the mean ratio of a tet is less
+  unsigned cycles = 3;  ///< of smoothing and flips, at most; ends earlier when nothing is accepted
+};
+
 struct ApplyOptions {
   Composition what;
   Selection on = {};
@@ -62,6 +67,10 @@ void suppress_points(Run& run, const SuppressPointsOptions& options = {});
 /// [chen, 6.3]: tries to split the edges of selected tets, worst tets and longest edges first, each
 /// edge once.
 void insert_points(Run& run, const InsertPointsOptions& options = {});
+
+/// Raises the mean of the mean ratios: smooths all movable vertices and flips, where that raises it
+/// and no tet falls below the goal or gets worse below it. For after the bad tets.
+void polish(Run& run, const PolishOptions& options = {});
 
 /// Any operators: on selected tets from the worst up, or, for one operator on vertices, on their
 /// movable vertices in the order of the mesh.

@@ -133,6 +133,7 @@ void ScriptHost::add_words() {
   add("smooth", &ScriptHost::smooth);
   add("suppress_points", &ScriptHost::suppress_points);
   add("insert_points", &ScriptHost::insert_points);
+  add("polish", &ScriptHost::polish);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
   for (const char* how : {"first_of", "all_of", "sequence"}) {
@@ -310,6 +311,16 @@ int ScriptHost::insert_points(lua_State* lua) {
   return make_pass(lua, [&] {
     tetmend::insert_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
   });
+}
+
+int ScriptHost::polish(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("polish");
+  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  const PolishOptions options = {.below = numbers.real("below"),
+                                 .cycles = static_cast<unsigned>(numbers.integer("cycles"))};
+  return make_pass(lua, [&] { tetmend::polish(*run_, options); });
 }
 
 int ScriptHost::apply(lua_State* lua) {

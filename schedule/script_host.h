@@ -44,6 +44,7 @@ class ScriptHost {
   int smooth(lua_State* lua);
   int suppress_points(lua_State* lua);
   int insert_points(lua_State* lua);
+  int polish(lua_State* lua);
   int apply(lua_State* lua);
   int attempt(lua_State* lua);
   int compose(lua_State* lua, const char* how);

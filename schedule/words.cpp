@@ -29,6 +29,12 @@ constexpr std::array<ParameterSpec, 1> kSmoothNumbers = {{
     {"cycles", ParameterSpec::Kind::integer, 1, 1000, 4,
      "at most; ends earlier when a cycle brings no progress"},
 }};
+constexpr std::array<ParameterSpec, 2> kPolishNumbers = {{
+    {"below", ParameterSpec::Kind::real, 0, 1, 0.7,
+     "flips are tried where the mean ratio of a tet is less"},
+    {"cycles", ParameterSpec::Kind::integer, 1, 100, 3,
+     "of smoothing and flips, at most; ends earlier when nothing is accepted"},
+}};
 constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 1,
      "at most; ends earlier when nothing is accepted"},
@@ -50,7 +56,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 22> kWords = {{
+constexpr std::array<WordInfo, 23> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -78,6 +84,12 @@ constexpr std::array<WordInfo, 22> kWords = {{
      kOnlyOn,
      {},
      "edge_split"},
+    {"polish",
+     "polish{...}",
+     "raises the mean of the mean ratios: smooths all movable vertices and flips, where no tet "
+     "falls below the goal or gets worse below it. For the end",
+     {},
+     kPolishNumbers},
     {"apply", "apply(what, {...})",
      "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
      "value, order = \"sine\", \"angle\" (largest first), \"longest\" or \"shortest\", most_edges "

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include <tetmend/goal.h>
+
 namespace tetmend {
 
 /// Statistics of a mesh ([chen, Table 1] and 6.2). Angles in degrees, shares in percent of the
@@ -20,9 +22,11 @@ struct MeshStatistics {
   double volume = 0;         ///< sum of the signed volumes
   double theta_min = 0;
   double theta_max = 0;
-  double lambda = 0;  ///< share of angles <= 30 or >= 150
-  /// lambda_i: angles in [6 (i-1), 6 i) or (180 - 6 i, 180 - 6 (i-1)]. Angles of exactly 30 and 150
-  /// count for lambda_5, so that the five add up to lambda.
+  Goal goal;          ///< what lambda and the bad tets refer to
+  double lambda = 0;  ///< share of angles <= 30 or >= 150, or whatever the goal is
+  /// lambda_i: angles in [6 (i-1), 6 i) or (180 - 6 i, 180 - 6 (i-1)], or in fifths of what is
+  /// outside another goal. Angles of exactly 30 and 150 count for lambda_5, so that the five add up
+  /// to lambda.
   std::array<double, 5> lambda_bands{};
   double q_worst = 0;     ///< smallest minimum sine
   double q_mean = 0;      ///< mean minimum sine of all tets

@@ -187,6 +187,15 @@ TEST_CASE("a smaller angle pays for bad tets, but not for a worse one") {
   CHECK_FALSE(takes(judge, {0.58f, 1.2f}, before, {.sine = 1.4}));
 }
 
+TEST_CASE("a judge of the mean takes a gain, but no new bad tet and none that is worse") {
+  const Judge judge = Judge::raises_mean(0.7);
+  CHECK(takes(judge, {1.1f, 1.2f}, {1.5f, 1.5f}, {.gain = 0.1}));
+  CHECK_FALSE(takes(judge, {1.6f, 1.6f}, {1.5f, 1.5f}, {.gain = 0}));
+  CHECK_FALSE(takes(judge, {0.9f, 1.2f}, {1.5f, 1.5f}, {.gain = 0.1}));
+  CHECK_FALSE(takes(judge, {0.7f, 1.2f}, {0.8f, 1.5f}, {.gain = 0.1}));
+  CHECK(takes(judge, {0.8f, 1.2f}, {0.8f, 1.5f}, {.gain = 0.1}));
+}
+
 TEST_CASE("an opening leaves its share of the worst quality") {
   const Judge judge = Judge::opening(0.2);
   CHECK(takes(judge, {0.22f, 0.6f}, {1.f, 1.8f}));
@@ -195,8 +204,9 @@ TEST_CASE("an opening leaves its share of the worst quality") {
 }
 
 TEST_CASE("what a judge asks a search for is no more than what it takes") {
-  const std::vector<Judge> judges = {Judge::strict(), Judge::fair({}), Judge::reaches(1.2f),
-                                     Judge::lowers_angle(0.8), Judge::opening()};
+  const std::vector<Judge> judges = {Judge::strict(),         Judge::fair({}),
+                                     Judge::reaches(1.2f),    Judge::lowers_angle(0.8),
+                                     Judge::raises_mean(0.7), Judge::opening()};
   for (const Judge& judge : judges) {
     CAPTURE(judge.promise());
     for (const double worst : {-0.6, 0.0, 0.2, 0.6, 0.98, 1.1, 1.6}) {
@@ -205,7 +215,7 @@ TEST_CASE("what a judge asks a search for is no more than what it takes") {
       const auto is = static_cast<Quality>(std::max(judge.floor(worst), worst) + 1e-3);
       // Where nothing is bad, a fair judge wants no more of it.
       if (worst < kBadThreshold || judge.kind() != Judge::Kind::fair) {
-        CHECK(takes(judge, {is}, {was}, {.reached = true, .sine = 1}));
+        CHECK(takes(judge, {is}, {was}, {.reached = true, .sine = 1, .gain = 1}));
       }
       CHECK(judge.floor(worst) <= std::max(worst, 0.0));
       CHECK(judge.floor(worst, 0.02) <= judge.floor(worst) + 0.02);

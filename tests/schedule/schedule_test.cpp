@@ -231,7 +231,7 @@ TEST_CASE("schedules are found by name and by file, and what is missing is named
     }
     return std::string();
   };
-  CHECK(error_of("polish").starts_with("there is no schedule 'polish': expected shell, "));
+  CHECK(error_of("varnish").starts_with("there is no schedule 'varnish': expected shell, "));
   CHECK(error_of("/nowhere/x.lua") == "/nowhere/x.lua: cannot read it");
 }
 
