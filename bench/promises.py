@@ -45,11 +45,12 @@ TEXT = (
     f"degrees on every {OTHER_GOALS_EVERY}th mesh. *broken* counts promises: no run ends with a "
     "smaller theta_min, a theta_max above the larger of what it was and the goal's, more bad tets, "
     "a higher lambda, a smaller worst mean ratio, or a worst edge ratio above the larger of what "
-    "it was and 10; no tet is inverted, and the surface is the same. *missed* counts aims, which "
-    "are no promises: no smaller mean of the mean ratio or the radius ratio, no more faces with "
-    "more than 70 degrees of non-orthogonality. *went back*: runs that ended with a worse figure "
-    "and gave the state after an earlier pass. The other columns are medians of after less "
-    "before. The figures come from a program that shares nothing with tetmend."
+    "it was and 10; no tet is inverted, and the surface is the same. Lambda is the share of angles "
+    "outside the goal of the run. *missed* counts aims, which are no promises: no smaller mean of "
+    "the mean ratio or the radius ratio, no more faces with more than 70 degrees of "
+    "non-orthogonality. *went back*: runs that ended with a worse figure and gave the state after "
+    "an earlier pass. The other columns are medians of after less before. The figures come from a "
+    "program that shares nothing with tetmend."
 )
 
 
@@ -213,7 +214,8 @@ def runs_of(schedules: list[str], goals: bool) -> dict[str, list[str]]:
     return {**RUNS, **further}
 
 
-def tasks(options: argparse.Namespace, folder: Path) -> list[Task]:
+def tasks(options: argparse.Namespace) -> list[Task]:
+    folder = compare.fresh_folder(options.output.resolve())
     tetmend = options.build.resolve() / "bin" / "tetmend"
 
     def task(kind: str, seed: int, file: Path | None, goals: bool) -> Task:
@@ -309,6 +311,8 @@ def parse() -> argparse.Namespace:
         help=f"meshes of each kind (default: {SEEDS})")
     add("--jobs", type=int, default=os.cpu_count(), metavar="N",
         help="meshes at the same time (default: as many as cores)")
+    add("-o", "--output", type=Path, metavar="DIR", default=compare.WORK / "promises",
+        help="folder of the results (default: build/bench/promises)")
     add("--build", type=Path, default=compare.BUILD, help="build folder")
     documents.add_option(parser)
     return parser.parse_args()
@@ -316,13 +320,12 @@ def parse() -> argparse.Namespace:
 
 def main() -> int:
     options = parse()
-    folder = compare.fresh_folder(compare.WORK / "promises")
     left_out = set(kinds.KINDS) - set(kinds.available())
     if left_out and not options.meshes:
         print(f"Left out, for TetGen is missing: {', '.join(sorted(left_out))}")
     outcomes: list[Outcome] = []
     with ProcessPoolExecutor(options.jobs) as pool:
-        for some in pool.map(perform, tasks(options, folder)):
+        for some in pool.map(perform, tasks(options)):
             outcomes += some
             if lines := breaches(some):
                 compare.progress("\n  ".join(lines))

@@ -19,7 +19,6 @@ from medit import Mesh, Point, Tet
 Surface = Counter  # of (label, corners of a face counterclockwise from outside that label)
 
 ROUNDING = 1e-9  # degrees: an angle so near to a bound counts as what is better for the program
-LAMBDA_BOUNDS = (30.0, 150.0)
 DEGREES = 180 / math.pi
 STEEP = math.cos(math.radians(70))
 
@@ -74,8 +73,9 @@ def tet_figures(corners: list[Point]) -> TetFigures:
     px, py, pz = c[0] - b[0], c[1] - b[1], c[2] - b[2]
     qx, qy, qz = d[0] - b[0], d[1] - b[1], d[2] - b[2]
     rx, ry, rz = d[0] - c[0], d[1] - c[1], d[2] - c[2]
-    uu, vv, ww = ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz, wx * wx + wy * wy + wz * wz
-    pp, qq, rr = px * px + py * py + pz * pz, qx * qx + qy * qy + qz * qz, rx * rx + ry * ry + rz * rz
+    uu, vv = ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz
+    ww, pp = wx * wx + wy * wy + wz * wz, px * px + py * py + pz * pz
+    qq, rr = qx * qx + qy * qy + qz * qz, rx * rx + ry * ry + rz * rz
     # The normals of the faces opposite a, b, c, d: all outwards or all inwards.
     ax, ay, az = qy * pz - qz * py, qz * px - qx * pz, qx * py - qy * px
     bx, by, bz = vy * wz - vz * wy, vz * wx - vx * wz, vx * wy - vy * wx
@@ -174,8 +174,9 @@ class Count:
 
 
 def measure(mesh: Mesh, goal: tuple[float, float], found: dict | None = None) -> Figures:
-    """@param goal  degrees: a tet with an angle outside is bad"""
-    bad, extreme = Count(*goal), Count(*LAMBDA_BOUNDS)
+    """@param goal  degrees: a tet with an angle outside is bad, and lambda is the share of these
+    angles"""
+    bad, extreme = Count(*goal), Count(*goal)
     theta_min, theta_max, edge_ratio = 180.0, 0.0, 1.0
     mean_ratios, radius_ratios, not_positive = [], [], 0
     for tet in mesh.tets:
@@ -190,8 +191,17 @@ def measure(mesh: Mesh, goal: tuple[float, float], found: dict | None = None) ->
         radius_ratios.append(own.radius_ratio)
         not_positive += orientation(corners) <= 0
     tets = len(mesh.tets)
+    percent = 100 / (6 * tets)
     return Figures(
-        tets, theta_min, theta_max, (bad.certain, bad.possible),
-        (100 * extreme.certain / (6 * tets), 100 * extreme.possible / (6 * tets)),
-        min(mean_ratios), edge_ratio, math.fsum(mean_ratios) / tets, math.fsum(radius_ratios) / tets,
-        steep_faces(mesh, found or sides(mesh)), not_positive)
+        tets=tets,
+        theta_min=theta_min,
+        theta_max=theta_max,
+        bad=(bad.certain, bad.possible),
+        lambda_percent=(percent * extreme.certain, percent * extreme.possible),
+        worst_mean_ratio=min(mean_ratios),
+        edge_ratio=edge_ratio,
+        mean_mean_ratio=math.fsum(mean_ratios) / tets,
+        mean_radius_ratio=math.fsum(radius_ratios) / tets,
+        steep_faces=steep_faces(mesh, found or sides(mesh)),
+        not_positive=not_positive,
+    )
