@@ -172,6 +172,16 @@ def sheet(chance: Chance) -> Mesh:
     return mesh
 
 
+def units(chance: Chance) -> Mesh:
+    """Very large or very small, and some far from the origin, where doubles are coarse."""
+    mesh = shaken_box(chance, sized(chance, 200, 1500), (1.0, 1.0, chance.uniform(0.3, 1)),
+                      chance.uniform(0.2, 0.45), 1e-3)
+    scale = 10 ** chance.uniform(-9, 9)
+    shift = chance.choice([0, 1e2, 1e5, 1e8])
+    mesh.points = [tuple(scale * (x + shift) for x in point) for point in mesh.points]
+    return mesh
+
+
 # --- labels
 
 
@@ -337,8 +347,8 @@ def organ(chance: Chance) -> Mesh:
 
 TETGEN_KINDS = {"delaunay": delaunay, "slivers": slivers, "needles": needles, "organ": organ}
 KINDS: dict[str, Callable[[Chance], Mesh]] = {
-    "stretched": stretched, "plate": plate, "layers": layers, "tangled": tangled, "sheet": sheet,
-    "materials": materials, **TETGEN_KINDS}
+    "stretched": stretched, "plate": plate, "layers": layers, "tangled": tangled, "units": units,
+    "sheet": sheet, "materials": materials, **TETGEN_KINDS}
 
 
 def available() -> list[str]:

@@ -3,7 +3,7 @@
 
 Without meshes it makes small ones of all kinds, the same each time. bench/yardstick.py measures
 what was read and what was written; it shares nothing with tetmend. Exit status: 0 all promises are
-kept, 1 some are not. The meshes of those lie in build/bench/promises, before and after.
+kept, 1 some are not. Meshes of those stay in the folder of the results, before and after.
 """
 
 import argparse
@@ -169,9 +169,10 @@ def judged(before: medit.Mesh, after: medit.Mesh, goal: tuple[float, float],
     """Figures of both, promises broken, aims missed.
 
     @param known  the figures before, if they have been measured"""
-    then, now = known or yardstick.measure(before, goal), yardstick.measure(after, goal)
+    sides = yardstick.sides(after)
+    then, now = known or yardstick.measure(before, goal), yardstick.measure(after, goal, sides)
     breaches = broken(then, now, goal[1])
-    breaches += surface_broken(yardstick.surface(before), yardstick.surface(after))
+    breaches += surface_broken(yardstick.surface(before), yardstick.surface(after, sides))
     return then, now, breaches, missed(then, now)
 
 
