@@ -148,8 +148,11 @@ class Promises(unittest.TestCase):
 
         x, y, z = mesh.points[0]
         self.assertEqual(judged(changed(mesh, 0, (math.nextafter(x, -1), y, z)))[-2:], both)
-        labels = [3 - mesh.labels[0], *mesh.labels[1:]]
-        self.assertIn("new surface faces", judged(dataclasses.replace(mesh, labels=labels)))
+        outer = {both[0][0] for both in yardstick.sides(mesh).values() if len(both) == 1}
+        inner = next(i for i in range(len(mesh.tets)) if i not in outer)
+        for tet in (next(iter(outer)), inner):
+            labels = [3 - label if i == tet else label for i, label in enumerate(mesh.labels)]
+            self.assertIn("new surface faces", judged(dataclasses.replace(mesh, labels=labels)))
         self.assertIn("lost surface faces", judged(dataclasses.replace(
             mesh, tets=mesh.tets[1:], labels=mesh.labels[1:])))
         self.assertEqual(named(promises.surface_broken(
