@@ -47,6 +47,8 @@ Other measurements, each with a --help and a --write of its own:
   script/bench --growth                time and memory for each tet, 10 thousand to 37 million tets
   script/bench --cores [MESH]          what more cores would make of a run
   script/bench --files [MESH]          reading and writing of each format
+  script/bench --promises [MESH...]    is a figure ever worse than before: meshes of all kinds
+  script/bench --renumbered MESH...    what the order of vertices and tets changes
   script/bench --micro [OPTION...]     walks, searches, edits, smoothing one by one; the options are
                                        those of Google Benchmark, such as --benchmark_filter=shell
 """
