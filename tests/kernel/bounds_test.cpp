@@ -42,7 +42,7 @@ TetMesh mesh_of(const Corners& p) {
   data.points.assign(p.begin(), p.end());
   data.tets.push_back({{0, 1, 2, 3}, 0});
   data.points.insert(data.points.end(),
-                     {{10, 0, 0}, {11, 0, 0}, {10.5, std::sqrt(0.75), 0}, {10.5, 0.3, 9}});
+                     {{10, 0, 0}, {11, 0, 0}, {10.5, std::sqrt(0.75), 0}, {10.5, 0.3, 30}});
   data.tets.push_back({{4, 5, 6, 7}, 0});
   return TetMesh(data);
 }
