@@ -107,7 +107,7 @@ bool is_fair(const Side& before, const Side& now, const Fairness& fairness) {
 bool spares_bad(const Side& before, const Side& now) {
   const auto bad = static_cast<std::size_t>(count_bad(before));
   if (count_bad(now) > count_bad(before)) return false;
-  for (std::size_t i = 0; i < bad; ++i) {
+  for (std::size_t i = 0; i < std::min(bad, now.qualities.size()); ++i) {
     if (now.qualities[i] < before.qualities[i] - kQualityTolerance) return false;
   }
   return true;

@@ -157,7 +157,7 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
       {"surface", mesh, out},
       {"surface", mesh, (folder / "out.off").string(), "--bad", "--constraints"},
       {"operators", "polish"},
-      {"schedules", "polish"}};
+      {"schedules", "varnish"}};
   for (const auto& arguments : wrong) {
     std::string line;
     for (const std::string& word : arguments) line += word + ' ';
