@@ -132,9 +132,8 @@ void polish(Run& run, const PolishOptions& options) {
   Selection flipped = all;
   if (options.below < 1) flipped.value = ValueRange{.name = "mean_ratio", .high = options.below};
   const auto smoothing = run.registry().make("mean_smoothing", {});
-  const Composition flips = {
-      .kind = Composition::Kind::all_of,
-      .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
+  const Composition flips = {.kind = Composition::Kind::all_of,
+                             .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
   const TetAttempts attempts(run.registry(), flips);
   const std::string dates = calendar("polish", flips, flipped);
   for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
