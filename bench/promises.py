@@ -36,6 +36,7 @@ RUNS = {  # options of the runs of every mesh
     "shell": [],
     "thorough": ["--schedule", "thorough"],
     "conservative": ["--schedule", "conservative"],
+    "polish": ["--schedule", "polish"],
     "shell, sine": ["--measure", "sine"],
 }
 GOALS = [20, 35]  # of further runs of some meshes, with shell and thorough
@@ -44,8 +45,8 @@ TEXT = (
     "Small meshes of all kinds, made by chance, in runs of several schedules; goals other than 30 "
     f"degrees on every {OTHER_GOALS_EVERY}th mesh. *broken* counts promises: no run ends with a "
     "smaller theta_min, a theta_max above the larger of what it was and the goal's, more bad tets, "
-    "a higher lambda, a smaller worst mean ratio, or a worst edge ratio above the larger of what "
-    "it was and 10; no tet is inverted, and the surface is the same. Lambda is the share of angles "
+    "a higher lambda, a smaller worst mean ratio or radius ratio, or a worst edge ratio above the "
+    "larger of what it was and 10; no tet is inverted, and the surface is the same. Lambda is the share of angles "
     "outside the goal of the run. *missed* counts aims, which are no promises: no smaller mean of "
     "the mean ratio or the radius ratio, no more faces with more than 70 degrees of "
     "non-orthogonality. *went back*: runs that ended with a worse figure and gave the state after "
@@ -85,6 +86,8 @@ def broken(before: Figures, after: Figures, most_angle: float) -> list[Breach]:
          above(after.lambda_percent[0], before.lambda_percent[1])),
         ("smaller worst mean ratio", before.worst_mean_ratio, after.worst_mean_ratio,
          above(before.worst_mean_ratio, after.worst_mean_ratio)),
+        ("smaller worst radius ratio", before.worst_radius_ratio, after.worst_radius_ratio,
+         above(before.worst_radius_ratio, after.worst_radius_ratio)),
         (f"larger worst edge ratio, over {MOST_EDGE_RATIO:g}", before.edge_ratio, after.edge_ratio,
          above(after.edge_ratio, max(before.edge_ratio, MOST_EDGE_RATIO))),
         ("more tets that are not positive", before.not_positive, after.not_positive,
@@ -251,6 +254,7 @@ COLUMNS: dict[str, Callable[[Figures], float]] = {
     "bad": lambda figures: figures.bad[0],
     "lambda %": lambda figures: figures.lambda_percent[0],
     "worst mean ratio": lambda figures: figures.worst_mean_ratio,
+    "worst radius ratio": lambda figures: figures.worst_radius_ratio,
     "edge ratio": lambda figures: figures.edge_ratio,
     "mean mean ratio": lambda figures: figures.mean_mean_ratio,
     "mean radius ratio": lambda figures: figures.mean_radius_ratio,

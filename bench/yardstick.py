@@ -33,6 +33,7 @@ class Figures:
     bad: tuple[int, int]
     lambda_percent: tuple[float, float]
     worst_mean_ratio: float
+    worst_radius_ratio: float
     edge_ratio: float
     mean_mean_ratio: float
     mean_radius_ratio: float
@@ -199,6 +200,7 @@ def measure(mesh: Mesh, goal: tuple[float, float], found: dict | None = None) ->
         bad=(bad.certain, bad.possible),
         lambda_percent=(percent * extreme.certain, percent * extreme.possible),
         worst_mean_ratio=min(mean_ratios),
+        worst_radius_ratio=min(radius_ratios),
         edge_ratio=edge_ratio,
         mean_mean_ratio=math.fsum(mean_ratios) / tets,
         mean_radius_ratio=math.fsum(radius_ratios) / tets,

@@ -120,6 +120,8 @@ class Promises(unittest.TestCase):
             "more bad tets": {"bad": (old.bad[1] + 1, old.bad[1] + 1)},
             "higher lambda %": {"lambda_percent": (old.lambda_percent[1] + 1e-9,) * 2},
             "smaller worst mean ratio": {"worst_mean_ratio": old.worst_mean_ratio * (1 - 1e-10)},
+            "smaller worst radius ratio": {
+                "worst_radius_ratio": old.worst_radius_ratio * (1 - 1e-10)},
             "larger worst edge ratio, over 10": {"edge_ratio": 10.001},
             "more tets that are not positive": {"not_positive": 1},
         }
