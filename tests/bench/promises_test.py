@@ -228,7 +228,7 @@ class Runs(unittest.TestCase):
         ran, text = self.run_bench("promises", "tangled-3", "layers-3", str(file), "-o",
                                    str(self.folder / "results"))
         self.assertEqual(ran.returncode, 0, ran.stdout)
-        self.assertIn("24 runs on 3 meshes, 0 promises broken.", text)
+        self.assertIn("27 runs on 3 meshes, 0 promises broken.", text)
         self.assertEqual(list((self.folder / "results").iterdir()), [])
 
     def test_a_program_that_makes_a_mesh_worse_is_caught_and_the_mesh_kept(self) -> None:
