@@ -7,7 +7,7 @@ import report
 
 SCHEDULES = compare.ROOT / "assets" / "schedules"
 LEFT_OUT = ["local_reconnection", "smooth", "suppress_points", "insert_points", "cavity_insertion",
-            "polyhedron_reconnection", "joint_smoothing", "sequence"]
+            "polyhedron_reconnection", "joint_smoothing", "sequence", "polish"]
 TEXT = (
     "The thorough schedule with one operator or form left out at a time. Inside of other operators "
     "(relaxation) nothing is left out."
@@ -43,6 +43,7 @@ local local_reconnection = unless_left_out("local_reconnection", local_reconnect
 local smooth = unless_left_out("smooth", smooth)
 local suppress_points = unless_left_out("suppress_points", suppress_points)
 local insert_points = unless_left_out("insert_points", insert_points)
+local polish = unless_left_out("polish", polish)
 local function run_schedule(_, settings)
   local function description() end
   local function parameter(spec)

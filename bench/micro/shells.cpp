@@ -94,6 +94,7 @@ void covering_search(benchmark::State& state) {
                                   .b = shell.upper,
                                   .ring = shell.ring,
                                   .old_sides = shell.old_sides,
+                                  .standard = {},
                                   .floor = with_floor ? shell.worst : 0};
     found += search->run(problem, covering) ? 1 : 0;
     benchmark::DoNotOptimize(covering);

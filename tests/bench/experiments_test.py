@@ -74,10 +74,10 @@ class Experiments(unittest.TestCase):
 
     def test_an_ablation_makes_all_passes_but_those_that_it_leaves_out(self) -> None:
         [rows] = self.run_experiment("ablation", "folded_sheet")
-        self.assertEqual(len(rows), 9)
+        self.assertEqual(len(rows), 10)
         whole = self.passes_of("thorough")
         for word in ("local_reconnection", "smooth", "suppress_points", "insert_points", "cavity_insertion",
-                     "polyhedron_reconnection", "sequence"):
+                     "polyhedron_reconnection", "sequence", "polish"):
             def is_left_out(made: str) -> bool:
                 return made == word or made.startswith(word + "(")
 
