@@ -68,7 +68,7 @@ struct RulerFigures {
 /// What all of them say. All 0 for a mesh without tets, or for a ruler without a face.
 struct MeshRulers {
   std::array<RulerFigures, kRulerCount> figures{};  ///< by Ruler
-  double shortest_edge = 0;  ///< a length
+  double shortest_edge = 0;                         ///< a length
   std::size_t inner_faces = 0;
   std::size_t faces_above_70 = 0;  ///< inner faces of more than 70 degrees non-orthogonality
 
