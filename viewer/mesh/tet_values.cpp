@@ -25,7 +25,7 @@ void for_each_tet(const TetMesh& mesh, Visit visit) {
 }  // namespace
 
 std::span<const TetValue> tet_values() {
-  static const std::vector<TetValue> values = [] {
+  static const std::vector<TetValue> kValues = [] {
     std::vector<TetValue> all = {
         {"quality", "relative to the goal: below 1 the tet is bad", nullptr, {0, 2}}};
     for (const QualityMeasure& m : quality_measures()) {
@@ -33,7 +33,7 @@ std::span<const TetValue> tet_values() {
     }
     return all;
   }();
-  return values;
+  return kValues;
 }
 
 const TetValue& find_tet_value(std::string_view name) {
