@@ -18,8 +18,8 @@ class Bounds {
   /// No bounds.
   Bounds() = default;
   /// Of the mesh as it is: no smaller dihedral angle, no larger one than in the mesh or its goal, no
-  /// smaller mean ratio or radius ratio, no larger ratio of the longest to the shortest edge of a tet than in the
-  /// mesh or 10. Cost: one pass over the tets. Inverted tets bound nothing.
+  /// smaller mean ratio or radius ratio, no larger ratio of the longest to the shortest edge of a
+  /// tet than in the mesh or 10. Cost: one pass over the tets. Inverted tets bound nothing.
   static Bounds of(const TetMesh& mesh);
 
   /// The same bounds where tets are judged by another standard.

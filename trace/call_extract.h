@@ -23,8 +23,8 @@ struct CallExtract {
 
 /// All tets around the targets of the call and of those in it and around what these changed, and
 /// two more layers of tets. Their outer faces are the boundary now. Apart from them lie up to five
-/// tets that the run began with: no new tet may be of a worse shape, see Bounds. Leaves the replay where the
-/// call begins. Precondition: there is such a call, and `replay` is of `file`.
+/// tets that the run began with: no new tet may be of a worse shape, see Bounds. Leaves the replay
+/// where the call begins. Precondition: there is such a call, and `replay` is of `file`.
 /// Cost: a few passes over the tets.
 CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t call);
 

@@ -28,8 +28,8 @@ struct EventRange {
   double seconds() const { return end_seconds - begin_seconds; }
 };
 
-/// One attempt of an operator or of a sequence. Calls are numbered in the order in which they begin. So those that a
-/// call makes, directly or not, have the numbers from its own + 1 up to subtree_end.
+/// One attempt of an operator or of a sequence. Calls are numbered in the order in which they begin.
+/// So those that a call makes, directly or not, have the numbers from its own + 1 up to subtree_end.
 struct Call {
   EventRange events;
   std::uint32_t operator_name = 0;  ///< see TraceFile::name()

@@ -18,8 +18,8 @@ namespace tetmend {
 /// schedule. Attempts of the parts lie in it.
 inline constexpr std::string_view kSequenceName = "sequence";
 
-/// One attempt of an operator, or of a sequence, as the trace sees it. Vertices name the target in a way that outlives
-/// tet handles.
+/// One attempt of an operator, or of a sequence, as the trace sees it. Vertices name the target in a
+/// way that outlives tet handles.
 struct AttemptEvent {
   std::string_view operator_name;
   std::span<const VertexHandle> target;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
