@@ -9,6 +9,7 @@ local time_limit = parameter{"time_limit", default = 0, low = 0, high = 1e9,
                              help = "seconds after which no further round begins; 0: none"}
 
 local worst = {below = 1, worst = 100}
+local very_worst = {below = 1, worst = 20}
 
 local function is_enough()
   return quality().n_bad == 0 or time_limit > 0 and quality().seconds >= time_limit
@@ -18,10 +19,14 @@ end
 local refill = {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 18, max_nodes = 50, desperate = 0.7}
 
--- Makes things worse at first, then mends them.
+-- Makes things worse at first, then mends them by nearly all that there is. It takes long, so a
+-- smaller polyhedron must do.
 local function open_by(operator)
   return sequence{operator, "recursive_shell_transformation", "smoothing", "joint_smoothing",
-                  desperate = 0.7}
+                  "cavity_insertion",
+                  {"polyhedron_reconnection", insert = true, remove = true, relax = true,
+                   max_vertices = 10, max_nodes = 15},
+                  "smoothing", "joint_smoothing", desperate = 0.97}
 end
 
 -- With a steep exponent, a new mild bad tet hardly counts against a worse one that vanishes.
@@ -52,7 +57,8 @@ while is_free and rounds < max_rounds and failed < max_failed and not is_enough(
   rounds = rounds + 1
   judge_by{price = 0, measure = "sine"}
   rescue(rounds % 2 == 0 and 12 or 4)
-  for _, opening in ipairs{"edge_removal", "edge_split"} do apply(open_by(opening), {on = worst}) end
+  apply(open_by("edge_removal"), {on = very_worst})
+  apply(open_by{"edge_split", order = "angle", most_edges = 2}, {on = very_worst})
   run_schedule("shell", {last_sweeps = 0})
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1
