@@ -270,6 +270,9 @@ void Improvement::run_schedule(std::size_t passes) {
     }
     tetmend::improve(run, plan_.schedule, options_.set);
   }
+  // A script may aim higher for a while, and be stopped then.
+  const Standard& last = mesh_.standard();
+  run.set_standard(Standard(options_.goal, last.terms(), last.price()));
   watcher_.watch(nullptr, quality_indicators(mesh_));
   if (passes == kAllPasses) {
     result_.ending = run.out_of_time() ? Ending::time_limit

@@ -379,6 +379,9 @@ int ScriptHost::quality(lua_State* lua) {
   count("n_bad", now.n_bad);
   count("n_needles", now.n_needles);
   number("q_aver", now.q_aver);
+  const Goal goal = run_->mesh().standard().goal();
+  number("goal_min", goal.min_angle);
+  number("goal_max", goal.max_angle);
   count("tets", run_->mesh().tet_count());
   count("vertices", run_->mesh().vertex_count());
   number("seconds", run_->seconds());

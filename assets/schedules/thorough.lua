@@ -11,6 +11,8 @@ local time_limit = parameter{"time_limit", default = 0, low = 0, high = 1e9,
 local worst = {below = 1, worst = 100}
 local very_worst = {below = 1, worst = 20}
 
+local start = quality()
+
 local function is_enough()
   return quality().n_bad == 0 or time_limit > 0 and quality().seconds >= time_limit
 end
@@ -26,7 +28,7 @@ local function open_by(operator)
                   "cavity_insertion",
                   {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                    max_vertices = 10, max_nodes = 15},
-                  "smoothing", "joint_smoothing", desperate = 0.97}
+                  "smoothing", "joint_smoothing", desperate = 0.7}
 end
 
 -- With a steep exponent, a new mild bad tet hardly counts against a worse one that vanishes.
@@ -46,7 +48,12 @@ local function reduce()
   smooth{}
 end
 
-local start = quality()
+-- As if the goal were so many times as far from 0 and from 180 degrees.
+local function aim(share)
+  goal{min = math.min(70, share * start.goal_min),
+       max = math.max(71, start.goal_max - (share - 1) * (180 - start.goal_max))}
+end
+
 run_schedule("shell")
 
 -- Where the surface forces most of the bad tets, a rescue only makes more of them.
@@ -56,9 +63,12 @@ local rounds, failed, before = 0, 0, quality()
 while is_free and rounds < max_rounds and failed < max_failed and not is_enough() do
   rounds = rounds + 1
   judge_by{price = 0, measure = "sine"}
+  -- What is stuck at the goal has neighbours that just meet it and leave it no room.
+  aim(failed > 0 and 1.05 or 1)
   rescue(rounds % 2 == 0 and 12 or 4)
   apply(open_by("edge_removal"), {on = very_worst})
   apply(open_by{"edge_split", order = "angle", most_edges = 2}, {on = very_worst})
+  aim(1)
   run_schedule("shell", {last_sweeps = 0})
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1

@@ -142,6 +142,7 @@ TEST_CASE("quality tells the figures of the mesh, the costly ones until the next
   CHECK(note("quality().n_bad") == std::to_string(truth.n_bad));
   CHECK(note("quality().tets") == std::to_string(truth.tets));
   CHECK(note("quality().passes") == "0");
+  CHECK(note("quality().goal_min .. ' ' .. quality().goal_max") == "30.0 150.0");
   CHECK(note("quality().q_worst == quality().q_worst") == "true");
   CHECK(std::stod(note("quality().theta_min")) == doctest::Approx(truth.theta_min));
   CHECK(std::stod(note("quality().theta_max")) == doctest::Approx(truth.theta_max));
