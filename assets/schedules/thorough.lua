@@ -62,9 +62,11 @@ local is_free = quality().n_bad < 2 / 3 * start.n_bad
 local rounds, failed, before = 0, 0, quality()
 while is_free and rounds < max_rounds and failed < max_failed and not is_enough() do
   rounds = rounds + 1
-  judge_by{price = 0, measure = "sine"}
-  -- What is stuck at the goal has neighbours that just meet it and leave it no room.
-  aim(failed > 0 and 1.05 or 1)
+  -- What is stuck at the goal has neighbours that just meet it and leave it no room. Much becomes
+  -- bad by that, and is not to be paid with.
+  local is_stuck = failed > 0
+  judge_by{price = is_stuck and 0.1 or 0, measure = "sine"}
+  aim(is_stuck and 1.05 or 1)
   rescue(rounds % 2 == 0 and 12 or 4)
   apply(open_by("edge_removal"), {on = very_worst})
   apply(open_by{"edge_split", order = "angle", most_edges = 2}, {on = very_worst})

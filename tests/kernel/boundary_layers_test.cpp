@@ -13,6 +13,7 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "tests/support/layered_mesh.h"
+#include "tests/support/renumbered.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -29,23 +30,6 @@ std::vector<std::uint32_t> first_numbers(std::size_t count) {
   std::vector<std::uint32_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0u);
   return numbers;
-}
-
-/// The same mesh, its vertices in another order, and each tet from another vertex on.
-MeshData renumbered(const MeshData& data, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<std::uint32_t> number = first_numbers(data.points.size());
-  for (std::size_t i = number.size(); i > 1; --i) {
-    std::swap(number[i - 1], number[random.index(i)]);
-  }
-  MeshData other = data;
-  for (std::size_t v = 0; v < number.size(); ++v) other.points[number[v]] = data.points[v];
-  for (MeshData::Tet& tet : other.tets) {
-    for (std::uint32_t& v : tet.vertices) v = number[v];
-    const auto turns = static_cast<std::ptrdiff_t>(random.index(4));
-    std::rotate(tet.vertices.begin(), tet.vertices.begin() + turns, tet.vertices.end());
-  }
-  return other;
 }
 
 std::vector<double> even_axis(std::size_t cells, double width) {
