@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +17,63 @@ namespace tetmend {
 using Point = Eigen::Vector3d;
 /// Reference label of a tet, a triangle or an edge, as the file gives it.
 using Label = std::int32_t;
+
+/// Numbers that a file gives under a name for each point, or each element of a kind: `components` of
+/// them for the first, then for the second, and so on.
+struct DataArray {
+  using Values = std::variant<std::vector<std::int32_t>, std::vector<std::int64_t>,
+                              std::vector<float>, std::vector<double>>;
+  std::string name;
+  std::size_t components = 1;
+  Values values;
+
+  /// Numbers in all.
+  std::size_t size() const {
+    return std::visit([](const auto& numbers) { return numbers.size(); }, values);
+  }
+  friend bool operator==(const DataArray&, const DataArray&) = default;
+};
+
+/// A named or numbered set of points or elements. One of them may be in several.
+struct Group {
+  int dimension = 3;                   ///< 0: points, 1: edges, 2: triangles, 3: tets
+  Label number = 0;                    ///< no other group of this dimension has it
+  std::string name;                    ///< may be empty
+  std::vector<Label> parts;            ///< all elements of these parts, see MeshData::tet_parts; or
+  std::vector<std::uint32_t> members;  ///< these points or elements; or, if both are empty, all
+                                       ///< elements with the label `number`
+  friend bool operator==(const Group&, const Group&) = default;
+};
+
+/// A vertex, curve, surface or volume of the geometry that a mesh was made from.
+struct GeometricEntity {
+  int dimension = 3;
+  Label tag = 0;                ///< no other entity of this dimension has it
+  std::array<double, 6> box{};  ///< x, y, z at least, then at most; of a vertex its place, twice
+  std::vector<Label> groups;    ///< numbers of groups of this dimension
+  std::vector<Label> boundary;  ///< tags of entities one dimension lower; negative: turned round
+  friend bool operator==(const GeometricEntity&, const GeometricEntity&) = default;
+};
+
+/// Points of one entity, each the image of a point of another.
+struct PeriodicLink {
+  int dimension = 2;
+  Label tag = 0;
+  Label master = 0;
+  std::vector<double> affine;                        ///< 4 x 4 by rows, or empty
+  std::vector<std::array<std::uint32_t, 2>> points;  ///< {image, original}
+  friend bool operator==(const PeriodicLink&, const PeriodicLink&) = default;
+};
+
+/// Elements that are no tets, triangles or edges of first order. They stay as they are.
+struct OtherElements {
+  int vtk_type = 0;                     ///< as VTK numbers cell types: 12 is a hexahedron
+  std::size_t vertex_count = 0;         ///< of one
+  std::vector<std::uint32_t> vertices;  ///< of the first, then of the second, in VTK's order
+  std::vector<Label> labels;            ///< one for each
+  std::vector<Label> parts;             ///< one for each, or none
+  friend bool operator==(const OtherElements&, const OtherElements&) = default;
+};
 
 /// A tetrahedral mesh without adjacency. Vertex numbers count from 0 in the order of the file,
 /// whatever the file counts from. Orientation is not promised: a reader keeps the order of the
@@ -42,6 +101,22 @@ struct MeshData {
   std::vector<Triangle> triangles;  ///< boundary and interior triangles that the file names
   std::vector<Edge> edges;  ///< feature edges that the file names; constraints when interior
   std::vector<std::uint32_t> required_vertices;  ///< vertices that must not move or vanish
+
+  // What else a file may hold. Improving looks at none of it but tet_parts.
+
+  /// One for each element, or none: like labels, but only to tell apart what groups and entities
+  /// tell apart. A face between two parts stays.
+  std::vector<Label> tet_parts, triangle_parts, edge_parts;
+  std::vector<std::array<Label, 2>> point_entities;  ///< {dimension, tag} of each point, or none
+  std::vector<DataArray> point_data, tet_data, triangle_data, edge_data;
+  std::vector<Group> groups;
+  std::vector<GeometricEntity> entities;
+  std::vector<PeriodicLink> periodic;
+  std::vector<OtherElements> other_elements;
+  std::string variant;      ///< of the format that it was read from: "4.1 binary"
+  std::string label_array;  ///< under which name the labels stood; empty: a format's own place
+
+  std::vector<std::string> notes;  ///< what of the file is not here, one sentence each
 };
 
 }  // namespace tetmend

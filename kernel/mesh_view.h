@@ -23,6 +23,9 @@ class MeshView {
   /// triangles and edges.
   explicit MeshView(const TetMesh& mesh);
 
+  /// The data that it looks at, with all that a file may hold besides; null for a TetMesh.
+  const MeshData* data() const { return data_; }
+
   std::size_t point_count() const { return point_count_; }
   const Point& point(std::size_t i) const { return points_[order_.empty() ? i : order_[i]]; }
   /// Of a TetMesh: the slots of its vertices in the order of this list.
