@@ -37,7 +37,7 @@ struct DataArray {
 /// A named or numbered set of points or elements. One of them may be in several.
 struct Group {
   int dimension = 3;                   ///< 0: points, 1: edges, 2: triangles, 3: tets
-  Label number = 0;                    ///< no other group of this dimension has it
+  Label number = 0;                    ///< no other group of this dimension has it; 0: none
   std::string name;                    ///< may be empty
   std::vector<Label> parts;            ///< all elements of these parts, see MeshData::tet_parts; or
   std::vector<std::uint32_t> members;  ///< these points or elements; or, if both are empty, all
@@ -72,6 +72,7 @@ struct OtherElements {
   std::vector<std::uint32_t> vertices;  ///< of the first, then of the second, in VTK's order
   std::vector<Label> labels;            ///< one for each
   std::vector<Label> parts;             ///< one for each, or none
+  std::vector<DataArray> data;
   friend bool operator==(const OtherElements&, const OtherElements&) = default;
 };
 

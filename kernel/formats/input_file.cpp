@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/compression.h"
 
 namespace tetmend::formats {
 namespace {
@@ -54,6 +56,17 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
     size_ += static_cast<std::size_t>(got);
   }
   bytes_[size_] = '\0';
+  if (is_gzip({bytes_.get(), size_})) unpack();
+}
+
+void InputFile::unpack() {
+  try {
+    Inflated content = inflate_gzip({bytes_.get(), size_});
+    bytes_ = std::move(content.bytes);
+    size_ = content.size;
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", name_, error.what()));
+  }
 }
 
 std::string InputFile::line_place(const char* where) const {

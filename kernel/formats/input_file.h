@@ -12,7 +12,8 @@ namespace tetmend::formats {
 
 /// The bytes of a file, read at once and not mapped: another process that shortens the file
 /// meanwhile must not end this one. A zero byte follows the last one, so that a scan for the end of
-/// a word needs no bound.
+/// a word needs no bound. Of a gzip file these are the bytes that it
+/// was made of, and places in it are theirs.
 class InputFile {
  public:
   /// @throws Error when the file is missing, a directory or unreadable, with the reason of the
@@ -35,6 +36,8 @@ class InputFile {
   [[noreturn]] void fail_at_byte(const char* where, std::string_view reason) const;
 
  private:
+  void unpack();
+
   std::string name_;
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/medit_marks.h"
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/text_rows.h"
@@ -35,11 +36,7 @@ constexpr std::array<std::string_view, 2> kTextSections = {"Comments", "IRefGrou
 
 // The other section names of libMeshb 7; families are recognized by their beginning or end in
 // `is_section`.
-constexpr std::array<std::string_view, 63> kPassedSections = {
-    "Corners",
-    "Ridges",
-    "RequiredEdges",
-    "RequiredTriangles",
+constexpr std::array<std::string_view, 59> kPassedSections = {
     "RequiredQuadrilaterals",
     "Quadrilaterals",
     "TangentAtEdgeVertices",
@@ -104,11 +101,17 @@ bool contains(const std::array<std::string_view, N>& names, std::string_view wor
   return std::find(names.begin(), names.end(), word) != names.end();
 }
 
+const MeditMark* find_mark(std::string_view word) {
+  const auto* found = std::find_if(kMeditMarks.begin(), kMeditMarks.end(),
+                                   [&](const MeditMark& mark) { return mark.section == word; });
+  return found == kMeditMarks.end() ? nullptr : found;
+}
+
 bool is_section(std::string_view word) {
   return word == "End" || contains(kEptSections, word) || contains(kForeignVolumes, word) ||
          contains(kTextSections, word) || contains(kPassedSections, word) ||
-         word.starts_with("SolAt") || word.starts_with("ISolAt") || word.starts_with("DSolAt") ||
-         word.starts_with("HOSolAt") || word.ends_with("Ordering") ||
+         find_mark(word) != nullptr || word.starts_with("SolAt") || word.starts_with("ISolAt") ||
+         word.starts_with("DSolAt") || word.starts_with("HOSolAt") || word.ends_with("Ordering") ||
          word.ends_with("ReferenceElement");
 }
 
@@ -132,6 +135,11 @@ class Reader {
     for (const auto& [name, content] : postponed_) {
       text_.seek(content);
       read_kept_section(name);
+    }
+    // What they mark has been counted now.
+    for (const auto& [name, content] : marks_) {
+      text_.seek(content);
+      read_marks(*find_mark(name));
     }
     if (!seen("Tetrahedra")) fail_without("Tetrahedra", end);
     drop_zero_point_labels(mesh_);
@@ -164,7 +172,7 @@ class Reader {
   /// False at the end of the mesh.
   bool read_section(std::string_view name) {
     if (name.empty() || name == "End") return false;
-    if (!is_section(name)) {
+    if (!is_section(name) && !is_unknown_section(name)) {
       text_.fail(
           fmt::format("{} is not expected here: expected the name of a section, such as "
                       "Vertices, Triangles, Tetrahedra or End",
@@ -179,11 +187,47 @@ class Reader {
       } else {
         read_kept_section(name);
       }
+    } else if (find_mark(name) != nullptr) {
+      marks_.push_back({name, text_.position()});
+      pass_over(name);
     } else {
       if (contains(kForeignVolumes, name)) refuse_volumes(name);
+      const char* content = text_.position();
       pass_over(name);
+      if (!is_empty(content)) {
+        mesh_.notes.push_back(fmt::format("the section {} is not kept", in_quotes(name)));
+      }
     }
     return true;
+  }
+
+  /// Programs add sections of their own: a word with a capital, then a number.
+  bool is_unknown_section(std::string_view name) {
+    if (std::isupper(static_cast<unsigned char>(name[0])) == 0) return false;
+    const char* content = text_.position();
+    const std::string_view next = text_.word();
+    text_.seek(content);
+    return !next.empty() && std::isdigit(static_cast<unsigned char>(next[0])) != 0;
+  }
+
+  /// True if the section says that it has no rows.
+  bool is_empty(const char* content) {
+    const char* end = text_.position();
+    text_.seek(content);
+    const bool is_zero = text_.word() == "0";
+    text_.seek(end);
+    return is_zero;
+  }
+
+  void read_marks(const MeditMark& mark) {
+    Group group{mark.dimension, 0, std::string(mark.section), {}, {}};
+    const auto most = static_cast<std::int64_t>(count_of_dimension(mesh_, mark.dimension));
+    group.members.resize(text_.count("marks", 2));
+    for (std::uint32_t& member : group.members) {
+      member =
+          static_cast<std::uint32_t>(text_.integer("the number of what is marked", 1, most) - 1);
+    }
+    if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
   }
 
   void read_kept_section(std::string_view name) {
@@ -276,6 +320,7 @@ class Reader {
   std::vector<std::string_view> seen_;
   // What came before Vertices, of which the number was not known yet.
   std::vector<Section> postponed_;
+  std::vector<Section> marks_;
 };
 
 template <class Element>
@@ -329,6 +374,15 @@ void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) 
     begin_section(out, "RequiredVertices", mesh.required_vertices().size());
     for (const std::uint32_t vertex : mesh.required_vertices()) {
       out.put_integer(std::int64_t{vertex} + 1);
+      out.put('\n');
+    }
+  }
+  for (const MeditMark& mark : kMeditMarks) {
+    const Group* marked = find_marks(mesh, mark);
+    if (marked == nullptr) continue;
+    begin_section(out, mark.section, marked->members.size());
+    for (const std::uint32_t member : marked->members) {
+      out.put_integer(std::int64_t{member} + 1);
       out.put('\n');
     }
   }

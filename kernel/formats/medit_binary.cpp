@@ -20,6 +20,7 @@
 
 #include "kernel/formats/byte_reader.h"
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/medit_marks.h"
 #include "kernel/formats/output_rows.h"
 
 namespace tetmend::formats {
@@ -133,6 +134,9 @@ class Reader {
         read_elements<Integer>(section, mesh_.triangles, "triangles");
       }
       if (section.keyword == required_vertices) read_required_vertices<Integer>(section);
+    }
+    for (const Section& section : sections_) {
+      if (!is_kept(section.keyword)) read_marks<Integer>(section);
     }
     drop_zero_point_labels(mesh_);
     return std::move(mesh_);
@@ -249,6 +253,34 @@ class Reader {
     }
   }
 
+  /// Any other section is named in the notes, unless it is empty.
+  template <class Integer>
+  void read_marks(const Section& section) {
+    for (const MeditMark& mark : kMeditMarks) {
+      if (mark.keyword != section.keyword) continue;
+      Group group{mark.dimension, 0, std::string(mark.section), {}, {}};
+      group.members.resize(count_rows<Integer>(section, sizeof(Integer), "marks"));
+      const std::size_t most = count_of_dimension(mesh_, mark.dimension);
+      const char* at = bytes_.here();
+      for (std::uint32_t& member : group.members) {
+        const Integer value = load<Integer>(at, bytes_.swap());
+        if (value < 1 || static_cast<std::uint64_t>(value) > most) {
+          bytes_.fail_at(at, fmt::format("{} is out of range: expected the number of what is "
+                                         "marked, 1 to {}",
+                                         value, most));
+        }
+        member = static_cast<std::uint32_t>(value - 1);
+        at += sizeof(Integer);
+      }
+      if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
+      return;
+    }
+    bytes_.seek(section.begin);
+    const bool is_empty = section.size < sizeof(Integer) || bytes_.number<Integer>("a count") == 0;
+    if (is_empty) return;
+    mesh_.notes.push_back(fmt::format("the section of keyword {} is not kept", section.keyword));
+  }
+
   ByteReader bytes_;
   TetPlace* question_;
   std::int32_t version_ = 0;
@@ -292,7 +324,16 @@ class Writer {
     constexpr std::size_t kHeaders = 256;
     return kHeaders + 28 * mesh_.point_count() + 12 * mesh_.edges().size() +
            16 * mesh_.triangles().size() + 4 * mesh_.required_vertices().size() +
-           20 * mesh_.tet_count();
+           20 * mesh_.tet_count() + 4 * marks();
+  }
+
+  std::size_t marks() const {
+    std::size_t count = 0;
+    for (const MeditMark& mark : kMeditMarks) {
+      const Group* marked = find_marks(mesh_, mark);
+      if (marked != nullptr) count += marked->members.size();
+    }
+    return count;
   }
 
   void put_position(std::size_t position) {
@@ -332,6 +373,14 @@ class Writer {
       begin_rows<Integer>(required_vertices, mesh_.required_vertices().size(), sizeof(Integer));
       for (const std::uint32_t vertex : mesh_.required_vertices()) {
         out_.put_bytes(static_cast<Integer>(std::int64_t{vertex} + 1));
+      }
+    }
+    for (const MeditMark& mark : kMeditMarks) {
+      const Group* marked = find_marks(mesh_, mark);
+      if (marked == nullptr) continue;
+      begin_rows<Integer>(mark.keyword, marked->members.size(), sizeof(Integer));
+      for (const std::uint32_t member : marked->members) {
+        out_.put_bytes(static_cast<Integer>(std::int64_t{member} + 1));
       }
     }
     // Last: a file cut short never passes for a complete one.

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
@@ -24,9 +25,10 @@ std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1.
-/// Points, tets, triangles, edges and their reference labels are kept, and the required vertices of
-/// MEDIT files. Volume elements other than linear tets are an error; anything else in the file is
-/// skipped.
+/// What the file holds beyond MeshData is named in its `notes`. Volume elements that cannot be kept
+/// are an error.
+/// @param label_array the array of cells that holds the labels; empty: the one with a name that
+/// mesh tools use, else the only one of integers if it has few different ones
 /// @throws Error for a missing, empty or truncated file and for an unknown extension (with the
 /// valid ones). Also for wrong content: a wrong count, or one that cannot fit into the file (before
 /// memory is taken for it); a vertex number out of range or repeated within an element; text in a
@@ -34,12 +36,16 @@ std::span<const MeshFormat> mesh_formats();
 /// "FILE:LINE: " (ASCII) or "FILE: byte N: " (binary) when it is about the content, and has the
 /// offending word and what was expected.
 /// Cost: linear in the size of the file, which is held in memory while it is read.
-MeshData read_mesh(const std::filesystem::path& file);
+MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array = {});
 
 /// Where in the file tet number `tet` (from 0, as in MeshData) stands: "FILE:LINE" (ASCII) or
 /// "FILE: byte N" (binary), for a message about what BuildError found. Reads the file again.
 /// @throws Error as read_mesh().
 std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
+
+/// What of `mesh` the format of `file` cannot hold, one sentence each; empty: it holds all.
+/// @throws Error for an unknown extension
+std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh);
 
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file. Doubles are written so

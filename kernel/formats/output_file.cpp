@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/compression.h"
 
 namespace tetmend {
 
@@ -63,6 +64,10 @@ OutputFile::OutputFile(const std::filesystem::path& target)
     temporary_ = target_.parent_path() / fmt::format(".tetmend-{}-{}.tmp", ::getpid(), attempt);
     fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno != EEXIST) fail(errno);
+  }
+  if (target.extension() == ".gz") {
+    gzip_ =
+        std::make_unique<formats::GzipWriter>([this](std::string_view bytes) { write_raw(bytes); });
   }
   if (mode != 0)
     static_cast<void>(::fchmod(fd_, mode));  // best effort: a file system may know no modes
@@ -110,6 +115,7 @@ void OutputFile::put_blocks(
 void OutputFile::finish() {
   if (fd_ < 0) return;
   flush();
+  if (gzip_) gzip_->finish();
   const int closed = ::close(fd_);
   fd_ = -1;
   if (closed != 0) fail(errno);
@@ -127,6 +133,11 @@ void OutputFile::flush() {
 }
 
 void OutputFile::write_out(std::string_view bytes) {
+  if (gzip_) return gzip_->put(bytes);
+  write_raw(bytes);
+}
+
+void OutputFile::write_raw(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;

@@ -14,6 +14,10 @@
 
 namespace tetmend {
 
+namespace formats {
+class GzipWriter;
+}
+
 /// Text and numbers in memory, on their way to a file.
 class OutputBuffer {
  public:
@@ -50,7 +54,7 @@ class OutputBuffer {
 
 /// Buffered output into a temporary file beside the target, which `commit()` renames to the target.
 /// Without `commit()` (an exception, a full disk) the temporary file vanishes and an older target
-/// stays as it was. Links are followed, and the permissions of an older target are kept.
+/// stays as it was. Under a name that ends in .gz it is packed. Links are followed, and the permissions of an older target are kept.
 class OutputFile {
  public:
   /// @throws Error when the target is a directory or write-protected or when its folder cannot be
@@ -87,6 +91,7 @@ class OutputFile {
   }
   void flush();
   void write_out(std::string_view bytes);
+  void write_raw(std::string_view bytes);
   [[noreturn]] void fail(int error) const;
 
   static constexpr std::size_t kFull = std::size_t{1} << 18;
@@ -94,6 +99,7 @@ class OutputFile {
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   OutputBuffer buffer_;
+  std::unique_ptr<formats::GzipWriter> gzip_;  // null: not packed
   int fd_ = -1;
   bool committed_ = false;
 };

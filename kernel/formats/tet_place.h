@@ -17,6 +17,12 @@ struct TetPlace {
   std::string place;    ///< "FILE:LINE" or "FILE: byte N"
 };
 
+/// What a reader is asked for besides the mesh.
+struct ReadRequest {
+  TetPlace* question = nullptr;
+  std::string label_array = {};  ///< the array of cells that holds the labels; empty: by its name
+};
+
 /// True if `element`, an entry of `elements`, is the tet that is asked for. `question` may be null.
 template <class Element>
 bool is_asked_for(const TetPlace* question, const std::vector<Element>& elements,

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <limits>
 #include <string>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -73,6 +76,46 @@ void skip_binary_string(TextReader& text) {
   text.bytes(length, "the characters of a string");
 }
 
+template <class Value>
+std::vector<Value> load_values(const char* at, const VtkType& type, std::size_t count) {
+  std::vector<Value> values(count);
+  for (Value& value : values) {
+    if constexpr (std::is_integral_v<Value>) {
+      value = static_cast<Value>(load_integer(type.size, type.kind == Kind::signed_integer, at));
+    } else {
+      value = load<Value>(at, kVtkSwaps);
+    }
+    at += type.size;
+  }
+  return values;
+}
+
+/// "nan" and "inf" are numbers here.
+double parse_real(TextReader& text) {
+  constexpr std::string_view kWhat = "a value of an array";
+  const char* before = text.position();
+  const std::string_view word = text.expect_word(kWhat);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc{} && end == word.data() + word.size()) return value;
+  text.seek(before);
+  return text.real(kWhat);
+}
+
+template <class Value>
+std::vector<Value> parse_values(TextReader& text, std::size_t count) {
+  std::vector<Value> values(count);
+  for (Value& value : values) {
+    if constexpr (std::is_integral_v<Value>) {
+      using Limits = std::numeric_limits<Value>;
+      value = static_cast<Value>(text.integer("a value of an array", Limits::min(), Limits::max()));
+    } else {
+      value = static_cast<Value>(parse_real(text));
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 const VtkType& find_vtk_type(TextReader& text, std::string_view word) {
@@ -106,6 +149,30 @@ void skip_vtk_values(TextReader& text, bool binary, const VtkType& type, std::si
   }
 }
 
+DataArray::Values read_vtk_values(TextReader& text, bool binary, const VtkType& type,
+                                  std::size_t count) {
+  const char* at = binary ? text.bytes(count * type.size, "the values of an array") : nullptr;
+  const bool is_real = type.kind == Kind::real;
+  if (is_real && type.size == 4) {
+    if (binary) return load_values<float>(at, type, count);
+    return parse_values<float>(text, count);
+  }
+  if (is_real) {
+    if (binary) return load_values<double>(at, type, count);
+    return parse_values<double>(text, count);
+  }
+  const bool fits = type.size < 4 || (type.size == 4 && type.kind == Kind::signed_integer);
+  if (fits && binary) return load_values<std::int32_t>(at, type, count);
+  // The text of an int may be out of its range.
+  std::vector<std::int64_t> values =
+      binary ? load_values<std::int64_t>(at, type, count) : parse_values<std::int64_t>(text, count);
+  const bool narrow = fits && std::all_of(values.begin(), values.end(), [](std::int64_t value) {
+                        return value >= INT32_MIN && value <= INT32_MAX;
+                      });
+  if (!narrow) return values;
+  return std::vector<std::int32_t>(values.begin(), values.end());
+}
+
 std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type, std::size_t rows,
                               std::size_t columns) {
   if (rows == 0 || columns == 0) return 0;
@@ -125,7 +192,7 @@ std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type
 
 VtkIntegers::VtkIntegers(TextReader& text, bool binary, const VtkType& type, std::size_t count,
                          std::string_view what)
-    : size_(count) {
+    : size_(count), type_(&type) {
   if (type.kind != Kind::signed_integer && type.kind != Kind::unsigned_integer) {
     text.fail(fmt::format("{} cannot be of type {}: expected an integer type", what, type.name));
   }
@@ -150,8 +217,14 @@ std::int64_t VtkIntegers::load_other(const char* from) const {
 }
 
 const char* VtkIntegers::locate(TextReader& text, std::size_t i) const {
-  if (width_ != 0) return begin_ + i * width_;
-  text.seek(begin_);
+  if (type_ == nullptr) return begin_;
+  return locate_vtk_value(text, width_ != 0, *type_, begin_, i);
+}
+
+const char* locate_vtk_value(TextReader& text, bool binary, const VtkType& type, const char* begin,
+                             std::size_t i) {
+  if (binary) return begin + i * type.size;
+  text.seek(begin);
   for (std::size_t k = 0; k <= i; ++k) text.word();
   return text.last_word();
 }

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kernel/formats/byte_reader.h"
 #include "kernel/formats/text_reader.h"
+#include "kernel/mesh_data.h"
 
 namespace tetmend::formats {
 
@@ -30,6 +32,11 @@ const VtkType& find_vtk_type(TextReader& text, std::string_view word);
 /// Passes over `count` values.
 void skip_vtk_values(TextReader& text, bool binary, const VtkType& type, std::size_t count);
 
+/// Reads `count` numbers of an array, NaN and infinite ones too. Integers of 32 bits or fewer become
+/// int32, others int64. Precondition: the type is neither bit nor text.
+DataArray::Values read_vtk_values(TextReader& text, bool binary, const VtkType& type,
+                                  std::size_t count);
+
 /// Refuses `rows` * `columns` values that the rest of the file cannot hold, and gives the product.
 std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type, std::size_t rows,
                               std::size_t columns);
@@ -41,6 +48,10 @@ class VtkIntegers {
   VtkIntegers() = default;
   VtkIntegers(TextReader& text, bool binary, const VtkType& type, std::size_t count,
               std::string_view what);
+
+  /// Values that were decoded elsewhere, all of them at `place`.
+  VtkIntegers(std::vector<std::int64_t> values, const char* place)
+      : size_(values.size()), begin_(place), parsed_wide_(std::move(values)) {}
 
   std::size_t size() const { return size_; }
   std::int64_t operator[](std::size_t i) const {
@@ -56,6 +67,7 @@ class VtkIntegers {
   std::int64_t load_other(const char* from) const;
 
   std::size_t size_ = 0;
+  const VtkType* type_ = nullptr;
   const char* begin_ = nullptr;
   std::size_t width_ = 0;  // bytes of a value; 0 for text
   bool is_signed_ = true;
@@ -65,5 +77,9 @@ class VtkIntegers {
 
 /// One real number of a binary array of any numeric type but bit.
 double load_vtk_real(const VtkType& type, const char* from);
+
+/// Where number `i` of an array that begins at `begin` stands, for an error message.
+const char* locate_vtk_value(TextReader& text, bool binary, const VtkType& type, const char* begin,
+                             std::size_t i);
 
 }  // namespace tetmend::formats

@@ -14,17 +14,21 @@
 namespace tetmend::formats {
 namespace {
 
-// Cells without volume, which a mesh of tetrahedra can do without.
-constexpr std::array<std::int64_t, 21> kPassedCells = {0,  1,  2,  4,  6,  7,  8,  9,  21, 22, 23,
-                                                       28, 30, 34, 35, 36, 68, 69, 70, 75, 76};
+/// Cells whose integers are no plain list of vertices, and those of higher order that would have to
+/// be improved.
+bool is_refused(std::int64_t type) {
+  constexpr std::array<std::int64_t, 7> kTypes = {24, 41, 42, 71, 72, 78, 79};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
+constexpr std::int64_t kHighestType = 81;
 
 class Assembly {
  public:
-  Assembly(const VtkCells& cells, const std::vector<Label>& labels, TextReader& text,
-           MeshData& mesh, TetPlace* question)
-      : cells_(cells), labels_(labels), text_(text), mesh_(mesh), question_(question) {}
+  Assembly(const VtkCells& cells, TextReader& text, MeshData& mesh, TetPlace* question)
+      : cells_(cells), text_(text), mesh_(mesh), question_(question) {}
 
-  void run() {
+  CellNumbers run() {
     if (cells_.types.size() != cells_.count) {
       text_.fail_at(cells_.types.locate(text_, 0),
                     fmt::format("there are {} cell types for {} cells: expected as many",
@@ -43,6 +47,10 @@ class Assembly {
                     fmt::format("the {} cells take {} integers: expected {}, as CELLS says",
                                 cells_.count, position, cells_.connectivity.size()));
     }
+    if (empty_cells_ > 0) {
+      mesh_.notes.push_back(fmt::format("{} empty cells are not kept", empty_cells_));
+    }
+    return std::move(numbers_);
   }
 
  private:
@@ -85,30 +93,68 @@ class Assembly {
 
   void add_cell(std::size_t cell, std::size_t begin, std::size_t size) {
     const std::int64_t type = cells_.types[cell];
-    if (type == 10) return add_element(mesh_.tets, cell, begin, size);
-    if (type == 5) return add_element(mesh_.triangles, cell, begin, size);
-    if (type == 3) return add_element(mesh_.edges, cell, begin, size);
-    if (std::find(kPassedCells.begin(), kPassedCells.end(), type) != kPassedCells.end()) return;
-    text_.fail_at(
-        cells_.types.locate(text_, cell),
-        fmt::format(
-            "a cell of type '{}' ({}) cannot be read: expected tetrahedra (10), triangles (5) "
-            "and lines (3)",
-            type, cell_name(type)));
+    const auto number = static_cast<std::uint32_t>(cell);
+    if (type == 10) {
+      add_element(mesh_.tets, begin, size);
+      numbers_.tets.push_back(number);
+    } else if (type == 5) {
+      add_element(mesh_.triangles, begin, size);
+      numbers_.triangles.push_back(number);
+    } else if (type == 3) {
+      add_element(mesh_.edges, begin, size);
+      numbers_.edges.push_back(number);
+    } else if (size == 0 && type == 0) {
+      ++empty_cells_;
+    } else if (type > 0 && type <= kHighestType && !is_refused(type)) {
+      add_other(type, cell, begin, size);
+    } else {
+      refuse(type, cell);
+    }
   }
 
-  static std::string_view cell_name(std::int64_t type) {
-    if (type == 11) return "voxel";
-    if (type == 12) return "hexahedron";
-    if (type == 13) return "wedge";
-    if (type == 14) return "pyramid";
+  [[noreturn]] void refuse(std::int64_t type, std::size_t cell) const {
+    text_.fail_at(cells_.types.locate(text_, cell),
+                  fmt::format("a cell of type '{}' ({}) cannot be read: expected tetrahedra (10), "
+                              "triangles (5), lines (3) or other cells of first order",
+                              type, refused_name(type)));
+  }
+
+  static std::string_view refused_name(std::int64_t type) {
     if (type == 24 || type == 71 || type == 78) return "tetrahedron of higher order";
-    return "another volume";
+    if (type == 41 || type == 42) return "polyhedron";
+    return is_refused(type) ? "volume of higher order" : "no type of VTK";
+  }
+
+  /// Cells of one type and size make one list.
+  void add_other(std::int64_t type, std::size_t cell, std::size_t begin, std::size_t size) {
+    const auto is_like = [&](const OtherElements& other) {
+      return other.vtk_type == type && other.vertex_count == size;
+    };
+    auto& lists = mesh_.other_elements;
+    auto found = std::find_if(lists.begin(), lists.end(), is_like);
+    if (found == lists.end()) {
+      lists.push_back({static_cast<int>(type), size, {}, {}, {}, {}});
+      numbers_.others.emplace_back();
+      found = lists.end() - 1;
+    }
+    for (std::size_t i = 0; i < size; ++i) found->vertices.push_back(vertex_at(begin + i));
+    found->labels.push_back(0);
+    numbers_.others[static_cast<std::size_t>(found - lists.begin())].push_back(
+        static_cast<std::uint32_t>(cell));
+  }
+
+  std::uint32_t vertex_at(std::size_t place) {
+    const std::int64_t vertex = cells_.connectivity[place];
+    if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= mesh_.points.size()) {
+      text_.fail_at(locate_vertex(place),
+                    fmt::format("'{}' is out of range: expected a vertex number, 0 to {}", vertex,
+                                static_cast<std::int64_t>(mesh_.points.size()) - 1));
+    }
+    return static_cast<std::uint32_t>(vertex);
   }
 
   template <class Element>
-  void add_element(std::vector<Element>& elements, std::size_t cell, std::size_t begin,
-                   std::size_t size) {
+  void add_element(std::vector<Element>& elements, std::size_t begin, std::size_t size) {
     Element element;
     const std::size_t place = cells_.has_offsets || size == 0 ? begin : begin - 1;
     if (size != element.vertices.size()) {
@@ -116,19 +162,10 @@ class Assembly {
                     fmt::format("'{}' is not the number of vertices of a {}: expected {}", size,
                                 element_name(element), element.vertices.size()));
     }
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::int64_t vertex = cells_.connectivity[begin + i];
-      if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= mesh_.points.size()) {
-        text_.fail_at(locate_vertex(begin + i),
-                      fmt::format("'{}' is out of range: expected a vertex number, 0 to {}", vertex,
-                                  static_cast<std::int64_t>(mesh_.points.size()) - 1));
-      }
-      element.vertices[i] = static_cast<std::uint32_t>(vertex);
-    }
+    for (std::size_t i = 0; i < size; ++i) element.vertices[i] = vertex_at(begin + i);
     if (has_repeated_vertex(element.vertices)) {
       text_.fail_at(locate_vertex(begin), repeated_vertex_message(element, 0));
     }
-    element.label = labels_.empty() ? 0 : labels_[cell];
     elements.push_back(element);
     if (is_asked_for(question_, elements, elements.back())) {
       question_->place = text_.place_of(locate_vertex(begin));
@@ -138,17 +175,17 @@ class Assembly {
   const char* locate_vertex(std::size_t i) { return cells_.connectivity.locate(text_, i); }
 
   const VtkCells& cells_;
-  const std::vector<Label>& labels_;
   TextReader& text_;
   MeshData& mesh_;
   TetPlace* question_;
+  CellNumbers numbers_;
+  std::size_t empty_cells_ = 0;
 };
 
 }  // namespace
 
-void VtkCells::append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text,
-                         TetPlace* question) const {
-  Assembly(*this, labels, text, mesh, question).run();
+CellNumbers VtkCells::append_to(MeshData& mesh, TextReader& text, TetPlace* question) const {
+  return Assembly(*this, text, mesh, question).run();
 }
 
 }  // namespace tetmend::formats

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/tet_place.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_array.h"
@@ -23,12 +24,11 @@ struct VtkCells {
   VtkIntegers connectivity;
   VtkIntegers types;
 
-  /// Adds tetrahedra, triangles and lines to `mesh`, which has its points. `labels` has one for
-  /// each cell, or none.
-  /// @throws Error (through `text`) for vertices out of range or repeated, wrong sizes and cells of
-  /// other kinds with a volume
-  void append_to(MeshData& mesh, const std::vector<Label>& labels, TextReader& text,
-                 TetPlace* question) const;
+  /// Adds all cells to `mesh`, which has its points; labels are 0. Says in its notes which cells it
+  /// cannot hold.
+  /// @throws Error (through `text`) for vertices out of range or repeated, wrong sizes and volumes
+  /// that cannot be kept
+  CellNumbers append_to(MeshData& mesh, TextReader& text, TetPlace* question) const;
 };
 
 }  // namespace tetmend::formats

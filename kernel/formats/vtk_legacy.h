@@ -13,11 +13,10 @@
 
 namespace tetmend::formats {
 
-/// ASCII and binary files of version 1.0 to 5.1. Keeps tetrahedra, triangles and lines; vertices,
-/// quadrilaterals and other curves and surfaces are passed over; any other volume cell is an error.
-/// Labels of cells and points come from the scalar array of integers whose name is one that mesh
-/// tools use (`vtk_label_names` in the .cpp, best first). @throws Error
-MeshData read_vtk_legacy(const std::filesystem::path& file, TetPlace* question = nullptr);
+/// ASCII and binary files of version 1.0 to 5.1. Keeps cells of all kinds but polyhedra and volumes
+/// of higher order, which are errors, and all arrays of numbers of cells and points. Labels come
+/// from one of them, see adopt_cell_arrays(). @throws Error
+MeshData read_vtk_legacy(const std::filesystem::path& file, const ReadRequest& request = {});
 
 /// One whole number for each tet, in the order of the mesh.
 struct TetField {
@@ -25,9 +24,9 @@ struct TetField {
   std::span<const std::int32_t> values;
 };
 
-/// Binary, in the layout of version 4.2 that also old readers take. Labels go to the cell array
-/// CellEntityIds, as Gmsh has it, and to the point array of that name. Required vertices have no
-/// place in the format. The format has no end mark: of a file cut exactly before its labels nothing
+/// Binary, in the layout of version 4.2 that also old readers take. Labels go to the cell array that
+/// they came from, or to CellEntityIds, as Gmsh has it; those of points to CellEntityIds. Other
+/// arrays follow. Required vertices and groups have no place in the format. The format has no end mark: of a file cut exactly before its labels nothing
 /// tells that they are missing. @throws Error also for more than 2^31 - 1 vertices
 void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh);
 /// With further cell arrays, in which triangles and edges have 0.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -18,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_array.h"
@@ -26,12 +28,6 @@
 
 namespace tetmend::formats {
 namespace {
-
-// Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
-constexpr std::array<std::string_view, 15> kVtkLabelNames = {
-    "cellentityids", "label",       "labels",       "medit:ref", "gmsh:physical",
-    "tetgen:ref",    "region",      "regionid",     "region_id", "material",
-    "materialids",   "material_id", "cell_scalars", "domain",    "gmsh:geometrical"};
 
 std::string lower_case(std::string_view word) {
   std::string lower(word);
@@ -42,8 +38,8 @@ std::string lower_case(std::string_view word) {
 
 class Reader {
  public:
-  Reader(const InputFile& file, TetPlace* question)
-      : text_(file, TextReader::kNoComments), question_(question) {}
+  Reader(const InputFile& file, const ReadRequest& request)
+      : text_(file, TextReader::kNoComments), request_(request) {}
 
   MeshData read() {
     read_header();
@@ -56,18 +52,33 @@ class Reader {
     if (!has_points_) fail_without("POINTS", end);
     if (!has_cells_) fail_without("CELLS", end);
     if (!has_types_) fail_without("CELL_TYPES", end);
-    cells_.append_to(mesh_, cell_labels_.values, text_, question_);
-    mesh_.point_labels = std::move(point_labels_.values);
-    drop_zero_point_labels(mesh_);
+    const CellNumbers numbers = cells_.append_to(mesh_, text_, request_.question);
+    adopt_cell_arrays(mesh_, take_arrays(cell_arrays_), numbers,
+                      {request_.label_array, failure_in(cell_arrays_)});
+    adopt_point_arrays(mesh_, take_arrays(point_arrays_), failure_in(point_arrays_));
     return std::move(mesh_);
   }
 
  private:
   enum class DataOf { nothing, cells, points };
-  struct Labels {
-    std::size_t rank = kVtkLabelNames.size();
-    std::vector<Label> values;
+  struct Array {
+    DataArray data;
+    const VtkType* type;
+    const char* begin;
   };
+
+  static std::vector<DataArray> take_arrays(std::vector<Array>& arrays) {
+    std::vector<DataArray> taken;
+    for (Array& array : arrays) taken.push_back(std::move(array.data));
+    return taken;
+  }
+
+  ArrayFailure failure_in(const std::vector<Array>& arrays) {
+    return [this, &arrays](std::size_t which, std::size_t i, std::string_view reason) {
+      const Array& array = arrays[which];
+      text_.fail_at(locate_vtk_value(text_, binary_, *array.type, array.begin, i), reason);
+    };
+  }
 
   void read_header() {
     constexpr std::string_view kOpening = "# vtk datafile version ";
@@ -235,37 +246,45 @@ class Reader {
     if (name == "scalars") {
       read_scalars();
     } else if (name == "vectors" || name == "normals") {
-      skip_attribute(3);
+      read_attribute_of(3);
     } else if (name == "tensors") {
-      skip_attribute(9);
+      read_attribute_of(9);
     } else if (name == "tensors6") {
-      skip_attribute(6);
+      read_attribute_of(6);
     } else if (name == "global_ids" || name == "pedigree_ids" || name == "edge_flags") {
-      skip_attribute(1);
+      const std::string_view array = text_.expect_word("the name of an array");
+      skip_values(array, read_type(), data_count_, 1);
     } else if (name == "texture_coordinates") {
-      text_.expect_word("the name of an array");
+      const std::string_view array = text_.expect_word("the name of an array");
       const std::size_t columns = read_count("columns");
-      skip_values(read_type(), data_count_, columns);
+      const VtkType& type = read_type();
+      begin_values();
+      read_array(array, type, data_count_, columns);
     } else if (name == "color_scalars") {
-      text_.expect_word("the name of an array");
-      skip_values(find_vtk_type(text_, "unsigned_char"), data_count_, read_count("columns"));
+      const std::string_view array = text_.expect_word("the name of an array");
+      const std::size_t columns = read_count("columns");
+      skip_values(array, find_vtk_type(text_, "unsigned_char"), data_count_, columns);
     } else if (name == "lookup_table") {
-      text_.expect_word("the name of a table");
-      skip_values(find_vtk_type(text_, "unsigned_char"), read_count("colors"), 4);
+      const std::string_view table = text_.expect_word("the name of a table");
+      skip_values(table, find_vtk_type(text_, "unsigned_char"), read_count("colors"), 4);
     } else {
       return false;
     }
     return true;
   }
 
-  void skip_attribute(std::size_t columns) {
-    text_.expect_word("the name of an array");
-    skip_values(read_type(), data_count_, columns);
+  void read_attribute_of(std::size_t columns) {
+    const std::string_view name = text_.expect_word("the name of an array");
+    const VtkType& type = read_type();
+    begin_values();
+    read_array(name, type, data_count_, columns);
   }
 
-  void skip_values(const VtkType& type, std::size_t rows, std::size_t columns) {
+  void skip_values(std::string_view name, const VtkType& type, std::size_t rows,
+                   std::size_t columns) {
     begin_values();
     skip_vtk_values(text_, binary_, type, checked_vtk_count(text_, binary_, type, rows, columns));
+    mesh_.notes.push_back(fmt::format("the array {} is not kept", in_quotes(name)));
   }
 
   void read_scalars() {
@@ -309,48 +328,41 @@ class Reader {
     }
   }
 
-  /// Keeps the array if it may hold the labels, else passes over it.
+  /// Keeps the array if it has a row of numbers for each cell or point.
   void read_array(std::string_view name, const VtkType& type, std::size_t rows,
                   std::size_t columns) {
     const std::size_t count = checked_vtk_count(text_, binary_, type, rows, columns);
-    const auto* found =
-        std::find(kVtkLabelNames.begin(), kVtkLabelNames.end(), lower_case(name.substr(0, 30)));
-    const auto rank = static_cast<std::size_t>(found - kVtkLabelNames.begin());
-    Labels& labels = data_of_ == DataOf::points ? point_labels_ : cell_labels_;
     const bool is_number = type.kind != VtkType::Kind::text && type.kind != VtkType::Kind::bit;
-    if (data_of_ == DataOf::nothing || columns != 1 || rows != data_count_ || !is_number ||
-        rank >= labels.rank) {
+    if (data_of_ == DataOf::nothing || columns == 0 || rows != data_count_ || !is_number) {
       skip_vtk_values(text_, binary_, type, count);
+      mesh_.notes.push_back(fmt::format("the array {} is not kept: {}", in_quotes(name),
+                                        !is_number ? "it holds no numbers"
+                                        : data_of_ == DataOf::nothing
+                                            ? "it belongs to no points or cells"
+                                            : "it has no row for each point or cell"));
       return;
     }
-    std::vector<Label> values(count);
-    if (read_labels(type, values)) labels = {rank, std::move(values)};
+    auto& arrays = data_of_ == DataOf::points ? point_arrays_ : cell_arrays_;
+    const char* begin = text_.position();
+    DataArray data{decoded(name), columns, read_vtk_values(text_, binary_, type, count)};
+    arrays.push_back({std::move(data), &type, begin});
   }
 
-  /// False if the array holds fractions: such a "material" is no label but a property.
-  bool read_labels(const VtkType& type, std::vector<Label>& values) {
-    const char* at = binary_ ? text_.bytes(values.size() * type.size, "the labels") : nullptr;
-    const bool is_real = type.kind == VtkType::Kind::real;
-    bool whole = true;
-    for (Label& label : values) {
-      const double value = binary_ ? load_vtk_real(type, at) : read_label_number(is_real);
-      if (is_real && value != std::floor(value)) {  // also nan
-        whole = false;
-      } else if (!(value >= INT32_MIN && value <= INT32_MAX)) {
-        text_.fail_at(binary_ ? at : text_.last_word(),
-                      fmt::format("the label {} is out of range: expected {} to {}", value,
-                                  INT32_MIN, INT32_MAX));
+  /// VTK writes "%20" for a blank in a name, and so on.
+  static std::string decoded(std::string_view name) {
+    std::string text;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      unsigned code = 0;
+      if (name[i] == '%' && i + 2 < name.size() &&
+          std::from_chars(&name[i + 1], &name[i + 1] + 2, code, 16).ptr == &name[i + 1] + 2 &&
+          code >= ' ') {
+        text += static_cast<char>(code);
+        i += 2;
       } else {
-        label = static_cast<Label>(value);
+        text += name[i];
       }
-      if (binary_) at += type.size;
     }
-    return whole;
-  }
-
-  double read_label_number(bool is_real) {
-    if (is_real) return text_.real("a label");
-    return static_cast<double>(text_.integer("a label", INT64_MIN, INT64_MAX));
+    return text;
   }
 
   [[noreturn]] void fail_without(std::string_view name, const char* end) const {
@@ -358,7 +370,7 @@ class Reader {
   }
 
   TextReader text_;
-  TetPlace* question_;
+  const ReadRequest& request_;
   MeshData mesh_;
   int major_version_ = 0;
   bool binary_ = false;
@@ -368,15 +380,15 @@ class Reader {
   VtkCells cells_;
   DataOf data_of_ = DataOf::nothing;
   std::size_t data_count_ = 0;
-  Labels cell_labels_;
-  Labels point_labels_;
+  std::vector<Array> cell_arrays_;
+  std::vector<Array> point_arrays_;
 };
 
 }  // namespace
 
-MeshData read_vtk_legacy(const std::filesystem::path& file, TetPlace* question) {
+MeshData read_vtk_legacy(const std::filesystem::path& file, const ReadRequest& request) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return Reader(input, request).read();
 }
 
 }  // namespace tetmend::formats

@@ -49,14 +49,39 @@ TEST_CASE("sections of a MEDIT file may come in any order and End may be missing
 }
 
 TEST_CASE("known sections that are not kept are passed over in a MEDIT file") {
-  const MeshData mesh =
-      read(kHead + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + kPoints +
-           "Corners\n2\n1\n2\nRidges\n1\n1\nQuadrilaterals\n1\n1 2 3 4 0\nHexahedra\n0\n"
-           "Comments\n2\nsome words here\nTime flies? no: words\nSolAtVertices\n4\n1 "
-           "1\n0.5\nnan\n-inf\n1e5\n"
-           "NormalAtVertices 1 1 1\nNormals 1 0 0 1\nTetrahedraP1Ordering 1 0 1 2 3\n" +
-           kTets + "End\nanything");
+  const MeshData mesh = read(
+      kHead + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + kPoints +
+      "Corners\n2\n1\n2\nEdges 1 1 4 6\nRidges\n1\n1\nQuadrilaterals\n1\n1 2 3 4 0\nHexahedra\n0\n"
+      "Comments\n2\nsome words here\nTime flies? no: words\nSolAtVertices\n4\n1 "
+      "1\n0.5\nnan\n-inf\n1e5\n"
+      "NormalAtVertices 1 1 1\nNormals 1 0 0 1\nTetrahedraP1Ordering 1 0 1 2 3\n"
+      "ParallelVertices 1\n1 2\n" +
+      kTets + "End\nanything");
   CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.groups ==
+        std::vector<Group>{{0, 0, "Corners", {}, {0, 1}}, {1, 0, "Ridges", {}, {0}}});
+  CHECK(mesh.notes.size() == 9);
+  CHECK(mesh.notes.back() == "the section 'ParallelVertices' is not kept");
+}
+
+TEST_CASE("corners, ridges and what is required survive in MEDIT files of both kinds") {
+  const TempFolder folder;
+  write_text(folder / "a.mesh",
+             kHead + kPoints + "Edges 1 1 4 6\nTriangles\n1\n1 2 3 5\n" +
+                 "Corners 2\n1\n4\nRidges 1 1\nRequiredEdges 1 1\nRequiredTriangles 1\n1\n" +
+                 kTets + "End\n");
+  const MeshData mesh = read_mesh(folder / "a.mesh");
+  CHECK(mesh.groups.size() == 4);
+  CHECK(mesh.notes.empty());
+  write_mesh(folder / "b.meshb", mesh);
+  CHECK(read_mesh(folder / "b.meshb").groups == mesh.groups);
+  write_mesh(folder / "c.mesh", read_mesh(folder / "b.meshb"));
+  CHECK(read_mesh(folder / "c.mesh").groups == mesh.groups);
+  CHECK(not_written(folder / "c.mesh", mesh).empty());
+  CHECK(not_written(folder / "c.vtk", mesh).size() == 1);
+  write_text(folder / "d.mesh", kHead + kPoints + kTets + "Ridges 1\n1\nEnd\n");
+  CHECK(error_of_reading(folder / "d.mesh").find("the number of what is marked") !=
+        std::string::npos);
 }
 
 TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
@@ -70,8 +95,10 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
       {"no dimension", replaced(good, "Dimension 3\n", ""),
        ":2: ", "'Vertices' is not expected here"},
       {"2D", replaced(good, "Dimension 3", "Dimension 2"), ":2: ", "expected Dimension 3"},
-      {"unknown word", replaced(good, "Tetrahedra", "Tetraeder"),
-       ":9: ", "'Tetraeder' is not expected here"},
+      {"unknown word", replaced(good, "Tetrahedra", "tetraeder"),
+       ":9: ", "'tetraeder' is not expected here"},
+      {"unknown section only", replaced(good, "Tetrahedra", "Tetraeder"), "",
+       "the section Tetrahedra is missing"},
       {"no vertices", kHead + kTets + "End\n", ":6: ", "the section Vertices is missing"},
       {"no tets", kHead + kPoints + "End\n", ":9: ", "the section Tetrahedra is missing"},
       {"twice", kHead + kPoints + kPoints + kTets,

@@ -83,7 +83,7 @@ TEST_CASE("an unknown extension is an error with the valid ones") {
   const TempFolder folder;
   CHECK(error_of_reading(folder / "a.stl") ==
         "a.stl: the extension '.stl' is not that of a mesh format: expected one of .mesh, .meshb, "
-        ".node, .ele, .vtk");
+        ".node, .ele, .vtk, .vtu");
   CHECK_THROWS_AS(write_mesh(folder / "a", {}), Error);
   CHECK(folder.entries() == 0);
 }

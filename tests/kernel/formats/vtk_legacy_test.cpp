@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Legacy VTK files of several versions, made by hand, and how bad ones are refused.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "tests/kernel/formats/fixtures.h"
@@ -32,8 +34,7 @@ std::vector<Label> labels_of(const std::string& data) {
 
 }  // namespace
 
-TEST_CASE(
-    "arrays of every kind are passed over in an ASCII VTK file and labels are found among them") {
+TEST_CASE("arrays of every kind are read from an ASCII VTK file and labels are found among them") {
   const std::string data =
       "CELL_DATA 2\n"
       "SCALARS quality float 1\nLOOKUP_TABLE my_table\n0.5 nan\nLOOKUP_TABLE my_table 2\n0 0 0 "
@@ -47,9 +48,27 @@ TEST_CASE(
       "FIELD FieldData 4\nnames 1 2 string\nan%20a\nb\nMETADATA\nCOMPONENT_NAMES\nx\n\nbits 1 2 "
       "bit\n0 1\n"
       "medit:ref 1 2 vtktypeint64\n-3 4\npairs 2 2 unsigned_char\n1 2 3 4\n"
-      "POINT_DATA 4\nscalars material int\nlookup_table default\n1 0 0 9\n";
+      "POINT_DATA 4\nscalars CellEntityIds int\nlookup_table default\n1 0 0 9\n";
   CHECK(labels_of(data) == std::vector<Label>{-3, 4});
-  CHECK(read(kHead + kPoints + kCells + data).point_labels == std::vector<Label>{1, 0, 0, 9});
+  const MeshData mesh = read(kHead + kPoints + kCells + data);
+  CHECK(mesh.point_labels == std::vector<Label>{1, 0, 0, 9});
+  CHECK(mesh.label_array == "medit:ref");
+  std::vector<std::string> names;
+  for (const DataArray& array : mesh.tet_data) {
+    names.push_back(array.name + "*" + std::to_string(array.components));
+  }
+  CHECK(names ==
+        std::vector<std::string>{"quality*1", "v*3", "n*3", "t*9", "t6*6", "tc*2", "pairs*2"});
+  CHECK(std::get<std::vector<float>>(mesh.tet_data[1].values) == std::vector<float>{1, 2, 3});
+  CHECK(std::get<std::vector<float>>(mesh.triangle_data[1].values) == std::vector<float>{4, 5, 6});
+  CHECK(std::isnan(std::get<std::vector<float>>(mesh.triangle_data[0].values)[0]));
+  CHECK(std::get<std::vector<std::int32_t>>(mesh.tet_data[6].values) ==
+        std::vector<std::int32_t>{1, 2});
+  CHECK(mesh.notes ==
+        std::vector<std::string>{"the array 'my_table' is not kept", "the array 'c' is not kept",
+                                 "the array 'g' is not kept",
+                                 "the array 'names' is not kept: it holds no numbers",
+                                 "the array 'bits' is not kept: it holds no numbers"});
 }
 
 TEST_CASE(
@@ -66,13 +85,74 @@ TEST_CASE(
   CHECK(labels_of(begin + scalars("LABEL", "short", "3 4") + scalars("region", "int", "1 2")) ==
         std::vector<Label>{3, 4});
   CHECK(labels_of(begin + scalars("material", "float", "0.5 1")) == std::vector<Label>{0, 0});
-  CHECK(labels_of(begin + scalars("other", "int", "1 2")) == std::vector<Label>{0, 0});
+  CHECK(labels_of(begin + scalars("mat_id", "int", "7 8") + scalars("x", "int", "1 2")) ==
+        std::vector<Label>{7, 8});
+  CHECK(labels_of(begin + scalars("other", "int", "1 2")) == std::vector<Label>{1, 2});
+  CHECK(labels_of(begin + scalars("a", "int", "1 2") + scalars("b", "int", "3 4")) ==
+        std::vector<Label>{0, 0});
   CHECK(labels_of(begin + "SCALARS label int 1\n5 6\n") == std::vector<Label>{5, 6});
   CHECK(labels_of(begin + "SCALARS label int 2\nLOOKUP_TABLE default\n5 6 7 8\n") ==
         std::vector<Label>{0, 0});
 }
 
-TEST_CASE("points, lines and polygons of a VTK file are kept or passed over by their type") {
+TEST_CASE("the array of labels can be named") {
+  const TempFolder folder;
+  const std::string data =
+      "CELL_DATA 2\nSCALARS region int\nLOOKUP_TABLE default\n1 2\n"
+      "SCALARS group float\nLOOKUP_TABLE default\n3 4\n"
+      "SCALARS density float\nLOOKUP_TABLE default\n0.5 4\n";
+  write_text(folder / "a.vtk", kHead + kPoints + kCells + data);
+  const MeshData mesh = read_mesh(folder / "a.vtk", "group");
+  CHECK(mesh.tets[0].label == 3);
+  CHECK(mesh.label_array == "group");
+  CHECK(mesh.tet_data[0].name == "region");
+  const auto error = [&](const std::string& name) {
+    try {
+      read_mesh(folder / "a.vtk", name);
+    } catch (const Error& failure) {
+      return std::string(failure.what()).substr((folder / "").string().size());
+    }
+    return std::string("no error");
+  };
+  CHECK(error("density") == "a.vtk:23: 0.5 is no label: expected an integer");
+  CHECK(error("nothing").find("there is region, group, density") != std::string::npos);
+  write_mesh(folder / "a.mesh", mesh);
+  CHECK_THROWS_AS(read_mesh(folder / "a.mesh", "group"), Error);
+}
+
+TEST_CASE("a VTK file keeps arrays, their names and cells of other kinds when it is written") {
+  const TempFolder folder;
+  const std::string text =
+      kHead + kPoints +
+      "CELLS 4 18\n4 0 1 2 3\n3 0 1 2\n4 0 1 2 3\n3 1 2 3\nCELL_TYPES 4\n9\n5\n10\n5\n"
+      "CELL_DATA 4\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6 7 8\n"
+      "FIELD FieldData 3\nwith%20blank 2 4 double\n1 2 3 4 5 6 7 8\nids 1 4 vtktypeint64\n1 2 3 "
+      "4000000000\nx 1 4 float\n1 2 3 nan\n"
+      "POINT_DATA 4\nVECTORS u double\n1 2 3 4 5 6 7 8 9 10 11 12\n";
+  write_text(folder / "a.vtk", text);
+  const MeshData first = read_mesh(folder / "a.vtk");
+  CHECK(first.notes.empty());
+  CHECK(first.tets[0].label == 7);
+  CHECK(first.tet_data[0].name == "with blank");
+  CHECK(first.tet_data[0].values == DataArray::Values(std::vector<double>{5, 6}));
+  REQUIRE(first.other_elements.size() == 1);
+  CHECK(first.other_elements[0].vtk_type == 9);
+  CHECK(first.other_elements[0].labels == std::vector<Label>{5});
+  write_mesh(folder / "b.vtk", first);
+  const MeshData second = read_mesh(folder / "b.vtk");
+  CHECK(second.label_array == "mat_id");
+  CHECK(second.tets == first.tets);
+  CHECK(second.triangles == first.triangles);
+  CHECK(second.other_elements == first.other_elements);
+  CHECK(second.tet_data == first.tet_data);
+  CHECK(second.point_data == first.point_data);
+  write_mesh(folder / "c.vtk", second);
+  CHECK(read_text(folder / "c.vtk") == read_text(folder / "b.vtk"));
+  CHECK(not_written(folder / "c.vtk", second).empty());
+  CHECK(not_written(folder / "c.mesh", second).size() == 8);
+}
+
+TEST_CASE("points, lines and polygons of a VTK file are kept by their type") {
   const MeshData mesh =
       read(kHead + kPoints +
            "CELLS 5 18\n1 3\n4 0 1 2 3\n4 0 1 2 3\n2 1 3\n2 0 1\nCELL_TYPES 5\n1 9 10 3 4\n"
@@ -80,6 +160,7 @@ TEST_CASE("points, lines and polygons of a VTK file are kept or passed over by t
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}});
   CHECK(mesh.edges == std::vector<MeshData::Edge>{{{1, 3}, 4}});
   CHECK(mesh.triangles.empty());
+  CHECK(mesh.other_elements.size() == 3);
 }
 
 TEST_CASE("a VTK file of version 5.1 is read in ASCII") {
@@ -112,7 +193,7 @@ TEST_CASE("a VTK file of version 5.1 is read in binary") {
   file.text("pair 2 2 vtkIdType\n").add_all<std::int32_t>({1, 2, 3, 4}).text("\nPOINT_DATA 4\n");
   file.text("COLOR_SCALARS c 2\n")
       .text("12345678\n")
-      .text("SCALARS label vtktypeint64\nLOOKUP_TABLE t\n");
+      .text("SCALARS CellEntityIds vtktypeint64\nLOOKUP_TABLE t\n");
   file.add_all<std::int64_t>({0, -1, INT32_MAX, INT32_MIN})
       .text("\nLOOKUP_TABLE t 2\n")
       .text("12341234\n");
@@ -197,11 +278,11 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
        "", "the cells end too early"},
       {"huge cells", replaced(good, "CELLS 2 9", "CELLS 2 99999999999"), ":8: ", "cannot fit"},
       {"huge types", replaced(good, "TYPES 2", "TYPES 9223372036854775807"), ":11: ", "cannot fit"},
-      {"hexahedron", replaced(good, "10\n5", "12\n5"),
-       ":12: ", "type '12' (hexahedron) cannot be read"},
+      {"polyhedron", replaced(good, "10\n5", "42\n5"),
+       ":12: ", "type '42' (polyhedron) cannot be read"},
       {"second order", replaced(good, "10\n5", "24\n5"),
        ":12: ", "(tetrahedron of higher order) cannot be read"},
-      {"unknown type", replaced(good, "10\n5", "10\n-5"), ":13: ", "type '-5' (another volume)"},
+      {"unknown type", replaced(good, "10\n5", "10\n-5"), ":13: ", "type '-5' (no type of VTK)"},
       {"twice", good + kPoints, ":14: ", "'POINTS' appears for the second time"},
       {"data of others", good + "CELL_DATA 3\n",
        ":14: ", "data of 3 cells do not belong to this mesh: expected 2"},

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Arrays that a file gives over all of its cells.
+#include "kernel/formats/cell_arrays.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/element_checks.h"
+
+namespace tetmend::formats {
+namespace {
+
+// Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
+constexpr std::array<std::string_view, 28> kLabelNames = {
+    "cellentityids", "label",       "labels",    "medit:ref",       "gmsh:physical", "tetgen:ref",
+    "region",        "regionid",    "region_id", "modelregionid",   "material",      "materialids",
+    "materialid",    "material_id", "mat_id",    "matid",           "mat",           "physicalids",
+    "physical",      "tag",         "tags",      "cell_tags",       "cell_scalars",  "domain",
+    "subdomain",     "geometryids", "geometry",  "gmsh:geometrical"};
+
+std::size_t rank_of(std::string_view name) {
+  std::string lower(name.substr(0, 30));
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto* found = std::find(kLabelNames.begin(), kLabelNames.end(), lower);
+  return static_cast<std::size_t>(found - kLabelNames.begin());
+}
+
+bool is_integral(const DataArray& array) {
+  return std::visit(
+      [](const auto& values) {
+        return std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>;
+      },
+      array.values);
+}
+
+bool has_fractions(const DataArray& array) {
+  if (is_integral(array)) return false;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const double value = real_value(array, i);
+    if (value != std::floor(value)) return true;  // also NaN
+  }
+  return false;
+}
+
+/// True for an array of few different integers: many would be numbers of cells, not of regions.
+bool looks_like_labels(const DataArray& array) {
+  constexpr std::size_t kMostRegions = 1000;
+  const std::size_t most = std::min(kMostRegions, array.size() / 2 + 1);
+  std::set<double> values;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    values.insert(real_value(array, i));
+    if (values.size() > most) return false;
+  }
+  return true;
+}
+
+/// Among arrays of one number for each cell.
+std::optional<std::size_t> find_known_name(const std::vector<DataArray>& arrays) {
+  std::optional<std::size_t> best;
+  std::size_t best_rank = kLabelNames.size();
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    const std::size_t rank = rank_of(arrays[i].name);
+    if (rank >= best_rank || arrays[i].components != 1 || has_fractions(arrays[i])) continue;
+    best = i;
+    best_rank = rank;
+  }
+  return best;
+}
+
+std::optional<std::size_t> find_only_integers(const std::vector<DataArray>& arrays) {
+  std::optional<std::size_t> only;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    if (arrays[i].components != 1 || !is_integral(arrays[i])) continue;
+    if (only) return std::nullopt;
+    only = i;
+  }
+  return only && looks_like_labels(arrays[*only]) ? only : std::nullopt;
+}
+
+std::size_t find_wanted(const std::vector<DataArray>& arrays, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    if (arrays[i].name == name && arrays[i].components == 1) return i;
+    names.push_back(arrays[i].name);
+  }
+  throw Error(fmt::format("no array of one number for each cell has the name '{}': there {} {}",
+                          name, names.empty() ? "are" : "is",
+                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+std::vector<Label> to_labels(const std::vector<DataArray>& arrays, std::size_t which,
+                             const ArrayFailure& fail) {
+  const DataArray& array = arrays[which];
+  std::vector<Label> labels(array.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const double value = real_value(array, i);
+    if (value != std::floor(value)) {
+      fail(which, i, fmt::format("{} is no label: expected an integer", value));
+    }
+    if (!(value >= INT32_MIN && value <= INT32_MAX)) {
+      fail(which, i,
+           fmt::format("the label {} is out of range: expected {} to {}", value, INT32_MIN,
+                       INT32_MAX));
+    }
+    labels[i] = static_cast<Label>(value);
+  }
+  return labels;
+}
+
+/// The rows of `array` that `cells` lists.
+DataArray selected(const DataArray& array, std::span<const std::uint32_t> cells) {
+  DataArray part{array.name, array.components, {}};
+  std::visit(
+      [&](const auto& all) {
+        std::decay_t<decltype(all)> values;
+        values.reserve(cells.size() * array.components);
+        for (const std::uint32_t cell : cells) {
+          const auto* row = all.data() + cell * array.components;
+          values.insert(values.end(), row, row + array.components);
+        }
+        part.values = std::move(values);
+      },
+      array.values);
+  return part;
+}
+
+template <class Element>
+void set_labels(std::vector<Element>& elements, std::span<const std::uint32_t> cells,
+                const std::vector<Label>& labels) {
+  for (std::size_t i = 0; i < elements.size(); ++i) elements[i].label = labels[cells[i]];
+}
+
+/// Puts `count` numbers of `array`, or as many that say "none", behind those of `joined`.
+void append(DataArray& joined, const DataArray* array, std::size_t count) {
+  std::visit(
+      [&](auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if (array != nullptr) {
+          const auto& more = std::get<std::vector<Value>>(array->values);
+          values.insert(values.end(), more.begin(), more.end());
+        } else {
+          values.resize(values.size() + count, std::numeric_limits<Value>::quiet_NaN());
+        }
+      },
+      joined.values);
+}
+
+const DataArray* find_like(const std::vector<DataArray>& arrays, const DataArray& model) {
+  for (const DataArray& array : arrays) {
+    if (array.name == model.name && array.components == model.components &&
+        array.values.index() == model.values.index()) {
+      return &array;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const CellNumbers& numbers,
+                       const LabelChoice& choice) {
+  std::optional<std::size_t> which;
+  if (!choice.wanted.empty()) {
+    which = find_wanted(arrays, choice.wanted);
+  } else {
+    which = find_known_name(arrays);
+    if (!which) which = find_only_integers(arrays);
+  }
+  if (which) {
+    const std::vector<Label> labels = to_labels(arrays, *which, choice.fail);
+    set_labels(mesh.tets, numbers.tets, labels);
+    set_labels(mesh.triangles, numbers.triangles, labels);
+    set_labels(mesh.edges, numbers.edges, labels);
+    for (std::size_t k = 0; k < mesh.other_elements.size(); ++k) {
+      for (std::size_t i = 0; i < numbers.others[k].size(); ++i) {
+        mesh.other_elements[k].labels[i] = labels[numbers.others[k][i]];
+      }
+    }
+    mesh.label_array = arrays[*which].name;
+    arrays.erase(arrays.begin() + static_cast<std::ptrdiff_t>(*which));
+  }
+  for (const DataArray& array : arrays) {
+    if (!mesh.tets.empty()) mesh.tet_data.push_back(selected(array, numbers.tets));
+    if (!mesh.triangles.empty()) mesh.triangle_data.push_back(selected(array, numbers.triangles));
+    if (!mesh.edges.empty()) mesh.edge_data.push_back(selected(array, numbers.edges));
+    for (std::size_t k = 0; k < mesh.other_elements.size(); ++k) {
+      mesh.other_elements[k].data.push_back(selected(array, numbers.others[k]));
+    }
+  }
+}
+
+void adopt_point_arrays(MeshData& mesh, std::vector<DataArray> arrays, const ArrayFailure& fail) {
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    const bool is_ours = arrays[i].name == "CellEntityIds" || arrays[i].name == "medit:ref";
+    if (!is_ours || arrays[i].components != 1 || !is_integral(arrays[i])) continue;
+    mesh.point_labels = to_labels(arrays, i, fail);
+    drop_zero_point_labels(mesh);
+    arrays.erase(arrays.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  mesh.point_data = std::move(arrays);
+}
+
+std::vector<DataArray> join_cell_arrays(const MeshData& mesh) {
+  struct Kind {
+    std::size_t count;
+    const std::vector<DataArray>* arrays;
+  };
+  std::vector<Kind> kinds = {{mesh.tets.size(), &mesh.tet_data},
+                             {mesh.triangles.size(), &mesh.triangle_data},
+                             {mesh.edges.size(), &mesh.edge_data}};
+  for (const OtherElements& other : mesh.other_elements) {
+    kinds.push_back({other.labels.size(), &other.data});
+  }
+  std::vector<DataArray> joined;
+  for (const Kind& source : kinds) {
+    for (const DataArray& model : *source.arrays) {
+      if (find_like(joined, model) != nullptr) continue;
+      DataArray& all = joined.emplace_back(DataArray{model.name, model.components, model.values});
+      std::visit([](auto& values) { values.clear(); }, all.values);
+      for (const Kind& kind : kinds) {
+        append(all, find_like(*kind.arrays, model), kind.count * model.components);
+      }
+    }
+  }
+  return joined;
+}
+
+double real_value(const DataArray& array, std::size_t i) {
+  return std::visit([i](const auto& values) { return static_cast<double>(values[i]); },
+                    array.values);
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// VTK XML files made by hand, files packed by gzip, and how bad ones are refused.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "kernel/formats/base64.h"
+#include "kernel/formats/compression.h"
+#include "kernel/formats/output_file.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+const std::string kOpening =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+    "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
+const std::string kEnd = "</UnstructuredGrid>\n</VTKFile>\n";
+
+std::string array(const std::string& name, const std::string& type, const std::string& values,
+                  int components = 1) {
+  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+         std::to_string(components) + "\" format=\"ascii\">\n" + values + "\n</DataArray>\n";
+}
+
+std::string piece(const std::string& data) {
+  return "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">\n" + data + "<Points>\n" +
+         array("Points", "Float32", "0 0 0 1 0 0 0 1 0 0.25 0 1", 3) + "</Points>\n<Cells>\n" +
+         array("connectivity", "Int64", "0 1 2 3 0 1 2") + array("offsets", "Int64", "4 7") +
+         array("types", "UInt8", "10 5") + "</Cells>\n</Piece>\n";
+}
+
+MeshData read(const std::string& content) {
+  const TempFolder folder;
+  write_text(folder / "a.vtu", content);
+  return read_mesh(folder / "a.vtu");
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a VTK XML file gives points, elements, labels and arrays") {
+  const MeshData mesh = read(kOpening + "<FieldData><DataArray/></FieldData>\n" +
+                             piece("<PointData>\n" + array("T", "Float64", "1 nan 3 -4e2") +
+                                   array("who", "String", "65") + "</PointData>\n<CellData>\n" +
+                                   array("Material", "Int32", "7 -8") +
+                                   array("x&amp;y", "UInt16", "1 2 3 65535", 2) + "</CellData>\n") +
+                             kEnd);
+  CHECK(mesh.points[3] == Point(0.25, 0, 1));
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 7}});
+  CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, -8}});
+  CHECK(mesh.label_array == "Material");
+  REQUIRE(mesh.tet_data.size() == 1);
+  CHECK(mesh.triangle_data ==
+        std::vector<DataArray>{{"x&y", 2, std::vector<std::int32_t>{3, 65535}}});
+  CHECK(mesh.point_data.size() == 1);
+  CHECK(mesh.notes == std::vector<std::string>{"the field data are not kept",
+                                               "the array 'who' is not kept: it holds no numbers"});
+}
+
+TEST_CASE("the pieces of a VTK XML file become one mesh") {
+  const std::string both = "<CellData>\n" + array("label", "Int32", "1 2") + "</CellData>\n";
+  const std::string more = "<CellData>\n" + array("label", "Int32", "3 4") +
+                           array("q", "Float32", "0 0") + "</CellData>\n";
+  const MeshData mesh = read(kOpening + piece(both) + piece(more) + kEnd);
+  CHECK(mesh.points.size() == 8);
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}, {{4, 5, 6, 7}, 3}});
+  CHECK(mesh.tet_data.empty());
+  CHECK(mesh.notes ==
+        std::vector<std::string>{"the array 'q' is not kept: not every piece has it"});
+}
+
+TEST_CASE("a bad VTK XML file is refused with line and reason") {
+  const std::string good = kOpening + piece("") + kEnd;
+  CHECK(read(good).tets.size() == 1);
+  const std::string packed =
+      replaced(good, "version=\"0.1\"", "version=\"0.1\" compressor=\"vtkZLibDataCompressor\"");
+  const auto inline_points = [](const std::string& text, const std::string& data) {
+    return replaced(replaced(text, "NumberOfComponents=\"3\" format=\"ascii\"",
+                             "NumberOfComponents=\"3\" format=\"binary\""),
+                    "0 0 0 1 0 0 0 1 0 0.25 0 1", data);
+  };
+  const std::vector<BadFile> files = {
+      {"no XML", "solid cube", ":1: ", "the XML is broken"},
+      {"other root", "<html></html>", ":1: ", "expected the element VTKFile"},
+      {"other type", replaced(good, "Unstr", "Str"), ":2: ", "'StructuredGrid' cannot be read"},
+      {"cut", good.substr(0, good.size() - 30), ":", "the XML is broken"},
+      {"other packer", replaced(packed, "ZLib", "LZ4"), ":2: ", "'vtkLZ4DataCompressor'"},
+      {"no count", replaced(good, "NumberOfCells=\"2\"", "NumberOfCells=\"x\""),
+       ":4: ", "NumberOfCells is 'x': expected a count"},
+      {"huge count", replaced(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"1000000000\""),
+       ":6: ", "1000000000 times 3 values cannot fit into the file"},
+      {"more than any mesh",
+       replaced(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"5000000000\""),
+       ":4: ", "5000000000 vertices are too many"},
+      {"few values", replaced(good, "0.25 0 1", "0.25 0"),
+       ":6: ", "there are 11 values: expected 12"},
+      {"no number", replaced(good, "0.25 0 1", "0.25 0 z"), ":6: ", "'z' is not a value"},
+      {"not finite", replaced(good, "0.25 0 1", "inf 0 1"), ":6: ", "point 3 is not finite"},
+      {"vertex", replaced(good, "0 1 2 3 0", "0 1 2 4 0"), ":10: ", "'4' is out of range"},
+      {"offsets", replaced(good, "4 7", "7 4"), ":11: ", "there are 7 values: expected 4"},
+      {"offset type", replaced(good, "Int64\" Name=\"offsets", "Float32\" Name=\"offsets"),
+       ":14: ", "the values are no integers"},
+      {"hexahedra of second order", replaced(good, "10 5", "24 5"),
+       ":10: ", "(tetrahedron of higher order) cannot be read"},
+      {"no base64", inline_points(good, "!!!!"), ":6: ", "the data are truncated"},
+      {"wrong size", inline_points(good, formats::encode_base64(std::string("\x30\0\0\1", 4))),
+       ":6: ", "the array has 16777264 bytes: expected 48"},
+      {"blocks that make no sense",
+       inline_points(packed, formats::encode_base64(std::string(12, '\x7f'))),
+       ":6: ", "make no sense"},
+      {"no place", replaced(good, "format=\"ascii\"", "format=\"appended\" offset=\"99\""),
+       ":6: ", "the offset 99 is behind the end"},
+  };
+  const TempFolder folder;
+  for (const BadFile& bad : files) {
+    write_text(folder / "a.vtu", bad.content);
+    const std::string error = error_of_reading(folder / "a.vtu");
+    CAPTURE(bad.what);
+    CAPTURE(error);
+    CHECK(error.starts_with("a.vtu" + bad.place));
+    CHECK(error.find(bad.reason) != std::string::npos);
+  }
+}
+
+TEST_CASE("files are read and written packed by gzip, and damaged ones refused") {
+  const TempFolder folder;
+  for (const std::string name : {"a.mesh", "a.meshb", "a.vtk", "a.vtu"}) {
+    CAPTURE(name);
+    write_mesh(folder / name, awkward_mesh());
+    write_mesh(folder / (name + ".gz"), awkward_mesh());
+    const std::string packed = read_text(folder / (name + ".gz"));
+    CHECK(formats::is_gzip(packed));
+    const formats::Inflated content = formats::inflate_gzip(packed);
+    CHECK(std::string(content.bytes.get(), content.size) == read_text(folder / name));
+    CHECK(read_mesh(folder / (name + ".gz")).tets == read_mesh(folder / name).tets);
+    write_text(folder / "two.gz", packed + packed);
+    CHECK(formats::inflate_gzip(read_text(folder / "two.gz")).size == 2 * content.size);
+    write_text(folder / ("b" + name + ".gz"), packed.substr(0, packed.size() - 9));
+    CHECK(error_of_reading(folder / ("b" + name + ".gz")).find("gzip file is truncated") !=
+          std::string::npos);
+    std::string damaged = packed;
+    damaged[damaged.size() - 6] ^= 1;
+    write_text(folder / ("b" + name + ".gz"), damaged);
+    CHECK(error_of_reading(folder / ("b" + name + ".gz")).find("gzip file is damaged") !=
+          std::string::npos);
+  }
+  CHECK_THROWS_AS(write_mesh(folder / "a.node.gz", awkward_mesh()), Error);
+}
+
+TEST_CASE("base64 goes there and back, over padding and white space") {
+  for (std::size_t size = 0; size < 10; ++size) {
+    std::string bytes;
+    for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(200 + 7 * i);
+    const std::string text = formats::encode_base64(bytes);
+    CHECK(text.size() % 4 == 0);
+    std::string decoded;
+    std::string_view rest = text;
+    formats::decode_base64(rest, size, decoded);
+    CHECK(decoded.substr(0, size) == bytes);
+  }
+  std::string decoded;
+  std::string_view two = " QQ==\nQkM= rest!";
+  formats::decode_base64(two, 100, decoded);
+  CHECK(decoded.starts_with("ABC"));
+}
