@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // tetmend convert: the same mesh in another file format.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,6 +18,7 @@ namespace {
 struct Options {
   std::filesystem::path input;
   std::filesystem::path output;
+  CarryOptions carry;
   int threads = 1;
 };
 
@@ -24,7 +27,8 @@ int run_convert(const Options& options) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_writable(options.output);
-  const Mesh mesh = load(options.input, options.threads);
+  std::vector<std::string> notes;
+  const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
   save(options.output, mesh, options.threads);
   fmt::print("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
              grouped(mesh.point_count()), grouped(mesh.tet_count()), grouped(mesh.triangle_count()),
@@ -39,21 +43,23 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another file format");
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write")->required()->type_name("");
+  add_carry_options(*command, options->carry);
   add_threads_option(*command, options->threads);
   command->footer(fmt::format(
-      R"(Keeps points, tets, triangles, edges and their labels, and their order;
-coordinates keep all their bits. Required vertices survive in MEDIT files only.
-Nothing is repaired: a mesh whose topology is broken, or whose tets are
-inverted, is converted as it is.
+      R"(Keeps points, elements, labels, named arrays and groups, and their order, as
+far as the format of OUT can hold them; coordinates keep all their bits. What it
+cannot hold is named on standard error. Nothing is repaired: a mesh whose
+topology is broken, or whose tets are inverted, is converted as it is.
 
 Formats, by extension:
 {}A TetGen mesh is named by its .node or .ele file; its other files go with it.
 
 Examples:
   tetmend convert part.mesh part.vtk
-  tetmend convert part.ele part.meshb
+  tetmend convert part.ele part.meshb --strict
 
-Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)",
+Exit status: 0 success, 1 a file cannot be read or written, or --strict found
+a loss, 2 wrong usage)",
       mesh_format_list()));
   command->callback(
       [options, &invocation] { invocation.action = [options] { return run_convert(*options); }; });

@@ -93,7 +93,8 @@ int run_improve(ImproveOptions& options, const Invocation& invocation) {
   {
     const Stopwatch watch(report.reading);
     progress.show(fmt::format("reading {}", options.input.string()));
-    mesh = load(options.input, threads);
+    progress.clear();
+    mesh = load_for(options.input, options.output, threads, options.carry, report.file_notes);
   }
   report.result = improve_watched(mesh, options.run, progress);
   {
@@ -131,6 +132,10 @@ stops the work in the same way, with exit status 0. A mistake in a script ends
 it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
 then. The same input gives the same output, byte for byte.
+
+Named arrays come over: of points linearly in the old mesh, of tets from the old
+tet at the centroid. What of IN cannot be kept is named on standard error and in
+the report.
 
 {}
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -20,8 +21,11 @@ namespace tetmend::apps {
 
 void check_mesh_extension(const std::filesystem::path& file) {
   std::vector<std::string_view> valid;
-  for (const FileFormat& format : file_formats()) valid.push_back(format.extension);
-  check_extension(file, valid);
+  const bool is_packed = file.extension() == ".gz";
+  for (const FileFormat& format : file_formats()) {
+    if (!is_packed || format.name != "TetGen") valid.push_back(format.extension);
+  }
+  check_extension(is_packed ? file.parent_path() / file.stem() : file, valid);
 }
 
 void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid) {
@@ -37,6 +41,32 @@ void check_extension(const std::filesystem::path& file, std::span<const std::str
 
 void check_writable(const std::filesystem::path& file) {
   const OutputFile probe(file);  // vanishes without commit()
+}
+
+void add_carry_options(CLI::App& command, CarryOptions& options) {
+  command
+      .add_option("--label-array", options.label_array,
+                  "Array over cells that holds the labels; default: by\nits name, or the only one "
+                  "of integers")
+      ->type_name("NAME");
+  command.add_flag("--strict", options.strict, "Write nothing if anything of IN would be lost");
+}
+
+Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& output, int threads,
+              const CarryOptions& options, std::vector<std::string>& notes) {
+  Mesh mesh = load(input, threads, options.label_array);
+  std::vector<std::string> lost = mesh.notes();
+  for (std::string& text : not_saved(output, mesh)) lost.push_back(std::move(text));
+  for (const std::string& text : lost) {
+    fmt::print(stderr, "note: {}: {}\n", input.string(), text);
+  }
+  if (options.strict && !lost.empty()) {
+    throw Error(
+        fmt::format("{}: {} would be lost: nothing is written", input.string(),
+                    lost.size() == 1 ? "something" : fmt::format("{} things", lost.size())));
+  }
+  notes.insert(notes.end(), lost.begin(), lost.end());
+  return mesh;
 }
 
 std::string mesh_format_list() {

@@ -6,11 +6,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+#include <tetmend/mesh.h>
 
 #include "face/grouped.h"
 #include "kernel/tet_mesh.h"
+
+namespace CLI {
+class App;
+}
 
 namespace tetmend::apps {
 
@@ -22,6 +28,19 @@ void check_extension(const std::filesystem::path& file, std::span<const std::str
 /// Tries whether `file` could be written, and leaves everything as it was.
 /// @throws Error with the reason, such as a folder that does not exist.
 void check_writable(const std::filesystem::path& file);
+
+/// How a command reads a mesh that it writes again.
+struct CarryOptions {
+  std::string label_array;  ///< --label-array
+  bool strict = false;      ///< --strict
+};
+void add_carry_options(CLI::App& command, CarryOptions& options);
+
+/// Loads `input`. Names on standard error all of it that `output` will not have.
+/// @param notes these sentences are added
+/// @throws Error also when there are any and the options are strict
+Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& output, int threads,
+              const CarryOptions& options, std::vector<std::string>& notes);
 
 /// Names and extensions for help, one format a line.
 std::string mesh_format_list();

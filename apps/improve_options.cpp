@@ -174,6 +174,7 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_threads_option(command, options.run.threads);
   add_region_options(command, options.run);
   add_trace_options(command, options);
+  add_carry_options(command, options.carry);
   command.add_option("--report", options.report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");

@@ -13,6 +13,8 @@ namespace CLI {
 class App;
 }
 
+#include "apps/files.h"
+
 namespace tetmend::apps {
 
 /// As the user wrote them.
@@ -21,6 +23,7 @@ struct ImproveOptions {
   std::filesystem::path output;
   std::filesystem::path report;  ///< empty: none
   bool quiet = false;
+  CarryOptions carry;
   Options run;                        ///< all that has the same form in the library
   std::vector<std::string> settings;  ///< NAME=VALUE
   std::string goal;                   ///< 35 or 35,140; empty: the default

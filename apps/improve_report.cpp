@@ -192,6 +192,26 @@ double ImproveReport::tets_per_second() const {
   return static_cast<double>(result.before.tets) / std::max(result.improving, 1e-9);
 }
 
+namespace {
+
+std::string format_carried(const std::vector<CarriedArray>& carried) {
+  std::string text;
+  for (const CarriedArray& array : carried) {
+    text += fmt::format("data of {} '{}': {}; its integral changed by {:.2g}\n", array.on,
+                        array.name, array.rule, array.integral_error);
+  }
+  return text.empty() ? text : text + '\n';
+}
+
+nlohmann::json to_json(const CarriedArray& array) {
+  return {{"name", array.name},
+          {"on", array.on},
+          {"rule", array.rule},
+          {"integral_error", array.integral_error}};
+}
+
+}  // namespace
+
 std::string format_report(const ImproveReport& report) {
   const Result& result = report.result;
   std::string text = format_build(result.build);
@@ -203,6 +223,7 @@ std::string format_report(const ImproveReport& report) {
   }
   for (const std::string& note : result.notes) text += note + '\n';
   if (!result.notes.empty()) text += '\n';
+  text += format_carried(result.carried);
   const std::string passes = format_passes(report);
   if (!passes.empty()) text += passes + '\n';
   if (result.limit && result.limit->n_bad > 0) text += format_limit(*result.limit) + '\n';
@@ -215,6 +236,10 @@ nlohmann::json to_json(const ImproveReport& report) {
   const std::string fingerprint = fmt::format("{:016x}", result.surface_fingerprint);
   nlohmann::json passes = nlohmann::json::array();
   for (const Pass& pass : result.passes) passes.push_back(to_json(pass));
+  nlohmann::json data = nlohmann::json::array();
+  for (const CarriedArray& array : result.carried) data.push_back(to_json(array));
+  std::vector<std::string> notes = report.file_notes;
+  notes.insert(notes.end(), result.notes.begin(), result.notes.end());
   nlohmann::json settings = nlohmann::json::object();
   for (const auto& [name, value] : options.set) settings[name] = value;
   return {{"tetmend", version()},
@@ -231,7 +256,8 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"threads", options.threads},
           {"interrupted", result.ending == Ending::cancelled},
           {"out_of_time", result.ending == Ending::time_limit},
-          {"notes", result.notes},
+          {"notes", notes},
+          {"data", data},
           {"build", to_json(result.build)},
           {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
           {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},

@@ -16,6 +16,7 @@ namespace tetmend::apps {
 struct ImproveReport {
   std::vector<std::string> arguments;
   const ImproveOptions& options;
+  std::vector<std::string> file_notes = {};  ///< what of the input is not in the output
   Result result = {};
   double reading = 0;           ///< seconds
   double writing = 0;           ///< seconds

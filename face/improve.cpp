@@ -20,6 +20,7 @@
 
 #include "face/advice.h"
 #include "face/arena.h"
+#include "face/carry.h"
 #include "face/growth.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
@@ -160,6 +161,7 @@ class Improvement {
     }
     check_promises();
     give_back();
+    if (!options_.maps) result_.vertex_map = result_.tet_map = {};
     watcher_.rethrow();
     return std::move(result_);
   }
@@ -180,9 +182,15 @@ class Improvement {
     for (const std::string& text : texts) watcher_.noted(text);
     result_.notes.insert(result_.notes.end(), texts.begin(), texts.end());
   }
+  /// What a run that failed half-way leaves has no data: nobody knows which belong to it.
   void give_back() {
     trim_heap();
-    user_mesh_ = MeshAccess::make(std::move(mesh_).to_data());
+    MeshData data = std::move(mesh_).to_data();
+    if (carries_ && !result_.vertex_map.empty()) {
+      result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, data);
+    }
+    input_ = {};
+    user_mesh_ = MeshAccess::make(std::move(data));
   }
 
   Mesh& user_mesh_;
@@ -190,7 +198,8 @@ class Improvement {
   Plan& plan_;
   face::Watcher watcher_;
   const std::filesystem::path file_;
-  MeshData input_;  // to go back to
+  MeshData input_;        // to go back to
+  bool carries_ = false;  // it holds more than mesh_ knows
   TetMesh mesh_;
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
@@ -212,6 +221,7 @@ void Improvement::build() {
     plan_.trace.locate(data);
     face::find_regions(data, options_);
     input_ = data;
+    carries_ = face::holds_more(data);
     build_mesh(data);
   } catch (...) {
     user_mesh_ = MeshAccess::make(std::move(data), file_);
@@ -220,11 +230,13 @@ void Improvement::build() {
 }
 
 void Improvement::build_mesh(MeshData& data) {
+  const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
   mesh_ = face::build_located(file_, data,
                               {.interior = options_.ignore_interior ? InteriorConstraints::dropped
                                                                     : InteriorConstraints::kept,
                                .report = &result_.build,
-                               .tet_numbers = options_.maps ? &tet_numbers_ : nullptr});
+                               .tet_numbers = options_.maps || carries_ ? &tet_numbers_ : nullptr});
   mesh_.set_standard(plan_.standard);
   const face::ProtectedPart part = face::protect(mesh_, options_);
   result_.protected_tets = part.tets;
@@ -336,8 +348,8 @@ void Improvement::go_back() {
 }
 
 void Improvement::map_entities() {
-  input_ = {};
-  if (!options_.maps) return;
+  if (!carries_) input_ = {};
+  if (!options_.maps && !carries_) return;
   result_.vertex_map = face::map_vertices(mesh_, vertices_before_);
   result_.tet_map = face::map_tets(mesh_, tet_numbers_);
 }

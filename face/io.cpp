@@ -8,8 +8,13 @@
 
 namespace tetmend {
 
-Mesh load(const std::filesystem::path& file, int threads) {
-  return face::on_threads(threads, [&] { return MeshAccess::make(read_mesh(file), file); });
+Mesh load(const std::filesystem::path& file, int threads, const std::string& label_array) {
+  return face::on_threads(threads,
+                          [&] { return MeshAccess::make(read_mesh(file, label_array), file); });
+}
+
+std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh) {
+  return not_written(file, MeshAccess::data(mesh));
 }
 
 void save(const std::filesystem::path& file, const Mesh& mesh, int threads) {

@@ -154,6 +154,9 @@ std::size_t Mesh::triangle_count() const {
 std::size_t Mesh::edge_count() const {
   return content().data.edges.size();
 }
+const std::vector<std::string>& Mesh::notes() const {
+  return content().data.notes;
+}
 const std::filesystem::path& Mesh::file() const {
   return content().file;
 }

@@ -133,6 +133,16 @@ struct SizeDrift {
   double ninety_nine_percent = 1;
 };
 
+/// How a named array came over to the improved mesh.
+struct CarriedArray {
+  std::string name;
+  std::string on;    ///< "points" or "tets"
+  std::string rule;  ///< in words
+  /// |after - before| of its integral over the mesh by that of its absolute value, the largest of all
+  /// components. Where values are missing (NaN) it is 0.
+  double integral_error = 0;
+};
+
 struct Result {
   Goal goal;  ///< what the run worked towards
   MeshStatistics before;
@@ -144,7 +154,8 @@ struct Result {
   std::vector<Pass> passes;
   /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
   std::vector<std::string> notes;
-  BuildReport build;  ///< what was peculiar about the mesh
+  std::vector<CarriedArray> carried;  ///< arrays of the points and tets of the mesh
+  BuildReport build;                  ///< what was peculiar about the mesh
   std::size_t protected_tets = 0;
   std::size_t protected_bad_tets = 0;  ///< of them
   std::size_t layer_tets = 0;          ///< of boundary layers that were kept

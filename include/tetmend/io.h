@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,19 +11,26 @@
 
 namespace tetmend {
 
-/// Reads a mesh; the format follows from the extension, see file_formats(). Reference labels and
-/// required vertices are kept. Anything else in the file is passed over, except for volume elements
-/// that are no linear tets: those are an error. Topology is not looked at.
+/// Reads a mesh; the format follows from the extension, see file_formats(). Mesh::notes() names what
+/// of the file is not kept. Volume elements that cannot be kept are an error. Topology is not looked
+/// at.
 /// @param threads 1 to 1024; the result is the same for every number
 /// @throws Error "FILE:LINE: reason" (text) or "FILE: byte N: reason" (binary) for what is wrong in
 /// the file; "FILE: reason" when it cannot be read or its extension is unknown.
 /// Cost: linear in the size of the file, which is held in memory meanwhile.
-TETMEND_API Mesh load(const std::filesystem::path& file, int threads = 1);
+/// @param label_array the array over cells that holds their labels; empty: the one with a name that
+/// mesh tools use, else the only one of integers if few of them differ
+TETMEND_API Mesh load(const std::filesystem::path& file, int threads = 1,
+                      const std::string& label_array = {});
 
 /// Writes a mesh; coordinates keep all their bits. The file appears under its name only when it is
 /// complete: a failure leaves an older file as it was.
 /// @throws Error "FILE: reason" when it cannot be written or the extension is unknown.
 TETMEND_API void save(const std::filesystem::path& file, const Mesh& mesh, int threads = 1);
+
+/// What of the mesh the format of `file` cannot hold, one sentence each; empty: save() keeps all.
+/// @throws Error "FILE: reason" when the extension is unknown
+TETMEND_API std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh);
 
 struct FileFormat {
   std::string_view name;       ///< "MEDIT ASCII"

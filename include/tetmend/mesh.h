@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <tetmend/error.h>
@@ -69,6 +70,8 @@ class TETMEND_API Mesh {
   /// Moves the arrays out: `std::move(mesh).take_arrays()`. The mesh is empty then.
   MeshArrays take_arrays() &&;
 
+  /// What of the file it was loaded from is not here, one sentence each.
+  const std::vector<std::string>& notes() const;
   /// The file it was loaded from, for messages; empty for a mesh of arrays and an improved one.
   const std::filesystem::path& file() const;
 

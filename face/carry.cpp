@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: MIT
+// Brings all that a file holds besides its mesh over to the improved mesh.
+#include "face/carry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "face/tet_locator.h"
+#include "kernel/chunks.h"
+
+namespace tetmend::face {
+
+namespace {
+
+constexpr std::string_view kLinear = "linear in the old mesh";
+constexpr std::string_view kNearest = "of the nearest old vertex";
+constexpr std::string_view kCentroid = "of the old tet at the centroid";
+
+double volume(const MeshData& data, const MeshData::Tet& tet) {
+  const auto& v = tet.vertices;
+  const Point& a = data.points[v[0]];
+  const Point b = data.points[v[1]] - a;
+  const Point c = data.points[v[2]] - a;
+  return std::abs(b.dot(c.cross(data.points[v[3]] - a))) / 6;
+}
+
+/// The same vertices in any order are the same element.
+template <std::size_t N>
+std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+template <class T>
+void release(std::vector<T>& values) {
+  std::vector<T>().swap(values);
+}
+
+class Carrying {
+ public:
+  Carrying(const MeshData& before, std::span<const std::uint32_t> vertex_map,
+           std::span<const std::uint32_t> tet_map, MeshData& now)
+      : before_(before), now_(now), vertex_map_(vertex_map) {
+    old_point_ = inverse(vertex_map, now.points.size());
+    old_tet_ = inverse(tet_map, now.tets.size());
+    for (std::size_t i = 0; i < now.tets.size(); ++i) {
+      if (has_changed(now.tets[i])) old_tet_[i] = kGone;
+    }
+    std::vector<bool> is_same(before.tets.size(), false);
+    for (const std::uint32_t t : old_tet_) {
+      if (t != kGone) is_same[t] = true;
+    }
+    for (std::uint32_t t = 0; t < before.tets.size(); ++t) {
+      if (!is_same[t]) changed_.push_back(t);
+    }
+  }
+
+  std::vector<CarriedArray> run() {
+    const TetLocator locator(before_, std::move(changed_));
+    carry_points(locator);
+    carry_tets(locator);
+    carry_elements(before_.triangles, before_.triangle_data, before_.triangle_parts, 2,
+                   now_.triangles, now_.triangle_data, now_.triangle_parts);
+    carry_elements(before_.edges, before_.edge_data, before_.edge_parts, 1, now_.edges,
+                   now_.edge_data, now_.edge_parts);
+    carry_groups();
+    carry_others();
+    now_.entities = before_.entities;
+    now_.variant = before_.variant;
+    now_.label_array = before_.label_array;
+    return std::move(carried_);
+  }
+
+ private:
+  static std::vector<std::uint32_t> inverse(std::span<const std::uint32_t> map, std::size_t count) {
+    std::vector<std::uint32_t> inverse(count, kGone);
+    for (std::uint32_t i = 0; i < map.size(); ++i) {
+      if (map[i] != kGone) inverse[map[i]] = i;
+    }
+    return inverse;
+  }
+
+  bool stayed(std::uint32_t point) const {
+    const std::uint32_t old = old_point_[point];
+    return old != kGone && before_.points[old] == now_.points[point];
+  }
+  bool has_changed(const MeshData::Tet& tet) const {
+    return !std::all_of(tet.vertices.begin(), tet.vertices.end(),
+                        [this](std::uint32_t v) { return stayed(v); });
+  }
+
+  void carry_points(const TetLocator& locator) {
+    if (!before_.point_entities.empty()) {
+      now_.point_entities.assign(now_.points.size(), {-1, 0});
+      for (std::size_t i = 0; i < now_.points.size(); ++i) {
+        if (old_point_[i] != kGone) now_.point_entities[i] = before_.point_entities[old_point_[i]];
+      }
+    }
+    if (before_.point_data.empty()) return;
+    std::vector<TetPlace> places(now_.points.size());
+    for_chunks(places.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!stayed(static_cast<std::uint32_t>(i)) && !locator.is_empty()) {
+          places[i] = locator.find(now_.points[i]);
+        }
+      }
+    });
+    for (const DataArray& array : before_.point_data) {
+      DataArray& made = now_.point_data.emplace_back(DataArray{array.name, array.components, {}});
+      std::visit(
+          [&](const auto& old) { made.values = interpolated(old, array.components, places); },
+          array.values);
+      const bool is_real = array.values.index() >= 2;
+      tell(array, made, "points", is_real ? kLinear : kNearest);
+    }
+  }
+
+  template <class Value>
+  std::vector<Value> interpolated(const std::vector<Value>& old, std::size_t components,
+                                  const std::vector<TetPlace>& places) const {
+    std::vector<Value> made(places.size() * components);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      for (std::size_t k = 0; k < components; ++k) {
+        Value& value = made[i * components + k];
+        if (stayed(static_cast<std::uint32_t>(i))) {
+          value = old[old_point_[i] * components + k];
+          continue;
+        }
+        const auto& v = before_.tets[places[i].tet].vertices;
+        const auto& weights = places[i].weights;
+        if constexpr (std::is_integral_v<Value>) {
+          const auto* most = std::max_element(weights.begin(), weights.end());
+          value = old[v[static_cast<std::size_t>(most - weights.begin())] * components + k];
+        } else {
+          double sum = 0;
+          for (std::size_t c = 0; c < 4; ++c) {
+            sum += weights[c] * static_cast<double>(old[v[c] * components + k]);
+          }
+          value = static_cast<Value>(sum);
+        }
+      }
+    }
+    return made;
+  }
+
+  void carry_tets(const TetLocator& locator) {
+    if (before_.tet_data.empty() && before_.tet_parts.empty()) return;
+    for_chunks(old_tet_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (old_tet_[i] == kGone) old_tet_[i] = locator.find(centroid(now_.tets[i])).tet;
+      }
+    });
+    if (!before_.tet_parts.empty()) {
+      now_.tet_parts.resize(now_.tets.size());
+      for (std::size_t i = 0; i < old_tet_.size(); ++i) {
+        now_.tet_parts[i] = before_.tet_parts[old_tet_[i]];
+      }
+    }
+    for (const DataArray& array : before_.tet_data) {
+      tell(array, now_.tet_data.emplace_back(rows(array, old_tet_)), "tets", kCentroid);
+    }
+  }
+
+  Point centroid(const MeshData::Tet& tet) const {
+    Point sum = Point::Zero();
+    for (const std::uint32_t v : tet.vertices) sum += now_.points[v];
+    return sum / 4;
+  }
+
+  static DataArray rows(const DataArray& array, std::span<const std::uint32_t> which) {
+    DataArray made{array.name, array.components, {}};
+    std::visit(
+        [&](const auto& old) {
+          std::decay_t<decltype(old)> values;
+          values.reserve(which.size() * array.components);
+          for (const std::uint32_t row : which) {
+            const auto* from = old.data() + row * array.components;
+            values.insert(values.end(), from, from + array.components);
+          }
+          made.values = std::move(values);
+        },
+        array.values);
+    return made;
+  }
+
+  /// Elements come back in an order of their own, and with walls that nobody named.
+  template <class Element>
+  void carry_elements(const std::vector<Element>& old, const std::vector<DataArray>& data,
+                      const std::vector<Label>& parts, std::size_t dimension,
+                      std::vector<Element>& elements, std::vector<DataArray>& made,
+                      std::vector<Label>& made_parts) {
+    std::multimap<decltype(Element::vertices), std::uint32_t> places;
+    for (std::uint32_t i = 0; i < old.size(); ++i) {
+      auto vertices = old[i].vertices;
+      for (std::uint32_t& v : vertices) v = vertex_map_[v];
+      places.emplace(sorted(vertices), i);
+    }
+    std::vector<std::uint32_t> from;
+    std::vector<Element> kept;
+    for (const Element& element : elements) {
+      const auto found = places.find(sorted(element.vertices));
+      if (found == places.end()) continue;
+      from.push_back(found->second);
+      kept.push_back(element);
+      places.erase(found);
+    }
+    elements = std::move(kept);
+    for (const DataArray& array : data) made.push_back(rows(array, from));
+    if (!parts.empty()) {
+      for (const std::uint32_t i : from) made_parts.push_back(parts[i]);
+    }
+    std::vector<std::uint32_t>& map = element_maps_[dimension];
+    map.assign(old.size(), kGone);
+    for (std::uint32_t i = 0; i < from.size(); ++i) map[from[i]] = i;
+  }
+
+  void carry_groups() {
+    for (Group group : before_.groups) {
+      const std::span<const std::uint32_t> map =
+          group.dimension == 0 ? vertex_map_
+                               : element_maps_[static_cast<std::size_t>(group.dimension)];
+      std::vector<std::uint32_t> members;
+      for (const std::uint32_t member : group.members) {
+        if (member < map.size() && map[member] != kGone) members.push_back(map[member]);
+      }
+      group.members = std::move(members);
+      now_.groups.push_back(std::move(group));
+    }
+    for (PeriodicLink link : before_.periodic) {
+      std::erase_if(link.points, [this](const auto& pair) {
+        return vertex_map_[pair[0]] == kGone || vertex_map_[pair[1]] == kGone;
+      });
+      for (auto& pair : link.points) pair = {vertex_map_[pair[0]], vertex_map_[pair[1]]};
+      now_.periodic.push_back(std::move(link));
+    }
+  }
+
+  /// Their vertices are on the surface of the tets or belong to no tet: all of them stayed.
+  void carry_others() {
+    now_.other_elements = before_.other_elements;
+    for (OtherElements& others : now_.other_elements) {
+      for (std::uint32_t& v : others.vertices) v = vertex_map_[v];
+    }
+  }
+
+  void tell(const DataArray& old, const DataArray& made, std::string_view on,
+            std::string_view rule) {
+    carried_.push_back(
+        {old.name, std::string(on), std::string(rule), integral_error(old, made, on)});
+  }
+
+  /// Largest of all components: |after - before| by the integral of the absolute value.
+  double integral_error(const DataArray& old, const DataArray& made, std::string_view on) const {
+    double worst = 0;
+    for (std::size_t k = 0; k < old.components; ++k) {
+      const auto [then, size] = integral(before_, old, k, on);
+      const double now = integral(now_, made, k, on).first;
+      if (now == then) continue;
+      const double error = std::abs(now - then) / std::max(size, std::abs(now));
+      worst = std::isfinite(error) ? std::max(worst, error) : worst;
+    }
+    return worst;
+  }
+
+  static std::pair<double, double> integral(const MeshData& data, const DataArray& array,
+                                            std::size_t k, std::string_view on) {
+    const auto value = [&](std::size_t row) {
+      return std::visit(
+          [&](const auto& v) { return static_cast<double>(v[row * array.components + k]); },
+          array.values);
+    };
+    double sum = 0;
+    double size = 0;
+    for (std::size_t t = 0; t < data.tets.size(); ++t) {
+      double mean = 0;
+      if (on == "tets") {
+        mean = value(t);
+      } else {
+        for (const std::uint32_t v : data.tets[t].vertices) mean += value(v) / 4;
+      }
+      const double part = volume(data, data.tets[t]);
+      sum += part * mean;
+      size += part * std::abs(mean);
+    }
+    return {sum, size};
+  }
+
+  const MeshData& before_;
+  MeshData& now_;
+  std::span<const std::uint32_t> vertex_map_;
+  std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
+  std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
+  std::vector<std::uint32_t> changed_;    // old tets
+  std::array<std::vector<std::uint32_t>, 4> element_maps_;
+  std::vector<CarriedArray> carried_;
+};
+
+}  // namespace
+
+bool holds_more(const MeshData& data) {
+  const auto any = [](const auto&... lists) { return (!lists.empty() || ...); };
+  return any(data.tet_parts, data.triangle_parts, data.edge_parts, data.point_entities,
+             data.point_data, data.tet_data, data.triangle_data, data.edge_data, data.groups,
+             data.entities, data.periodic, data.other_elements, data.variant, data.label_array);
+}
+
+std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
+  std::map<Label, Label> part_of;
+  bool are_finer = false;
+  for (std::size_t t = 0; t < data.tet_parts.size(); ++t) {
+    const Label part = part_of.emplace(data.tets[t].label, data.tet_parts[t]).first->second;
+    are_finer = are_finer || part != data.tet_parts[t];
+  }
+  if (!are_finer) return {};
+  struct Face {
+    std::array<std::uint32_t, 3> vertices;
+    std::uint32_t tet;
+  };
+  std::vector<Face> faces;
+  faces.reserve(4 * data.tets.size());
+  for (std::uint32_t t = 0; t < data.tets.size(); ++t) {
+    const auto& v = data.tets[t].vertices;
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      std::array<std::uint32_t, 3> face{};
+      for (std::size_t k = 0; k < 3; ++k) face[k] = v[k < left_out ? k : k + 1];
+      faces.push_back({sorted(face), t});
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet);
+  });
+  std::vector<MeshData::Triangle> walls;
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    const Face& a = faces[i - 1];
+    const Face& b = faces[i];
+    if (a.vertices != b.vertices || data.tet_parts[a.tet] == data.tet_parts[b.tet] ||
+        data.tets[a.tet].label != data.tets[b.tet].label) {
+      continue;
+    }
+    walls.push_back({a.vertices, 0});
+  }
+  std::vector<std::array<std::uint32_t, 3>> named;
+  for (const MeshData::Triangle& triangle : data.triangles)
+    named.push_back(sorted(triangle.vertices));
+  std::sort(named.begin(), named.end());
+  std::erase_if(walls, [&](const MeshData::Triangle& wall) {
+    return std::binary_search(named.begin(), named.end(), wall.vertices);
+  });
+  return walls;
+}
+
+std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
+                                std::span<const std::uint32_t> tet_map, MeshData& now) {
+  return Carrying(before, vertex_map, tet_map, now).run();
+}
+
+}  // namespace tetmend::face
