@@ -110,9 +110,15 @@ int run_improve(ImproveOptions& options, const Invocation& invocation) {
                options.output.string(), format_report(report));
   }
   if (report.result.ending == Ending::cancelled) {
-    throw Error("interrupted: wrote the mesh as improved so far");
+    return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
   }
-  return 0;
+  const std::size_t n_bad = report.result.after.n_bad;
+  if (!options.goal.empty() && n_bad > 0) {
+    return complain(kGoalMissed,
+                    fmt::format("the goal {} is missed by {} {}: wrote the mesh", options.goal,
+                                grouped(n_bad), n_bad == 1 ? "tet" : "tets"));
+  }
+  return kSuccess;
 }
 
 }  // namespace
@@ -127,7 +133,7 @@ before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
 
 Ctrl-C stops the work: OUT is still written, with the mesh as improved so far,
-and the exit status is 1. Ctrl-C again ends the program at once. A time limit
+and the exit status is 4. Ctrl-C again ends the program at once. A time limit
 stops the work in the same way, with exit status 0. A mistake in a script ends
 it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
@@ -147,7 +153,9 @@ Examples:
   tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
   tetmend improve part.mesh -o better.mesh --protect label:3
 
-Exit status: 0 success, 1 the work failed or was interrupted, 2 wrong usage)",
+Exit status: 0 success, 1 the work failed and nothing was written, 2 wrong
+usage, 3 written, but tets miss the goal that --goal asked for, 4 written, but
+interrupted)",
       region_help(), mesh_format_list()));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return run_improve(*options, invocation); };

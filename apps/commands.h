@@ -20,6 +20,12 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// What the program's exit says. From 3 on the output was written.
+enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2, kGoalMissed = 3, kInterrupted = 4 };
+
+/// Writes the message to standard error, in one line, and gives the status.
+int complain(Status status, std::string message);
+
 /// What the user asked for. The parser fills in the action; main runs it.
 struct Invocation {
   std::vector<std::string> arguments;  ///< without the name of the program
@@ -29,6 +35,7 @@ struct Invocation {
 // Precondition of each: `invocation` outlives the parser.
 void add_improve(CLI::App& app, Invocation& invocation);
 void add_quality(CLI::App& app, Invocation& invocation);
+void add_check(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
 void add_operators(CLI::App& app, Invocation& invocation);
 void add_schedules(CLI::App& app, Invocation& invocation);

@@ -22,9 +22,6 @@
 #include "apps/help_formatter.h"
 
 namespace tetmend::apps {
-namespace {
-
-enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2 };
 
 int complain(Status status, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
@@ -32,6 +29,8 @@ int complain(Status status, std::string message) {
   fmt::print(stderr, "tetmend: {}\n", message);
   return status;
 }
+
+namespace {
 
 std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
   auto app = std::make_unique<CLI::App>(
@@ -49,10 +48,13 @@ Examples:
   tetmend quality better.mesh                  look at its dihedral angles
   tetmend improve --help                       all about one subcommand
 
-Exit status: 0 success, 1 the work failed (bad file, cannot write), 2 wrong usage)",
+Exit status: 0 success, 1 the work failed and nothing was written, 2 wrong
+usage, 3 written, but a goal that was asked for is missed, 4 written, but
+interrupted)",
       mesh_format_list()));
   add_improve(*app, invocation);
   add_quality(*app, invocation);
+  add_check(*app, invocation);
   add_convert(*app, invocation);
   add_surface(*app, invocation);
   add_operators(*app, invocation);

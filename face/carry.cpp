@@ -137,10 +137,12 @@ class Carrying {
           const auto* most = std::max_element(weights.begin(), weights.end());
           value = old[v[static_cast<std::size_t>(most - weights.begin())] * components + k];
         } else {
-          double sum = 0;
-          for (std::size_t c = 0; c < 4; ++c) {
-            sum += weights[c] * static_cast<double>(old[v[c] * components + k]);
-          }
+          // From the first vertex on, so that a constant stays what it is.
+          const auto at = [&](std::size_t c) {
+            return static_cast<double>(old[v[c] * components + k]);
+          };
+          double sum = at(0);
+          for (std::size_t c = 1; c < 4; ++c) sum += weights[c] * (at(c) - at(0));
           value = static_cast<Value>(sum);
         }
       }

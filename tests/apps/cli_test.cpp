@@ -2,6 +2,7 @@
 // The command line as a user has it: every subcommand on real meshes, exit statuses, messages.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -165,7 +166,7 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
     check_complaint(run_program(arguments), 2);
   }
   CHECK(folder.entries() == 0);
-  CHECK(contains(run_program({"polish"}).err, "improve, quality, convert"));
+  CHECK(contains(run_program({"polish"}).err, "improve, quality, check, convert"));
   CHECK(contains(run_program({"improve", mesh, "-o", out, "--polish"}).err, "--polish"));
   CHECK(contains(run_program(wrong[12]).err, "shell"));
 }
@@ -254,6 +255,106 @@ TEST_CASE("the same input gives the same bytes, also for another number of threa
     CHECK(bytes == read_text(folder / ("2" + name)));
     CHECK(folder.entries() == 2);
   }
+}
+
+TEST_CASE("a goal that was asked for and missed is status 3, with the mesh written") {
+  const TempFolder folder;
+  const std::string out = (folder / "out.mesh").string();
+  const auto improve = [&](const std::string& goal) {
+    return run_program(
+        {"improve", asset("folded_sheet.mesh"), "-o", out, "--quiet", "--goal", goal});
+  };
+  const Outcome missed = improve("30");
+  CHECK(missed.status == 3);
+  CHECK(missed.err.starts_with("tetmend: the goal 30 is missed by "));
+  CHECK(missed.err.ends_with(" tets: wrote the mesh\n"));
+  CHECK(read_mesh(out).tets.size() > 100);
+  const Outcome reached = improve("10");
+  CHECK(reached.status == 0);
+  CHECK(reached.err.empty());
+}
+
+TEST_CASE("what a format cannot hold is named, in the report too, or refused") {
+  const TempFolder folder;
+  const std::string in = (folder / "in.vtk").string();
+  const std::string out = (folder / "out.mesh").string();
+  MeshData mesh = read_mesh(asset("folded_sheet.mesh"));
+  mesh.point_data = {{"heat", 1, std::vector<double>(mesh.points.size(), 1.5)}};
+  write_mesh(in, mesh);
+  const std::string report = (folder / "r.json").string();
+  const Outcome improved = run_program({"improve", in, "-o", out, "--quiet", "--report", report});
+  CHECK(improved.status == 0);
+  const std::string note = "the array 'heat' of points is not kept: .mesh holds none";
+  CHECK(improved.err == "note: " + in + ": " + note + "\n");
+  const auto json = nlohmann::json::parse(read_text(report));
+  CHECK(json["notes"][0] == note);
+  CHECK(json["data"][0]["name"] == "heat");
+  std::filesystem::remove(out);
+  for (const std::string command : {"improve", "convert"}) {
+    std::vector<std::string> words = {command, in};
+    if (command == "improve") words.emplace_back("-o");
+    words.insert(words.end(), {out, "--strict"});
+    const Outcome refused = run_program(words);
+    CHECK(refused.status == 1);
+    CHECK(contains(refused.err, "something would be lost: nothing is written"));
+    CHECK(!std::filesystem::exists(out));
+  }
+  const std::string kept = (folder / "kept.vtu.gz").string();
+  CHECK(run_program({"improve", in, "-o", kept, "--quiet", "--strict"}).status == 0);
+  const MeshData now = read_mesh(kept);
+  REQUIRE(now.point_data.size() == 1);
+  CHECK(now.point_data[0].values == DataArray::Values(std::vector<double>(now.points.size(), 1.5)));
+}
+
+TEST_CASE("check holds a mesh to thresholds, presets and its input") {
+  const TempFolder folder;
+  const std::string in = asset("two_materials.mesh");
+  const std::string out = (folder / "out.vtu").string();
+  REQUIRE(run_program({"improve", in, "-o", out, "--quiet"}).status == 0);
+  const Outcome kept = run_program({"check", in, out, "--min-dihedral", "29"});
+  CHECK(kept.status == 0);
+  CHECK(!contains(kept.out, "FAIL"));
+  CHECK(contains(kept.out, "ok    triangles of the surface: the same 1,470, bit for bit"));
+
+  const auto broken = [&](const auto& change) {
+    MeshData mesh = read_mesh(out);
+    change(mesh);
+    const std::string file = (folder / "broken.mesh").string();
+    write_mesh(file, mesh);
+    const Outcome outcome = run_program({"check", in, file});
+    CHECK(outcome.status == 3);
+    return outcome.out;
+  };
+  // A vertex of the surface moves by one bit.
+  const std::string moved = broken([](MeshData& mesh) {
+    Point& p = mesh.points[mesh.triangles[0].vertices[0]];
+    p.x() = std::nextafter(p.x(), 1e9);
+  });
+  CHECK(contains(moved, "FAIL  triangles of the surface"));
+  const std::string relabelled = broken([](MeshData& mesh) { mesh.tets[0].label = 99; });
+  CHECK(contains(relabelled, "FAIL  faces between two labels"));
+  CHECK(contains(relabelled, "FAIL  label 99 is new"));
+  const std::string renamed = broken([](MeshData& mesh) { mesh.triangles[0].label += 1; });
+  CHECK(contains(renamed, "FAIL  named triangles with labels"));
+  const std::string turned =
+      broken([](MeshData& mesh) { std::swap(mesh.tets[3].vertices[0], mesh.tets[3].vertices[1]); });
+  CHECK(contains(turned, "FAIL  1 inverted or flat tet, the first is tet 4 (from 1)"));
+
+  const Outcome bad = run_program({"check", in, "--for", "calculix", "--min-dihedral", "15"});
+  CHECK(bad.status == 3);
+  CHECK(contains(bad.out, "ok    no inverted or flat tet"));
+  CHECK(contains(bad.out, "FAIL  smallest dihedral angle"));
+  const auto json =
+      nlohmann::json::parse(run_program({"check", out, "--for", "openfoam", "--json"}).out);
+  CHECK(json["schema"] == 1);
+  CHECK(json["holds"] == true);
+  CHECK(json["facts"].size() == 4);
+  CHECK(json["facts"][1]["name"] == "non_orthogonality");
+  CHECK(json["facts"][1]["wanted"] == 70);
+  CHECK(run_program({"check", in}).status == 2);
+  CHECK(run_program({"check", in, "--for", "excel"}).status == 2);
+  CHECK(run_program({"check", in, "--measure", "mean_ratio"}).status == 2);
+  CHECK(run_program({"check", "no.mesh", "--no-inverted"}).status == 1);
 }
 
 TEST_CASE("a mesh may be improved in place") {
@@ -486,7 +587,7 @@ TEST_CASE("a terminal shows progress in one line and Ctrl-C still gives a better
                         folder / "stdout", terminal.slave());
   terminal.wait_for("round  1");
   program.send(SIGINT);
-  CHECK(program.wait() == 1);
+  CHECK(program.wait() == 4);
   const std::string text =
       terminal.wait_for("tetmend: interrupted: wrote the mesh as improved so far");
   const std::size_t message = text.rfind("tetmend: interrupted");

@@ -170,7 +170,9 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
               {on = {worst = 60}}))");
     options = {"--schedule", schedule, "--goal", "20"};
   }
-  REQUIRE(bench.record(options).status == 0);
+  // A goal that was asked for may be missed.
+  const auto is_done = [](int status) { return status == 0 || status == 3; };
+  REQUIRE(is_done(bench.record(options).status));
   const TraceFile file(bench.trace);
   std::size_t repeated = 0;
   std::size_t accepted = 0;
@@ -197,7 +199,7 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
       protected_again += option == "--protect" ? 1 : 0;
     }
     const Outcome outcome = run_program(command);
-    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    REQUIRE_MESSAGE(is_done(outcome.status), outcome.err);
     const TraceFile repeat(again);
     const Call& now = repeat.calls()[0];
     CHECK(now.verdict == call.verdict);
