@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/gmsh.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_marks.h"
@@ -50,15 +51,16 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 6> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+constexpr std::array<MeshFormat, 7> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                       {"MEDIT binary", ".meshb"},
                                                       {"TetGen", ".node"},
                                                       {"TetGen", ".ele"},
                                                       {"legacy VTK", ".vtk"},
-                                                      {"VTK XML", ".vtu"}}};
+                                                      {"VTK XML", ".vtu"},
+                                                      {"Gmsh", ".msh"}}};
 
 // In the order of formats_table.
-constexpr std::array<Codec, 6> kCodecs = {
+constexpr std::array<Codec, 7> kCodecs = {
     {{read_plain<formats::read_medit_ascii>,
       formats::write_medit_ascii,
       {.required_vertices = true, .marks = true}},
@@ -68,7 +70,10 @@ constexpr std::array<Codec, 6> kCodecs = {
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
      {formats::read_vtk_legacy, formats::write_vtk_legacy, {.data = true, .others = true}},
-     {formats::read_vtu, formats::write_vtu, {.data = true, .others = true}}}};
+     {formats::read_vtu, formats::write_vtu, {.data = true, .others = true}},
+     {read_plain<formats::read_gmsh>,
+      formats::write_gmsh,
+      {.data = true, .groups = true, .others = true}}}};
 
 /// Of "part.vtu.gz" that is ".vtu". A TetGen mesh is several files, which nobody packs one by one.
 const Codec& find_codec(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 // and errors as text.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -10,10 +11,12 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -119,6 +122,53 @@ inline bool same_mesh(const MeshData& a, const MeshData& b) {
          a.required_vertices == b.required_vertices;
 }
 
+/// Arrays of data have one row for each of what they belong to.
+inline bool data_fit(const std::vector<DataArray>& arrays, std::size_t count) {
+  for (const DataArray& array : arrays) {
+    if (array.components == 0 || array.size() != array.components * count) return false;
+  }
+  return true;
+}
+
+/// Groups, entities, links and other elements name what is there, and nothing twice.
+inline bool extras_are_sound(const MeshData& mesh) {
+  const std::size_t points = mesh.points.size();
+  const std::array<std::size_t, 4> counts = {points, mesh.edges.size(), mesh.triangles.size(),
+                                             mesh.tets.size()};
+  bool sound = mesh.point_entities.empty() || mesh.point_entities.size() == points;
+  sound = sound && data_fit(mesh.point_data, points) && data_fit(mesh.tet_data, counts[3]) &&
+          data_fit(mesh.triangle_data, counts[2]) && data_fit(mesh.edge_data, counts[1]);
+  const auto one_for_each = [&](const std::vector<Label>& parts, std::size_t count) {
+    sound = sound && (parts.empty() || parts.size() == count);
+  };
+  one_for_each(mesh.tet_parts, counts[3]);
+  one_for_each(mesh.triangle_parts, counts[2]);
+  one_for_each(mesh.edge_parts, counts[1]);
+  std::set<std::pair<int, Label>> groups;
+  std::set<std::pair<int, Label>> entities;
+  for (const Group& group : mesh.groups) {
+    if (group.dimension < 0 || group.dimension > 3) return false;
+    sound = sound && groups.insert({group.dimension, group.number}).second;
+    for (const auto member : group.members) {
+      sound = sound && member < counts[static_cast<std::size_t>(group.dimension)];
+    }
+  }
+  for (const GeometricEntity& entity : mesh.entities) {
+    sound = sound && entity.dimension >= 0 && entity.dimension < 4 &&
+            entities.insert({entity.dimension, entity.tag}).second;
+  }
+  for (const PeriodicLink& link : mesh.periodic) {
+    sound = sound && (link.affine.empty() || link.affine.size() == 16);
+    for (const auto& pair : link.points) sound = sound && pair[0] < points && pair[1] < points;
+  }
+  for (const OtherElements& others : mesh.other_elements) {
+    sound = sound && others.vertices.size() == others.labels.size() * others.vertex_count;
+    one_for_each(others.parts, others.labels.size());
+    for (const auto vertex : others.vertices) sound = sound && vertex < points;
+  }
+  return sound;
+}
+
 /// Everything that `read_mesh` promises for every file it accepts.
 inline bool is_sound(const MeshData& mesh) {
   bool sound = mesh.point_labels.empty() || mesh.point_labels.size() == mesh.points.size();
@@ -137,7 +187,7 @@ inline bool is_sound(const MeshData& mesh) {
   check(mesh.triangles);
   check(mesh.edges);
   for (const auto vertex : mesh.required_vertices) sound = sound && vertex < mesh.points.size();
-  return sound;
+  return sound && extras_are_sound(mesh);
 }
 
 /// Numbers one behind the other, in either byte order.

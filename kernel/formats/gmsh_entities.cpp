@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// The entities of one dimension that a Gmsh file lists, and the sets of groups behind them.
+#include "kernel/formats/gmsh_entities.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace tetmend::formats {
+namespace {
+
+bool contains(const std::vector<Label>& groups, Label number) {
+  return std::find(groups.begin(), groups.end(), number) != groups.end();
+}
+
+/// An entity may name a group by its number with the other sign.
+bool belongs_to(const GeometricEntity& entity, Label group) {
+  return contains(entity.groups, group) || (group > 0 && contains(entity.groups, -group));
+}
+
+}  // namespace
+
+GmshMembership::GmshMembership(const MeshData* data, int dimension, std::size_t elements)
+    : sets_(1) {
+  if (data == nullptr) return;
+  std::map<std::pair<std::uint32_t, Label>, std::uint32_t> with;
+  for (const Group& group : data->groups) {
+    if (group.dimension != dimension || group.members.empty()) continue;
+    set_of_.resize(elements);
+    for (const std::uint32_t element : group.members) {
+      std::uint32_t& set = set_of_[element];
+      if (contains(sets_[set], group.number)) continue;
+      const auto [at, is_new] =
+          with.try_emplace({set, group.number}, static_cast<std::uint32_t>(sets_.size()));
+      if (is_new) {
+        sets_.push_back(sets_[set]);
+        sets_.back().push_back(group.number);
+      }
+      set = at->second;
+    }
+  }
+}
+
+GmshEntities::GmshEntities(const MeshData* data, int dimension) : dimension_(dimension) {
+  if (data == nullptr) return;
+  for (const Group& group : data->groups) {
+    if (group.dimension != dimension) continue;
+    for (const Label part : group.parts) groups_of_part_[part].push_back(group.number);
+    if (!group.parts.empty() || !group.members.empty()) explicit_groups_.insert(group.number);
+  }
+  for (const GeometricEntity& entity : data->entities) {
+    if (entity.dimension != dimension) continue;
+    of_tag_[entity.tag] = static_cast<std::uint32_t>(list_.size());
+    list_.push_back(entity);
+    const auto groups = groups_of_part_.find(entity.tag);
+    if (groups == groups_of_part_.end()) continue;
+    for (const Label group : groups->second) {
+      if (!belongs_to(list_.back(), group)) list_.back().groups.push_back(group);
+    }
+  }
+  listed_ = list_.size();
+}
+
+std::uint32_t GmshEntities::look_up(const Key& key, std::span<const Label> member_of) {
+  const auto [at, is_new] = found_.try_emplace(key, 0);
+  if (is_new) at->second = search(key, member_of);
+  return at->second;
+}
+
+std::uint32_t GmshEntities::search(const Key& key, std::span<const Label> member_of) {
+  std::vector<Label> groups;
+  const GeometricEntity* listed = nullptr;
+  if (key.has_part) {
+    const auto of_part = groups_of_part_.find(key.part);
+    if (of_part != groups_of_part_.end()) groups = of_part->second;
+    const auto of_tag = of_tag_.find(key.part);
+    if (of_tag != of_tag_.end()) listed = &list_[of_tag->second];
+  }
+  for (const Label group : member_of) {
+    if (!contains(groups, group)) groups.push_back(group);
+  }
+  // A label alone makes a group, unless the group says itself what it has.
+  const bool makes_group = key.label != 0 && !explicit_groups_.contains(key.label) &&
+                           !(listed != nullptr && belongs_to(*listed, key.label));
+  if (makes_group) groups.push_back(key.label);
+  const auto has = [&](Label group) { return belongs_to(*listed, group); };
+  if (listed != nullptr && std::all_of(groups.begin(), groups.end(), has)) {
+    return of_tag_[key.part];
+  }
+  const auto label = std::find(groups.begin(), groups.end(), key.label);
+  if (label != groups.end()) std::rotate(groups.begin(), label, label + 1);
+  const auto [at, is_new] =
+      created_.try_emplace({key.has_part, key.part, makes_group ? key.label : 0, key.set}, 0);
+  if (is_new) at->second = create(key.part, std::move(groups));
+  return at->second;
+}
+
+std::uint32_t GmshEntities::of_number(Label tag) {
+  const auto listed = of_tag_.find(tag);
+  if (listed != of_tag_.end()) return listed->second;
+  const auto made = of_part_.find(tag);
+  return made != of_part_.end() ? made->second : create(tag, {});
+}
+
+std::uint32_t GmshEntities::create(Label part, std::vector<Label> groups) {
+  GeometricEntity entity;
+  entity.dimension = dimension_;
+  entity.tag = part;
+  entity.groups = std::move(groups);
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  entity.box = {kFar, kFar, kFar, -kFar, -kFar, -kFar};
+  const auto number = static_cast<std::uint32_t>(list_.size());
+  list_.push_back(std::move(entity));
+  of_part_.try_emplace(part, number);
+  return number;
+}
+
+void GmshEntities::extend(std::uint32_t entity, const Point& point) {
+  std::array<double, 6>& box = list_[entity].box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = point[static_cast<Eigen::Index>(axis)];
+    box[axis] = std::min(box[axis], x);
+    box[axis + 3] = std::max(box[axis + 3], x);
+  }
+}
+
+std::vector<GeometricEntity> GmshEntities::finish() {
+  std::set<Label> taken;
+  for (std::size_t i = 0; i < listed_; ++i) taken.insert(list_[i].tag);
+  std::vector<std::size_t> without_number;
+  for (std::size_t i = listed_; i < list_.size(); ++i) {
+    if (list_[i].tag <= 0 || !taken.insert(list_[i].tag).second) without_number.push_back(i);
+  }
+  Label next = 1;
+  for (const std::size_t i : without_number) {
+    while (!taken.insert(next).second) ++next;
+    list_[i].tag = next;
+  }
+  return std::move(list_);
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+// Reads Gmsh's files of versions 2.2 and 4.1.
+//
+//   $MeshFormat | version, 0 or 1 (binary), 8 | the integer 1 if binary | $EndMeshFormat
+//   then sections  $Name ... $EndName
+//
+// Their numbers are text or bytes; counts and names of some sections are text in both codings.
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/element_checks.h"
+#include "kernel/formats/gmsh.h"
+#include "kernel/formats/gmsh_draft.h"
+#include "kernel/formats/gmsh_element_reader.h"
+#include "kernel/formats/gmsh_nodes.h"
+#include "kernel/formats/gmsh_source.h"
+#include "kernel/formats/gmsh_views.h"
+
+namespace tetmend::formats {
+namespace {
+
+class Reader {
+ public:
+  Reader(const InputFile& file, TetPlace* question)
+      : source_(file),
+        text_(source_.text()),
+        question_(question),
+        nodes_(source_),
+        elements_(source_, nodes_, draft_, question != nullptr),
+        views_(source_) {}
+
+  MeshData read() {
+    read_header();
+    while (!text_.at_end()) read_section(text_.word());
+    if (!seen("$Nodes")) fail_without("$Nodes");
+    if (!seen("$Elements")) fail_without("$Elements");
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_header() {
+    const std::string_view first = text_.word();
+    if (first != "$MeshFormat") {
+      text_.fail(first.empty()
+                     ? "the file is empty: expected $MeshFormat"
+                     : fmt::format("{} is not the beginning of an MSH file of version 2 or 4: "
+                                   "expected $MeshFormat",
+                                   in_quotes(first)));
+    }
+    read_version(text_.expect_word("the version of the format"));
+    const bool binary = text_.integer("0 for text or 1 for binary", 0, 1) == 1;
+    const std::int64_t size = text_.integer("the size of numbers", 1, 64);
+    if (size != 8) {
+      text_.fail(fmt::format("'{}' is not a size of numbers that can be read: expected 8", size));
+    }
+    if (binary) {
+      source_.set_binary();
+      text_.skip_line();
+      read_byte_order();
+    }
+    expect_end("$MeshFormat");
+    mesh_.variant = fmt::format("{} {}", is_4_ ? "4.1" : "2.2", binary ? "binary" : "ASCII");
+  }
+
+  void read_version(std::string_view version) {
+    constexpr std::array<std::string_view, 4> kTwo = {"2", "2.0", "2.1", "2.2"};
+    is_4_ = version == "4.1";
+    if (is_4_ || std::find(kTwo.begin(), kTwo.end(), version) != kTwo.end()) return;
+    text_.fail(
+        fmt::format("version {} of the format cannot be read: expected 4.1 or 2.2, as which "
+                    "'gmsh FILE -save -format msh41' saves it",
+                    in_quotes(version)));
+  }
+
+  void read_byte_order() {
+    const std::int64_t one = source_.integer("the integer 1", INT32_MIN, INT32_MAX);
+    if (one != 1 && one != byte_swapped(std::int32_t{1})) {
+      text_.fail(fmt::format("'{}' does not tell the byte order: expected the integer 1", one));
+    }
+    source_.set_swap(one != 1);
+  }
+
+  void expect_end(std::string_view name) {
+    const std::string end = fmt::format("$End{}", name.substr(1));
+    const std::string_view word = text_.expect_word(end);
+    if (word != end) {
+      text_.fail(fmt::format("{} is not expected here: expected {}", in_quotes(word), end));
+    }
+  }
+
+  void read_section(std::string_view name) {
+    if (name.size() < 2 || name.front() != '$' || name.starts_with("$End")) {
+      text_.fail(
+          fmt::format("{} is not expected here: expected the name of a section, such as "
+                      "$Nodes or $Elements",
+                      in_quotes(name)));
+    }
+    if (name == "$NodeData" || name == "$ElementData") {
+      views_.read_head(name == "$NodeData");
+      if (source_.binary()) return expect_end(name);
+      return skip_to_end(name);
+    }
+    if (name == "$PartitionedEntities") {
+      text_.fail(
+          "'$PartitionedEntities' cannot be read: expected a mesh that is saved without "
+          "partitions");
+    }
+    const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" ||
+                       name == "$Elements" || name == "$Periodic";
+    if (!known) return pass_over(name);
+    if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
+    seen_.push_back(name);
+    if (name == "$PhysicalNames") read_names();
+    if (name == "$Entities") read_entities();
+    if (name == "$Nodes") is_4_ ? nodes_.read_4() : nodes_.read_2();
+    if (name == "$Elements") read_elements();
+    if (name == "$Periodic") read_periodic();
+    expect_end(name);
+  }
+
+  void pass_over(std::string_view name) {
+    skip_to_end(name);
+    std::string note = fmt::format("section {} is not kept", in_quotes(name));
+    if (std::find(mesh_.notes.begin(), mesh_.notes.end(), note) == mesh_.notes.end()) {
+      mesh_.notes.push_back(std::move(note));
+    }
+  }
+
+  void skip_to_end(std::string_view name) {
+    const std::string end = fmt::format("\n$End{}", name.substr(1));
+    const std::string_view rest(text_.position(), text_.bytes_left());
+    const std::size_t at = rest.find(end);
+    if (at == std::string_view::npos) {
+      text_.fail(fmt::format("the section {} has no end: expected {}; the file seems truncated",
+                             in_quotes(name), end.substr(1)));
+    }
+    text_.seek(rest.data() + at);
+    expect_end(name);
+  }
+
+  bool seen(std::string_view name) const {
+    return std::find(seen_.begin(), seen_.end(), name) != seen_.end();
+  }
+  [[noreturn]] void fail_without(std::string_view name) {
+    text_.fail_at(text_.position(), fmt::format("the section {} is missing", name));
+  }
+
+  // Text in both codings.
+  void read_names() {
+    const std::size_t count = text_.count("names of groups", std::string_view("1 1 \"\"\n").size());
+    for (std::size_t i = 0; i < count; ++i) {
+      Group group;
+      group.dimension = static_cast<int>(text_.integer("the dimension of a group", 0, 3));
+      group.number = text_.label("the number of a group");
+      const char* place = text_.last_word();
+      const std::string_view line = text_.skip_line();
+      const std::size_t first = line.find('"');
+      const std::size_t last = line.rfind('"');
+      if (first == last) {  // also when there is none
+        text_.fail_at(line.data(), fmt::format("{} is not expected here: expected the name of a "
+                                               "group in quotes",
+                                               in_quotes(line)));
+      }
+      group.name = line.substr(first + 1, last - first - 1);
+      if (is_named(group.dimension, group.number)) {
+        text_.fail_at(place, fmt::format("the group '{} {}' is named for the second time",
+                                         group.dimension, group.number));
+      }
+      named_numbers_.insert({group.dimension, group.number});
+      draft_.named.push_back(std::move(group));
+    }
+  }
+
+  bool is_named(int dimension, Label number) const {
+    return named_numbers_.contains({dimension, number});
+  }
+
+  void read_entities() {
+    if (!is_4_) text_.fail("'$Entities' is not expected here: version 2.2 has none");
+    source_.begin_numbers();
+    std::array<std::size_t, 4> counts{};
+    for (std::size_t& count : counts) count = source_.count("entities", 8, 36);
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+        read_entity(dimension);
+      }
+    }
+  }
+
+  void read_entity(int dimension) {
+    GeometricEntity entity;
+    entity.dimension = dimension;
+    entity.tag = source_.tag("the number of an entity");
+    const auto [at, is_new] = draft_.groups_of.try_emplace({dimension, entity.tag});
+    if (!is_new) {
+      text_.fail(
+          fmt::format("the entity '{} {}' appears for the second time", dimension, entity.tag));
+    }
+    const std::size_t reals = dimension == 0 ? 3 : 6;
+    for (std::size_t k = 0; k < reals; ++k) entity.box[k] = source_.real("a bound of an entity");
+    if (dimension == 0) std::copy_n(entity.box.begin(), 3, entity.box.begin() + 3);
+    entity.groups.resize(source_.count("groups of an entity", 2, 4));
+    for (Label& group : entity.groups) {
+      group = source_.tag("the number of a group");
+      // A negative number stands for the group turned round.
+      const bool is_turned = group < 0 && group > INT32_MIN && !is_named(dimension, group);
+      const Label number = is_turned ? -group : group;
+      std::vector<Label>& groups = at->second;
+      if (number != 0 && std::find(groups.begin(), groups.end(), number) == groups.end()) {
+        groups.push_back(number);
+      }
+    }
+    if (dimension > 0) {
+      entity.boundary.resize(source_.count("bounds of an entity", 2, 4));
+      for (Label& tag : entity.boundary) tag = source_.tag("the number of an entity");
+    }
+    mesh_.entities.push_back(std::move(entity));
+  }
+
+  void read_elements() {
+    if (!seen("$Nodes")) text_.fail("'$Elements' is not expected here: expected $Nodes before");
+    is_4_ ? elements_.read_4() : elements_.read_2();
+  }
+
+  // Text in version 2.2, whatever the coding.
+  void read_periodic() {
+    if (!seen("$Nodes")) text_.fail("'$Periodic' is not expected here: expected $Nodes before");
+    if (!is_4_) return read_periodic_2();
+    source_.begin_numbers();
+    const std::size_t links = source_.count("periodic links", 10, 28);
+    for (std::size_t i = 0; i < links; ++i) {
+      PeriodicLink link;
+      link.dimension = static_cast<int>(source_.integer("the dimension of an entity", 0, 3));
+      link.tag = source_.tag("the number of an entity");
+      link.master = source_.tag("the number of an entity");
+      link.affine.resize(source_.count("numbers of a map", 2, 8));
+      for (double& number : link.affine) number = source_.real("a number of a map");
+      check_affine(link);
+      link.points.resize(source_.count("nodes of a link", 4, 16));
+      for (auto& pair : link.points) {
+        for (std::uint32_t& point : pair) {
+          point = find_node(source_.wide("the number of a node", 0, INT64_MAX));
+        }
+      }
+      mesh_.periodic.push_back(std::move(link));
+    }
+  }
+
+  void read_periodic_2() {
+    const std::size_t links = text_.count("periodic links", 8);
+    for (std::size_t i = 0; i < links; ++i) {
+      PeriodicLink link;
+      link.dimension = static_cast<int>(text_.integer("the dimension of an entity", 0, 3));
+      link.tag = text_.label("the number of an entity");
+      link.master = text_.label("the number of an entity");
+      const char* before = text_.position();
+      if (text_.word() == "Affine") {
+        while (!text_.at_line_end()) link.affine.push_back(text_.real("a number of a map"));
+        check_affine(link);
+      } else {
+        text_.seek(before);
+      }
+      link.points.resize(text_.count("nodes of a link", 4));
+      for (auto& pair : link.points) {
+        for (std::uint32_t& point : pair) {
+          point = find_node(text_.integer("the number of a node", 0, INT64_MAX));
+        }
+      }
+      mesh_.periodic.push_back(std::move(link));
+    }
+  }
+
+  void check_affine(const PeriodicLink& link) {
+    if (link.affine.empty() || link.affine.size() == 16) return;
+    text_.fail(fmt::format("'{}' is not the number of numbers of a map: expected 0 or 16",
+                           link.affine.size()));
+  }
+
+  std::uint32_t find_node(std::int64_t tag) {
+    const std::uint32_t found = nodes_.find(tag);
+    if (found != GmshTags::kNone) return found;
+    text_.fail(fmt::format("'{}' is not the number of a node: expected one of $Nodes", tag));
+  }
+
+  void finish() {
+    mesh_.points = std::move(nodes_.points);
+    mesh_.point_entities = std::move(nodes_.entities);
+    if (!is_4_) draft_.merge_repeated();
+    draft_.sort();
+    answer_question();
+    refuse_without_tets();
+    if (!is_4_) classify_points();
+    std::array<GmshTags, 3> tags;
+    draft_.move_into(mesh_, tags);
+    views_.move_into(mesh_, nodes_, tags);
+    if (nodes_.parametric()) mesh_.notes.emplace_back("the parameters of nodes are not kept");
+    if (elements_.partitioned()) {
+      mesh_.notes.emplace_back("the partitions of elements are not kept");
+    }
+  }
+
+  void answer_question() {
+    const std::vector<const char*>& places = draft_.rows[gmsh_tet].places;
+    if (question_ != nullptr && question_->tet < places.size()) {
+      question_->place = text_.place_of(places[question_->tet]);
+    }
+  }
+
+  void refuse_without_tets() {
+    if (draft_.rows[gmsh_tet].size() > 0 || mesh_.points.empty()) return;
+    const std::size_t second_order = draft_.rows[gmsh_second_order_tet].size();
+    text_.fail_at(text_.position(),
+                  second_order > 0
+                      ? fmt::format("the mesh has {} tetrahedra of 10 nodes, but none of 4: "
+                                    "expected a mesh of first order",
+                                    second_order)
+                      : "the mesh has no tetrahedra: expected elements of type 4");
+  }
+
+  // Version 2.2 has the entities of points only where they are elements.
+  void classify_points() {
+    const GmshRows& points = draft_.rows[gmsh_point];
+    if (points.size() == 0) return;
+    mesh_.point_entities.resize(mesh_.points.size(), {-1, 0});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      mesh_.point_entities[points.vertices[i]] = {0, points.parts[i]};
+    }
+  }
+
+  GmshSource source_;
+  TextReader& text_;
+  TetPlace* question_;
+  GmshNodes nodes_;
+  GmshDraft draft_;
+  GmshElementReader elements_;
+  GmshViews views_;
+  MeshData mesh_;
+  bool is_4_ = false;
+  std::vector<std::string_view> seen_;
+  std::set<std::pair<int, Label>> named_numbers_;
+};
+
+}  // namespace
+
+MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question) {
+  const InputFile input(file);
+  return Reader(input, question).read();
+}
+
+}  // namespace tetmend::formats
