@@ -30,6 +30,7 @@
 #include "apps/threads.h"
 #include "kernel/exact_orientation.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/geometry.h"
 
 namespace tetmend::apps {
 namespace {
@@ -253,10 +254,8 @@ std::map<Label, double> volumes_of(const MeshData& mesh) {
   std::map<Label, double> volumes;
   for (const MeshData::Tet& tet : mesh.tets) {
     const auto& v = tet.vertices;
-    const Point& a = mesh.points[v[0]];
-    const Point b = mesh.points[v[1]] - a;
-    const Point c = mesh.points[v[2]] - a;
-    volumes[tet.label] += b.dot(c.cross(mesh.points[v[3]] - a)) / 6;
+    volumes[tet.label] +=
+        volume6(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) / 6;
   }
   return volumes;
 }

@@ -12,6 +12,8 @@
 
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
+#include "kernel/geometry.h"
+#include "kernel/parts.h"
 
 namespace tetmend::face {
 
@@ -23,10 +25,9 @@ constexpr std::string_view kCentroid = "of the old tet at the centroid";
 
 double volume(const MeshData& data, const MeshData::Tet& tet) {
   const auto& v = tet.vertices;
-  const Point& a = data.points[v[0]];
-  const Point b = data.points[v[1]] - a;
-  const Point c = data.points[v[2]] - a;
-  return std::abs(b.dot(c.cross(data.points[v[3]] - a))) / 6;
+  return std::abs(
+             volume6(data.points[v[0]], data.points[v[1]], data.points[v[2]], data.points[v[3]])) /
+         6;
 }
 
 /// The same vertices in any order are the same element.
@@ -34,11 +35,6 @@ template <std::size_t N>
 std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> vertices) {
   std::sort(vertices.begin(), vertices.end());
   return vertices;
-}
-
-template <class T>
-void release(std::vector<T>& values) {
-  std::vector<T>().swap(values);
 }
 
 class Carrying {
@@ -312,13 +308,7 @@ bool holds_more(const MeshData& data) {
 }
 
 std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
-  std::map<Label, Label> part_of;
-  bool are_finer = false;
-  for (std::size_t t = 0; t < data.tet_parts.size(); ++t) {
-    const Label part = part_of.emplace(data.tets[t].label, data.tet_parts[t]).first->second;
-    are_finer = are_finer || part != data.tet_parts[t];
-  }
-  if (!are_finer) return {};
+  if (!are_finer_than_labels(data.tets, data.tet_parts)) return {};
   struct Face {
     std::array<std::uint32_t, 3> vertices;
     std::uint32_t tet;

@@ -6,7 +6,6 @@
 #include <array>
 #include <cassert>
 #include <cctype>
-#include <map>
 #include <new>
 #include <string>
 #include <string_view>
@@ -23,6 +22,7 @@
 #include "kernel/formats/tetgen.h"
 #include "kernel/formats/vtk_legacy.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/parts.h"
 
 namespace tetmend {
 namespace {
@@ -113,20 +113,6 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
   return question.place;
 }
 
-namespace {
-
-/// True if elements of one label are in different parts.
-template <class Element>
-bool are_finer(const std::vector<Element>& elements, const std::vector<Label>& parts) {
-  std::map<Label, Label> part_of;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (part_of.emplace(elements[i].label, parts[i]).first->second != parts[i]) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
   const Room& room = find_codec(file).room;
   std::vector<std::string> notes;
@@ -157,9 +143,9 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   };
   const auto groups = std::count_if(mesh.groups.begin(), mesh.groups.end(), is_lost);
   lost(room.groups, static_cast<std::size_t>(groups), "groups, with their names, are");
-  const bool by_labels = !are_finer(mesh.tets, mesh.tet_parts) &&
-                         !are_finer(mesh.triangles, mesh.triangle_parts) &&
-                         !are_finer(mesh.edges, mesh.edge_parts);
+  const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
+                         !are_finer_than_labels(mesh.triangles, mesh.triangle_parts) &&
+                         !are_finer_than_labels(mesh.edges, mesh.edge_parts);
   lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
   lost(room.groups, mesh.periodic.size(), "periodic links are");
   lost(room.required_vertices, mesh.required_vertices.size(), "required vertices are");
