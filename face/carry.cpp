@@ -12,6 +12,7 @@
 
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/geometry.h"
 #include "kernel/parts.h"
 
@@ -160,7 +161,8 @@ class Carrying {
       }
     }
     for (const DataArray& array : before_.tet_data) {
-      tell(array, now_.tet_data.emplace_back(rows(array, old_tet_)), "tets", kCentroid);
+      tell(array, now_.tet_data.emplace_back(formats::selected_rows(array, old_tet_)), "tets",
+           kCentroid);
     }
   }
 
@@ -168,22 +170,6 @@ class Carrying {
     Point sum = Point::Zero();
     for (const std::uint32_t v : tet.vertices) sum += now_.points[v];
     return sum / 4;
-  }
-
-  static DataArray rows(const DataArray& array, std::span<const std::uint32_t> which) {
-    DataArray made{array.name, array.components, {}};
-    std::visit(
-        [&](const auto& old) {
-          std::decay_t<decltype(old)> values;
-          values.reserve(which.size() * array.components);
-          for (const std::uint32_t row : which) {
-            const auto* from = old.data() + row * array.components;
-            values.insert(values.end(), from, from + array.components);
-          }
-          made.values = std::move(values);
-        },
-        array.values);
-    return made;
   }
 
   /// Elements come back in an order of their own, and with walls that nobody named.
@@ -208,7 +194,7 @@ class Carrying {
       places.erase(found);
     }
     elements = std::move(kept);
-    for (const DataArray& array : data) made.push_back(rows(array, from));
+    for (const DataArray& array : data) made.push_back(formats::selected_rows(array, from));
     if (!parts.empty()) {
       for (const std::uint32_t i : from) made_parts.push_back(parts[i]);
     }

@@ -9,7 +9,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -120,23 +119,6 @@ std::vector<Label> to_labels(const std::vector<DataArray>& arrays, std::size_t w
   return labels;
 }
 
-/// The rows of `array` that `cells` lists.
-DataArray selected(const DataArray& array, std::span<const std::uint32_t> cells) {
-  DataArray part{array.name, array.components, {}};
-  std::visit(
-      [&](const auto& all) {
-        std::decay_t<decltype(all)> values;
-        values.reserve(cells.size() * array.components);
-        for (const std::uint32_t cell : cells) {
-          const auto* row = all.data() + cell * array.components;
-          values.insert(values.end(), row, row + array.components);
-        }
-        part.values = std::move(values);
-      },
-      array.values);
-  return part;
-}
-
 template <class Element>
 void set_labels(std::vector<Element>& elements, std::span<const std::uint32_t> cells,
                 const std::vector<Label>& labels) {
@@ -193,11 +175,12 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
     arrays.erase(arrays.begin() + static_cast<std::ptrdiff_t>(*which));
   }
   for (const DataArray& array : arrays) {
-    if (!mesh.tets.empty()) mesh.tet_data.push_back(selected(array, numbers.tets));
-    if (!mesh.triangles.empty()) mesh.triangle_data.push_back(selected(array, numbers.triangles));
-    if (!mesh.edges.empty()) mesh.edge_data.push_back(selected(array, numbers.edges));
+    if (!mesh.tets.empty()) mesh.tet_data.push_back(selected_rows(array, numbers.tets));
+    if (!mesh.triangles.empty())
+      mesh.triangle_data.push_back(selected_rows(array, numbers.triangles));
+    if (!mesh.edges.empty()) mesh.edge_data.push_back(selected_rows(array, numbers.edges));
     for (std::size_t k = 0; k < mesh.other_elements.size(); ++k) {
-      mesh.other_elements[k].data.push_back(selected(array, numbers.others[k]));
+      mesh.other_elements[k].data.push_back(selected_rows(array, numbers.others[k]));
     }
   }
 }
@@ -237,6 +220,22 @@ std::vector<DataArray> join_cell_arrays(const MeshData& mesh) {
     }
   }
   return joined;
+}
+
+DataArray selected_rows(const DataArray& array, std::span<const std::uint32_t> rows) {
+  DataArray part{array.name, array.components, {}};
+  std::visit(
+      [&](const auto& all) {
+        std::decay_t<decltype(all)> values;
+        values.reserve(rows.size() * array.components);
+        for (const std::uint32_t row : rows) {
+          const auto* from = all.data() + row * array.components;
+          values.insert(values.end(), from, from + array.components);
+        }
+        part.values = std::move(values);
+      },
+      array.values);
+  return part;
 }
 
 double real_value(const DataArray& array, std::size_t i) {

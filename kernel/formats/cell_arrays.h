@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,9 @@ void adopt_point_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Arr
 /// tets, triangles, edges and others in this order. Where a kind of element has no such array, its
 /// cells get 0 (integers) or NaN.
 std::vector<DataArray> join_cell_arrays(const MeshData& mesh);
+
+/// The rows of an array with these numbers, in this order.
+DataArray selected_rows(const DataArray& array, std::span<const std::uint32_t> rows);
 
 /// A number of an array, whatever its type.
 double real_value(const DataArray& array, std::size_t i);
