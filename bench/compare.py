@@ -19,6 +19,7 @@ from pathlib import Path
 
 import charts
 import documents
+import dots
 import report
 from competitors import Competitor, Phases, competitors, shown_command, version
 
@@ -29,10 +30,12 @@ MESHES = os.environ.get("TETMEND_BENCH_MESHES", "")
 
 GNU_TIME = "/usr/bin/time"
 EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
+EXACT_RULERS = ["mean_ratio", "radius_ratio", "edge_ratio"]
 
 EPILOG = """\
-Results go to build/bench: results.json, results.md, and a chart of quality against time for each
-mesh. With --write FILE a document like docs/results/rivals.md is written too.
+Results go to build/bench: results.json, results.md, and for each mesh a chart of all measures and
+one of quality against time. With --write FILE a document like docs/results/rivals.md is written,
+too.
 
 TETMEND_BENCH_MESHES names a folder of meshes (.mesh, .meshb, .mesh.xz) that are default meshes too.
 Rivals that Debian does not have are found through environment variables:
@@ -167,11 +170,16 @@ def run_once(row: Row, inputs: Path, folder: Path, limit: float) -> None:
 
 
 def report_agrees(file: Path, measured: dict) -> bool:
-    """Whether the kernel's statistics are those of the independent routine. A tet at the threshold
-    may be bad for one only."""
+    """Whether the kernel's statistics are those of the independent routine. A tet or a face at a
+    threshold may count for one only."""
     own = json.loads(file.read_text())["after"]
-    close = [math.isclose(own[key], measured[key], rel_tol=1e-6) for key in EXACT_MEASURES]
-    return all(close) and math.isclose(own["n_bad"], measured["n_bad"], rel_tol=1e-3, abs_tol=1)
+    pairs = [(own[key], measured[key]) for key in EXACT_MEASURES]
+    pairs += [(own["rulers"][ruler][what], measured["rulers"][ruler][what])
+              for ruler in EXACT_RULERS for what in ("worst", "mean")]
+    counts = [(own["n_bad"], measured["n_bad"]),
+              (own["rulers"]["faces_above_70"], measured["rulers"]["faces_above_70"])]
+    return (all(math.isclose(*pair, rel_tol=1e-6) for pair in pairs)
+            and all(math.isclose(*pair, rel_tol=1e-3, abs_tol=1) for pair in counts))
 
 
 def program_json(name: str, *arguments: str) -> dict:
@@ -313,8 +321,9 @@ def main() -> None:
         results["meshes"].append(compare(mesh, found, options.repetitions, options.time_limit))
     print(report.text(results))
     (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
+    drawings = {**charts.all_charts(results), **dots.all_charts(results)}
     for file in [WORK / "results.md", *([options.write] if options.write else [])]:
-        documents.write(file, report.page(results), charts.all_charts(results))
+        documents.write(file, report.page(results), drawings)
     print(f"\nSaved in {WORK.relative_to(ROOT)}: results.json, results.md, figures.")
     if options.profile:
         profile(meshes[-1])

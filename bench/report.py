@@ -5,10 +5,12 @@ from collections.abc import Callable
 
 import charts
 import documents
+import dots
 import paper
 from documents import Stamp, Table, markdown_table
+from measures import ANGLES, SHAPES, angle, percent
 
-QUALITY = ["theta_min", "theta_max", "lambda %", "bad"]
+QUALITY = [measure.column for measure in ANGLES]
 PAPER_HEADING = ["mesh", "scheme", "tets", "theta_min", "theta_max", "lambda %", "seconds"]
 PHASES = ["reading", "building", "improving", "measuring", "writing"]  # of tetmend
 WORDS = ["improver", "one pass of", "schedule", "surface"]  # aligned left
@@ -23,17 +25,17 @@ EXPLANATION = (
     "changed by at most the number given. One program measures all results; it shares no formula "
     "with tetmend."
 )
+SHAPES_TITLE = "Shapes of tets, and faces:"
+SHAPES_EXPLANATION = (
+    "*mean ratio* and *radius ratio* are 1 for the regular tet and 0 for a flat one: "
+    "12 (3 V)^(2/3) by the sum of the squared edges, and three times the radius of the inscribed "
+    "sphere by that of the circumscribed one; of all tets the worst and the mean. *edge ratio* is "
+    "that of the longest to the shortest edge of a tet, at worst. *faces above 70* are inner faces "
+    "whose normal is more than 70 degrees from the line that joins the centroids of the two tets."
+)
 
 
 # --- cells
-
-
-def angle(degrees: float) -> str:
-    return f"{degrees:.2f}" if degrees >= 0.01 else f"{degrees:.2g}"
-
-
-def percent(value: float) -> str:
-    return "0" if value == 0 else f"{value:#.3g}"
 
 
 def seconds(value: float) -> str:
@@ -92,6 +94,15 @@ def comparison(mesh: dict) -> Table:
             ]
         )
     return table
+
+
+def shapes(mesh: dict) -> Table:
+    """The measures beside angles."""
+    rows = [("(input)", mesh["before"])]
+    rows += [(row["improver"], row["after"]) for row in mesh["rows"] if "after" in row]
+    table = [["improver", *(measure.column for measure in SHAPES)]]
+    return table + [[name, *(measure.shown(measure.of(measured)) for measure in SHAPES)]
+                    for name, measured in rows]
 
 
 def own_schedule(results: dict) -> Table:
@@ -155,12 +166,13 @@ def made_line(results: dict) -> str:
 
 def sections(results: dict, heading: str, render: Callable[[Table], str],
              after: Callable[[dict], list[str]]) -> list[str]:
-    """@param after  what follows the table of a mesh"""
+    """@param after  what follows the tables of a mesh"""
     parts = []
     if len(own_schedule(results)) > 1:
         parts += [heading + "tetmend alone", render(own_schedule(results))]
     for mesh in results["meshes"]:
-        parts += [heading + mesh["mesh"], render(comparison(mesh)), *after(mesh)]
+        parts += [heading + mesh["mesh"], render(comparison(mesh)), SHAPES_TITLE,
+                  render(shapes(mesh)), *after(mesh)]
     return parts
 
 
@@ -187,17 +199,17 @@ def commands_table(results: dict) -> Table:
     return table
 
 
-def chart_of(mesh: dict) -> list[str]:
-    name = charts.file_name(mesh)
-    return [documents.picture(name, charts.heading(mesh))] if charts.chart(mesh) else []
+def charts_of(mesh: dict) -> list[str]:
+    return [documents.picture(kind.file_name(mesh), kind.heading(mesh))
+            for kind in (dots, charts) if kind.chart(mesh)]
 
 
 def page(results: dict) -> str:
     """The comparison as a document."""
     made = Stamp(results["command"], results["commit"], results["date"],
                  documents.machine_text(results["machine"]))
-    parts = [made_line(results), EXPLANATION]
-    parts += sections(results, "## ", markdown_table, chart_of)
+    parts = [made_line(results), EXPLANATION, SHAPES_EXPLANATION]
+    parts += sections(results, "## ", markdown_table, charts_of)
     parts += ["## Commands", markdown_table(commands_table(results))]
     if results["missing"]:
         parts.append("\n".join(missing_lines(results)))
