@@ -8,6 +8,7 @@ import argparse
 import json
 import math
 import os
+import resource
 import signal
 import statistics
 import subprocess
@@ -29,6 +30,7 @@ WORK = ROOT / "build" / "bench"
 MESHES = os.environ.get("TETMEND_BENCH_MESHES", "")
 
 GNU_TIME = "/usr/bin/time"
+PATIENCE = 20  # seconds by the clock for each of the processor, on a busy machine
 EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
 EXACT_RULERS = ["mean_ratio", "radius_ratio", "edge_ratio"]
 
@@ -111,7 +113,10 @@ def spread(values: list[float]) -> dict:
 
 def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
     """Runs a command in a folder. GNU time takes the peak memory: what the kernel tells this
-    process about its children would include the memory of the interpreter."""
+    process about its children would include the memory of the interpreter.
+
+    @param limit  seconds of the processor, which other work on the machine does not use up"""
+    seconds = math.ceil(limit)
     timed = [GNU_TIME, "-q", "-f", "%M", "-o", "memory.txt", *command]
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with open(folder / "log.txt", "wb") as log:
@@ -124,14 +129,18 @@ def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
             stderr=subprocess.STDOUT,
             env=environment,
             start_new_session=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU,
+                                                  (seconds, seconds + 5)),
         )
         try:
-            code = process.wait(timeout=limit)
+            code = process.wait(timeout=PATIENCE * limit)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             return Outcome(f"over {limit:.0f} s")
         whole = time.perf_counter() - start
+    if code == 128 + signal.SIGXCPU:
+        return Outcome(f"over {limit:.0f} s")
     if code != 0:
         return Outcome(f"exit status {code}")
     kilobytes = int((folder / "memory.txt").read_text().split()[-1])
@@ -280,10 +289,24 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     add("--quick", action="store_true", help="the two smallest default meshes only")
     add("--only", action="append", default=[], metavar="NAME", help="improvers with NAME in theirs")
     add("--repetitions", type=int, default=3, metavar="N", help="runs of each (default: 3)")
-    add("--time-limit", type=float, default=1800, metavar="S", help="seconds a run (default: 1800)")
+    add("--time-limit", type=float, default=1800, metavar="S",
+        help="seconds of the processor for each run (default: 1800)")
+    add("--continue", dest="continued", action="store_true",
+        help="take what an earlier call, stopped or with fewer meshes, measured at this commit")
     add("--profile", action="store_true", help="and the functions that take the most time (perf)")
     documents.add_option(parser)
     return parser.parse_args(arguments)
+
+
+def measured_before(results: dict, found: list[Competitor]) -> dict[str, dict]:
+    """The meshes of an earlier call at the same commit with the same improvers, by their names."""
+    file = WORK / "results.json"
+    earlier = json.loads(file.read_text()) if file.exists() else {}
+    if any(earlier.get(key) != results[key] for key in ("commit", "repetitions")):
+        return {}
+    names = [row.name for row in found]
+    return {mesh["mesh"]: mesh for mesh in earlier["meshes"]
+            if [row["improver"] for row in mesh["rows"]] == names}
 
 
 def profile(mesh: Path) -> None:
@@ -317,10 +340,12 @@ def main() -> None:
         "meshes": [],
     }
     WORK.mkdir(parents=True, exist_ok=True)
+    earlier = measured_before(results, found) if options.continued else {}
     for mesh in meshes:
-        results["meshes"].append(compare(mesh, found, options.repetitions, options.time_limit))
+        results["meshes"].append(earlier.get(mesh.stem) or compare(
+            mesh, found, options.repetitions, options.time_limit))
+        (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
     print(report.text(results))
-    (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
     drawings = {**charts.all_charts(results), **dots.all_charts(results)}
     for file in [WORK / "results.md", *([options.write] if options.write else [])]:
         documents.write(file, report.page(results), drawings)

@@ -42,14 +42,9 @@ def seconds(value: float) -> str:
     return f"{value:.3f}" if value < 1 else f"{value:.2f}" if value < 10 else f"{value:,.0f}"
 
 
-def with_spread(times: dict | None) -> str:
-    """Median of the runs, and half their range in percent of it."""
-    if times is None:
-        return ""
-    median = times["median"]
-    if times["min"] == times["max"]:
-        return seconds(median)
-    return f"{seconds(median)} ±{50 * (times['max'] - times['min']) / median:.0f} %"
+def least(times: dict | None) -> str:
+    """Of the runs that with the least other work on the machine."""
+    return "" if times is None else seconds(times["min"])
 
 
 def bad(measured: dict) -> str:
@@ -88,8 +83,8 @@ def comparison(mesh: dict) -> Table:
                 f"{row['after']['tets']:,}",
                 *quality(row["after"]),
                 surface(row["surface"]),
-                with_spread(row["phases"].get("improving")),
-                with_spread(row["whole_seconds"]),
+                least(row["phases"].get("improving")),
+                least(row["whole_seconds"]),
                 f"{row['peak_bytes'] / 1e6:,.0f}",
             ]
         )
@@ -119,8 +114,8 @@ def own_schedule(results: dict) -> Table:
             pairs = zip(quality(before), quality(after), strict=True)
             cells = [mesh["mesh"], row["improver"], f"{before['tets']:,}", f"{after['tets']:,}"]
             cells += [f"{old} -> {new}" for old, new in pairs]
-            cells += [surface(row["surface"]), *[with_spread(phases.get(p)) for p in PHASES]]
-            cells += [f"{before['tets'] / phases['improving']['median']:,.0f}"]
+            cells += [surface(row["surface"]), *[least(phases.get(p)) for p in PHASES]]
+            cells += [f"{before['tets'] / phases['improving']['min']:,.0f}"]
             table.append([*cells, f"{row['peak_bytes'] / 1e6:,.0f}"])
     return table
 
@@ -159,7 +154,7 @@ def text_table(table: Table) -> str:
 
 def made_line(results: dict) -> str:
     machine, count = results["machine"], results["repetitions"]
-    runs = f"Median of {count} runs in turns, with half their range in percent."
+    runs = f"Times are the least of {count} runs in turns: other work on the machine adds to them."
     return (f"Load {machine['load_before']:.1f} at the start. "
             + (runs if count > 1 else "One run of each."))
 
