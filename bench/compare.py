@@ -65,6 +65,7 @@ class Outcome:
 
     status: str  # "ok", "time limit", or what went wrong
     whole: float = 0.0  # seconds from start to exit
+    user: float = 0.0  # seconds of the processor, without those of the system
     phases: Phases = field(default_factory=dict)
     peak_bytes: int = 0
 
@@ -98,6 +99,7 @@ class Row:
                 if all(phase in outcome.phases for outcome in good)
             }
             result["whole_seconds"] = spread([outcome.whole for outcome in good])
+            result["user_seconds"] = spread([outcome.user for outcome in good])
             result["peak_bytes"] = max(outcome.peak_bytes for outcome in good)
             result["after"] = self.quality["after"]
             result["surface"] = self.quality["surface"]
@@ -112,12 +114,12 @@ def spread(values: list[float]) -> dict:
 
 
 def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
-    """Runs a command in a folder. GNU time takes the peak memory: what the kernel tells this
-    process about its children would include the memory of the interpreter.
+    """Runs a command in a folder. GNU time takes processor time and peak memory: what the kernel
+    tells this process about its children would include the memory of the interpreter.
 
     @param limit  seconds of the processor, which other work on the machine does not use up"""
     seconds = math.ceil(limit)
-    timed = [GNU_TIME, "-q", "-f", "%M", "-o", "memory.txt", *command]
+    timed = [GNU_TIME, "-q", "-f", "%M %U", "-o", "usage.txt", *command]
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with open(folder / "log.txt", "wb") as log:
         start = time.perf_counter()
@@ -143,8 +145,8 @@ def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
         return Outcome(f"over {limit:.0f} s")
     if code != 0:
         return Outcome(f"exit status {code}")
-    kilobytes = int((folder / "memory.txt").read_text().split()[-1])
-    return Outcome("ok", whole, {}, 1024 * kilobytes)
+    kilobytes, user = (folder / "usage.txt").read_text().split()[-2:]
+    return Outcome("ok", whole, float(user), {}, 1024 * int(kilobytes))
 
 
 def fresh_folder(path: Path) -> Path:

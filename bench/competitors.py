@@ -96,8 +96,9 @@ def tetgen_phases(folder: Path) -> Phases:
 
 
 def mmg_phases(folder: Path) -> Phases:
-    """Sum of its phases, which lie between reading and writing: "0.123s" or "1m02s(62.345s)"."""
-    return improving(re.findall(r"PHASE \d COMPLETED\.\s+(?:\S*\()?([\d.]+)s", log_of(folder)))
+    """Sum of its phases, which lie between reading and writing: "0.123s" or "1m02s (62.345s)"."""
+    pattern = r"PHASE \d COMPLETED\. +(?:\S+ *\()?([\d.]+)s"
+    return improving(re.findall(pattern, log_of(folder)))
 
 
 # --- the table

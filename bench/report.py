@@ -18,11 +18,12 @@ WORDS = ["improver", "one pass of", "schedule", "surface"]  # aligned left
 
 EXPLANATION = (
     "*improving s* is what a program says about its work without reading and writing; *whole run "
-    "s* and *peak MB* are those of the process, with Python for Gmsh and Netgen. TetGen's whole "
-    "run includes that it takes the mesh in. Angles in degrees; lambda in percent of the dihedral "
-    "angles outside 30 to 150 degrees; a bad tet has a minimum sine below 0.5. *surface*: kept "
-    "means the same triangles bit for bit; rounded means the same triangles with coordinates "
-    "changed by at most the number given. One program measures all results; it shares no formula "
+    "s*, *user s* (processor time) and *peak MB* are those of the process, with Python for Gmsh "
+    "and Netgen. Other work on the machine changes *user s* least. TetGen's whole run includes "
+    "that it takes the mesh in. Angles in degrees; lambda in percent of the dihedral angles "
+    "outside 30 to 150 degrees; a bad tet has a minimum sine below 0.5. *surface*: kept means the "
+    "same triangles bit for bit; rounded means the same triangles with coordinates changed by at "
+    "most the number given. One program measures all results; it shares no formula "
     "with tetmend."
 )
 SHAPES_TITLE = "Shapes of tets, and faces:"
@@ -70,12 +71,12 @@ def surface(compared: dict) -> str:
 
 def comparison(mesh: dict) -> Table:
     heading = ["improver", "tets after", *QUALITY, "surface"]
-    heading += ["improving s", "whole run s", "peak MB"]
+    heading += ["improving s", "whole run s", "user s", "peak MB"]
     before = mesh["before"]
-    table = [heading, ["(input)", f"{before['tets']:,}", *quality(before), "", "", "", ""]]
+    table = [heading, ["(input)", f"{before['tets']:,}", *quality(before), *[""] * 5]]
     for row in mesh["rows"]:
         if "after" not in row or row["status"] != "ok":
-            table.append([row["improver"], *[""] * 5, row["status"], "", "", ""])
+            table.append([row["improver"], *[""] * 5, row["status"], *[""] * 4])
             continue
         table.append(
             [
@@ -85,6 +86,7 @@ def comparison(mesh: dict) -> Table:
                 surface(row["surface"]),
                 least(row["phases"].get("improving")),
                 least(row["whole_seconds"]),
+                least(row["user_seconds"]),
                 f"{row['peak_bytes'] / 1e6:,.0f}",
             ]
         )
