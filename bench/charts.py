@@ -255,7 +255,7 @@ def marks_of(mesh: dict, value: Callable[[dict], float]) -> list[Mark]:
             continue
         whole = "improving" not in row["phases"]
         times = row["whole_seconds"] if whole else row["phases"]["improving"]
-        time = max(times["median"], 1e-4)
+        time = max(times["min"], 1e-4)
         marks.append(Mark(row["short"], time, value(row["after"]), row["ours"], whole))
     return marks
 

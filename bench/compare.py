@@ -8,6 +8,7 @@ import argparse
 import json
 import math
 import os
+import resource
 import signal
 import statistics
 import subprocess
@@ -19,6 +20,7 @@ from pathlib import Path
 
 import charts
 import documents
+import dots
 import report
 from competitors import Competitor, Phases, competitors, shown_command, version
 
@@ -28,11 +30,14 @@ WORK = ROOT / "build" / "bench"
 MESHES = os.environ.get("TETMEND_BENCH_MESHES", "")
 
 GNU_TIME = "/usr/bin/time"
+PATIENCE = 20  # seconds by the clock for each of the processor, on a busy machine
 EXACT_MEASURES = ["tets", "theta_min", "theta_max", "lambda", "inverted", "flat", "volume"]
+EXACT_RULERS = ["mean_ratio", "radius_ratio", "edge_ratio"]
 
 EPILOG = """\
-Results go to build/bench: results.json, results.md, and a chart of quality against time for each
-mesh. With --write FILE a document like docs/results/rivals.md is written too.
+Results go to build/bench: results.json, results.md, and for each mesh a chart of all measures and
+one of quality against time. With --write FILE a document like docs/results/rivals.md is written,
+too.
 
 TETMEND_BENCH_MESHES names a folder of meshes (.mesh, .meshb, .mesh.xz) that are default meshes too.
 Rivals that Debian does not have are found through environment variables:
@@ -60,6 +65,7 @@ class Outcome:
 
     status: str  # "ok", "time limit", or what went wrong
     whole: float = 0.0  # seconds from start to exit
+    user: float = 0.0  # seconds of the processor, without those of the system
     phases: Phases = field(default_factory=dict)
     peak_bytes: int = 0
 
@@ -93,6 +99,7 @@ class Row:
                 if all(phase in outcome.phases for outcome in good)
             }
             result["whole_seconds"] = spread([outcome.whole for outcome in good])
+            result["user_seconds"] = spread([outcome.user for outcome in good])
             result["peak_bytes"] = max(outcome.peak_bytes for outcome in good)
             result["after"] = self.quality["after"]
             result["surface"] = self.quality["surface"]
@@ -107,9 +114,12 @@ def spread(values: list[float]) -> dict:
 
 
 def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
-    """Runs a command in a folder. GNU time takes the peak memory: what the kernel tells this
-    process about its children would include the memory of the interpreter."""
-    timed = [GNU_TIME, "-q", "-f", "%M", "-o", "memory.txt", *command]
+    """Runs a command in a folder. GNU time takes processor time and peak memory: what the kernel
+    tells this process about its children would include the memory of the interpreter.
+
+    @param limit  seconds of the processor, which other work on the machine does not use up"""
+    seconds = math.ceil(limit)
+    timed = [GNU_TIME, "-q", "-f", "%M %U", "-o", "usage.txt", *command]
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with open(folder / "log.txt", "wb") as log:
         start = time.perf_counter()
@@ -121,18 +131,22 @@ def run(command: Iterable[str], folder: Path, limit: float) -> Outcome:
             stderr=subprocess.STDOUT,
             env=environment,
             start_new_session=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU,
+                                                  (seconds, seconds + 5)),
         )
         try:
-            code = process.wait(timeout=limit)
+            code = process.wait(timeout=PATIENCE * limit)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             return Outcome(f"over {limit:.0f} s")
         whole = time.perf_counter() - start
+    if code == 128 + signal.SIGXCPU:
+        return Outcome(f"over {limit:.0f} s")
     if code != 0:
         return Outcome(f"exit status {code}")
-    kilobytes = int((folder / "memory.txt").read_text().split()[-1])
-    return Outcome("ok", whole, {}, 1024 * kilobytes)
+    kilobytes, user = (folder / "usage.txt").read_text().split()[-2:]
+    return Outcome("ok", whole, float(user), {}, 1024 * int(kilobytes))
 
 
 def fresh_folder(path: Path) -> Path:
@@ -167,11 +181,16 @@ def run_once(row: Row, inputs: Path, folder: Path, limit: float) -> None:
 
 
 def report_agrees(file: Path, measured: dict) -> bool:
-    """Whether the kernel's statistics are those of the independent routine. A tet at the threshold
-    may be bad for one only."""
+    """Whether the kernel's statistics are those of the independent routine. A tet or a face at a
+    threshold may count for one only."""
     own = json.loads(file.read_text())["after"]
-    close = [math.isclose(own[key], measured[key], rel_tol=1e-6) for key in EXACT_MEASURES]
-    return all(close) and math.isclose(own["n_bad"], measured["n_bad"], rel_tol=1e-3, abs_tol=1)
+    pairs = [(own[key], measured[key]) for key in EXACT_MEASURES]
+    pairs += [(own["rulers"][ruler][what], measured["rulers"][ruler][what])
+              for ruler in EXACT_RULERS for what in ("worst", "mean")]
+    counts = [(own["n_bad"], measured["n_bad"]),
+              (own["rulers"]["faces_above_70"], measured["rulers"]["faces_above_70"])]
+    return (all(math.isclose(*pair, rel_tol=1e-6) for pair in pairs)
+            and all(math.isclose(*pair, rel_tol=1e-3, abs_tol=1) for pair in counts))
 
 
 def program_json(name: str, *arguments: str) -> dict:
@@ -272,10 +291,24 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     add("--quick", action="store_true", help="the two smallest default meshes only")
     add("--only", action="append", default=[], metavar="NAME", help="improvers with NAME in theirs")
     add("--repetitions", type=int, default=3, metavar="N", help="runs of each (default: 3)")
-    add("--time-limit", type=float, default=1800, metavar="S", help="seconds a run (default: 1800)")
+    add("--time-limit", type=float, default=1800, metavar="S",
+        help="seconds of the processor for each run (default: 1800)")
+    add("--continue", dest="continued", action="store_true",
+        help="take what an earlier call, stopped or with fewer meshes, measured at this commit")
     add("--profile", action="store_true", help="and the functions that take the most time (perf)")
     documents.add_option(parser)
     return parser.parse_args(arguments)
+
+
+def measured_before(results: dict, found: list[Competitor]) -> dict[str, dict]:
+    """The meshes of an earlier call at the same commit with the same improvers, by their names."""
+    file = WORK / "results.json"
+    earlier = json.loads(file.read_text()) if file.exists() else {}
+    if any(earlier.get(key) != results[key] for key in ("commit", "repetitions")):
+        return {}
+    names = [row.name for row in found]
+    return {mesh["mesh"]: mesh for mesh in earlier["meshes"]
+            if [row["improver"] for row in mesh["rows"]] == names}
 
 
 def profile(mesh: Path) -> None:
@@ -309,12 +342,15 @@ def main() -> None:
         "meshes": [],
     }
     WORK.mkdir(parents=True, exist_ok=True)
+    earlier = measured_before(results, found) if options.continued else {}
     for mesh in meshes:
-        results["meshes"].append(compare(mesh, found, options.repetitions, options.time_limit))
+        results["meshes"].append(earlier.get(mesh.stem) or compare(
+            mesh, found, options.repetitions, options.time_limit))
+        (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
     print(report.text(results))
-    (WORK / "results.json").write_text(json.dumps(results, indent=2) + "\n")
+    drawings = {**charts.all_charts(results), **dots.all_charts(results)}
     for file in [WORK / "results.md", *([options.write] if options.write else [])]:
-        documents.write(file, report.page(results), charts.all_charts(results))
+        documents.write(file, report.page(results), drawings)
     print(f"\nSaved in {WORK.relative_to(ROOT)}: results.json, results.md, figures.")
     if options.profile:
         profile(meshes[-1])

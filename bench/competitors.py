@@ -96,29 +96,36 @@ def tetgen_phases(folder: Path) -> Phases:
 
 
 def mmg_phases(folder: Path) -> Phases:
-    """Sum of its phases, which lie between reading and writing: "0.123s" or "1m02s(62.345s)"."""
-    return improving(re.findall(r"PHASE \d COMPLETED\.\s+(?:\S*\()?([\d.]+)s", log_of(folder)))
+    """Sum of its phases, which lie between reading and writing: "0.123s" or "1m02s (62.345s)"."""
+    pattern = r"PHASE \d COMPLETED\. +(?:\S+ *\()?([\d.]+)s"
+    return improving(re.findall(pattern, log_of(folder)))
 
 
 # --- the table
 
 
 def tetmend_rows(tetmend: Path) -> list[Competitor]:
-    def row(threads: int) -> Competitor:
-        plural = "thread" if threads == 1 else "threads"
-        options = f"--quiet --report report.json --threads {threads}".split()
+    def row(name: str, short: str, threads: int, schedule: str = "") -> Competitor:
+        options = f"--quiet --report report.json --threads {threads}"
+        options += f" --schedule {schedule}" if schedule else ""
+        command = (str(tetmend), "improve", "input.mesh", "-o", "output.mesh", *options.split())
         return Competitor(
-            name=f"tetmend, {threads} {plural}",
-            short=f"tetmend ({threads})",
+            name=f"tetmend, {name}",
+            short=f"tetmend {short}",
             found=str(tetmend),
             hint="",
-            command=(str(tetmend), "improve", "input.mesh", "-o", "output.mesh", *options),
+            command=command,
             output="output.mesh",
             phases=tetmend_phases,
             ours=True,
         )
 
-    return [row(1), row(2)]
+    return [
+        row("1 thread", "(1)", 1),
+        row("2 threads", "(2)", 2),
+        row("thorough, 1 thread", "thorough", 1, "thorough"),
+        row("polish, 1 thread", "polish", 1, "polish"),
+    ]
 
 
 def gmsh_rows() -> list[Competitor]:

@@ -5,8 +5,9 @@
 //   measure MESH            statistics
 //   measure BEFORE AFTER    statistics of both, and what became of the surface
 //
-// It shares the readers with tetmend and nothing else. Angles, volumes and surfaces come from plain
-// arrays by formulas of its own, so that a mistake in the kernel's statistics cannot hide here.
+// It shares the readers with tetmend and nothing else. Angles, shapes, volumes and surfaces come
+// from plain arrays by formulas of its own, so that a mistake in the kernel's statistics cannot hide
+// here.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,6 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/boundary.h"
+#include "bench/shapes.h"
 #include "kernel/formats/mesh_io.h"
 
 namespace {
@@ -71,6 +73,7 @@ class Statistics {
     const double sign = 2 * negative > std::ssize(volumes) ? -1 : 1;
     for (std::size_t i = 0; i < mesh.tets.size(); ++i) add(mesh, mesh.tets[i], sign * volumes[i]);
     points_ = used_points(mesh);
+    shapes_ = bench::shapes(mesh, sign);
   }
 
   Json to_json() const {
@@ -96,10 +99,23 @@ class Statistics {
             {"worst_sine", worst_sine_},
             {"inverted", inverted_},
             {"flat", flat_},
-            {"volume", volume_}};
+            {"volume", volume_},
+            {"rulers", rulers()}};
   }
 
  private:
+  /// Named as in the report of tetmend.
+  Json rulers() const {
+    const auto ruler = [](double worst, double mean) -> Json {
+      return {{"worst", worst}, {"mean", mean}};
+    };
+    return {{"mean_ratio", ruler(shapes_.worst_mean_ratio, shapes_.mean_mean_ratio)},
+            {"radius_ratio", ruler(shapes_.worst_radius_ratio, shapes_.mean_radius_ratio)},
+            {"edge_ratio", ruler(shapes_.worst_edge_ratio, shapes_.mean_edge_ratio)},
+            {"inner_faces", shapes_.inner_faces},
+            {"faces_above_70", shapes_.faces_above_70}};
+  }
+
   void add(const MeshData& mesh, const MeshData::Tet& tet, double volume) {
     ++tets_;
     volume_ += volume;
@@ -150,6 +166,7 @@ class Statistics {
   double theta_max_ = 0;
   double worst_sine_ = std::numeric_limits<double>::infinity();
   double volume_ = 0;
+  bench::Shapes shapes_;
 };
 
 // --- surfaces ------------------------------------------------------------------------------------

@@ -32,22 +32,29 @@ def best_rival(table: documents.Table) -> list[str]:
 
 
 def under_heading(keys: list[str], heading: str, table: documents.Table) -> list[list[str]]:
-    if keys == [heading, BEST_RIVAL]:
-        return [best_rival(table)]
     return [row for row in table[1:] if [heading, *row][:len(keys)] == keys]
+
+
+def named(keys: list[str], text: str) -> list[str]:
+    """With the name of the best rival, if the keys ask for it."""
+    if keys[1:] != [BEST_RIVAL]:
+        return keys
+    [name] = [best_rival(table)[0] for heading, table in documents.tables(text)
+              if heading == keys[0] and "bad" in table[0]]
+    return [keys[0], name]
 
 
 def figure(place: str, results: Path) -> str:
     """The cell at a place; of a time with its spread, the time."""
     file, *keys, column = place.split(" / ")
-    tables = [(heading, table)
-              for heading, table in documents.tables((results / f"{file}.md").read_text())
-              if column in table[0]]
+    text = (results / f"{file}.md").read_text()
+    keys = named(keys, text)
+    tables = [(heading, table) for heading, table in documents.tables(text) if column in table[0]]
     cells = [row[table[0].index(column)] for heading, table in tables
              for row in under_heading(keys, heading, table)]
     cells = cells or [row[table[0].index(column)] for _, table in tables
                       for row in table[1:] if row[:len(keys)] == keys]
-    if len(cells) != 1:
+    if len(set(cells)) != 1:
         sys.exit(f"pages: {{{place}}} means {len(cells)} cells of {file}.md, not one")
     return cells[0].split(" ±")[0]
 

@@ -5,10 +5,12 @@ from collections.abc import Callable
 
 import charts
 import documents
+import dots
 import paper
 from documents import Stamp, Table, markdown_table
+from measures import ANGLES, SHAPES, angle, percent
 
-QUALITY = ["theta_min", "theta_max", "lambda %", "bad"]
+QUALITY = [measure.column for measure in ANGLES]
 PAPER_HEADING = ["mesh", "scheme", "tets", "theta_min", "theta_max", "lambda %", "seconds"]
 PHASES = ["reading", "building", "improving", "measuring", "writing"]  # of tetmend
 WORDS = ["improver", "one pass of", "schedule", "surface"]  # aligned left
@@ -16,38 +18,34 @@ WORDS = ["improver", "one pass of", "schedule", "surface"]  # aligned left
 
 EXPLANATION = (
     "*improving s* is what a program says about its work without reading and writing; *whole run "
-    "s* and *peak MB* are those of the process, with Python for Gmsh and Netgen. TetGen's whole "
-    "run includes that it takes the mesh in. Angles in degrees; lambda in percent of the dihedral "
-    "angles outside 30 to 150 degrees; a bad tet has a minimum sine below 0.5. *surface*: kept "
-    "means the same triangles bit for bit; rounded means the same triangles with coordinates "
-    "changed by at most the number given. One program measures all results; it shares no formula "
+    "s*, *user s* (processor time) and *peak MB* are those of the process, with Python for Gmsh "
+    "and Netgen. Other work on the machine changes *user s* least. TetGen's whole run includes "
+    "that it takes the mesh in. Angles in degrees; lambda in percent of the dihedral angles "
+    "outside 30 to 150 degrees; a bad tet has a minimum sine below 0.5. *surface*: kept means the "
+    "same triangles bit for bit; rounded means the same triangles with coordinates changed by at "
+    "most the number given. One program measures all results; it shares no formula "
     "with tetmend."
+)
+SHAPES_TITLE = "Shapes of tets, and faces:"
+SHAPES_EXPLANATION = (
+    "*mean ratio* and *radius ratio* are 1 for the regular tet and 0 for a flat one: "
+    "12 (3 V)^(2/3) by the sum of the squared edges, and three times the radius of the inscribed "
+    "sphere by that of the circumscribed one; of all tets the worst and the mean. *edge ratio* is "
+    "that of the longest to the shortest edge of a tet, at worst. *faces above 70* are inner faces "
+    "whose normal is more than 70 degrees from the line that joins the centroids of the two tets."
 )
 
 
 # --- cells
 
 
-def angle(degrees: float) -> str:
-    return f"{degrees:.2f}" if degrees >= 0.01 else f"{degrees:.2g}"
-
-
-def percent(value: float) -> str:
-    return "0" if value == 0 else f"{value:#.3g}"
-
-
 def seconds(value: float) -> str:
     return f"{value:.3f}" if value < 1 else f"{value:.2f}" if value < 10 else f"{value:,.0f}"
 
 
-def with_spread(times: dict | None) -> str:
-    """Median of the runs, and half their range in percent of it."""
-    if times is None:
-        return ""
-    median = times["median"]
-    if times["min"] == times["max"]:
-        return seconds(median)
-    return f"{seconds(median)} ±{50 * (times['max'] - times['min']) / median:.0f} %"
+def least(times: dict | None) -> str:
+    """Of the runs that with the least other work on the machine."""
+    return "" if times is None else seconds(times["min"])
 
 
 def bad(measured: dict) -> str:
@@ -73,12 +71,12 @@ def surface(compared: dict) -> str:
 
 def comparison(mesh: dict) -> Table:
     heading = ["improver", "tets after", *QUALITY, "surface"]
-    heading += ["improving s", "whole run s", "peak MB"]
+    heading += ["improving s", "whole run s", "user s", "peak MB"]
     before = mesh["before"]
-    table = [heading, ["(input)", f"{before['tets']:,}", *quality(before), "", "", "", ""]]
+    table = [heading, ["(input)", f"{before['tets']:,}", *quality(before), *[""] * 5]]
     for row in mesh["rows"]:
         if "after" not in row or row["status"] != "ok":
-            table.append([row["improver"], *[""] * 5, row["status"], "", "", ""])
+            table.append([row["improver"], *[""] * 5, row["status"], *[""] * 4])
             continue
         table.append(
             [
@@ -86,12 +84,22 @@ def comparison(mesh: dict) -> Table:
                 f"{row['after']['tets']:,}",
                 *quality(row["after"]),
                 surface(row["surface"]),
-                with_spread(row["phases"].get("improving")),
-                with_spread(row["whole_seconds"]),
+                least(row["phases"].get("improving")),
+                least(row["whole_seconds"]),
+                least(row["user_seconds"]),
                 f"{row['peak_bytes'] / 1e6:,.0f}",
             ]
         )
     return table
+
+
+def shapes(mesh: dict) -> Table:
+    """The measures beside angles."""
+    rows = [("(input)", mesh["before"])]
+    rows += [(row["improver"], row["after"]) for row in mesh["rows"] if "after" in row]
+    table = [["improver", *(measure.column for measure in SHAPES)]]
+    return table + [[name, *(measure.shown(measure.of(measured)) for measure in SHAPES)]
+                    for name, measured in rows]
 
 
 def own_schedule(results: dict) -> Table:
@@ -108,8 +116,8 @@ def own_schedule(results: dict) -> Table:
             pairs = zip(quality(before), quality(after), strict=True)
             cells = [mesh["mesh"], row["improver"], f"{before['tets']:,}", f"{after['tets']:,}"]
             cells += [f"{old} -> {new}" for old, new in pairs]
-            cells += [surface(row["surface"]), *[with_spread(phases.get(p)) for p in PHASES]]
-            cells += [f"{before['tets'] / phases['improving']['median']:,.0f}"]
+            cells += [surface(row["surface"]), *[least(phases.get(p)) for p in PHASES]]
+            cells += [f"{before['tets'] / phases['improving']['min']:,.0f}"]
             table.append([*cells, f"{row['peak_bytes'] / 1e6:,.0f}"])
     return table
 
@@ -148,19 +156,20 @@ def text_table(table: Table) -> str:
 
 def made_line(results: dict) -> str:
     machine, count = results["machine"], results["repetitions"]
-    runs = f"Median of {count} runs in turns, with half their range in percent."
+    runs = f"Times are the least of {count} runs in turns: other work on the machine adds to them."
     return (f"Load {machine['load_before']:.1f} at the start. "
             + (runs if count > 1 else "One run of each."))
 
 
 def sections(results: dict, heading: str, render: Callable[[Table], str],
              after: Callable[[dict], list[str]]) -> list[str]:
-    """@param after  what follows the table of a mesh"""
+    """@param after  what follows the tables of a mesh"""
     parts = []
     if len(own_schedule(results)) > 1:
         parts += [heading + "tetmend alone", render(own_schedule(results))]
     for mesh in results["meshes"]:
-        parts += [heading + mesh["mesh"], render(comparison(mesh)), *after(mesh)]
+        parts += [heading + mesh["mesh"], render(comparison(mesh)), SHAPES_TITLE,
+                  render(shapes(mesh)), *after(mesh)]
     return parts
 
 
@@ -187,17 +196,17 @@ def commands_table(results: dict) -> Table:
     return table
 
 
-def chart_of(mesh: dict) -> list[str]:
-    name = charts.file_name(mesh)
-    return [documents.picture(name, charts.heading(mesh))] if charts.chart(mesh) else []
+def charts_of(mesh: dict) -> list[str]:
+    return [documents.picture(kind.file_name(mesh), kind.heading(mesh))
+            for kind in (dots, charts) if kind.chart(mesh)]
 
 
 def page(results: dict) -> str:
     """The comparison as a document."""
     made = Stamp(results["command"], results["commit"], results["date"],
                  documents.machine_text(results["machine"]))
-    parts = [made_line(results), EXPLANATION]
-    parts += sections(results, "## ", markdown_table, chart_of)
+    parts = [made_line(results), EXPLANATION, SHAPES_EXPLANATION]
+    parts += sections(results, "## ", markdown_table, charts_of)
     parts += ["## Commands", markdown_table(commands_table(results))]
     if results["missing"]:
         parts.append("\n".join(missing_lines(results)))

@@ -5,24 +5,31 @@ pages that quote them. Runs no measurement.
 documents_test.py SOURCE_FOLDER
 """
 
+import math
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 SOURCE = Path(sys.argv[1])
 sys.path.insert(0, str(SOURCE / "bench"))
 import cores  # noqa: E402
 import documents  # noqa: E402
+import dots  # noqa: E402
 import files  # noqa: E402
 import growth  # noqa: E402
+import measures  # noqa: E402
 import micro  # noqa: E402
 import pages  # noqa: E402
 import report  # noqa: E402
 
 MADE = documents.Stamp("script/bench --quick", "0123abc", "2026-11-22", "AMD EPYC, 2 cores, 25 GB")
 MEASURED = {"tets": 1000, "theta_min": 0.0012, "theta_max": 179.5, "lambda": 5.25, "n_bad": 1234,
-            "inverted": 0, "flat": 0}
+            "inverted": 0, "flat": 0,
+            "rulers": {"mean_ratio": {"worst": 0.0005, "mean": 0.75},
+                       "radius_ratio": {"worst": 0.0, "mean": 0.7},
+                       "edge_ratio": {"worst": 12.345, "mean": 2.0}, "faces_above_70": 1300}}
 BETTER = {**MEASURED, "tets": 900, "theta_min": 30.0, "theta_max": 149.0, "lambda": 0.0, "n_bad": 7}
 
 
@@ -34,6 +41,7 @@ def compared(name: str, ours: bool, after: dict) -> dict:
     phases = {phase: times(0.5) for phase in report.PHASES} if ours else {"improving": times(2)}
     return {"improver": name, "short": name, "ours": ours, "command": f"{name} input.mesh",
             "version": "1.0", "status": "ok", "phases": phases, "whole_seconds": times(3),
+            "user_seconds": times(1),
             "peak_bytes": 87_000_000, "after": after,
             "surface": {"surface": "identical", "lost": 0, "distance": 0}}
 
@@ -104,17 +112,45 @@ class Tables(unittest.TestCase):
     def test_a_comparison_has_all_improvers_their_commands_and_what_is_missing(self) -> None:
         text = report.page(COMPARISON)
         self.assertIsNotNone(documents.HEAD.match(text))
-        own, cube, commands = tables(text)
+        own, cube, shapes, commands = tables(text)
         self.assertEqual(own[1][4:8], ["0.0012 -> 30.00", "179.50 -> 149.00", "5.25 -> 0",
                                        "1,234 -> 7"])
         self.assertEqual(cube[1], ["(input)", "1,000", "0.0012", "179.50", "5.25", "1,234",
-                                   "", "", "", ""])
+                                   "", "", "", "", ""])
         self.assertEqual(cube[3], ["Some", "900", "30.00", "149.00", "0", "90", "kept",
-                                   "2.00 ±10 %", "3.00 ±10 %", "87"])
+                                   "1.80", "2.70", "0.900", "87"])
         self.assertEqual(cube[4][5], "80, 3 inverted or flat")
+        self.assertEqual(shapes[1], ["(input)", "0.0005", "0.7500", "0.0000", "0.7000", "12.35",
+                                     "1,300"])
+        self.assertEqual([row[0] for row in shapes[2:]], [row[0] for row in cube[2:]])
         self.assertEqual(commands[2], ["Some", "`Some input.mesh`", "1.0"])
         self.assertIn("not run: MMG", text)
         self.assertIn("![cube, 1,000 tets: quality against time](figures/quality-cube.svg)", text)
+        self.assertIn("![cube, 1,000 tets: all measures](figures/measures-cube.svg)", text)
+
+    def test_a_chart_of_measures_has_each_improver_in_each_row_and_places_it_by_its_figure(
+            self) -> None:
+        [mesh] = COMPARISON["meshes"]
+        drawn = ElementTree.fromstring(dots.chart(mesh))
+        space = "{http://www.w3.org/2000/svg}"
+        texts = [element.text for element in drawn.iter(f"{space}text")]
+        for measure in measures.MEASURES:
+            self.assertIn(measure.title, texts)
+        self.assertEqual(len(list(drawn.iter(f"{space}circle"))), 1 + len(measures.MEASURES))
+        self.assertEqual(len(list(drawn.iter(f"{space}polygon"))), 2 * (1 + len(measures.MEASURES)))
+        [least] = [measure for measure in measures.MEASURES if measure.column == "theta_min"]
+        [bad] = [measure for measure in measures.MEASURES if measure.column == "bad"]
+        self.assertEqual(dots.places(least, [10.0, 20.0, 30.0]), [0.0, 0.5, 1.0])
+        self.assertEqual(dots.places(bad, [1000, 10, 100]), [0.0, 1.0, 0.5])
+        self.assertEqual(dots.places(bad, [7, 7]), [1.0, 1.0])
+
+    def test_dots_in_one_place_are_moved_apart(self) -> None:
+        placed = dots.moved_apart([600.0] * 9 + [300.0])
+        for i, one in enumerate(placed):
+            for other in placed[:i]:
+                self.assertGreater(math.dist(one, other), 0.9 * dots.APART)
+        self.assertEqual(placed[0], (600.0, 0.0))
+        self.assertEqual(placed[-1], (300.0, 0.0))
 
     def test_growth_compares_larger_meshes_with_that_of_a_million(self) -> None:
         def told(tets: int, improving: float) -> dict:
@@ -162,11 +198,13 @@ class Pages(unittest.TestCase):
         template = ("- All {rivals / cube / (input) / bad} and\n  {rivals / cube /\n  Some / bad}."
                     "\n- {rivals / Some / command}\n\n| {rivals / cube / Some / improving s} |\n")
         self.assertEqual(pages.page(template, self.results),
-                         "- All 1,234 and 90.\n- `Some input.mesh`\n\n| 2.00 |\n")
+                         "- All 1,234 and 90.\n- `Some input.mesh`\n\n| 1.80 |\n")
 
     def test_the_best_rival_is_that_with_the_fewest_bad_tets(self) -> None:
-        template = "{rivals / cube / best rival / improver}, {rivals / cube / best rival / bad}"
-        self.assertEqual(pages.page(template, self.results), "Other, 80, 3 inverted or flat\n")
+        template = ("{rivals / cube / best rival / improver}, {rivals / cube / best rival / bad}; "
+                    "{rivals / cube / best rival / edge ratio}")
+        self.assertEqual(pages.page(template, self.results),
+                         "Other, 80, 3 inverted or flat; 12.35\n")
 
     def test_a_place_that_means_no_cell_or_several_is_an_error(self) -> None:
         for place in ["rivals / cube / Nobody / bad", "rivals / cube / bad"]:
@@ -208,7 +246,7 @@ class Published(unittest.TestCase):
             for row in own:
                 self.assertLess(int(row[bad].replace(",", "")), rival)
             for row in table[2:]:
-                self.assertTrue(row[surface] == "kept" or row[surface].startswith("over "), row)
+                self.assertTrue(row[surface].startswith(("kept", "rounded ", "over ")), row)
 
 
 if __name__ == "__main__":
