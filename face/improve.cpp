@@ -182,11 +182,11 @@ class Improvement {
     for (const std::string& text : texts) watcher_.noted(text);
     result_.notes.insert(result_.notes.end(), texts.begin(), texts.end());
   }
-  /// What a run that failed half-way leaves has no data: nobody knows which belong to it.
   void give_back() {
     trim_heap();
+    if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
     MeshData data = std::move(mesh_).to_data();
-    if (carries_ && !result_.vertex_map.empty()) {
+    if (carries_) {
       result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, data);
     }
     input_ = {};

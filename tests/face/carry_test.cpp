@@ -140,6 +140,23 @@ TEST_CASE("parts that labels do not tell apart keep their volumes, groups their 
   }
 }
 
+TEST_CASE("data belong to the mesh that a run leaves which failed half-way") {
+  MeshData before = asset("bracket.meshb");
+  std::vector<double> field;
+  for (const Point& p : before.points) field.push_back(linear(p));
+  before.point_data = {{"field", 1, field}};
+  Mesh mesh = MeshAccess::make(before);
+  CHECK_THROWS_AS(improve(mesh, {.script = "smooth{}\ninsert_points{}\nerror('enough')"}), Error);
+  const MeshData& now = MeshAccess::data(mesh);
+  CHECK(now.points.size() > before.points.size());
+  REQUIRE(now.point_data.size() == 1);
+  const auto& values = std::get<std::vector<double>>(now.point_data[0].values);
+  REQUIRE(values.size() == now.points.size());
+  for (std::size_t i = 0; i < values.size(); i += 97) {
+    CHECK(values[i] == doctest::Approx(linear(now.points[i])).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a flat tet gives a linear field to the last digits") {
   MeshData data;
   data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1e-9}, {2, 2, 2}};
