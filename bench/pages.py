@@ -45,7 +45,7 @@ def named(keys: list[str], text: str) -> list[str]:
 
 
 def figure(place: str, results: Path) -> str:
-    """The cell at a place; of a time with its spread, the time."""
+    """The cell at a place."""
     file, *keys, column = place.split(" / ")
     text = (results / f"{file}.md").read_text()
     keys = named(keys, text)
@@ -56,7 +56,7 @@ def figure(place: str, results: Path) -> str:
                       for row in table[1:] if row[:len(keys)] == keys]
     if len(set(cells)) != 1:
         sys.exit(f"pages: {{{place}}} means {len(cells)} cells of {file}.md, not one")
-    return cells[0].split(" ±")[0]
+    return cells[0]
 
 
 def filled(block: str) -> str:
