@@ -38,6 +38,23 @@ std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> vertices) {
   return vertices;
 }
 
+/// What there is of elements of one kind.
+template <class Element, class Data, class Labels, class Numbers>
+struct Lists {
+  Element& elements;
+  Data& data;
+  Labels& parts;
+  Numbers& numbers;
+};
+template <class Mesh>
+auto triangles_of(Mesh& mesh) {
+  return Lists{mesh.triangles, mesh.triangle_data, mesh.triangle_parts, mesh.triangle_numbers};
+}
+template <class Mesh>
+auto edges_of(Mesh& mesh) {
+  return Lists{mesh.edges, mesh.edge_data, mesh.edge_parts, mesh.edge_numbers};
+}
+
 class Carrying {
  public:
   Carrying(const MeshData& before, std::span<const std::uint32_t> vertex_map,
@@ -59,15 +76,16 @@ class Carrying {
 
   std::vector<CarriedArray> run() {
     const TetLocator locator(before_, std::move(changed_));
+    now_.point_numbers = numbers_of(before_.point_numbers, old_point_);
+    now_.tet_numbers = numbers_of(before_.tet_numbers, old_tet_);
     carry_points(locator);
     carry_tets(locator);
-    carry_elements(before_.triangles, before_.triangle_data, before_.triangle_parts, 2,
-                   now_.triangles, now_.triangle_data, now_.triangle_parts);
-    carry_elements(before_.edges, before_.edge_data, before_.edge_parts, 1, now_.edges,
-                   now_.edge_data, now_.edge_parts);
+    carry_elements(triangles_of(before_), triangles_of(now_), 2);
+    carry_elements(edges_of(before_), edges_of(now_), 1);
     carry_groups();
     carry_others();
     now_.entities = before_.entities;
+    now_.deck = before_.deck;
     now_.variant = before_.variant;
     now_.label_array = before_.label_array;
     return std::move(carried_);
@@ -82,6 +100,11 @@ class Carrying {
     return inverse;
   }
 
+  bool has_members(int dimension) const {
+    return std::any_of(before_.groups.begin(), before_.groups.end(), [&](const Group& group) {
+      return group.dimension == dimension && !group.members.empty();
+    });
+  }
   bool stayed(std::uint32_t point) const {
     const std::uint32_t old = old_point_[point];
     return old != kGone && before_.points[old] == now_.points[point];
@@ -98,38 +121,36 @@ class Carrying {
         if (old_point_[i] != kGone) now_.point_entities[i] = before_.point_entities[old_point_[i]];
       }
     }
-    if (before_.point_data.empty()) return;
-    std::vector<TetPlace> places(now_.points.size());
-    for_chunks(places.size(), [&](std::size_t begin, std::size_t end) {
+    if (before_.point_data.empty() && !has_members(0)) return;
+    places_.resize(now_.points.size());
+    for_chunks(places_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!stayed(static_cast<std::uint32_t>(i)) && !locator.is_empty()) {
-          places[i] = locator.find(now_.points[i]);
+          places_[i] = locator.find(now_.points[i]);
         }
       }
     });
     for (const DataArray& array : before_.point_data) {
       DataArray& made = now_.point_data.emplace_back(DataArray{array.name, array.components, {}});
-      std::visit(
-          [&](const auto& old) { made.values = interpolated(old, array.components, places); },
-          array.values);
+      std::visit([&](const auto& old) { made.values = interpolated(old, array.components); },
+                 array.values);
       const bool is_real = array.values.index() >= 2;
       tell(array, made, "points", is_real ? kLinear : kNearest);
     }
   }
 
   template <class Value>
-  std::vector<Value> interpolated(const std::vector<Value>& old, std::size_t components,
-                                  const std::vector<TetPlace>& places) const {
-    std::vector<Value> made(places.size() * components);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+  std::vector<Value> interpolated(const std::vector<Value>& old, std::size_t components) const {
+    std::vector<Value> made(places_.size() * components);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
       for (std::size_t k = 0; k < components; ++k) {
         Value& value = made[i * components + k];
         if (stayed(static_cast<std::uint32_t>(i))) {
           value = old[old_point_[i] * components + k];
           continue;
         }
-        const auto& v = before_.tets[places[i].tet].vertices;
-        const auto& weights = places[i].weights;
+        const auto& v = before_.tets[places_[i].tet].vertices;
+        const auto& weights = places_[i].weights;
         if constexpr (std::is_integral_v<Value>) {
           const auto* most = std::max_element(weights.begin(), weights.end());
           value = old[v[static_cast<std::size_t>(most - weights.begin())] * components + k];
@@ -148,7 +169,7 @@ class Carrying {
   }
 
   void carry_tets(const TetLocator& locator) {
-    if (before_.tet_data.empty() && before_.tet_parts.empty()) return;
+    if (before_.tet_data.empty() && before_.tet_parts.empty() && !has_members(3)) return;
     for_chunks(old_tet_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (old_tet_[i] == kGone) old_tet_[i] = locator.find(centroid(now_.tets[i])).tet;
@@ -173,46 +194,67 @@ class Carrying {
   }
 
   /// Elements come back in an order of their own, and with walls that nobody named.
-  template <class Element>
-  void carry_elements(const std::vector<Element>& old, const std::vector<DataArray>& data,
-                      const std::vector<Label>& parts, std::size_t dimension,
-                      std::vector<Element>& elements, std::vector<DataArray>& made,
-                      std::vector<Label>& made_parts) {
+  template <class Old, class New>
+  void carry_elements(const Old& old, const New& made, std::size_t dimension) {
+    using Element = typename std::remove_reference_t<decltype(made.elements)>::value_type;
     std::multimap<decltype(Element::vertices), std::uint32_t> places;
-    for (std::uint32_t i = 0; i < old.size(); ++i) {
-      auto vertices = old[i].vertices;
+    for (std::uint32_t i = 0; i < old.elements.size(); ++i) {
+      auto vertices = old.elements[i].vertices;
       for (std::uint32_t& v : vertices) v = vertex_map_[v];
       places.emplace(sorted(vertices), i);
     }
     std::vector<std::uint32_t> from;
     std::vector<Element> kept;
-    for (const Element& element : elements) {
+    for (const Element& element : made.elements) {
       const auto found = places.find(sorted(element.vertices));
       if (found == places.end()) continue;
       from.push_back(found->second);
       kept.push_back(element);
       places.erase(found);
     }
-    elements = std::move(kept);
-    for (const DataArray& array : data) made.push_back(formats::selected_rows(array, from));
-    if (!parts.empty()) {
-      for (const std::uint32_t i : from) made_parts.push_back(parts[i]);
+    made.elements = std::move(kept);
+    for (const DataArray& array : old.data) {
+      made.data.push_back(formats::selected_rows(array, from));
     }
+    if (!old.parts.empty()) {
+      for (const std::uint32_t i : from) made.parts.push_back(old.parts[i]);
+    }
+    made.numbers = numbers_of(old.numbers, from);
     std::vector<std::uint32_t>& map = element_maps_[dimension];
-    map.assign(old.size(), kGone);
+    map.assign(old.elements.size(), kGone);
     for (std::uint32_t i = 0; i < from.size(); ++i) map[from[i]] = i;
+  }
+
+  /// New ones have no number yet.
+  static std::vector<std::int64_t> numbers_of(const std::vector<std::int64_t>& old,
+                                              const std::vector<std::uint32_t>& from) {
+    std::vector<std::int64_t> numbers;
+    if (old.empty()) return numbers;
+    numbers.reserve(from.size());
+    for (const std::uint32_t i : from) numbers.push_back(i == kGone ? 0 : old[i]);
+    return numbers;
   }
 
   void carry_groups() {
     for (Group group : before_.groups) {
-      const std::span<const std::uint32_t> map =
-          group.dimension == 0 ? vertex_map_
-                               : element_maps_[static_cast<std::size_t>(group.dimension)];
-      std::vector<std::uint32_t> members;
-      for (const std::uint32_t member : group.members) {
-        if (member < map.size() && map[member] != kGone) members.push_back(map[member]);
+      if (group.members.empty()) {
+        now_.groups.push_back(std::move(group));
+        continue;
       }
-      group.members = std::move(members);
+      const std::vector<bool> held = mask(group);
+      switch (group.dimension) {
+        case 0:
+          group.members = points_of(held);
+          break;
+        case 3:
+          group.members = tets_of(held);
+          break;
+        default: {
+          const auto& map = element_maps_[static_cast<std::size_t>(group.dimension)];
+          std::erase_if(group.members, [&](std::uint32_t i) { return map[i] == kGone; });
+          for (std::uint32_t& member : group.members) member = map[member];
+        }
+      }
       now_.groups.push_back(std::move(group));
     }
     for (PeriodicLink link : before_.periodic) {
@@ -222,6 +264,35 @@ class Carrying {
       for (auto& pair : link.points) pair = {vertex_map_[pair[0]], vertex_map_[pair[1]]};
       now_.periodic.push_back(std::move(link));
     }
+  }
+
+  std::vector<bool> mask(const Group& group) const {
+    std::vector<bool> mask(group.dimension == 0 ? before_.points.size() : before_.tets.size());
+    if (group.dimension == 0 || group.dimension == 3) {
+      for (const std::uint32_t member : group.members) mask[member] = true;
+    }
+    return mask;
+  }
+  /// The points that are left, and new ones in tets that the group holds wholly.
+  std::vector<std::uint32_t> points_of(const std::vector<bool>& held) const {
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t i = 0; i < now_.points.size(); ++i) {
+      const auto& around = before_.tets.empty() ? std::array<std::uint32_t, 4>{}
+                                                : before_.tets[places_[i].tet].vertices;
+      const bool is_in =
+          old_point_[i] != kGone
+              ? held[old_point_[i]]
+              : std::all_of(around.begin(), around.end(), [&](std::uint32_t v) { return held[v]; });
+      if (is_in) members.push_back(i);
+    }
+    return members;
+  }
+  std::vector<std::uint32_t> tets_of(const std::vector<bool>& held) const {
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t i = 0; i < old_tet_.size(); ++i) {
+      if (held[old_tet_[i]]) members.push_back(i);
+    }
+    return members;
   }
 
   /// Their vertices are on the surface of the tets or belong to no tet: all of them stayed.
@@ -280,6 +351,7 @@ class Carrying {
   std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
   std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
   std::vector<std::uint32_t> changed_;    // old tets
+  std::vector<TetPlace> places_;          // in the old mesh, of points that are new or have moved
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
   std::vector<CarriedArray> carried_;
 };
@@ -290,7 +362,8 @@ bool holds_more(const MeshData& data) {
   const auto any = [](const auto&... lists) { return (!lists.empty() || ...); };
   return any(data.tet_parts, data.triangle_parts, data.edge_parts, data.point_entities,
              data.point_data, data.tet_data, data.triangle_data, data.edge_data, data.groups,
-             data.entities, data.periodic, data.other_elements, data.variant, data.label_array);
+             data.entities, data.periodic, data.other_elements, data.point_numbers,
+             data.tet_numbers, data.mid_nodes, data.deck, data.variant, data.label_array);
 }
 
 std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {

@@ -5,6 +5,7 @@
 //   point data: linear in the old tet that holds the new place of a point; integers come from the
 //     vertex of that tet with the greatest weight
 //   data and parts of tets: those of the old tet that holds the centroid
+//   groups: a new point is in one that holds all vertices of its old tet
 //   triangles, edges and other elements are the same: only the numbers of their vertices change
 #pragma once
 

@@ -72,6 +72,7 @@ struct OtherElements {
   std::vector<std::uint32_t> vertices;  ///< of the first, then of the second, in VTK's order
   std::vector<Label> labels;            ///< one for each
   std::vector<Label> parts;             ///< one for each, or none
+  std::vector<std::int64_t> numbers;    ///< like MeshData::tet_numbers
   std::vector<DataArray> data;
   friend bool operator==(const OtherElements&, const OtherElements&) = default;
 };
@@ -109,11 +110,18 @@ struct MeshData {
   /// tell apart. A face between two parts stays.
   std::vector<Label> tet_parts, triangle_parts, edge_parts;
   std::vector<std::array<Label, 2>> point_entities;  ///< {dimension, tag} of each point, or none
+  /// What the file calls each point or element, no number twice; 0: nothing yet. Empty: 1, 2, 3...
+  std::vector<std::int64_t> point_numbers, tet_numbers, triangle_numbers, edge_numbers;
   std::vector<DataArray> point_data, tet_data, triangle_data, edge_data;
   std::vector<Group> groups;
   std::vector<GeometricEntity> entities;
   std::vector<PeriodicLink> periodic;
   std::vector<OtherElements> other_elements;
+  /// {end, end, node} of each edge of an element of second order. The node is a point that no tet
+  /// has for a vertex. An element all of whose edges have one is of second order.
+  std::vector<std::array<std::uint32_t, 3>> mid_nodes;
+  /// What a deck holds besides its mesh, word for word, in pieces: only its own format knows how.
+  std::vector<std::string> deck;
   std::string variant;      ///< of the format that it was read from: "4.1 binary"
   std::string label_array;  ///< under which name the labels stood; empty: a format's own place
 
