@@ -28,6 +28,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/threads.h"
+#include "kernel/curved.h"
 #include "kernel/exact_orientation.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/geometry.h"
@@ -146,6 +147,10 @@ std::vector<Fact> check_one(const Options& options) {
     facts.push_back(no_inverted(read_mesh(options.file)));
   }
   const Measurement measured = measure(mesh, {.threads = options.threads});
+  if (measured.curved && (options.no_inverted || !options.preset.empty())) {
+    facts.push_back(at_most("turned_over", "curved tets turned over",
+                            static_cast<double>(measured.curved->turned_over), 0));
+  }
   if (options.min_dihedral > 0) {
     facts.push_back(at_least("theta_min", "smallest dihedral angle", measured.statistics.theta_min,
                              options.min_dihedral));
@@ -281,6 +286,32 @@ std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after) {
   return facts;
 }
 
+/// Of edges that had to stay.
+std::vector<Bits> fixed_mid_nodes(const MeshData& mesh) {
+  const std::vector<bool> is_fixed = find_fixed_mid_nodes(mesh, true).is_fixed;
+  std::vector<Bits> nodes;
+  for (std::size_t i = 0; i < is_fixed.size(); ++i) {
+    if (is_fixed[i]) nodes.push_back(bits_of(mesh.points[mesh.mid_nodes[i][2]]));
+  }
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+void add_second_order(const MeshData& before, const MeshData& after, std::vector<Fact>& facts) {
+  if (before.mid_nodes.empty() && after.mid_nodes.empty()) return;
+  facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
+                       fixed_mid_nodes(after)));
+  const CurvedStatistics was = curved_statistics(before);
+  const CurvedStatistics is = curved_statistics(after);
+  facts.push_back(at_most("turned_over", "curved tets turned over",
+                          static_cast<double>(is.turned_over),
+                          static_cast<double>(was.turned_over)));
+  facts.push_back(at_least("jacobian_ratio", "worst Jacobian ratio at the nodes", is.worst.at_nodes,
+                           was.worst.at_nodes));
+  facts.push_back(at_least("jacobian_bound", "worst bound of a Jacobian ratio", is.worst.bound,
+                           was.worst.bound));
+}
+
 std::vector<std::string> group_names(const MeshData& mesh) {
   std::vector<std::string> names;
   for (const Group& group : mesh.groups) {
@@ -312,6 +343,7 @@ std::vector<Fact> check_two(const Options& options) {
   facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
   for (Fact& fact : same_volumes(before, after)) facts.push_back(std::move(fact));
   facts.push_back(no_inverted(after, no_inverted(before).value.get<std::size_t>()));
+  add_second_order(before, after, facts);
   const MeasureOptions wanted = {.threads = options.threads};
   const MeshStatistics was = measure(load(options.file, options.threads), wanted).statistics;
   const MeshStatistics is = measure(load(options.improved, options.threads), wanted).statistics;

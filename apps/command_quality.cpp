@@ -48,6 +48,7 @@ void print_json(const std::filesystem::path& file, const Measurement& measured) 
   result["file"] = file.string();
   result["build"] = to_json(measured.build);
   if (measured.rulers) result["rulers"] = tetmend::to_json(*measured.rulers);
+  if (measured.curved) result["second_order"] = tetmend::to_json(*measured.curved);
   if (measured.limit) result["limit"] = tetmend::to_json(*measured.limit);
   for (const MeasureSummary& summary : measured.measures) {
     result["measures"][std::string(summary.name)] = {{"worst", summary.worst},
@@ -78,6 +79,7 @@ int run_quality(const Options& options) {
   fmt::print("{}\n{}", format_statistics(measured.statistics, measured.measures),
              format_histogram(measured.statistics, nullptr));
   if (measured.rulers) fmt::print("\n{}", format_rulers(*measured.rulers, nullptr));
+  if (measured.curved) fmt::print("\n{}", format_curved(*measured.curved, nullptr));
   if (measured.limit) fmt::print("\n{}", format_limit(*measured.limit));
   return 0;
 }

@@ -158,8 +158,10 @@ nlohmann::json to_json(const Pass& pass) {
           {"q_aver", pass.after.q_aver}};
 }
 
-nlohmann::json to_json(const MeshStatistics& statistics, const std::optional<MeshRulers>& rulers) {
+nlohmann::json to_json(const MeshStatistics& statistics, const std::optional<MeshRulers>& rulers,
+                       const std::optional<CurvedStatistics>& curved) {
   nlohmann::json json = tetmend::to_json(statistics);
+  if (curved) json["second_order"] = tetmend::to_json(*curved);
   if (rulers) json["rulers"] = tetmend::to_json(*rulers);
   return json;
 }
@@ -221,6 +223,9 @@ std::string format_report(const ImproveReport& report) {
   if (result.rulers_before && result.rulers_after) {
     text += format_rulers(*result.rulers_before, &*result.rulers_after) + '\n';
   }
+  if (result.curved_before && result.curved_after) {
+    text += format_curved(*result.curved_before, &*result.curved_after) + '\n';
+  }
   for (const std::string& note : result.notes) text += note + '\n';
   if (!result.notes.empty()) text += '\n';
   text += format_carried(result.carried);
@@ -261,8 +266,8 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"build", to_json(result.build)},
           {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
           {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},
-          {"before", to_json(result.before, result.rulers_before)},
-          {"after", to_json(result.after, result.rulers_after)},
+          {"before", to_json(result.before, result.rulers_before, result.curved_before)},
+          {"after", to_json(result.after, result.rulers_after, result.curved_after)},
           {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
           {"surface",
            {{"unchanged", true},  // improve() fails otherwise

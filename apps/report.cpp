@@ -207,6 +207,21 @@ std::string format_rulers(const MeshRulers& before, const MeshRulers* after) {
   return text;
 }
 
+std::string format_curved(const CurvedStatistics& before, const CurvedStatistics* after) {
+  const auto both = [&](auto&& cell) {
+    return cell(before) + (after == nullptr ? std::string() : " -> " + cell(*after));
+  };
+  const auto tets = both([](const CurvedStatistics& of) { return grouped(of.curved); });
+  const auto over = both([](const CurvedStatistics& of) { return grouped(of.turned_over); });
+  const auto ratio =
+      both([](const CurvedStatistics& of) { return short_number(of.worst.at_nodes); });
+  const auto bound = both([](const CurvedStatistics& of) { return short_number(of.worst.bound); });
+  return fmt::format(
+      "second order: {} curved tets, {} turned over\n"
+      "  worst Jacobian ratio {} at the nodes, {} by its bound\n",
+      tets, over, ratio, bound);
+}
+
 std::string format_histogram(const MeshStatistics& before, const MeshStatistics* after) {
   std::vector<Bins> columns = {ten_degree_bins(before)};
   if (after != nullptr) columns.push_back(ten_degree_bins(*after));
@@ -290,6 +305,14 @@ nlohmann::json to_json(const MeshRulers& rulers) {
                                             {"mean", number(of.mean)}};
   }
   return result;
+}
+
+nlohmann::json to_json(const CurvedStatistics& curved) {
+  return {{"mid_nodes", curved.mid_nodes},
+          {"curved", curved.curved},
+          {"turned_over", curved.turned_over},
+          {"worst_jacobian_ratio", curved.worst.at_nodes},
+          {"bound_of_jacobian_ratio", curved.worst.bound}};
 }
 
 nlohmann::json to_json(const SurfaceLimit& limit) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
+#include <tetmend/curved.h>
 #include <tetmend/rulers.h>
 
 #include "kernel/statistics.h"
@@ -31,6 +32,10 @@ std::string format_statistics(const MeshStatistics& statistics,
 /// @param after may be null
 std::string format_rulers(const MeshRulers& before, const MeshRulers* after);
 
+/// What the tets of a mesh of second order are like, in two lines; with `after` two meshes.
+/// @param after may be null
+std::string format_curved(const CurvedStatistics& before, const CurvedStatistics* after);
+
 /// Histogram of the dihedral angles in 18 bins of 10 degrees, counts and bars; with `after` the two
 /// meshes stand side by side on one scale. The scale is logarithmic, so that a few bad angles among
 /// millions show.
@@ -45,6 +50,7 @@ std::string format_limit(const SurfaceLimit& limit);
 nlohmann::json to_json(const MeshStatistics& statistics);
 /// An object with an object for each ruler by its name, and inner_faces and faces_above_70.
 nlohmann::json to_json(const MeshRulers& rulers);
+nlohmann::json to_json(const CurvedStatistics& curved);
 /// The same for SurfaceLimit; `bad` is an object by hindrance, a bound that is not known is null.
 nlohmann::json to_json(const SurfaceLimit& limit);
 

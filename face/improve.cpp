@@ -24,12 +24,14 @@
 #include "face/growth.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
+#include "face/mid_nodes.h"
 #include "face/regions.h"
 #include "face/registry.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
 #include "kernel/bounds.h"
 #include "kernel/chunks.h"
+#include "kernel/curved.h"
 #include "kernel/integrity.h"
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
@@ -171,6 +173,7 @@ class Improvement {
 
   void build();
   void build_mesh(MeshData& data);
+  void hold_curved();
   void measure_before();
   void run_schedule(std::size_t passes);
   void measure_after();
@@ -187,6 +190,11 @@ class Improvement {
     if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
     MeshData data = std::move(mesh_).to_data();
     if (carries_) {
+      face::renew_mid_nodes(input_, result_.vertex_map, data);
+      if (!input_.mid_nodes.empty()) {
+        result_.after.vertices = data.points.size();
+        if (result_.curved_after) result_.curved_after->mid_nodes = data.mid_nodes.size();
+      }
       result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, data);
     }
     input_ = {};
@@ -206,6 +214,7 @@ class Improvement {
   QualityIndicators first_;
   face::LocalLengths lengths_;
   std::shared_ptr<const SizeField> size_field_;
+  std::shared_ptr<const CurvedEdges> curved_edges_;
   std::size_t notes_before_ = 0;
   std::vector<std::uint32_t> tet_numbers_;  // in the user's mesh, by slot
   Result result_;
@@ -232,6 +241,9 @@ void Improvement::build() {
 void Improvement::build_mesh(MeshData& data) {
   const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
   data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
+  const std::vector<MeshData::Edge> curved =
+      find_fixed_mid_nodes(data, !options_.ignore_interior).inside;
+  data.edges.insert(data.edges.end(), curved.begin(), curved.end());
   mesh_ = face::build_located(file_, data,
                               {.interior = options_.ignore_interior ? InteriorConstraints::dropped
                                                                     : InteriorConstraints::kept,
@@ -244,8 +256,17 @@ void Improvement::build_mesh(MeshData& data) {
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
   mesh_.set_bounds(Bounds::of(mesh_));
+  hold_curved();
   if (options_.keep_size && !size_field_) size_field_ = std::make_shared<SizeField>(mesh_);
   mesh_.set_size_field(size_field_);
+}
+
+/// Curved tets are kept from being turned over.
+void Improvement::hold_curved() {
+  if (input_.mid_nodes.empty()) return;
+  if (!curved_edges_)
+    curved_edges_ = std::make_shared<CurvedEdges>(input_, mesh_, !options_.ignore_interior);
+  if (!curved_edges_->is_empty()) mesh_.set_curved_edges(curved_edges_);
 }
 
 void Improvement::measure_before() {
@@ -253,6 +274,7 @@ void Improvement::measure_before() {
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh_, options_.goal);
   first_ = quality_indicators(mesh_);
+  if (curved_edges_) result_.curved_before = curved_statistics(input_);
   if (options_.rulers) {
     result_.rulers_before = measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);
@@ -305,6 +327,7 @@ void Improvement::measure_after() {
     result_.rulers_after = measure_rulers(mesh_);
     result_.size_drift = lengths_.drift_to(face::LocalLengths(mesh_, vertices_before_));
   }
+  if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
@@ -392,6 +415,14 @@ std::vector<std::string> Result::worse() const {
   compare("a number of bad tets", static_cast<double>(after.n_bad),
           static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
   compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
+  if (curved_before && curved_after) {
+    const JacobianRatio& then = curved_before->worst;
+    const JacobianRatio& now = curved_after->worst;
+    compare("a worst Jacobian ratio", now.at_nodes, then.at_nodes,
+            now.at_nodes < then.at_nodes - kRounding);
+    compare("a bound of the Jacobian ratios", now.bound, then.bound,
+            now.bound < then.bound - kRounding);
+  }
   if (!rulers_before || !rulers_after) return worse;
   const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
   const double edge_ratio = worst(*rulers_before, Ruler::edge_ratio);

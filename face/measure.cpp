@@ -4,6 +4,7 @@
 
 #include "face/arena.h"
 #include "face/mesh_access.h"
+#include "kernel/curved.h"
 #include "kernel/rulers.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
@@ -37,6 +38,7 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
     Measurement result;
     const std::filesystem::path file = mesh.file();
     MeshData data = MeshAccess::take(mesh);
+    if (!data.mid_nodes.empty()) result.curved = curved_statistics(data);
     const TetMesh built =
         face::build_located(file, data, {.sorted = false, .report = &result.build});
     result.statistics = compute_statistics(built);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/curved.h"
 #include "kernel/size_field.h"
 #include "kernel/transaction.h"
 
@@ -78,10 +79,21 @@ bool keeps_lengths(const Transaction& transaction) {
   });
 }
 
+/// No new tet is turned over by its curved edges, or nearer to it than the worst at first.
+bool keeps_curved(const Transaction& transaction) {
+  const TetMesh& mesh = transaction.mesh();
+  const CurvedEdges* edges = mesh.curved_edges();
+  if (edges == nullptr) return true;
+  std::vector<TetHandle> changed;
+  transaction.list_changed(changed);
+  return std::all_of(changed.begin(), changed.end(),
+                     [&](TetHandle t) { return edges->admit(mesh, mesh.vertices(t)); });
+}
+
 /// Whatever the promise is.
 bool keeps_limits(const Transaction& transaction, const Comparison& qualities) {
   return keeps_bounds(transaction, qualities) && !transaction.has_too_many_tets() &&
-         keeps_lengths(transaction);
+         keeps_lengths(transaction) && keeps_curved(transaction);
 }
 
 double largest_angle_sine(const Transaction& transaction) {

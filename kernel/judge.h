@@ -126,8 +126,8 @@ class Judge {
   double deficit_limit(double worst, double lack) const;
 
   /// The promise, no new tet beyond the bounds of the mesh, no more tets than the workspace allows,
-  /// and no new edge that the size field of the mesh does not admit; an opening may leave these for
-  /// a while. Leaves the qualities that it compared in the change. False for a change without edits.
+  /// no new edge that the size field does not admit, and no new tet that curved edges do not; an
+  /// opening may leave these for a while. Leaves the qualities that it compared in the change. False for a change without edits.
   /// Cost: linear in the tets that changed, mostly; n log n where the worst do not decide, quadratic
   /// for a judge of the mean or with a size field.
   bool accepts(const Change& change) const;

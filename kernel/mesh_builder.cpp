@@ -573,6 +573,7 @@ void MeshBuilder::link_vertices() {
     }
   });
   for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
+  report_.unused_points -= data_.mid_nodes.size();
 }
 
 /// A face of the tet at the edge lies on the boundary or is constrained.

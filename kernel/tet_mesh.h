@@ -25,6 +25,7 @@
 
 namespace tetmend {
 
+class CurvedEdges;
 class SizeField;
 
 /// Counts commits or passes: which of two things happened later. 0 is "never".
@@ -165,6 +166,11 @@ class TetMesh {
   /// What the lengths of new edges are held to; null: nothing.
   const SizeField* size_field() const { return size_field_.get(); }
   void set_size_field(std::shared_ptr<const SizeField> field) { size_field_ = std::move(field); }
+  /// Edges whose tets are curved; null: none.
+  const CurvedEdges* curved_edges() const { return curved_edges_.get(); }
+  void set_curved_edges(std::shared_ptr<const CurvedEdges> edges) {
+    curved_edges_ = std::move(edges);
+  }
   /// Quality computed from the points; what quality() caches.
   Quality evaluate(const TetVertices& tv) const {
     return static_cast<Quality>(
@@ -280,6 +286,7 @@ class TetMesh {
   Standard standard_ = Standard(Goal{});
   Bounds bounds_;
   std::shared_ptr<const SizeField> size_field_;
+  std::shared_ptr<const CurvedEdges> curved_edges_;
   std::vector<Cell> cells_;
   std::vector<Quality> quality_;
   std::vector<Label> label_;

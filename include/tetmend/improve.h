@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/curved.h>
 #include <tetmend/goal.h>
 #include <tetmend/io.h>
 #include <tetmend/limit.h>
@@ -149,7 +150,9 @@ struct Result {
   MeshStatistics after;
   std::optional<MeshRulers> rulers_before;  ///< the measures of other programs
   std::optional<MeshRulers> rulers_after;
-  std::optional<SizeDrift> size_drift;  ///< with rulers
+  std::optional<SizeDrift> size_drift;            ///< with rulers
+  std::optional<CurvedStatistics> curved_before;  ///< of a mesh of second order
+  std::optional<CurvedStatistics> curved_after;
   Ending ending = Ending::finished;
   std::vector<Pass> passes;
   /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
@@ -184,7 +187,8 @@ struct Result {
   /// The figures that are worse than before, in words; empty, for that is promised: theta_min is not
   /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad
   /// tets, lambda is not higher. With rulers also: the worst mean ratio and radius ratio are not
-  /// smaller, the worst edge ratio not above the larger of what it was and 10.
+  /// smaller, the worst edge ratio not above the larger of what it was and 10. Of a mesh of second
+  /// order also: the worst Jacobian ratio, at the nodes and by its bound, is not smaller.
   std::vector<std::string> worse() const;
   /// What else is worse, in words. An aim, no promise: the means of mean ratio and radius ratio are
   /// not smaller, and no more faces are above 70 degrees non-orthogonality. Empty without rulers.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <tetmend/curved.h>
 #include <tetmend/limit.h>
 #include <tetmend/mesh.h>
 #include <tetmend/rulers.h>
@@ -23,9 +24,10 @@ struct MeasureOptions {
 
 struct Measurement {
   MeshStatistics statistics;
-  std::optional<MeshRulers> rulers;      ///< the measures of other programs
-  BuildReport build;                     ///< what is peculiar about the mesh
-  std::vector<MeasureSummary> measures;  ///< in the order asked for
+  std::optional<MeshRulers> rulers;        ///< the measures of other programs
+  std::optional<CurvedStatistics> curved;  ///< of a mesh of second order
+  BuildReport build;                       ///< what is peculiar about the mesh
+  std::vector<MeasureSummary> measures;    ///< in the order asked for
   std::optional<SurfaceLimit> limit;
 };
 

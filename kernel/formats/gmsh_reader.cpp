@@ -308,21 +308,21 @@ class Reader {
   }
 
   void answer_question() {
-    const std::vector<const char*>& places = draft_.rows[gmsh_tet].places;
+    const bool is_second = draft_.rows[gmsh_tet].size() == 0;
+    const std::vector<const char*>& places =
+        draft_.rows[is_second ? gmsh_second_order_tet : gmsh_tet].places;
     if (question_ != nullptr && question_->tet < places.size()) {
       question_->place = text_.place_of(places[question_->tet]);
     }
   }
 
   void refuse_without_tets() {
-    if (draft_.rows[gmsh_tet].size() > 0 || mesh_.points.empty()) return;
-    const std::size_t second_order = draft_.rows[gmsh_second_order_tet].size();
+    if (draft_.rows[gmsh_tet].size() > 0 || draft_.rows[gmsh_second_order_tet].size() > 0 ||
+        mesh_.points.empty()) {
+      return;
+    }
     text_.fail_at(text_.position(),
-                  second_order > 0
-                      ? fmt::format("the mesh has {} tetrahedra of 10 nodes, but none of 4: "
-                                    "expected a mesh of first order",
-                                    second_order)
-                      : "the mesh has no tetrahedra: expected elements of type 4");
+                  "the mesh has no tetrahedra: expected elements of type 4 or 11");
   }
 
   // Version 2.2 has the entities of points only where they are elements.

@@ -23,6 +23,7 @@
 #include "kernel/formats/vtk_legacy.h"
 #include "kernel/formats/vtu.h"
 #include "kernel/parts.h"
+#include "kernel/second_order.h"
 
 namespace tetmend {
 namespace {
@@ -33,6 +34,7 @@ struct Room {
   bool groups = false;  ///< with names and parts, entities and periodic links
   bool others = false;  ///< elements of other kinds
   bool required_vertices = false;
+  bool second_order = false;  ///< as elements of other kinds
   bool marks = false;  ///< groups of the names of kMeditMarks
 };
 
@@ -70,11 +72,11 @@ constexpr std::array<Codec, 7> kCodecs = {
       {.required_vertices = true, .marks = true}},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
-     {formats::read_vtk_legacy, formats::write_vtk_legacy, {.data = true, .others = true}},
-     {formats::read_vtu, formats::write_vtu, {.data = true, .others = true}},
+     {formats::read_vtk_legacy, formats::write_vtk_legacy, {.data = true, .others = true, .second_order = true}},
+     {formats::read_vtu, formats::write_vtu, {.data = true, .others = true, .second_order = true}},
      {read_plain<formats::read_gmsh>,
       formats::write_gmsh,
-      {.data = true, .groups = true, .others = true}}}};
+      {.data = true, .groups = true, .others = true, .second_order = true}}}};
 
 /// Of "part.vtu.gz" that is ".vtu". A TetGen mesh is several files, which nobody packs one by one.
 const Codec& find_codec(const std::filesystem::path& file) {
@@ -101,7 +103,13 @@ std::span<const MeshFormat> mesh_formats() {
 
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
   try {
-    return find_codec(file).read(file, {nullptr, label_array});
+    MeshData mesh = find_codec(file).read(file, {nullptr, label_array});
+    try {
+      take_second_order(mesh);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    return mesh;
   } catch (const std::bad_alloc&) {
     throw Error(fmt::format("{}: cannot be read: not enough memory", file.string()));
   }
@@ -148,6 +156,7 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
                          !are_finer_than_labels(mesh.edges, mesh.edge_parts);
   lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
   lost(room.groups, mesh.periodic.size(), "periodic links are");
+  lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
   lost(room.required_vertices, mesh.required_vertices.size(), "required vertices are");
   return notes;
 }
@@ -158,7 +167,11 @@ void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
-  find_codec(file).write(file, mesh);
+  const Codec& codec = find_codec(file);
+  if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
+  const MeshData as_held = codec.room.second_order ? with_second_order(*mesh.data())
+                                                   : without_mid_nodes(*mesh.data());
+  codec.write(file, MeshView(as_held));
 }
 
 }  // namespace tetmend

@@ -14,10 +14,10 @@
 namespace tetmend::formats {
 namespace {
 
-/// Cells whose integers are no plain list of vertices, and those of higher order that would have to
-/// be improved.
-bool is_refused(std::int64_t type) {
-  constexpr std::array<std::int64_t, 7> kTypes = {24, 41, 42, 71, 72, 78, 79};
+/// Cells whose integers are no plain list of vertices, and tets of an order that nothing here keeps.
+bool is_refused(std::int64_t type, std::size_t size) {
+  if (type == 71) return size != 10;
+  constexpr std::array<std::int64_t, 4> kTypes = {41, 42, 78, 79};
   return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
@@ -105,7 +105,7 @@ class Assembly {
       numbers_.edges.push_back(number);
     } else if (size == 0 && type == 0) {
       ++empty_cells_;
-    } else if (type > 0 && type <= kHighestType && !is_refused(type)) {
+    } else if (type > 0 && type <= kHighestType && !is_refused(type, size)) {
       add_other(type, cell, begin, size);
     } else {
       refuse(type, cell);
@@ -115,14 +115,14 @@ class Assembly {
   [[noreturn]] void refuse(std::int64_t type, std::size_t cell) const {
     text_.fail_at(cells_.types.locate(text_, cell),
                   fmt::format("a cell of type '{}' ({}) cannot be read: expected tetrahedra (10), "
-                              "triangles (5), lines (3) or other cells of first order",
+                              "triangles (5), lines (3) or other cells of first or second order",
                               type, refused_name(type)));
   }
 
   static std::string_view refused_name(std::int64_t type) {
-    if (type == 24 || type == 71 || type == 78) return "tetrahedron of higher order";
+    if (type == 71 || type == 78) return "tetrahedron of higher order";
     if (type == 41 || type == 42) return "polyhedron";
-    return is_refused(type) ? "volume of higher order" : "no type of VTK";
+    return type == 79 ? "volume of higher order" : "no type of VTK";
   }
 
   /// Cells of one type and size make one list.

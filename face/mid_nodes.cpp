@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "face/mid_nodes.h"
+
+#include <algorithm>
+#include <array>
+
+#include <tetmend/improve.h>
+
+#include "kernel/second_order.h"
+
+namespace tetmend::face {
+
+namespace {
+
+using Edge = std::array<std::uint32_t, 2>;
+
+/// Each once, ascending.
+std::vector<Edge> edges_of(const MeshData& data) {
+  std::vector<Edge> edges;
+  edges.reserve(6 * data.tets.size());
+  for (const MeshData::Tet& tet : data.tets) {
+    for (const auto& [i, j] : kMidNodeEdges) {
+      edges.push_back(
+          {std::min(tet.vertices[i], tet.vertices[j]), std::max(tet.vertices[i], tet.vertices[j])});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+class Renewal {
+ public:
+  Renewal(const MeshData& before, std::vector<std::uint32_t>& vertex_map, MeshData& now)
+      : before_(before), vertex_map_(vertex_map), now_(now), is_used_(now.points.size(), true) {
+    for (const auto& mid : before.mid_nodes) is_used_[vertex_map[mid[2]]] = false;
+  }
+
+  void run() {
+    const std::vector<Edge> edges = edges_of(now_);
+    keep_old(edges);
+    for (const Edge& edge : edges) {
+      if (!std::binary_search(kept_.begin(), kept_.end(), edge)) add(edge);
+    }
+    drop_unused();
+  }
+
+ private:
+  /// The old nodes of edges that are still there.
+  void keep_old(const std::vector<Edge>& edges) {
+    for (const auto& mid : before_.mid_nodes) {
+      const std::uint32_t a = vertex_map_[mid[0]];
+      const std::uint32_t b = vertex_map_[mid[1]];
+      if (a == kGone || b == kGone) continue;
+      const Edge edge = {std::min(a, b), std::max(a, b)};
+      if (!std::binary_search(edges.begin(), edges.end(), edge)) continue;
+      const std::uint32_t node = vertex_map_[mid[2]];
+      is_used_[node] = true;
+      kept_.push_back(edge);
+      now_.mid_nodes.push_back({edge[0], edge[1], node});
+      const bool is_same =
+          now_.points[a] == before_.points[mid[0]] && now_.points[b] == before_.points[mid[1]];
+      if (!is_same) now_.points[node] = middle(edge);
+    }
+    std::sort(kept_.begin(), kept_.end());
+  }
+
+  void add(const Edge& edge) {
+    const auto node = static_cast<std::uint32_t>(now_.points.size());
+    now_.mid_nodes.push_back({edge[0], edge[1], node});
+    now_.points.push_back(middle(edge));
+    if (!now_.point_labels.empty()) now_.point_labels.push_back(0);
+    is_used_.push_back(true);
+  }
+
+  Point middle(const Edge& edge) const { return (now_.points[edge[0]] + now_.points[edge[1]]) / 2; }
+
+  void drop_unused() {
+    std::vector<std::uint32_t> number_of(now_.points.size(), kNoMidNode);
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < number_of.size(); ++i) {
+      if (is_used_[i]) number_of[i] = count++;
+    }
+    renumber_points(now_, number_of, count);
+    for (std::uint32_t& v : vertex_map_) v = v == kGone ? kGone : number_of[v];
+  }
+
+  const MeshData& before_;
+  std::vector<std::uint32_t>& vertex_map_;
+  MeshData& now_;
+  std::vector<bool> is_used_;  // by number in now_
+  std::vector<Edge> kept_;     // ascending, when all are there
+};
+
+}  // namespace
+
+void renew_mid_nodes(const MeshData& before, std::vector<std::uint32_t>& vertex_map,
+                     MeshData& now) {
+  if (!before.mid_nodes.empty()) Renewal(before, vertex_map, now).run();
+}
+
+}  // namespace tetmend::face

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Curved tets: those of second order with a mid-side node beside the middle of its edge.
+//
+// The map from a straight tet to a curved one has a Jacobian determinant that varies: where it is
+// not positive, the tet is turned over and no solver takes it. It is a cubic polynomial, bounded by
+// its 20 Bezier coefficients [johnen].
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <tetmend/curved.h>
+
+#include "kernel/handles.h"
+#include "kernel/mesh_data.h"
+
+namespace tetmend {
+
+class TetMesh;
+
+/// Of a tet with these vertices. `bends` are the places of its mid-side nodes less the middles of
+/// their edges, in VTK's order. Cost: 64 determinants.
+JacobianRatio jacobian_ratio(const std::array<Point, 4>& vertices,
+                             const std::array<Point, 6>& bends);
+
+/// Precondition: every tet is of second order or none. Cost: linear.
+CurvedStatistics curved_statistics(const MeshData& data);
+
+/// Which mid-side nodes keep their place whatever happens.
+struct FixedMidNodes {
+  std::vector<bool> is_fixed;          ///< one for each of MeshData::mid_nodes
+  std::vector<MeshData::Edge> inside;  ///< their edges that only this keeps from being changed
+};
+/// Those on the surface and on walls between regions; with the interior also those of named triangles
+/// and edges, the required ones, and those of clearly curved edges within the volume. Cost: n log n.
+FixedMidNodes find_fixed_mid_nodes(const MeshData& data, bool with_interior);
+
+/// The curved edges of a mesh and what a new tet at them must keep. Immutable.
+class CurvedEdges {
+ public:
+  /// Of the fixed ones of `data`, from which `mesh` was built with the edges of FixedMidNodes::inside
+  /// as constraints.
+  CurvedEdges(const MeshData& data, const TetMesh& mesh, bool with_interior);
+
+  bool is_empty() const { return edges_.empty(); }
+  /// The Jacobian ratios of this tet are positive, and no less than the worst that the mesh began
+  /// with. True for a tet without curved edges. Cost: four flags, mostly.
+  bool admit(const TetMesh& mesh, const TetVertices& vertices) const;
+  /// Of the tets of the mesh now; edges that are not fixed are straight. Cost: linear.
+  CurvedStatistics statistics(const TetMesh& mesh) const;
+
+ private:
+  struct Edge {
+    std::uint64_t ends;  // slots, the smaller in the upper half
+    Point bend;
+  };
+  const Point* bend_of(VertexHandle a, VertexHandle b) const;
+  /// None for a straight tet.
+  std::optional<JacobianRatio> ratio_of(const TetMesh& mesh, const TetVertices& vertices) const;
+
+  std::vector<Edge> edges_;       // ascending
+  std::vector<bool> has_curved_;  // by slot of a vertex
+  JacobianRatio least_;
+  std::size_t mid_nodes_ = 0;
+};
+
+}  // namespace tetmend
