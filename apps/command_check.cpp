@@ -297,12 +297,8 @@ std::vector<Bits> fixed_mid_nodes(const MeshData& mesh) {
   return nodes;
 }
 
-void add_second_order(const MeshData& before, const MeshData& after, std::vector<Fact>& facts) {
-  if (before.mid_nodes.empty() && after.mid_nodes.empty()) return;
-  facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
-                       fixed_mid_nodes(after)));
-  const CurvedStatistics was = curved_statistics(before);
-  const CurvedStatistics is = curved_statistics(after);
+void add_second_order(const CurvedStatistics& was, const CurvedStatistics& is,
+                      std::vector<Fact>& facts) {
   facts.push_back(at_most("turned_over", "curved tets turned over",
                           static_cast<double>(is.turned_over),
                           static_cast<double>(was.turned_over)));
@@ -343,10 +339,16 @@ std::vector<Fact> check_two(const Options& options) {
   facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
   for (Fact& fact : same_volumes(before, after)) facts.push_back(std::move(fact));
   facts.push_back(no_inverted(after, no_inverted(before).value.get<std::size_t>()));
-  add_second_order(before, after, facts);
+  if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
+    facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
+                         fixed_mid_nodes(after)));
+  }
   const MeasureOptions wanted = {.threads = options.threads};
-  const MeshStatistics was = measure(load(options.file, options.threads), wanted).statistics;
-  const MeshStatistics is = measure(load(options.improved, options.threads), wanted).statistics;
+  const Measurement first = measure(load(options.file, options.threads), wanted);
+  const Measurement second = measure(load(options.improved, options.threads), wanted);
+  if (first.curved && second.curved) add_second_order(*first.curved, *second.curved, facts);
+  const MeshStatistics& was = first.statistics;
+  const MeshStatistics& is = second.statistics;
   facts.push_back(at_least("theta_min", "smallest dihedral angle", is.theta_min, was.theta_min));
   facts.push_back(at_most("theta_max", "largest dihedral angle", is.theta_max,
                           std::max(was.theta_max, Goal().max_angle)));

@@ -38,6 +38,45 @@ std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> vertices) {
   return vertices;
 }
 
+struct Face {
+  std::array<std::uint32_t, 3> vertices;
+  std::uint32_t tet;
+};
+
+/// Of all tets, by their vertices.
+std::vector<Face> sorted_faces(const MeshData& data) {
+  std::vector<Face> faces;
+  faces.reserve(4 * data.tets.size());
+  for (std::uint32_t t = 0; t < data.tets.size(); ++t) {
+    const auto& v = data.tets[t].vertices;
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      std::array<std::uint32_t, 3> face{};
+      for (std::size_t k = 0; k < 3; ++k) face[k] = v[k < left_out ? k : k + 1];
+      faces.push_back({sorted(face), t});
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet);
+  });
+  return faces;
+}
+
+/// By point: it is a vertex of tets, and of no face of one tet only.
+std::vector<bool> inner_vertices(const MeshData& data) {
+  std::vector<bool> is_inside(data.points.size(), false);
+  for (const MeshData::Tet& tet : data.tets) {
+    for (const std::uint32_t v : tet.vertices) is_inside[v] = true;
+  }
+  const std::vector<Face> faces = sorted_faces(data);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const bool is_shared = (i > 0 && faces[i].vertices == faces[i - 1].vertices) ||
+                           (i + 1 < faces.size() && faces[i].vertices == faces[i + 1].vertices);
+    if (is_shared) continue;
+    for (const std::uint32_t v : faces[i].vertices) is_inside[v] = false;
+  }
+  return is_inside;
+}
+
 /// What there is of elements of one kind.
 template <class Element, class Data, class Labels, class Numbers>
 struct Lists {
@@ -273,19 +312,32 @@ class Carrying {
     }
     return mask;
   }
-  /// The points that are left, and new ones in tets that the group holds wholly.
-  std::vector<std::uint32_t> points_of(const std::vector<bool>& held) const {
+  /// The points that are left; of a set that fills a volume also new ones in tets that it holds
+  /// wholly.
+  std::vector<std::uint32_t> points_of(const std::vector<bool>& held) {
+    const bool fills = fills_volume(held);
     std::vector<std::uint32_t> members;
     for (std::uint32_t i = 0; i < now_.points.size(); ++i) {
-      const auto& around = before_.tets.empty() ? std::array<std::uint32_t, 4>{}
-                                                : before_.tets[places_[i].tet].vertices;
-      const bool is_in =
-          old_point_[i] != kGone
-              ? held[old_point_[i]]
-              : std::all_of(around.begin(), around.end(), [&](std::uint32_t v) { return held[v]; });
+      const bool is_in = old_point_[i] != kGone
+                             ? held[old_point_[i]]
+                             : fills && holds(held, before_.tets[places_[i].tet]);
       if (is_in) members.push_back(i);
     }
     return members;
+  }
+  static bool holds(const std::vector<bool>& held, const MeshData::Tet& tet) {
+    return std::all_of(tet.vertices.begin(), tet.vertices.end(),
+                       [&](std::uint32_t v) { return held[v]; });
+  }
+  /// It holds a vertex within the volume, or all vertices of tets: others mark places on the surface.
+  bool fills_volume(const std::vector<bool>& held) {
+    if (is_inside_.empty()) is_inside_ = inner_vertices(before_);
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      if (held[i] && is_inside_[i]) return true;
+    }
+    return !before_.tets.empty() &&
+           std::all_of(before_.tets.begin(), before_.tets.end(),
+                       [&](const MeshData::Tet& tet) { return holds(held, tet); });
   }
   std::vector<std::uint32_t> tets_of(const std::vector<bool>& held) const {
     std::vector<std::uint32_t> members;
@@ -351,6 +403,7 @@ class Carrying {
   std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
   std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
   std::vector<std::uint32_t> changed_;    // old tets
+  std::vector<bool> is_inside_;           // old points; empty: not asked for yet
   std::vector<TetPlace> places_;          // in the old mesh, of points that are new or have moved
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
   std::vector<CarriedArray> carried_;
@@ -368,23 +421,7 @@ bool holds_more(const MeshData& data) {
 
 std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
   if (!are_finer_than_labels(data.tets, data.tet_parts)) return {};
-  struct Face {
-    std::array<std::uint32_t, 3> vertices;
-    std::uint32_t tet;
-  };
-  std::vector<Face> faces;
-  faces.reserve(4 * data.tets.size());
-  for (std::uint32_t t = 0; t < data.tets.size(); ++t) {
-    const auto& v = data.tets[t].vertices;
-    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-      std::array<std::uint32_t, 3> face{};
-      for (std::size_t k = 0; k < 3; ++k) face[k] = v[k < left_out ? k : k + 1];
-      faces.push_back({sorted(face), t});
-    }
-  }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet);
-  });
+  const std::vector<Face> faces = sorted_faces(data);
   std::vector<MeshData::Triangle> walls;
   for (std::size_t i = 1; i < faces.size(); ++i) {
     const Face& a = faces[i - 1];

@@ -274,7 +274,7 @@ void Improvement::measure_before() {
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh_, options_.goal);
   first_ = quality_indicators(mesh_);
-  if (curved_edges_) result_.curved_before = curved_statistics(input_);
+  if (curved_edges_) result_.curved_before = curved_statistics(input_, mesh_);
   if (options_.rulers) {
     result_.rulers_before = measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);

@@ -38,9 +38,10 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
     Measurement result;
     const std::filesystem::path file = mesh.file();
     MeshData data = MeshAccess::take(mesh);
-    if (!data.mid_nodes.empty()) result.curved = curved_statistics(data);
+    const MeshData second_order = data.mid_nodes.empty() ? MeshData() : data;
     const TetMesh built =
         face::build_located(file, data, {.sorted = false, .report = &result.build});
+    if (!second_order.mid_nodes.empty()) result.curved = curved_statistics(second_order, built);
     result.statistics = compute_statistics(built);
     if (options.rulers) result.rulers = measure_rulers(built);
     for (const QualityMeasure* each : measures) result.measures.push_back(summarize(built, *each));

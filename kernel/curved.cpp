@@ -160,36 +160,13 @@ JacobianRatio jacobian_ratio(const std::array<Point, 4>& vertices,
   const auto& all = bezier.coefficients();
   const auto [least, greatest] = std::minmax_element(all.begin(), all.end());
   const auto [least_node, greatest_node] = std::minmax_element(nodes.begin(), nodes.end());
-  return {ratio(*least_node, *greatest_node), ratio(*least, *greatest)};
+  // The greatest value is between these two: a bound takes the one that makes it lower.
+  const double divisor = *least < 0 ? *greatest_node : *greatest;
+  return {ratio(*least_node, *greatest_node), ratio(*least, divisor)};
 }
 
-CurvedStatistics curved_statistics(const MeshData& data) {
-  CurvedStatistics statistics;
-  statistics.mid_nodes = data.mid_nodes.size();
-  const MidNodes mid_nodes(data.mid_nodes);
-  if (mid_nodes.is_empty()) return statistics;
-  for (const MeshData::Tet& tet : data.tets) {
-    const auto nodes = mid_nodes.of(tet.vertices);
-    if (nodes.empty()) continue;
-    std::array<Point, 4> vertices;
-    for (std::size_t i = 0; i < 4; ++i) vertices[i] = data.points[tet.vertices[i]];
-    std::array<Point, 6> bends;
-    bool is_curved = false;
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto& [i, j] = kMidNodeEdges[e];
-      bends[e] = data.points[nodes[e]] - (vertices[i] + vertices[j]) / 2;
-      is_curved |= is_bent(data, {tet.vertices[i], tet.vertices[j], nodes[e]}, kStraight);
-    }
-    if (!is_curved) continue;
-    // A file may list the vertices of a straight tet in either order.
-    if (volume6(vertices[0], vertices[1], vertices[2], vertices[3]) < 0) {
-      std::swap(vertices[0], vertices[1]);
-      std::swap(bends[1], bends[2]);
-      std::swap(bends[3], bends[4]);
-    }
-    count(statistics, jacobian_ratio(vertices, bends));
-  }
-  return statistics;
+CurvedStatistics curved_statistics(const MeshData& data, const TetMesh& mesh) {
+  return CurvedEdges(data, mesh, std::vector<bool>(data.mid_nodes.size(), true)).statistics(mesh);
 }
 
 FixedMidNodes find_fixed_mid_nodes(const MeshData& data, bool with_interior) {
@@ -208,18 +185,22 @@ FixedMidNodes find_fixed_mid_nodes(const MeshData& data, bool with_interior) {
 }
 
 CurvedEdges::CurvedEdges(const MeshData& data, const TetMesh& mesh, bool with_interior)
-    : least_(curved_statistics(data).worst), mid_nodes_(data.mid_nodes.size()) {
+    : CurvedEdges(data, mesh, find_fixed_mid_nodes(data, with_interior).is_fixed) {
+  least_ = curved_statistics(data, mesh).worst;
+}
+
+CurvedEdges::CurvedEdges(const MeshData& data, const TetMesh& mesh, const std::vector<bool>& which)
+    : mid_nodes_(data.mid_nodes.size()) {
   std::vector<std::uint32_t> slot_of(data.points.size(), kNoMidNode);
   for (std::uint32_t slot = 0; slot < mesh.vertex_slots(); ++slot) {
     const VertexHandle v(slot);
     const std::uint32_t number = mesh.is_deleted(v) ? TetMesh::kNotFromFile : mesh.origin(v);
     if (number != TetMesh::kNotFromFile) slot_of[number] = slot;
   }
-  const std::vector<bool> is_fixed = find_fixed_mid_nodes(data, with_interior).is_fixed;
   has_curved_.assign(mesh.vertex_slots(), false);
   for (std::size_t i = 0; i < data.mid_nodes.size(); ++i) {
     const auto& [a, b, node] = data.mid_nodes[i];
-    if (!is_fixed[i] || !is_bent(data, data.mid_nodes[i], kStraight)) continue;
+    if (!which[i] || !is_bent(data, data.mid_nodes[i], kStraight)) continue;
     const Point bend = data.points[node] - (data.points[a] + data.points[b]) / 2;
     edges_.push_back({key_of(slot_of[a], slot_of[b]), bend});
     has_curved_[slot_of[a]] = has_curved_[slot_of[b]] = true;

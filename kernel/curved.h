@@ -26,8 +26,8 @@ class TetMesh;
 JacobianRatio jacobian_ratio(const std::array<Point, 4>& vertices,
                              const std::array<Point, 6>& bends);
 
-/// Precondition: every tet is of second order or none. Cost: linear.
-CurvedStatistics curved_statistics(const MeshData& data);
+/// Of a mesh that was built from `data` and has not changed. Cost: n log n.
+CurvedStatistics curved_statistics(const MeshData& data, const TetMesh& mesh);
 
 /// Which mid-side nodes keep their place whatever happens.
 struct FixedMidNodes {
@@ -57,6 +57,10 @@ class CurvedEdges {
     std::uint64_t ends;  // slots, the smaller in the upper half
     Point bend;
   };
+  friend CurvedStatistics curved_statistics(const MeshData& data, const TetMesh& mesh);
+  /// Of those of `data` that `which` tells.
+  CurvedEdges(const MeshData& data, const TetMesh& mesh, const std::vector<bool>& which);
+
   const Point* bend_of(VertexHandle a, VertexHandle b) const;
   /// None for a straight tet.
   std::optional<JacobianRatio> ratio_of(const TetMesh& mesh, const TetVertices& vertices) const;

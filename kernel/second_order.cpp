@@ -105,7 +105,6 @@ class Taking {
   explicit Taking(MeshData& mesh) : mesh_(mesh) {}
 
   void run() {
-    const bool has_first = !mesh_.tets.empty();
     for (const OtherElements& others : mesh_.other_elements) {
       switch (corners_of(others)) {
         case 4:
@@ -119,9 +118,6 @@ class Taking {
           break;
         default:
           continue;
-      }
-      if (corners_of(others) == 4 && has_first) {
-        throw Error("tets of first and of second order in one mesh cannot be read");
       }
     }
     std::erase_if(mesh_.other_elements,
@@ -261,7 +257,10 @@ std::uint32_t MidNodes::of(std::uint32_t a, std::uint32_t b) const {
 
 void take_second_order(MeshData& mesh) {
   const auto& all = mesh.other_elements;
-  if (std::any_of(all.begin(), all.end(), [](const auto& e) { return corners_of(e) != 0; })) {
+  const auto has = [&](auto condition) { return std::any_of(all.begin(), all.end(), condition); };
+  const bool is_mixed =
+      !mesh.tets.empty() && has([](const auto& others) { return corners_of(others) == 4; });
+  if (!is_mixed && has([](const auto& others) { return corners_of(others) != 0; })) {
     Taking(mesh).run();
   }
 }

@@ -56,9 +56,10 @@ std::vector<std::uint32_t> MidNodes::of(const std::array<std::uint32_t, N>& vert
 }
 
 /// Makes tets, triangles and edges, with mid_nodes, of the other elements that are such of second
-/// order. What readers give becomes what MeshData promises.
-/// @throws Error, without the name of the file, for an edge with two nodes, a node of two edges or
-/// one that is a vertex of a tet, and for tets of both orders in one mesh
+/// order: what readers give becomes what MeshData promises. In a mesh with tets of both orders those
+/// of second order stay other elements.
+/// @throws Error, without the name of the file, for an edge with two nodes and a node of two edges or
+/// one that is a vertex of a tet
 void take_second_order(MeshData& mesh);
 
 /// The other way round: what writers print. Elements that a group names one by one stay of first

@@ -14,7 +14,9 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/medit_elements.h"
 #include "kernel/formats/medit_marks.h"
+#include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/text_rows.h"
@@ -26,28 +28,23 @@ constexpr std::array<std::string_view, 5> kEptSections = {"Vertices", "Edges", "
                                                           "Tetrahedra", "RequiredVertices"};
 
 // Volume elements that the library cannot use. To skip them would tear holes into the mesh.
-constexpr std::array<std::string_view, 17> kForeignVolumes = {
-    "Hexahedra",   "Hexaedra",   "Prisms",      "Pyramids",     "Polyhedra",    "TetrahedraP2",
-    "PrismsP2",    "PyramidsP2", "HexahedraQ2", "TetrahedraP3", "TetrahedraP4", "HexahedraQ3",
-    "HexahedraQ4", "PyramidsP3", "PyramidsP4",  "PrismsP3",     "PrismsP4"};
+constexpr std::array<std::string_view, 12> kForeignVolumes = {
+    "Polyhedra",   "PrismsP2",    "PyramidsP2", "HexahedraQ2", "TetrahedraP3", "TetrahedraP4",
+    "HexahedraQ3", "HexahedraQ4", "PyramidsP3", "PyramidsP4",  "PrismsP3",     "PrismsP4"};
 
 // Sections of rows that may hold any words, one row to a line.
 constexpr std::array<std::string_view, 2> kTextSections = {"Comments", "IRefGroups"};
 
 // The other section names of libMeshb 7; families are recognized by their beginning or end in
 // `is_section`.
-constexpr std::array<std::string_view, 59> kPassedSections = {
+constexpr std::array<std::string_view, 52> kPassedSections = {
     "RequiredQuadrilaterals",
-    "Quadrilaterals",
     "TangentAtEdgeVertices",
-    "NormalAtVertices",
     "NormalAtTriangleVertices",
     "NormalAtQuadrilateralVertices",
     "AngleOfCornerBound",
-    "TrianglesP2",
     "TrianglesP3",
     "TrianglesP4",
-    "EdgesP2",
     "EdgesP3",
     "EdgesP4",
     "QuadrilateralsQ2",
@@ -79,9 +76,6 @@ constexpr std::array<std::string_view, 59> kPassedSections = {
     "Polygons",
     "BoundingBox",
     "PrivateTable",
-    "Tangents",
-    "Normals",
-    "TangentAtVertices",
     "Iterations",
     "Time",
     "CoarseHexahedra",
@@ -108,11 +102,12 @@ const MeditMark* find_mark(std::string_view word) {
 }
 
 bool is_section(std::string_view word) {
-  return word == "End" || contains(kEptSections, word) || contains(kForeignVolumes, word) ||
-         contains(kTextSections, word) || contains(kPassedSections, word) ||
-         find_mark(word) != nullptr || word.starts_with("SolAt") || word.starts_with("ISolAt") ||
-         word.starts_with("DSolAt") || word.starts_with("HOSolAt") || word.ends_with("Ordering") ||
-         word.ends_with("ReferenceElement");
+  return word == "End" || is_medit_vectors(word) || contains(kEptSections, word) ||
+         contains(kForeignVolumes, word) || contains(kTextSections, word) ||
+         contains(kPassedSections, word) || find_mark(word) != nullptr ||
+         find_medit_elements(word) != nullptr || word.starts_with("SolAt") ||
+         word.starts_with("ISolAt") || word.starts_with("DSolAt") || word.starts_with("HOSolAt") ||
+         word.ends_with("Ordering") || word.ends_with("ReferenceElement");
 }
 
 bool is_number_word(std::string_view word) {
@@ -139,9 +134,10 @@ class Reader {
     // What they mark has been counted now.
     for (const auto& [name, content] : marks_) {
       text_.seek(content);
-      read_marks(*find_mark(name));
+      if (const MeditMark* mark = find_mark(name)) read_marks(*mark);
     }
-    if (!seen("Tetrahedra")) fail_without("Tetrahedra", end);
+    for (const MeditVectors& kind : kMeditVectors) read_vectors(kind);
+    if (!seen("Tetrahedra") && !has_second_order_tets(mesh_)) fail_without("Tetrahedra", end);
     drop_zero_point_labels(mesh_);
     return std::move(mesh_);
   }
@@ -178,7 +174,7 @@ class Reader {
                       "Vertices, Triangles, Tetrahedra or End",
                       in_quotes(name)));
     }
-    if (contains(kEptSections, name)) {
+    if (contains(kEptSections, name) || find_medit_elements(name) != nullptr) {
       if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
       seen_.push_back(name);
       if (name != "Vertices" && !seen("Vertices")) {
@@ -187,7 +183,7 @@ class Reader {
       } else {
         read_kept_section(name);
       }
-    } else if (find_mark(name) != nullptr) {
+    } else if (find_mark(name) != nullptr || is_medit_vectors(name)) {
       marks_.push_back({name, text_.position()});
       pass_over(name);
     } else {
@@ -230,12 +226,49 @@ class Reader {
     if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
   }
 
+  void read_vectors(const MeditVectors& kind) {
+    VectorsAtVertices read;
+    for (const auto& [name, content] : marks_) {
+      if (name != kind.vectors) continue;
+      text_.seek(content);
+      read.vectors.resize(text_.count("vectors", 6));
+      for (auto& vector : read.vectors) {
+        for (double& x : vector) x = text_.real("a coordinate of a vector");
+      }
+    }
+    const auto most = static_cast<std::int64_t>(read.vectors.size());
+    for (const auto& [name, content] : marks_) {
+      if (name != kind.at) continue;
+      text_.seek(content);
+      read.at.resize(text_.count("vertices with a vector", 4));
+      for (auto& [vertex, vector] : read.at) {
+        vertex = read_vertex_number(text_);
+        vector = static_cast<std::uint32_t>(text_.integer("the number of a vector", 1, most) - 1);
+      }
+    }
+    read.add_to(mesh_, kind);
+  }
+
   void read_kept_section(std::string_view name) {
     if (name == "Vertices") read_vertices();
     if (name == "Edges") read_elements(mesh_.edges, "edges");
     if (name == "Triangles") read_elements(mesh_.triangles, "triangles");
     if (name == "Tetrahedra") read_elements(mesh_.tets, "tetrahedra");
     if (name == "RequiredVertices") read_required_vertices();
+    if (const MeditElements* kind = find_medit_elements(name)) read_others(*kind);
+  }
+
+  void read_others(const MeditElements& kind) {
+    const std::size_t count = text_.count(kind.section, 2 * (kind.width + 1));
+    if (count == 0) return;
+    OtherElements others = medit_elements(kind, count);
+    read_rows(text_, count, [&](TextReader& text, std::size_t i) {
+      for (std::size_t k = 0; k < kind.width; ++k) {
+        others.vertices[i * kind.width + k] = read_vertex_number(text);
+      }
+      others.labels[i] = text.label("the reference of an element");
+    });
+    mesh_.other_elements.push_back(std::move(others));
   }
 
   void refuse_volumes(std::string_view name) {
@@ -346,6 +379,31 @@ void begin_section(OutputFile& out, std::string_view name, std::size_t count) {
   out.put(fmt::format("{}\n{}\n", name, count));
 }
 
+void end_file(OutputFile& out) {
+  out.put("End\n");
+  out.commit();
+}
+
+void write_vectors(OutputFile& out, const MeshView& mesh, const MeditVectors& kind) {
+  const VectorsAtVertices all = VectorsAtVertices::of(mesh, kind);
+  if (all.at.empty()) return;
+  begin_section(out, kind.vectors, all.vectors.size());
+  put_rows(out, all.vectors.size(), [&](std::size_t i, OutputBuffer& buffer) {
+    for (const double x : all.vectors[i]) {
+      buffer.put_real(x);
+      buffer.put(' ');
+    }
+    buffer.put('\n');
+  });
+  begin_section(out, kind.at, all.at.size());
+  put_rows(out, all.at.size(), [&](std::size_t i, OutputBuffer& buffer) {
+    buffer.put_integer(std::int64_t{all.at[i][0]} + 1);
+    buffer.put(' ');
+    buffer.put_integer(std::int64_t{all.at[i][1]} + 1);
+    buffer.put('\n');
+  });
+}
+
 template <class Element>
 void write_elements(OutputFile& out, std::string_view name, std::span<const Element> elements) {
   if (elements.empty()) return;
@@ -386,12 +444,24 @@ void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) 
       out.put('\n');
     }
   }
+  for (const MeditVectors& kind : kMeditVectors) write_vectors(out, mesh, kind);
+  for_medit_elements(mesh, [&](const MeditElements& kind, const OtherElements& others) {
+    begin_section(out, kind.section, others.labels.size());
+    put_rows(out, others.labels.size(), [&](std::size_t i, OutputBuffer& buffer) {
+      for (std::size_t k = 0; k < kind.width; ++k) {
+        buffer.put_integer(std::int64_t{others.vertices[i * kind.width + k]} + 1);
+        buffer.put(' ');
+      }
+      buffer.put_integer(others.labels[i]);
+      buffer.put('\n');
+    });
+  });
+  if (mesh.tet_count() == 0) return end_file(out);
   begin_section(out, "Tetrahedra", mesh.tet_count());
   put_tets(out, mesh, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
     write_row(buffer, tet);
   });
-  out.put("End\n");
-  out.commit();
+  end_file(out);
 }
 
 }  // namespace tetmend::formats

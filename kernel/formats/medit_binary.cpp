@@ -20,7 +20,9 @@
 
 #include "kernel/formats/byte_reader.h"
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/medit_elements.h"
 #include "kernel/formats/medit_marks.h"
+#include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/output_rows.h"
 
 namespace tetmend::formats {
@@ -37,8 +39,8 @@ enum Keyword : std::int32_t {
 };
 
 // Volume elements that the library cannot use, linear and of higher order.
-constexpr std::array<std::int32_t, 16> kForeignVolumes = {9,  10, 30, 33, 46,  49,  86,  87,
-                                                          96, 97, 98, 99, 100, 101, 102, 103};
+constexpr std::array<std::int32_t, 12> kForeignVolumes = {33, 46, 86,  87,  96,  97,
+                                                          98, 99, 100, 101, 102, 103};
 
 class Reader {
  public:
@@ -107,7 +109,8 @@ class Reader {
 
   static bool is_kept(std::int32_t keyword) {
     return keyword == dimension || keyword == vertices || keyword == edges ||
-           keyword == triangles || keyword == tetrahedra || keyword == required_vertices;
+           keyword == triangles || keyword == tetrahedra || keyword == required_vertices ||
+           find_medit_elements(keyword) != nullptr;
   }
 
   template <class Real, class Integer>
@@ -127,7 +130,14 @@ class Reader {
       }
     }
     read_vertices<Real, Integer>(find(vertices, "Vertices"));
-    read_elements<Integer>(find(tetrahedra, "Tetrahedra"), mesh_.tets, "tetrahedra");
+    for (const Section& section : sections_) {
+      if (const auto* kind = find_medit_elements(section.keyword)) {
+        read_others<Integer>(section, *kind);
+      }
+    }
+    if (!has_second_order_tets(mesh_)) {
+      read_elements<Integer>(find(tetrahedra, "Tetrahedra"), mesh_.tets, "tetrahedra");
+    }
     for (const Section& section : sections_) {
       if (section.keyword == edges) read_elements<Integer>(section, mesh_.edges, "edges");
       if (section.keyword == triangles) {
@@ -138,6 +148,7 @@ class Reader {
     for (const Section& section : sections_) {
       if (!is_kept(section.keyword)) read_marks<Integer>(section);
     }
+    for (const MeditVectors& kind : kMeditVectors) read_vectors<Real, Integer>(kind);
     drop_zero_point_labels(mesh_);
     return std::move(mesh_);
   }
@@ -243,6 +254,23 @@ class Reader {
   }
 
   template <class Integer>
+  void read_others(const Section& section, const MeditElements& kind) {
+    const std::size_t row_size = (kind.width + 1) * sizeof(Integer);
+    const std::size_t count = count_rows<Integer>(section, row_size, kind.section);
+    if (count == 0) return;
+    OtherElements others = medit_elements(kind, count);
+    const char* at = bytes_.here();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < kind.width; ++k, at += sizeof(Integer)) {
+        others.vertices[i * kind.width + k] = read_vertex_number<Integer>(at);
+      }
+      others.labels[i] = read_label<Integer>(at);
+      at += sizeof(Integer);
+    }
+    mesh_.other_elements.push_back(std::move(others));
+  }
+
+  template <class Integer>
   void read_required_vertices(const Section& section) {
     mesh_.required_vertices.resize(
         count_rows<Integer>(section, sizeof(Integer), "required vertices"));
@@ -275,10 +303,47 @@ class Reader {
       if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
       return;
     }
+    for (const MeditVectors& kind : kMeditVectors) {
+      if (section.keyword == kind.vectors_keyword || section.keyword == kind.at_keyword) return;
+    }
     bytes_.seek(section.begin);
     const bool is_empty = section.size < sizeof(Integer) || bytes_.number<Integer>("a count") == 0;
     if (is_empty) return;
     mesh_.notes.push_back(fmt::format("the section of keyword {} is not kept", section.keyword));
+  }
+
+  template <class Real, class Integer>
+  void read_vectors(const MeditVectors& kind) {
+    VectorsAtVertices read;
+    for (const Section& section : sections_) {
+      if (section.keyword != kind.vectors_keyword) continue;
+      read.vectors.resize(count_rows<Integer>(section, 3 * sizeof(Real), "vectors"));
+      const char* at = bytes_.here();
+      for (auto& vector : read.vectors) {
+        for (double& x : vector) {
+          x = load<Real>(at, bytes_.swap());
+          if (!std::isfinite(x)) bytes_.fail_at(at, fmt::format("{} is not a finite number", x));
+          at += sizeof(Real);
+        }
+      }
+    }
+    for (const Section& section : sections_) {
+      if (section.keyword != kind.at_keyword) continue;
+      read.at.resize(count_rows<Integer>(section, 2 * sizeof(Integer), "vertices with a vector"));
+      const char* at = bytes_.here();
+      for (auto& [vertex, vector] : read.at) {
+        vertex = read_vertex_number<Integer>(at);
+        const Integer number = load<Integer>(at + sizeof(Integer), bytes_.swap());
+        if (number < 1 || static_cast<std::uint64_t>(number) > read.vectors.size()) {
+          bytes_.fail_at(at, fmt::format("{} is out of range: expected the number of a vector, 1 "
+                                         "to {}",
+                                         number, read.vectors.size()));
+        }
+        vector = static_cast<std::uint32_t>(number - 1);
+        at += 2 * sizeof(Integer);
+      }
+    }
+    read.add_to(mesh_, kind);
   }
 
   ByteReader bytes_;
@@ -324,7 +389,7 @@ class Writer {
     constexpr std::size_t kHeaders = 256;
     return kHeaders + 28 * mesh_.point_count() + 12 * mesh_.edges().size() +
            16 * mesh_.triangles().size() + 4 * mesh_.required_vertices().size() +
-           20 * mesh_.tet_count() + 4 * marks();
+           20 * mesh_.tet_count() + 4 * marks() + others_size() + 48 * mesh_.point_count();
   }
 
   std::size_t marks() const {
@@ -334,6 +399,14 @@ class Writer {
       if (marked != nullptr) count += marked->members.size();
     }
     return count;
+  }
+
+  std::size_t others_size() const {
+    std::size_t size = 0;
+    for_medit_elements(mesh_, [&](const MeditElements&, const OtherElements& others) {
+      size += 4 * (others.vertices.size() + others.labels.size() + 4);
+    });
+    return size;
   }
 
   void put_position(std::size_t position) {
@@ -383,11 +456,38 @@ class Writer {
         out_.put_bytes(static_cast<Integer>(std::int64_t{member} + 1));
       }
     }
+    for (const MeditVectors& kind : kMeditVectors) write_vectors<Integer>(kind);
+    for_medit_elements(mesh_, [&](const MeditElements& kind, const OtherElements& others) {
+      begin_rows<Integer>(kind.keyword, others.labels.size(), (kind.width + 1) * sizeof(Integer));
+      put_rows(out_, others.labels.size(), [&](std::size_t i, OutputBuffer& buffer) {
+        for (std::size_t k = 0; k < kind.width; ++k) {
+          buffer.put_bytes(
+              static_cast<Integer>(std::int64_t{others.vertices[i * kind.width + k]} + 1));
+        }
+        buffer.put_bytes(static_cast<Integer>(others.labels[i]));
+      });
+    });
     // Last: a file cut short never passes for a complete one.
     begin_rows<Integer>(tetrahedra, mesh_.tet_count(), 5 * sizeof(Integer));
     put_tets(out_, mesh_, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
       put_row<Integer>(buffer, tet.vertices, tet.label);
     });
+  }
+
+  template <class Integer>
+  void write_vectors(const MeditVectors& kind) {
+    const VectorsAtVertices all = VectorsAtVertices::of(mesh_, kind);
+    if (all.at.empty()) return;
+    begin_rows<Integer>(kind.vectors_keyword, all.vectors.size(), 3 * sizeof(double));
+    for (const auto& vector : all.vectors) {
+      for (const double x : vector) out_.put_bytes(x);
+    }
+    begin_rows<Integer>(kind.at_keyword, all.at.size(), 2 * sizeof(Integer));
+    for (const auto& pair : all.at) {
+      for (const std::uint32_t i : pair) {
+        out_.put_bytes(static_cast<Integer>(std::int64_t{i} + 1));
+      }
+    }
   }
 
   template <class Integer, class Element>

@@ -17,7 +17,9 @@
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
+#include "kernel/formats/medit_elements.h"
 #include "kernel/formats/medit_marks.h"
+#include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/tet_place.h"
 #include "kernel/formats/tetgen.h"
 #include "kernel/formats/vtk_legacy.h"
@@ -30,12 +32,13 @@ namespace {
 
 /// What of a MeshData a format can hold besides points, tets, triangles, edges and labels.
 struct Room {
-  bool data = false;    ///< named arrays
-  bool groups = false;  ///< with names and parts, entities and periodic links
-  bool others = false;  ///< elements of other kinds
+  bool data = false;          ///< named arrays
+  bool groups = false;        ///< with names and parts, entities and periodic links
+  bool others = false;        ///< elements of other kinds
+  bool medit_others = false;  ///< those of kMeditElements
   bool required_vertices = false;
   bool second_order = false;  ///< as elements of other kinds
-  bool marks = false;  ///< groups of the names of kMeditMarks
+  bool marks = false;         ///< groups of the names of kMeditMarks, and kMeditVectors
 };
 
 struct Codec {
@@ -66,24 +69,33 @@ constexpr std::array<MeshFormat, 7> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
 constexpr std::array<Codec, 7> kCodecs = {
     {{read_plain<formats::read_medit_ascii>,
       formats::write_medit_ascii,
-      {.required_vertices = true, .marks = true}},
+      {.medit_others = true, .required_vertices = true, .second_order = true, .marks = true}},
      {read_plain<formats::read_medit_binary>,
       formats::write_medit_binary,
-      {.required_vertices = true, .marks = true}},
+      {.medit_others = true, .required_vertices = true, .second_order = true, .marks = true}},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
-     {formats::read_vtk_legacy, formats::write_vtk_legacy, {.data = true, .others = true, .second_order = true}},
+     {formats::read_vtk_legacy,
+      formats::write_vtk_legacy,
+      {.data = true, .others = true, .second_order = true}},
      {formats::read_vtu, formats::write_vtu, {.data = true, .others = true, .second_order = true}},
      {read_plain<formats::read_gmsh>,
       formats::write_gmsh,
       {.data = true, .groups = true, .others = true, .second_order = true}}}};
 
-/// Of "part.vtu.gz" that is ".vtu". A TetGen mesh is several files, which nobody packs one by one.
-const Codec& find_codec(const std::filesystem::path& file) {
+/// Of "part.VTU.gz" that is ".vtu".
+std::string format_extension(const std::filesystem::path& file) {
   const bool is_packed = file.extension() == ".gz";
   std::string extension = (is_packed ? file.stem() : file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// A TetGen mesh is several files, which nobody packs one by one.
+const Codec& find_codec(const std::filesystem::path& file) {
+  const bool is_packed = file.extension() == ".gz";
+  const std::string extension = format_extension(file);
   std::string valid;
   for (std::size_t i = 0; i < kFormatsTable.size(); ++i) {
     const bool is_tetgen = kFormatsTable[i].name == "TetGen";
@@ -123,12 +135,14 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
 
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
   const Room& room = find_codec(file).room;
+  const std::string extension = format_extension(file);
   std::vector<std::string> notes;
   const auto arrays = [&](std::string_view of, const std::vector<DataArray>& list) {
     if (room.data) return;
     for (const DataArray& array : list) {
+      if (room.marks && of == "points" && formats::is_medit_vectors(array.name)) continue;
       notes.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none", array.name, of,
-                                  file.extension().string()));
+                                  extension));
     }
   };
   arrays("points", mesh.point_data);
@@ -137,17 +151,19 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   arrays("edges", mesh.edge_data);
   const auto lost = [&](bool held, std::size_t count, std::string_view what) {
     if (held || count == 0) return;
-    notes.push_back(fmt::format("{} {} not kept: {} has no place for them", count, what,
-                                file.extension().string()));
+    notes.push_back(
+        fmt::format("{} {} not kept: {} has no place for them", count, what, extension));
   };
   for (const OtherElements& others : mesh.other_elements) {
-    lost(room.others, others.labels.size(),
+    const bool is_held = room.others || (room.medit_others && formats::has_medit_section(others));
+    lost(is_held, others.labels.size(),
          fmt::format("elements of VTK's type {} are", others.vtk_type));
   }
   const auto is_lost = [&room](const Group& group) {
     const bool is_mark = std::any_of(formats::kMeditMarks.begin(), formats::kMeditMarks.end(),
                                      [&](const auto& mark) { return mark.section == group.name; });
-    return !group.name.empty() && !(is_mark && room.marks);  // one without a name is a label
+    const bool is_medits = is_mark || formats::is_medit_vectors(group.name);
+    return !group.name.empty() && !(is_medits && room.marks);  // one without a name is a label
   };
   const auto groups = std::count_if(mesh.groups.begin(), mesh.groups.end(), is_lost);
   lost(room.groups, static_cast<std::size_t>(groups), "groups, with their names, are");
@@ -169,8 +185,8 @@ void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
 void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
   const Codec& codec = find_codec(file);
   if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
-  const MeshData as_held = codec.room.second_order ? with_second_order(*mesh.data())
-                                                   : without_mid_nodes(*mesh.data());
+  const MeshData as_held =
+      codec.room.second_order ? with_second_order(*mesh.data()) : without_mid_nodes(*mesh.data());
   codec.write(file, MeshView(as_held));
 }
 

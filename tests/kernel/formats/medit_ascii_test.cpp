@@ -58,9 +58,14 @@ TEST_CASE("known sections that are not kept are passed over in a MEDIT file") {
       "ParallelVertices 1\n1 2\n" +
       kTets + "End\nanything");
   CHECK(mesh.tets.size() == 1);
-  CHECK(mesh.groups ==
-        std::vector<Group>{{0, 0, "Corners", {}, {0, 1}}, {1, 0, "Ridges", {}, {0}}});
-  CHECK(mesh.notes.size() == 9);
+  CHECK(mesh.groups == std::vector<Group>{{0, 0, "Corners", {}, {0, 1}},
+                                          {1, 0, "Ridges", {}, {0}},
+                                          {0, 0, "NormalAtVertices", {}, {0}}});
+  CHECK(mesh.other_elements.size() == 1);
+  CHECK(mesh.point_data ==
+        std::vector<DataArray>{
+            {"Normals", 3, std::vector<double>{0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0}}});
+  CHECK(mesh.notes.size() == 5);
   CHECK(mesh.notes.back() == "the section 'ParallelVertices' is not kept");
 }
 
@@ -139,9 +144,9 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
       {"count of words", replaced(good, "Vertices\n4", "Vertices\nfour"),
        ":4: ", "'four' is not an integer"},
       {"hexahedra", kHead + kPoints + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n" + kTets,
-       ":9: ", "'Hexahedra' cannot be read"},
-      {"second order", kHead + kPoints + "TetrahedraP2\n1\n1 2 3 4 0\n",
-       ":9: ", "'TetrahedraP2' cannot be read"},
+       ":11: ", "'5' is out of range"},
+      {"third order", kHead + kPoints + "TetrahedraP3\n1\n1 2 3 4 0\n",
+       ":9: ", "'TetrahedraP3' cannot be read"},
       {"cut in a number", kHead + kPoints + "Tetrahedra\n1\n1 2 3 4 7",
        ":11: ", "the file ends right behind '7'"},
       {"cut in rows", kHead + kPoints + "Tetrahedra\n2\n1 2 3 4 0\n1 2\n",

@@ -108,7 +108,7 @@ TEST_CASE("a bad VTK XML file is refused with line and reason") {
       {"offsets", replaced(good, "4 7", "7 4"), ":11: ", "there are 7 values: expected 4"},
       {"offset type", replaced(good, "Int64\" Name=\"offsets", "Float32\" Name=\"offsets"),
        ":14: ", "the values are no integers"},
-      {"hexahedra of second order", replaced(good, "10 5", "24 5"),
+      {"tets of higher order", replaced(good, "10 5", "78 5"),
        ":10: ", "(tetrahedron of higher order) cannot be read"},
       {"no base64", inline_points(good, "!!!!"), ":6: ", "the data are truncated"},
       {"wrong size", inline_points(good, formats::encode_base64(std::string("\x30\0\0\1", 4))),

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Second order in, second order out.
+#include "kernel/second_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <doctest/doctest.h>
+#include <tetmend/improve.h>
+
+#include "contract/zoo.h"
+#include "face/mesh_access.h"
+#include "kernel/curved.h"
+#include "tests/support/second_order.h"
+
+using namespace tetmend;
+
+namespace {
+
+using Key = std::array<double, 3>;
+
+Key key_of(const Point& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+std::set<Key> fixed_nodes(const MeshData& data) {
+  const auto fixed = find_fixed_mid_nodes(data, true).is_fixed;
+  std::set<Key> nodes;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (fixed[i]) nodes.insert(key_of(data.points[data.mid_nodes[i][2]]));
+  }
+  return nodes;
+}
+
+CurvedStatistics statistics_of(const MeshData& data) {
+  return curved_statistics(data, TetMesh(data));
+}
+
+void check_second_order(const MeshData& data) {
+  const MidNodes nodes(data.mid_nodes);
+  std::set<std::uint32_t> used;
+  for (const MeshData::Tet& tet : data.tets) {
+    const auto of = nodes.of(tet.vertices);
+    CHECK(of.size() == 6);
+    used.insert(of.begin(), of.end());
+    used.insert(tet.vertices.begin(), tet.vertices.end());
+  }
+  CHECK(used.size() == data.points.size());
+}
+
+}  // namespace
+
+TEST_CASE("a curved surface keeps its nodes, no tet is nearer to turning over") {
+  for (const double strength : {0.02, 0.1, 0.25}) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      CAPTURE(strength);
+      CAPTURE(seed);
+      MeshData before = test::second_order(contract::delaunay_ball(500, seed), strength);
+      std::vector<double> field;
+      for (const Point& p : before.points) field.push_back(1 + p.x() - 2 * p.y() + 0.5 * p.z());
+      before.point_data = {{"field", 1, field}};
+      const CurvedStatistics was = statistics_of(before);
+      CHECK(was.curved > 100);
+      Mesh mesh = MeshAccess::make(before);
+      const Result result = improve(mesh, {.schedule = "thorough"});
+      const MeshData& after = MeshAccess::data(mesh);
+      CHECK(result.after.n_bad < result.before.n_bad);
+      check_second_order(after);
+      CHECK(fixed_nodes(after) == fixed_nodes(before));
+      const CurvedStatistics is = statistics_of(after);
+      CHECK(is.worst.at_nodes >= was.worst.at_nodes - 1e-9);
+      CHECK(is.worst.bound >= was.worst.bound - 1e-9);
+      CHECK(is.turned_over <= was.turned_over);
+      REQUIRE(result.curved_after.has_value());
+      CHECK(result.curved_after->mid_nodes == after.mid_nodes.size());
+      CHECK(result.curved_after->worst.at_nodes == doctest::Approx(is.worst.at_nodes));
+      CHECK(result.after.vertices == after.points.size());
+      const auto fixed = find_fixed_mid_nodes(after, true).is_fixed;
+      for (std::size_t i = 0; i < fixed.size(); ++i) {
+        const auto& [a, b, node] = after.mid_nodes[i];
+        const Point middle = (after.points[a] + after.points[b]) / 2;
+        if (!fixed[i]) CHECK((after.points[node] - middle).norm() < 1e-12);
+      }
+      const auto& now = std::get<std::vector<double>>(after.point_data[0].values);
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        const Point& p = after.points[i];
+        CHECK(now[i] == doctest::Approx(1 + p.x() - 2 * p.y() + 0.5 * p.z()).epsilon(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("a clearly curved edge within the volume stays as it is") {
+  MeshData before = test::second_order(contract::delaunay_ball(400, 4), 0.1);
+  const auto fixed = find_fixed_mid_nodes(before, true).is_fixed;
+  std::set<Key> curved;
+  for (std::size_t i = 0; i < fixed.size() && curved.size() < 5; i += 7) {
+    if (fixed[i]) continue;
+    const auto& [a, b, node] = before.mid_nodes[i];
+    before.points[node] += 0.02 * (before.points[b] - before.points[a]).cross(Point(0, 0, 1));
+    curved.insert(key_of(before.points[node]));
+  }
+  Mesh mesh = MeshAccess::make(before);
+  improve(mesh);
+  const MeshData& after = MeshAccess::data(mesh);
+  check_second_order(after);
+  CHECK(fixed_nodes(after) == fixed_nodes(before));
+  const std::set<Key> now = fixed_nodes(after);
+  CHECK(std::includes(now.begin(), now.end(), curved.begin(), curved.end()));
+  CHECK(after.edges.empty());
+}
+
+TEST_CASE("a straight mesh of second order is improved like one of first order") {
+  const MeshData first = contract::delaunay_ball(400, 6);
+  Mesh straight = MeshAccess::make(first);
+  Mesh second = MeshAccess::make(test::second_order(first, 0));
+  const Result a = improve(straight);
+  const Result b = improve(second);
+  CHECK(a.after.n_bad == b.after.n_bad);
+  CHECK(b.curved_after->curved == 0);
+  CHECK(b.curved_after->worst.at_nodes == 1);
+  check_second_order(MeshAccess::data(second));
+}
