@@ -46,6 +46,7 @@ struct Options {
   std::string preset;
   bool json = false;
   int threads = 1;
+  std::string format;
 };
 
 /// What was looked at, and whether it holds.
@@ -378,7 +379,8 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
   fmt::print("{}\n", result.dump(2));
 }
 
-int run_check(const Options& options) {
+int run_check(Options& options) {
+  name_streams(options.format, options.file, nullptr);
   check_mesh_extension(options.file);
   if (!options.improved.empty()) check_mesh_extension(options.improved);
   const bool asks = options.min_dihedral > 0 || options.max_dihedral < 180 || options.no_inverted ||
@@ -434,6 +436,7 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command->add_option("--for", options->preset, "What a solver asks, see below")
       ->type_name("PRESET");
   command->add_flag("--json", options->json, "Print JSON (docs/check.schema.json)");
+  add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);
   command->footer(fmt::format(
       R"(Prints a line for each fact. With two meshes, from the files alone: the same

@@ -19,20 +19,22 @@ struct Options {
   std::filesystem::path input;
   std::filesystem::path output;
   CarryOptions carry;
+  std::string format;
   int threads = 1;
 };
 
 /// No adjacency is built, so that a mesh of broken topology can be converted too.
-int run_convert(const Options& options) {
+int run_convert(Options& options) {
+  name_streams(options.format, options.input, &options.output);
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_writable(options.output);
   std::vector<std::string> notes;
   const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
   save(options.output, mesh, options.threads);
-  fmt::print("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
-             grouped(mesh.point_count()), grouped(mesh.tet_count()), grouped(mesh.triangle_count()),
-             grouped(mesh.edge_count()));
+  fmt::print(stream_beside(options.output), "{}: {} vertices, {} tets, {} triangles, {} edges\n",
+             options.output.string(), grouped(mesh.point_count()), grouped(mesh.tet_count()),
+             grouped(mesh.triangle_count()), grouped(mesh.edge_count()));
   return 0;
 }
 
@@ -44,6 +46,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write")->required()->type_name("");
   add_carry_options(*command, options->carry);
+  add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);
   command->footer(fmt::format(
       R"(Keeps points, elements, labels, named arrays and groups, and their order, as
@@ -57,6 +60,7 @@ Formats, by extension:
 Examples:
   tetmend convert part.mesh part.vtk
   tetmend convert part.ele part.meshb --strict
+  mesher | tetmend convert - part.vtu --format msh
 
 Exit status: 0 success, 1 a file cannot be read or written, or --strict found
 a loss, 2 wrong usage)",

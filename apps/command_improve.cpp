@@ -84,6 +84,7 @@ std::size_t peak_memory() {
 }
 
 int run_improve(ImproveOptions& options, const Invocation& invocation) {
+  name_streams(options.format, options.input, &options.output);
   check_files(options);
   complete(options);
   const int threads = options.run.threads;
@@ -106,8 +107,8 @@ int run_improve(ImproveOptions& options, const Invocation& invocation) {
   if (!options.report.empty()) write_report(options.report, report);
   progress.clear();
   if (!options.quiet) {
-    fmt::print("tetmend {}: {} -> {}\n\n{}", version(), options.input.string(),
-               options.output.string(), format_report(report));
+    fmt::print(stream_beside(options.output), "tetmend {}: {} -> {}\n\n{}", version(),
+               options.input.string(), options.output.string(), format_report(report));
   }
   if (report.result.ending == Ending::cancelled) {
     return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
@@ -152,6 +153,7 @@ Examples:
   tetmend improve part.ele -o better.vtk --report better.json --quiet
   tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
   tetmend improve part.mesh -o better.mesh --protect label:3
+  mesher | tetmend improve - -o - --format msh | solver
 
 Exit status: 0 success, 1 the work failed and nothing was written, 2 wrong
 usage, 3 written, but tets miss the goal that --goal asked for, 4 written, but

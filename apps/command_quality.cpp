@@ -9,6 +9,7 @@
 #include <tetmend/io.h>
 #include <tetmend/measure.h>
 
+#include "apps/bad_tets.h"
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/report.h"
@@ -23,6 +24,9 @@ struct Options {
   std::filesystem::path file;
   std::vector<std::string> measures;
   bool limit = false;
+  std::size_t list = 0;         // --list
+  std::filesystem::path cells;  // --cells
+  std::string format;
   bool json = false;
   int threads = 1;
 };
@@ -43,13 +47,14 @@ std::vector<std::string> list_measures(const std::vector<std::string>& names) {
   return list;
 }
 
-void print_json(const std::filesystem::path& file, const Measurement& measured) {
+void print_json(const Options& options, const Measurement& measured) {
   nlohmann::json result = tetmend::to_json(measured.statistics);
-  result["file"] = file.string();
+  result["file"] = shown(options.file);
   result["build"] = to_json(measured.build);
   if (measured.rulers) result["rulers"] = tetmend::to_json(*measured.rulers);
   if (measured.curved) result["second_order"] = tetmend::to_json(*measured.curved);
   if (measured.limit) result["limit"] = tetmend::to_json(*measured.limit);
+  if (options.list > 0) result["bad_tets"] = to_json(measured.bad_tets, options.list);
   for (const MeasureSummary& summary : measured.measures) {
     result["measures"][std::string(summary.name)] = {{"worst", summary.worst},
                                                      {"mean", summary.mean}};
@@ -57,10 +62,16 @@ void print_json(const std::filesystem::path& file, const Measurement& measured) 
   fmt::print("{}\n", result.dump(2));
 }
 
-int run_quality(const Options& options) {
+int run_quality(Options& options) {
+  name_streams(options.format, options.file, nullptr);
   check_mesh_extension(options.file);
+  if (!options.cells.empty()) {
+    check_mesh_extension(options.cells);
+    check_writable(options.cells);
+  }
   const MeasureOptions wanted = {.measure = list_measures(options.measures),
                                  .limit = options.limit,
+                                 .bad_tets = options.list > 0 || !options.cells.empty(),
                                  .threads = options.threads};
   try {
     check(wanted);
@@ -68,11 +79,12 @@ int run_quality(const Options& options) {
     throw UsageError(fmt::format("--{}", error.what()));
   }
   const Measurement measured = measure(load(options.file, options.threads), wanted);
+  if (!options.cells.empty()) write_bad_tets(options.file, options.cells, measured.bad_tets);
   if (options.json) {
-    print_json(options.file, measured);
+    print_json(options, measured);
     return 0;
   }
-  fmt::print("{}\n\n", options.file.string());
+  fmt::print("{}\n\n", shown(options.file));
   if (const std::string notes = format_build(measured.build); !notes.empty()) {
     fmt::print("{}\n", notes);
   }
@@ -81,6 +93,7 @@ int run_quality(const Options& options) {
   if (measured.rulers) fmt::print("\n{}", format_rulers(*measured.rulers, nullptr));
   if (measured.curved) fmt::print("\n{}", format_curved(*measured.curved, nullptr));
   if (measured.limit) fmt::print("\n{}", format_limit(*measured.limit));
+  if (options.list > 0) fmt::print("\n{}", format_bad_tets(measured.bad_tets, options.list));
   return 0;
 }
 
@@ -119,6 +132,16 @@ void add_quality(CLI::App& app, Invocation& invocation) {
       ->take_all();
   command->add_flag("--limit", options->limit,
                     "Add what the surface allows at best, and why each bad\ntet is there");
+  command
+      ->add_option("--list", options->list,
+                   "Name the worst N bad tets: number, region, centre,\nangles and why they resist")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--cells", options->cells,
+                   "Write the bad tets as a mesh of their own, with these\nfigures as arrays")
+      ->type_name("FILE");
+  add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);
   command->footer(fmt::format(R"(The angles are those between the faces of a tet, in degrees.
   lambda          share of the angles that are <= 30 or >= 150
@@ -133,6 +156,9 @@ Of the measures of other programs: the worst value, the one that 1 % of the tets
 --limit proves what no mesh of this surface can beat: a bad tet is forced if
 every mesh with the same surface and constraints has one there. It counts these
 and bounds the smallest and largest angle; more may be forced than is found.
+--cells writes number (from 1), theta_min, theta_max, quality, free_vertices and
+reason: 1 the surface forces it, 2 a constraint holds it, 3 all its vertices are
+on the surface, 4 no obstacle is known.
 
 Measures:
 {}
@@ -141,6 +167,7 @@ Formats, by extension:
 Examples:
   tetmend quality part.mesh --limit
   tetmend quality part.vtk --measure radius_ratio --measure mean_ratio --json
+  tetmend quality part.msh --list 20 --cells bad.vtu
 
 Exit status: 0 success, 1 the file cannot be read, 2 wrong usage)",
                               ruler_list(), measure_list(), mesh_format_list()));

@@ -16,6 +16,7 @@
 #include "apps/commands.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/standard_stream.h"
 
 namespace tetmend::apps {
 
@@ -39,6 +40,38 @@ void check_extension(const std::filesystem::path& file, std::span<const std::str
                                fmt::join(valid, ", ")));
 }
 
+void add_format_option(CLI::App& command, std::string& format) {
+  command
+      .add_option(
+          "--format", format,
+          "What '-', standard input or output in place of\na file, holds: an extension; two "
+          "where both are\n'-' and differ (msh,vtu)")
+      ->type_name("EXT[,EXT]");
+}
+
+void name_streams(const std::string& format, std::filesystem::path& input,
+                  std::filesystem::path* output) {
+  const std::size_t comma = format.find(',');
+  const std::string first = format.substr(0, comma);
+  const std::string second = comma == std::string::npos ? first : format.substr(comma + 1);
+  const auto name = [](std::filesystem::path& file, const std::string& extension) {
+    if (file != "-") return;
+    if (extension.empty()) throw UsageError("'-' needs --format, such as --format msh");
+    file = extension.starts_with(".") ? "-" + extension : "-." + extension;
+    check_mesh_extension(file);
+  };
+  name(input, first);
+  if (output != nullptr) name(*output, second);
+}
+
+std::string shown(const std::filesystem::path& file) {
+  return formats::is_standard_stream(file) ? "standard input" : file.string();
+}
+
+std::FILE* stream_beside(const std::filesystem::path& output) {
+  return formats::is_standard_stream(output) ? stderr : stdout;
+}
+
 void check_writable(const std::filesystem::path& file) {
   const OutputFile probe(file);  // vanishes without commit()
 }
@@ -58,11 +91,11 @@ Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& o
   std::vector<std::string> lost = mesh.notes();
   for (std::string& text : not_saved(output, mesh)) lost.push_back(std::move(text));
   for (const std::string& text : lost) {
-    fmt::print(stderr, "note: {}: {}\n", input.string(), text);
+    fmt::print(stderr, "note: {}: {}\n", shown(input), text);
   }
   if (options.strict && !lost.empty()) {
     throw Error(
-        fmt::format("{}: {} would be lost: nothing is written", input.string(),
+        fmt::format("{}: {} would be lost: nothing is written", shown(input),
                     lost.size() == 1 ? "something" : fmt::format("{} things", lost.size())));
   }
   notes.insert(notes.end(), lost.begin(), lost.end());

@@ -2,6 +2,7 @@
 // What the subcommands do with files: check their names early, say what loading a mesh found.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -24,6 +25,19 @@ namespace tetmend::apps {
 void check_mesh_extension(const std::filesystem::path& file);
 /// @throws UsageError when the extension is none of `valid` (".json"); case does not matter.
 void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid);
+
+/// For "-", standard input or output, in place of a file.
+void add_format_option(CLI::App& command, std::string& format);
+/// Gives "-" the name under which the library knows the stream, "-.msh": `format` is "msh", or
+/// "msh,vtu" for a command that reads one and writes the other.
+/// @param output null for a command that writes no mesh
+/// @throws UsageError when "-" has no format
+void name_streams(const std::string& format, std::filesystem::path& input,
+                  std::filesystem::path* output);
+/// The name of a file or stream, for people.
+std::string shown(const std::filesystem::path& file);
+/// Where a command speaks to people: not where a mesh goes.
+std::FILE* stream_beside(const std::filesystem::path& output);
 
 /// Tries whether `file` could be written, and leaves everything as it was.
 /// @throws Error with the reason, such as a folder that does not exist.

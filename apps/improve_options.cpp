@@ -175,6 +175,14 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_region_options(command, options.run);
   add_trace_options(command, options);
   add_carry_options(command, options.carry);
+  command
+      .add_option("--conserve", options.run.conserve,
+                  "Keep the integral of this array of the\ntets: new tets get the mean of the old "
+                  "by\nshared volume; may be repeated")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+  add_format_option(command, options.format);
   command.add_option("--report", options.report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");

@@ -24,6 +24,7 @@ struct ImproveOptions {
   std::filesystem::path report;  ///< empty: none
   bool quiet = false;
   CarryOptions carry;
+  std::string format;                 ///< of "-"
   Options run;                        ///< all that has the same form in the library
   std::vector<std::string> settings;  ///< NAME=VALUE
   std::string goal;                   ///< 35 or 35,140; empty: the default

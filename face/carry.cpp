@@ -10,6 +10,9 @@
 #include <type_traits>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "face/overlap.h"
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
 #include "kernel/formats/cell_arrays.h"
@@ -22,6 +25,7 @@ namespace {
 
 constexpr std::string_view kLinear = "linear in the old mesh";
 constexpr std::string_view kNearest = "of the nearest old vertex";
+constexpr std::string_view kConserved = "mean of the old tets by shared volume";
 constexpr std::string_view kCentroid = "of the old tet at the centroid";
 
 double volume(const MeshData& data, const MeshData::Tet& tet) {
@@ -97,8 +101,9 @@ auto edges_of(Mesh& mesh) {
 class Carrying {
  public:
   Carrying(const MeshData& before, std::span<const std::uint32_t> vertex_map,
-           std::span<const std::uint32_t> tet_map, MeshData& now)
-      : before_(before), now_(now), vertex_map_(vertex_map) {
+           std::span<const std::uint32_t> tet_map, std::span<const std::string> conserve,
+           MeshData& now)
+      : before_(before), now_(now), vertex_map_(vertex_map), conserve_(conserve) {
     old_point_ = inverse(vertex_map, now.points.size());
     old_tet_ = inverse(tet_map, now.tets.size());
     for (std::size_t i = 0; i < now.tets.size(); ++i) {
@@ -209,6 +214,8 @@ class Carrying {
 
   void carry_tets(const TetLocator& locator) {
     if (before_.tet_data.empty() && before_.tet_parts.empty() && !has_members(3)) return;
+    const std::vector<Shares> shares =
+        conserve_.empty() ? std::vector<Shares>() : find_shares(locator);
     for_chunks(old_tet_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (old_tet_[i] == kGone) old_tet_[i] = locator.find(centroid(now_.tets[i])).tet;
@@ -221,9 +228,63 @@ class Carrying {
       }
     }
     for (const DataArray& array : before_.tet_data) {
+      if (std::find(conserve_.begin(), conserve_.end(), array.name) != conserve_.end()) {
+        tell(array, now_.tet_data.emplace_back(conserved(array, shares)), "tets", kConserved);
+        continue;
+      }
       tell(array, now_.tet_data.emplace_back(formats::selected_rows(array, old_tet_)), "tets",
            kCentroid);
     }
+  }
+
+  /// Old tets that a new one shares volume with, and which part of it.
+  using Shares = std::vector<std::pair<std::uint32_t, double>>;
+
+  static std::array<Point, 4> corners(const MeshData& data, const MeshData::Tet& tet) {
+    std::array<Point, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = data.points[tet.vertices[k]];
+    return corners;
+  }
+
+  /// Empty for a tet that is as before.
+  std::vector<Shares> find_shares(const TetLocator& locator) const {
+    std::vector<Shares> shares(now_.tets.size());
+    for_chunks(shares.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (old_tet_[i] != kGone) continue;
+        const std::array<Point, 4> tet = corners(now_, now_.tets[i]);
+        double sum = 0;
+        for (const std::uint32_t old : locator.near(tet)) {
+          const double shared = overlap(tet, corners(before_, before_.tets[old]));
+          if (shared > 0) shares[i].emplace_back(old, shared);
+          sum += shared;
+        }
+        for (auto& share : shares[i]) share.second /= sum;
+      }
+    });
+    return shares;
+  }
+
+  /// Precondition: real numbers.
+  DataArray conserved(const DataArray& array, const std::vector<Shares>& shares) const {
+    DataArray made = formats::selected_rows(array, old_tet_);
+    std::visit(
+        [&](const auto& old) {
+          using Values = std::decay_t<decltype(old)>;
+          using Value = typename Values::value_type;
+          auto& now = std::get<Values>(made.values);
+          for (std::size_t i = 0; i < shares.size(); ++i) {
+            for (std::size_t k = 0; k < array.components && !shares[i].empty(); ++k) {
+              double mean = 0;
+              for (const auto& [tet, share] : shares[i]) {
+                mean += share * static_cast<double>(old[tet * array.components + k]);
+              }
+              now[i * array.components + k] = static_cast<Value>(mean);
+            }
+          }
+        },
+        array.values);
+    return made;
   }
 
   Point centroid(const MeshData::Tet& tet) const {
@@ -400,6 +461,7 @@ class Carrying {
   const MeshData& before_;
   MeshData& now_;
   std::span<const std::uint32_t> vertex_map_;
+  std::span<const std::string> conserve_;
   std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
   std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
   std::vector<std::uint32_t> changed_;    // old tets
@@ -443,8 +505,24 @@ std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
 }
 
 std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
-                                std::span<const std::uint32_t> tet_map, MeshData& now) {
-  return Carrying(before, vertex_map, tet_map, now).run();
+                                std::span<const std::uint32_t> tet_map,
+                                std::span<const std::string> conserve, MeshData& now) {
+  return Carrying(before, vertex_map, tet_map, conserve, now).run();
+}
+
+void check_conserve(const MeshData& data, std::span<const std::string> conserve) {
+  for (const std::string& name : conserve) {
+    const auto has_name = [&](const DataArray& array) { return array.name == name; };
+    const auto found = std::find_if(data.tet_data.begin(), data.tet_data.end(), has_name);
+    if (found == data.tet_data.end()) {
+      throw OptionError("conserve",
+                        fmt::format("conserve: no array of the tets is named '{}'", name));
+    }
+    if (found->values.index() < 2) {
+      throw OptionError("conserve",
+                        fmt::format("conserve: '{}' has integers, whose mean is none", name));
+    }
+  }
 }
 
 }  // namespace tetmend::face

@@ -4,13 +4,15 @@
 //   what has not changed keeps its values
 //   point data: linear in the old tet that holds the new place of a point; integers come from the
 //     vertex of that tet with the greatest weight
-//   data and parts of tets: those of the old tet that holds the centroid
+//   data and parts of tets: those of the old tet that holds the centroid; on request the mean of the
+//     old tets by the volume that they share with the new one, which keeps the integral
 //   groups: a new point is in one that holds all vertices of its old tet
 //   triangles, edges and other elements are the same: only the numbers of their vertices change
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <tetmend/improve.h>
@@ -27,8 +29,13 @@ std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data);
 
 /// Gives `now`, what TetMesh::to_data() made of the improved mesh, all that `before` holds besides.
 /// Triangles that `before` does not name go. The maps are those of maps.h.
+/// @param conserve arrays of the tets, see check_conserve()
 /// @returns for each array, how, and what that did to its integral
 std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
-                                std::span<const std::uint32_t> tet_map, MeshData& now);
+                                std::span<const std::uint32_t> tet_map,
+                                std::span<const std::string> conserve, MeshData& now);
+
+/// @throws OptionError unless each name is that of an array of real numbers of the tets
+void check_conserve(const MeshData& data, std::span<const std::string> conserve);
 
 }  // namespace tetmend::face

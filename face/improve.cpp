@@ -195,7 +195,8 @@ class Improvement {
         result_.after.vertices = data.points.size();
         if (result_.curved_after) result_.curved_after->mid_nodes = data.mid_nodes.size();
       }
-      result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, data);
+      result_.carried =
+          face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
     }
     input_ = {};
     user_mesh_ = MeshAccess::make(std::move(data));
@@ -229,6 +230,7 @@ void Improvement::build() {
   try {
     plan_.trace.locate(data);
     face::find_regions(data, options_);
+    face::check_conserve(data, options_.conserve);
     input_ = data;
     carries_ = face::holds_more(data);
     build_mesh(data);

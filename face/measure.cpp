@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The figures of a mesh.
+#include <algorithm>
+#include <utility>
+
 #include <tetmend/measure.h>
 
 #include "face/arena.h"
@@ -25,6 +28,42 @@ std::vector<const QualityMeasure*> find_measures(const std::vector<std::string>&
   return measures;
 }
 
+BadTet describe(const TetMesh& mesh, TetHandle t, Hindrance hindrance) {
+  const TetVertices& v = mesh.vertices(t);
+  BadTet tet{.label = mesh.label(t), .hindrance = hindrance};
+  Point centre = Point::Zero();
+  for (const VertexHandle w : v) {
+    centre += mesh.point(w) / 4;
+    tet.free_vertices += !mesh.is_fixed(w);
+  }
+  tet.centre = {centre.x(), centre.y(), centre.z()};
+  const auto angles =
+      dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  const auto [least, greatest] = std::minmax_element(angles.begin(), angles.end());
+  tet.theta_min = *least;
+  tet.theta_max = *greatest;
+  tet.quality =
+      minimum_sine(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  return tet;
+}
+
+std::vector<BadTet> describe(const TetMesh& mesh,
+                             const std::vector<std::pair<TetHandle, Hindrance>>& bad,
+                             const std::vector<std::uint32_t>& numbers,
+                             const std::vector<std::int64_t>& names) {
+  std::vector<BadTet> tets;
+  for (const auto& [t, hindrance] : bad) {
+    tets.push_back(describe(mesh, t, hindrance));
+    BadTet& tet = tets.back();
+    tet.tet = numbers[t.index()];
+    tet.number = names.empty() ? static_cast<std::int64_t>(tet.tet) + 1 : names[tet.tet];
+  }
+  std::sort(tets.begin(), tets.end(), [](const BadTet& a, const BadTet& b) {
+    return std::pair(a.quality, a.tet) < std::pair(b.quality, b.tet);
+  });
+  return tets;
+}
+
 }  // namespace
 
 void check(const MeasureOptions& options) {
@@ -38,14 +77,22 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
     Measurement result;
     const std::filesystem::path file = mesh.file();
     MeshData data = MeshAccess::take(mesh);
+    const std::vector<std::int64_t> names = data.tet_numbers;
     const MeshData second_order = data.mid_nodes.empty() ? MeshData() : data;
+    std::vector<std::uint32_t> numbers;
     const TetMesh built =
-        face::build_located(file, data, {.sorted = false, .report = &result.build});
+        face::build_located(file, data,
+                            {.sorted = false,
+                             .report = &result.build,
+                             .tet_numbers = options.bad_tets ? &numbers : nullptr});
     if (!second_order.mid_nodes.empty()) result.curved = curved_statistics(second_order, built);
     result.statistics = compute_statistics(built);
     if (options.rulers) result.rulers = measure_rulers(built);
     for (const QualityMeasure* each : measures) result.measures.push_back(summarize(built, *each));
-    if (options.limit) result.limit = compute_surface_limit(built);
+    std::vector<std::pair<TetHandle, Hindrance>> bad;
+    if (options.limit || options.bad_tets) result.limit = compute_surface_limit(built, &bad);
+    if (!options.limit) result.limit.reset();
+    if (options.bad_tets) result.bad_tets = describe(built, bad, numbers, names);
     return result;
   });
 }

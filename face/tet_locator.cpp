@@ -101,6 +101,29 @@ void TetLocator::search(std::uint32_t node, const Point& place, Best& best) cons
   }
 }
 
+std::vector<std::uint32_t> TetLocator::near(const std::array<Point, 4>& tet) const {
+  Box box;
+  for (const Point& p : tet) box.extend(p);
+  std::vector<std::uint32_t> found;
+  if (!nodes_.empty()) search(0, box, found);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void TetLocator::search(std::uint32_t node, const Box& box,
+                        std::vector<std::uint32_t>& found) const {
+  const Node& here = nodes_[node];
+  if (!here.box.intersects(box)) return;
+  if (here.right != 0) {
+    search(node + 1, box, found);
+    search(here.right, box, found);
+    return;
+  }
+  for (std::uint32_t i = here.begin; i < here.end; ++i) {
+    if (box_of(tets_[i]).intersects(box)) found.push_back(tets_[i]);
+  }
+}
+
 std::array<double, 4> weights_in(const MeshData& data, std::uint32_t tet, const Point& place) {
   const auto& v = data.tets[tet].vertices;
   std::array<double, 4> weights{};

@@ -30,6 +30,9 @@ class TetLocator {
   /// The tet that holds `place`; where none does, by rounding or because the tets leave a gap there,
   /// one of the nearest, with weights below 0. Precondition: not empty. Cost: about log n.
   TetPlace find(const Point& place) const;
+  /// The tets whose boxes meet that of `tet`, a tet of any mesh, ascending. Cost: about log n, and
+  /// what it finds.
+  std::vector<std::uint32_t> near(const std::array<Point, 4>& tet) const;
 
  private:
   using Box = Eigen::AlignedBox3d;
@@ -44,6 +47,7 @@ class TetLocator {
   std::uint32_t build(std::uint32_t begin, std::uint32_t end, std::span<const Box> boxes);
   Box box_of(std::uint32_t tet) const;
   void search(std::uint32_t node, const Point& place, Best& best) const;
+  void search(std::uint32_t node, const Box& box, std::vector<std::uint32_t>& found) const;
 
   const MeshData& data_;
   std::vector<std::uint32_t> tets_;

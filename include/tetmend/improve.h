@@ -77,6 +77,9 @@ struct Options {
   /// No new edge is shorter than half or longer than twice what edges were at its midpoint: the mean
   /// of those at the nearest vertex.
   bool keep_size = false;
+  /// Arrays of real numbers of the tets whose integral stays: new tets get the mean of the old ones
+  /// by the volume that they share. Others have the value of the old tet at their centroid.
+  std::vector<std::string> conserve = {};
   bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
 
   std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then

@@ -2,6 +2,9 @@
 // The figures of a mesh, and what its surface allows.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,8 +21,22 @@ namespace tetmend {
 struct MeasureOptions {
   std::vector<std::string> measure = {};  ///< names of further measures, see measures()
   bool rulers = true;                     ///< give Measurement::rulers
-  bool limit = false;  ///< prove what the surface allows; seconds for a large mesh
-  int threads = 1;     ///< 1 to 1024; the result is the same for every number
+  bool limit = false;     ///< prove what the surface allows; seconds for a large mesh
+  bool bad_tets = false;  ///< give Measurement::bad_tets; takes as long as `limit`
+  int threads = 1;        ///< 1 to 1024; the result is the same for every number
+};
+
+/// A tet that misses the goal of 30 and 150 degrees.
+struct BadTet {
+  std::size_t tet = 0;      ///< number, from 0
+  std::int64_t number = 1;  ///< what the file calls it; from 1 where files do not number tets
+  std::int32_t label = 0;
+  std::array<double, 3> centre{};
+  double theta_min = 0;  ///< degrees
+  double theta_max = 0;
+  double quality = 0;     ///< minimum sine; below 0: inverted
+  int free_vertices = 0;  ///< that may move
+  Hindrance hindrance = Hindrance::search;
 };
 
 struct Measurement {
@@ -29,6 +46,7 @@ struct Measurement {
   BuildReport build;                       ///< what is peculiar about the mesh
   std::vector<MeasureSummary> measures;    ///< in the order asked for
   std::optional<SurfaceLimit> limit;
+  std::vector<BadTet> bad_tets;  ///< the worst first
 };
 
 /// Measures a mesh, and finds out whether its topology is sound. Move it in where it is not needed

@@ -3,6 +3,7 @@
 #include "kernel/formats/input_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
+#include "kernel/formats/standard_stream.h"
 
 namespace tetmend::formats {
 namespace {
@@ -36,9 +38,38 @@ class Descriptor {
   throw Error(fmt::format("{}: cannot be read: {}", name, std::generic_category().message(error)));
 }
 
+std::string read_standard_input(const std::string& name) {
+  std::string content;
+  std::array<char, 1 << 16> buffer;
+  for (;;) {
+    const ssize_t got = ::read(STDIN_FILENO, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_to_read(name, errno);
+    if (got == 0) return content;
+    content.append(buffer.data(), static_cast<std::size_t>(got));
+  }
+}
+
 }  // namespace
 
 InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
+  if (is_standard_stream(path)) {
+    copy_standard_input();
+  } else {
+    read_file(path);
+  }
+  if (is_gzip({bytes_.get(), size_})) unpack();
+}
+
+void InputFile::copy_standard_input() {
+  name_ = "standard input";
+  static const std::string kContent = read_standard_input(name_);  // it cannot be read again
+  size_ = kContent.size();
+  bytes_ = std::make_unique_for_overwrite<char[]>(size_ + 1);
+  std::copy_n(kContent.c_str(), size_ + 1, bytes_.get());
+}
+
+void InputFile::read_file(const std::filesystem::path& path) {
   const Descriptor file(path.c_str());
   struct stat info {};
   if (file.get() < 0 || ::fstat(file.get(), &info) != 0) fail_to_read(name_, errno);
@@ -56,7 +87,6 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
     size_ += static_cast<std::size_t>(got);
   }
   bytes_[size_] = '\0';
-  if (is_gzip({bytes_.get(), size_})) unpack();
 }
 
 void InputFile::unpack() {

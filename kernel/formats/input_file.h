@@ -36,6 +36,8 @@ class InputFile {
   [[noreturn]] void fail_at_byte(const char* where, std::string_view reason) const;
 
  private:
+  void read_file(const std::filesystem::path& path);
+  void copy_standard_input();
   void unpack();
 
   std::string name_;

@@ -20,6 +20,7 @@
 #include "kernel/formats/medit_elements.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
+#include "kernel/formats/standard_stream.h"
 #include "kernel/formats/tet_place.h"
 #include "kernel/formats/tetgen.h"
 #include "kernel/formats/vtk_legacy.h"
@@ -45,6 +46,7 @@ struct Codec {
   MeshData (*read)(const std::filesystem::path&, const formats::ReadRequest&);
   void (*write)(const std::filesystem::path&, const MeshView&);
   Room room;
+  bool is_several_files = false;
 };
 
 /// For formats that have one place for labels.
@@ -73,8 +75,8 @@ constexpr std::array<Codec, 7> kCodecs = {
      {read_plain<formats::read_medit_binary>,
       formats::write_medit_binary,
       {.medit_others = true, .required_vertices = true, .second_order = true, .marks = true}},
-     {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
-     {read_plain<formats::read_tetgen>, formats::write_tetgen, {}},
+     {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
+     {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
      {formats::read_vtk_legacy,
       formats::write_vtk_legacy,
       {.data = true, .others = true, .second_order = true}},
@@ -92,14 +94,18 @@ std::string format_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-/// A TetGen mesh is several files, which nobody packs one by one.
+/// Nobody packs several files one by one.
 const Codec& find_codec(const std::filesystem::path& file) {
   const bool is_packed = file.extension() == ".gz";
   const std::string extension = format_extension(file);
   std::string valid;
   for (std::size_t i = 0; i < kFormatsTable.size(); ++i) {
-    const bool is_tetgen = kFormatsTable[i].name == "TetGen";
-    if (kFormatsTable[i].extension == extension && !(is_packed && is_tetgen)) return kCodecs[i];
+    const bool is_single = !kCodecs[i].is_several_files;
+    if (kFormatsTable[i].extension == extension && (is_single || !is_packed)) {
+      if (is_single || !formats::is_standard_stream(file)) return kCodecs[i];
+      throw Error(fmt::format("{}: a mesh of this format is several files: expected a file",
+                              file.string()));
+    }
     valid += valid.empty() ? "" : ", ";
     valid += kFormatsTable[i].extension;
   }

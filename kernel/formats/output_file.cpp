@@ -3,6 +3,7 @@
 #include "kernel/formats/output_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <system_error>
@@ -12,6 +13,7 @@
 #include <fcntl.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
@@ -20,6 +22,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
+#include "kernel/formats/standard_stream.h"
 
 namespace tetmend {
 
@@ -44,10 +47,24 @@ void OutputBuffer::grow(std::size_t size) {
 }
 
 OutputFile::OutputFile(const std::filesystem::path& target)
-    : name_(target.string()), target_(target) {
+    : name_(target.string()), target_(target), is_standard_(formats::is_standard_stream(target)) {
+  if (is_standard_) {
+    name_ = "standard output";
+    fd_ = ::memfd_create("tetmend", MFD_CLOEXEC);
+    if (fd_ < 0) fail(errno);
+  } else {
+    make_temporary();
+  }
+  if (target.extension() == ".gz") {
+    gzip_ =
+        std::make_unique<formats::GzipWriter>([this](std::string_view bytes) { write_raw(bytes); });
+  }
+}
+
+void OutputFile::make_temporary() {
   std::error_code ignored;
   // Renaming onto a link would replace the link, not the file that the user keeps behind it.
-  if (const auto real = std::filesystem::canonical(target, ignored); !ignored) target_ = real;
+  if (const auto real = std::filesystem::canonical(target_, ignored); !ignored) target_ = real;
   mode_t mode = 0;
   struct stat older {};
   if (::stat(target_.c_str(), &older) == 0) {
@@ -65,17 +82,13 @@ OutputFile::OutputFile(const std::filesystem::path& target)
     fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno != EEXIST) fail(errno);
   }
-  if (target.extension() == ".gz") {
-    gzip_ =
-        std::make_unique<formats::GzipWriter>([this](std::string_view bytes) { write_raw(bytes); });
-  }
   if (mode != 0)
     static_cast<void>(::fchmod(fd_, mode));  // best effort: a file system may know no modes
 }
 
 OutputFile::~OutputFile() {
   if (fd_ >= 0) ::close(fd_);
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (!committed_ && !is_standard_) ::unlink(temporary_.c_str());
 }
 
 void OutputFile::put(std::string_view text) {
@@ -116,6 +129,7 @@ void OutputFile::finish() {
   if (fd_ < 0) return;
   flush();
   if (gzip_) gzip_->finish();
+  if (is_standard_) return;
   const int closed = ::close(fd_);
   fd_ = -1;
   if (closed != 0) fail(errno);
@@ -123,6 +137,7 @@ void OutputFile::finish() {
 
 void OutputFile::commit() {
   finish();
+  if (is_standard_) return copy_to_standard_output();
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   committed_ = true;
 }
@@ -137,9 +152,22 @@ void OutputFile::write_out(std::string_view bytes) {
   write_raw(bytes);
 }
 
-void OutputFile::write_raw(std::string_view bytes) {
+void OutputFile::copy_to_standard_output() {
+  std::array<char, 1 << 16> buffer;
+  off_t place = 0;
+  for (;;) {
+    const ssize_t got = ::pread(fd_, buffer.data(), buffer.size(), place);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(errno);
+    if (got == 0) return;
+    write_to(STDOUT_FILENO, {buffer.data(), static_cast<std::size_t>(got)});
+    place += got;
+  }
+}
+
+void OutputFile::write_to(int fd, std::string_view bytes) const {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail(errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));

@@ -54,7 +54,9 @@ class OutputBuffer {
 
 /// Buffered output into a temporary file beside the target, which `commit()` renames to the target.
 /// Without `commit()` (an exception, a full disk) the temporary file vanishes and an older target
-/// stays as it was. Under a name that ends in .gz it is packed. Links are followed, and the permissions of an older target are kept.
+/// stays as it was. Under a name that ends in .gz it is packed. Links are followed, and the
+/// permissions of an older target are kept. What goes to standard output, see is_standard_stream(),
+/// goes there when it is complete.
 class OutputFile {
  public:
   /// @throws Error when the target is a directory or write-protected or when its folder cannot be
@@ -86,12 +88,15 @@ class OutputFile {
   void commit();
 
  private:
+  void make_temporary();
+  void copy_to_standard_output();
   void flush_if_full() {
     if (buffer_.content().size() >= kFull) flush();
   }
   void flush();
   void write_out(std::string_view bytes);
-  void write_raw(std::string_view bytes);
+  void write_raw(std::string_view bytes) { write_to(fd_, bytes); }
+  void write_to(int fd, std::string_view bytes) const;
   [[noreturn]] void fail(int error) const;
 
   static constexpr std::size_t kFull = std::size_t{1} << 18;
@@ -102,6 +107,7 @@ class OutputFile {
   std::unique_ptr<formats::GzipWriter> gzip_;  // null: not packed
   int fd_ = -1;
   bool committed_ = false;
+  bool is_standard_ = false;
 };
 
 }  // namespace tetmend

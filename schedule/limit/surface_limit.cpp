@@ -311,7 +311,8 @@ std::string_view to_string(Hindrance hindrance) {
   return kNames[static_cast<std::size_t>(hindrance)];
 }
 
-SurfaceLimit compute_surface_limit(const TetMesh& mesh) {
+SurfaceLimit compute_surface_limit(const TetMesh& mesh,
+                                   std::vector<std::pair<TetHandle, Hindrance>>* bad) {
   const std::vector<TetHandle> bad_tets = find_bad_tets(mesh);
   const std::vector<Argument> arguments = find_arguments(mesh, walls_around(mesh, bad_tets));
   const ForcedTets forced(mesh, arguments);
@@ -320,6 +321,7 @@ SurfaceLimit compute_surface_limit(const TetMesh& mesh) {
   for (const TetHandle t : bad_tets) {
     const Hindrance hindrance = hindrance_of(mesh, t, forced);
     ++limit.bad[static_cast<std::size_t>(hindrance)];
+    if (bad != nullptr) bad->emplace_back(t, hindrance);
     if (hindrance != Hindrance::frozen) ++limit.n_bad;
   }
   limit.n_forced = count_independent(arguments);

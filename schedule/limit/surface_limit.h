@@ -10,6 +10,9 @@
 // at.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include <tetmend/limit.h>
 
 #include "kernel/tet_mesh.h"
@@ -21,6 +24,8 @@ namespace tetmend {
 /// walls and the order of their vertices, but not on the tets between them or the number of
 /// threads. Cost: one pass over the walls and their sectors (0.07 s for 125 thousand), and up to a
 /// millisecond for each bad tet on a wall.
-SurfaceLimit compute_surface_limit(const TetMesh& mesh);
+/// @param bad null, or filled with each bad tet and why it is there, by slot
+SurfaceLimit compute_surface_limit(const TetMesh& mesh,
+                                   std::vector<std::pair<TetHandle, Hindrance>>* bad = nullptr);
 
 }  // namespace tetmend

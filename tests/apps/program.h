@@ -27,7 +27,9 @@ struct Outcome {
 /// The program as a child process; stdout goes to a file, stderr to an open file descriptor.
 class Program {
  public:
-  Program(const std::vector<std::string>& arguments, const std::filesystem::path& out, int err) {
+  /// @param in what the child reads from standard input; empty: what the test has
+  Program(const std::vector<std::string>& arguments, const std::filesystem::path& out, int err,
+          const std::filesystem::path& in = {}) {
     std::vector<char*> words = {const_cast<char*>(TETMEND_PROGRAM)};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
@@ -35,6 +37,7 @@ class Program {
     if (pid_ < 0) throw std::runtime_error("fork failed");
     if (pid_ > 0) return;
     ::signal(SIGINT, SIG_DFL);  // a test that runs in the background would hand down "ignored"
+    if (!in.empty() && ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO) < 0) ::_exit(127);
     const int file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (file >= 0 && ::dup2(file, STDOUT_FILENO) >= 0 && ::dup2(err, STDERR_FILENO) >= 0) {
       ::execv(TETMEND_PROGRAM, words.data());
@@ -56,10 +59,11 @@ class Program {
   pid_t pid_ = -1;
 };
 
-inline Outcome run_program(const std::vector<std::string>& arguments) {
+inline Outcome run_program(const std::vector<std::string>& arguments,
+                           const std::filesystem::path& in = {}) {
   const TempFolder folder;
   const int err = ::open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0666);
-  const int status = Program(arguments, folder / "out", err).wait();
+  const int status = Program(arguments, folder / "out", err, in).wait();
   ::close(err);
   return {status, read_text(folder / "out"), read_text(folder / "err")};
 }
