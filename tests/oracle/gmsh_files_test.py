@@ -14,23 +14,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-SKIPPED = 77
+from with_gmsh import start_with_gmsh
+
 GROUPS = 8
 FORMS = [(version, binary) for version in (2.2, 4.1) for binary in (0, 1)]
-
-
-def start_with_gmsh() -> None:
-    """Goes on in the Python that has the module."""
-    sys.path.insert(0, str(Path(sys.argv[1]) / "bench"))
-    import competitors
-    python = competitors.module("gmsh")
-    if python is None:
-        print("skipped: install the package python3-gmsh")
-        sys.exit(SKIPPED)
-    if os.environ.get("TETMEND_TEST_GMSH") is None:
-        os.environ["TETMEND_TEST_GMSH"] = "1"
-        sys.stdout.flush()
-        os.execv(python, [str(python), "-B", *sys.argv])
 
 
 def build_boxes(gmsh) -> None:
