@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/geometry.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
 
@@ -17,10 +18,25 @@ bool keeps_required_vertices(std::string_view extension) {
   return extension == ".mesh" || extension == ".meshb";
 }
 
+/// Tets have positive volumes, or none that can be computed.
+void turn_round(MeshData& mesh) {
+  for (MeshData::Tet& tet : mesh.tets) {
+    auto& v = tet.vertices;
+    const auto& points = mesh.points;
+    if (volume6(points[v[0]], points[v[1]], points[v[2]], points[v[3]]) < 0) std::swap(v[0], v[1]);
+  }
+}
+
 /// The awkward mesh as the format can hold it.
 MeshData mesh_for(std::string_view extension) {
   MeshData mesh = awkward_mesh();
   if (!keeps_required_vertices(extension)) mesh.required_vertices.clear();
+  if (extension == ".su2") {
+    mesh.edges.clear();
+    for (MeshData::Tet& tet : mesh.tets) tet.label = 0;
+  }
+  if (extension == ".su2" || extension == ".vol") mesh.point_labels.clear();
+  if (extension == ".vol") turn_round(mesh);
   return mesh;
 }
 
@@ -83,7 +99,7 @@ TEST_CASE("an unknown extension is an error with the valid ones") {
   const TempFolder folder;
   CHECK(error_of_reading(folder / "a.stl") ==
         "a.stl: the extension '.stl' is not that of a mesh format: expected one of .mesh, .meshb, "
-        ".node, .ele, .vtk, .vtu, .msh");
+        ".node, .ele, .vtk, .vtu, .msh, .su2, .vol");
   CHECK_THROWS_AS(write_mesh(folder / "a", {}), Error);
   CHECK(folder.entries() == 0);
 }
