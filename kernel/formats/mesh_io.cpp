@@ -16,11 +16,13 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_marks.h"
+#include "kernel/formats/nastran.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/su2.h"
 #include "kernel/formats/tet_place.h"
@@ -47,6 +49,7 @@ struct Room {
   /// Dimensions of groups whose names it keeps if they have all elements of a label: 1 << 2.
   unsigned named_labels = 0;
   bool periodic = false;
+  bool low_labels = true;  ///< below 1
   /// Arrays whose names begin so are its own.
   std::string_view own_arrays = {};
   /// MeshData::variant of a mesh whose deck it can write.
@@ -54,6 +57,7 @@ struct Room {
 };
 
 constexpr unsigned kNamesOfTriangles = 1U << 2;
+constexpr unsigned kNamesOfElements = 14;
 constexpr unsigned kAllNames = 15;
 
 struct Codec {
@@ -72,18 +76,29 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 9> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
-                                                      {"MEDIT binary", ".meshb"},
-                                                      {"TetGen", ".node"},
-                                                      {"TetGen", ".ele"},
-                                                      {"legacy VTK", ".vtk"},
-                                                      {"VTK XML", ".vtu"},
-                                                      {"Gmsh", ".msh"},
-                                                      {"SU2", ".su2"},
-                                                      {"Netgen", ".vol"}}};
+constexpr std::array<MeshFormat, 12> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+                                                       {"MEDIT binary", ".meshb"},
+                                                       {"TetGen", ".node"},
+                                                       {"TetGen", ".ele"},
+                                                       {"legacy VTK", ".vtk"},
+                                                       {"VTK XML", ".vtu"},
+                                                       {"Gmsh", ".msh"},
+                                                       {"SU2", ".su2"},
+                                                       {"Netgen", ".vol"},
+                                                       {"Nastran", ".bdf"},
+                                                       {"Nastran", ".nas"},
+                                                       {"Elmer", ".header"}}};
+
+constexpr Room kNastranRoom = {.others = true,
+                               .required_vertices = false,
+                               .point_labels = false,
+                               .edges = false,
+                               .holds = formats::nastran_holds,
+                               .low_labels = false,
+                               .deck = formats::kNastran};
 
 // In the order of formats_table.
-constexpr std::array<Codec, 9> kCodecs = {
+constexpr std::array<Codec, 12> kCodecs = {
     {{read_plain<formats::read_medit_ascii>,
       formats::write_medit_ascii,
       {.required_vertices = true, .marks = true}},
@@ -114,9 +129,18 @@ constexpr std::array<Codec, 9> kCodecs = {
        .named_labels = kAllNames,
        .periodic = true,
        .own_arrays = "netgen:",
-       .deck = formats::kNetgen}}}};
+       .deck = formats::kNetgen}},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
+     {read_plain<formats::read_elmer>,
+      formats::write_elmer,
+      {.others = true,
+       .point_labels = false,
+       .holds = formats::elmer_holds,
+       .named_labels = kNamesOfElements}}}};
 
-/// Of "part.vtu.gz" that is ".vtu". A TetGen mesh is several files, which nobody packs one by one.
+/// Of "part.vtu.gz" that is ".vtu". A mesh of TetGen or Elmer is several files, which nobody packs
+/// one by one.
 const Codec& find_codec(const std::filesystem::path& file) {
   const bool is_packed = file.extension() == ".gz";
   std::string extension = (is_packed ? file.stem() : file).extension().string();
@@ -124,8 +148,8 @@ const Codec& find_codec(const std::filesystem::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::string valid;
   for (std::size_t i = 0; i < kFormatsTable.size(); ++i) {
-    const bool is_tetgen = kFormatsTable[i].name == "TetGen";
-    if (kFormatsTable[i].extension == extension && !(is_packed && is_tetgen)) return kCodecs[i];
+    const bool is_set = kFormatsTable[i].name == "TetGen" || kFormatsTable[i].name == "Elmer";
+    if (kFormatsTable[i].extension == extension && !(is_packed && is_set)) return kCodecs[i];
     valid += valid.empty() ? "" : ", ";
     valid += kFormatsTable[i].extension;
   }
@@ -167,6 +191,19 @@ std::size_t several_labels(const std::vector<MeshData::Tet>& tets) {
 std::size_t several_labels(const MeshData& mesh) {
   const auto zeros = std::count(mesh.point_labels.begin(), mesh.point_labels.end(), 0);
   return mesh.point_labels.size() - static_cast<std::size_t>(zeros);
+}
+
+/// Different labels below 1; 0 alone is the absence of labels.
+std::size_t low_labels(const MeshData& mesh) {
+  std::set<Label> labels;
+  const auto add = [&](const auto& elements) {
+    for (const auto& element : elements) {
+      if (element.label < 0) labels.insert(element.label);
+    }
+  };
+  add(mesh.tets);
+  add(mesh.triangles);
+  return labels.size();
 }
 
 /// Groups with a name; one without is a label.
@@ -225,6 +262,7 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   }
   notes.lost(room.edges, mesh.edges.size(), "edges are");
   notes.lost(room.tet_labels, several_labels(mesh.tets), "labels of tets are");
+  notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
   notes.lost(room.point_labels, several_labels(mesh), "labels of points are");
   notes.lost(room.groups, lost_groups(mesh, room), "groups, with their names, are");
   const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
@@ -232,7 +270,8 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
                          !are_finer_than_labels(mesh.edges, mesh.edge_parts);
   notes.lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
   notes.lost(room.groups || room.periodic, mesh.periodic.size(), "periodic links are");
-  notes.lost(room.required_vertices, mesh.required_vertices.size(), "required vertices are");
+  notes.lost(room.required_vertices || (!room.deck.empty() && room.deck == mesh.variant),
+             mesh.required_vertices.size(), "required vertices are");
   notes.lost(room.deck == mesh.variant, mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);

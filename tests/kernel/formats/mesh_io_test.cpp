@@ -3,6 +3,8 @@
 // any damage.
 #include "kernel/formats/mesh_io.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "kernel/geometry.h"
@@ -35,7 +37,17 @@ MeshData mesh_for(std::string_view extension) {
     mesh.edges.clear();
     for (MeshData::Tet& tet : mesh.tets) tet.label = 0;
   }
-  if (extension == ".su2" || extension == ".vol") mesh.point_labels.clear();
+  if (extension == ".bdf" || extension == ".nas") {
+    mesh.edges.clear();
+    mesh.tets[1].label = 5;
+    mesh.triangles[1].label = 7;
+    mesh.triangles[2].label = 1;
+  }
+  const auto has_no_point_labels = {".su2", ".vol", ".bdf", ".nas", ".header"};
+  if (std::find(has_no_point_labels.begin(), has_no_point_labels.end(), extension) !=
+      has_no_point_labels.end()) {
+    mesh.point_labels.clear();
+  }
   if (extension == ".vol") turn_round(mesh);
   return mesh;
 }
@@ -68,6 +80,8 @@ TEST_CASE("a mesh without labels, triangles and edges is read back without them"
   for (const MeshFormat& format : mesh_formats()) {
     CAPTURE(format.extension);
     const auto file = folder / ("mesh" + std::string(format.extension));
+    // Nastran's properties count from 1.
+    mesh.tets[0].label = format.name == "Nastran" ? 1 : 0;
     write_mesh(file, mesh);
     CHECK(same_mesh(read_mesh(file), mesh));
   }
@@ -99,7 +113,7 @@ TEST_CASE("an unknown extension is an error with the valid ones") {
   const TempFolder folder;
   CHECK(error_of_reading(folder / "a.stl") ==
         "a.stl: the extension '.stl' is not that of a mesh format: expected one of .mesh, .meshb, "
-        ".node, .ele, .vtk, .vtu, .msh, .su2, .vol");
+        ".node, .ele, .vtk, .vtu, .msh, .su2, .vol, .bdf, .nas, .header");
   CHECK_THROWS_AS(write_mesh(folder / "a", {}), Error);
   CHECK(folder.entries() == 0);
 }
@@ -136,6 +150,9 @@ TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
     std::vector<std::filesystem::path> parts = {file};
     if (extension == ".node") {
       parts = {file, folder / "mesh.ele", folder / "mesh.face", folder / "mesh.edge"};
+    }
+    if (extension == ".header") {
+      parts = {file, folder / "mesh.nodes", folder / "mesh.elements", folder / "mesh.boundary"};
     }
     for (const auto& part : parts) {
       CAPTURE(part);
@@ -176,6 +193,9 @@ TEST_CASE("a file with any byte changed is an error or gives a sound mesh") {
   }
   change_each_byte(folder / "mesh.node", folder / "mesh.face");
   change_each_byte(folder / "mesh.node", folder / "mesh.edge");
+  change_each_byte(folder / "mesh.header", folder / "mesh.nodes");
+  change_each_byte(folder / "mesh.header", folder / "mesh.elements");
+  change_each_byte(folder / "mesh.header", folder / "mesh.boundary");
   write_text(folder / "ascii.vtk", kVtkAscii);
   change_each_byte(folder / "ascii.vtk", folder / "ascii.vtk");
 }
