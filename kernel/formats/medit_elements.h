@@ -42,11 +42,9 @@ inline const MeditElements* find_medit_elements(std::int32_t keyword) {
   return found == kMeditElements.end() ? nullptr : found;
 }
 
-/// True if a MEDIT file can have these elements.
-inline bool has_medit_section(const OtherElements& others) {
-  return std::any_of(kMeditElements.begin(), kMeditElements.end(), [&](const auto& kind) {
-    return kind.vtk_type == others.vtk_type && kind.width == others.vertex_count;
-  });
+inline bool medit_holds(int vtk_type) {
+  return std::any_of(kMeditElements.begin(), kMeditElements.end(),
+                     [&](const auto& kind) { return kind.vtk_type == vtk_type; });
 }
 
 /// The elements of this kind, `count` of them, with room for their vertices.

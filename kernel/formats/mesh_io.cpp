@@ -14,33 +14,26 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
-#include "kernel/formats/medit_marks.h"
-#include "kernel/formats/medit_vectors.h"
+#include "kernel/formats/nastran.h"
+#include "kernel/formats/netgen.h"
+#include "kernel/formats/room.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/formats/su2.h"
 #include "kernel/formats/tet_place.h"
 #include "kernel/formats/tetgen.h"
 #include "kernel/formats/vtk_legacy.h"
 #include "kernel/formats/vtu.h"
-#include "kernel/parts.h"
 #include "kernel/second_order.h"
 
 namespace tetmend {
 namespace {
 
-/// What of a MeshData a format can hold besides points, tets, triangles, edges and labels.
-struct Room {
-  bool data = false;          ///< named arrays
-  bool groups = false;        ///< with names and parts, entities and periodic links
-  bool others = false;        ///< elements of other kinds
-  bool medit_others = false;  ///< those of kMeditElements
-  bool required_vertices = false;
-  bool second_order = false;  ///< as elements of other kinds
-  bool marks = false;         ///< groups of the names of kMeditMarks, and kMeditVectors
-};
+using formats::Room;
 
 struct Codec {
   MeshData (*read)(const std::filesystem::path&, const formats::ReadRequest&);
@@ -59,31 +52,68 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 7> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
-                                                      {"MEDIT binary", ".meshb"},
-                                                      {"TetGen", ".node"},
-                                                      {"TetGen", ".ele"},
-                                                      {"legacy VTK", ".vtk"},
-                                                      {"VTK XML", ".vtu"},
-                                                      {"Gmsh", ".msh"}}};
+constexpr std::array<MeshFormat, 12> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+                                                       {"MEDIT binary", ".meshb"},
+                                                       {"TetGen", ".node"},
+                                                       {"TetGen", ".ele"},
+                                                       {"legacy VTK", ".vtk"},
+                                                       {"VTK XML", ".vtu"},
+                                                       {"Gmsh", ".msh"},
+                                                       {"SU2", ".su2"},
+                                                       {"Netgen", ".vol"},
+                                                       {"Nastran", ".bdf"},
+                                                       {"Nastran", ".nas"},
+                                                       {"Elmer", ".header"}}};
+
+constexpr Room kMeditRoom = {.others = true,
+                             .required_vertices = true,
+                             .second_order = true,
+                             .marks = true,
+                             .holds = formats::medit_holds};
+constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
+constexpr Room kGmshRoom = {.data = true, .groups = true, .others = true, .second_order = true};
+constexpr Room kSu2Room = {.others = true,
+                           .point_labels = false,
+                           .tet_labels = false,
+                           .edges = false,
+                           .holds = formats::su2_holds,
+                           .named_labels = formats::kNamesOfTriangles,
+                           .deck = formats::kSu2};
+constexpr Room kNetgenRoom = {.others = true,
+                              .second_order = true,
+                              .point_labels = false,
+                              .holds = formats::netgen_holds,
+                              .named_labels = formats::kAllNames,
+                              .periodic = true,
+                              .own_arrays = "netgen:",
+                              .deck = formats::kNetgen};
+constexpr Room kNastranRoom = {.others = true,
+                               .second_order = true,
+                               .point_labels = false,
+                               .edges = false,
+                               .holds = formats::nastran_holds,
+                               .low_labels = false,
+                               .deck = formats::kNastran};
+constexpr Room kElmerRoom = {.others = true,
+                             .second_order = true,
+                             .point_labels = false,
+                             .holds = formats::elmer_holds,
+                             .named_labels = formats::kNamesOfElements};
 
 // In the order of formats_table.
-constexpr std::array<Codec, 7> kCodecs = {
-    {{read_plain<formats::read_medit_ascii>,
-      formats::write_medit_ascii,
-      {.medit_others = true, .required_vertices = true, .second_order = true, .marks = true}},
-     {read_plain<formats::read_medit_binary>,
-      formats::write_medit_binary,
-      {.medit_others = true, .required_vertices = true, .second_order = true, .marks = true}},
+constexpr std::array<Codec, 12> kCodecs = {
+    {{read_plain<formats::read_medit_ascii>, formats::write_medit_ascii, kMeditRoom},
+     {read_plain<formats::read_medit_binary>, formats::write_medit_binary, kMeditRoom},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
-     {formats::read_vtk_legacy,
-      formats::write_vtk_legacy,
-      {.data = true, .others = true, .second_order = true}},
-     {formats::read_vtu, formats::write_vtu, {.data = true, .others = true, .second_order = true}},
-     {read_plain<formats::read_gmsh>,
-      formats::write_gmsh,
-      {.data = true, .groups = true, .others = true, .second_order = true}}}};
+     {formats::read_vtk_legacy, formats::write_vtk_legacy, kVtkRoom},
+     {formats::read_vtu, formats::write_vtu, kVtkRoom},
+     {read_plain<formats::read_gmsh>, formats::write_gmsh, kGmshRoom},
+     {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},
+     {read_plain<formats::read_netgen>, formats::write_netgen, kNetgenRoom},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
+     {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true}}};
 
 /// Of "part.VTU.gz" that is ".vtu".
 std::string format_extension(const std::filesystem::path& file) {
@@ -140,47 +170,7 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
 }
 
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
-  const Room& room = find_codec(file).room;
-  const std::string extension = format_extension(file);
-  std::vector<std::string> notes;
-  const auto arrays = [&](std::string_view of, const std::vector<DataArray>& list) {
-    if (room.data) return;
-    for (const DataArray& array : list) {
-      if (room.marks && of == "points" && formats::is_medit_vectors(array.name)) continue;
-      notes.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none", array.name, of,
-                                  extension));
-    }
-  };
-  arrays("points", mesh.point_data);
-  arrays("tets", mesh.tet_data);
-  arrays("triangles", mesh.triangle_data);
-  arrays("edges", mesh.edge_data);
-  const auto lost = [&](bool held, std::size_t count, std::string_view what) {
-    if (held || count == 0) return;
-    notes.push_back(
-        fmt::format("{} {} not kept: {} has no place for them", count, what, extension));
-  };
-  for (const OtherElements& others : mesh.other_elements) {
-    const bool is_held = room.others || (room.medit_others && formats::has_medit_section(others));
-    lost(is_held, others.labels.size(),
-         fmt::format("elements of VTK's type {} are", others.vtk_type));
-  }
-  const auto is_lost = [&room](const Group& group) {
-    const bool is_mark = std::any_of(formats::kMeditMarks.begin(), formats::kMeditMarks.end(),
-                                     [&](const auto& mark) { return mark.section == group.name; });
-    const bool is_medits = is_mark || formats::is_medit_vectors(group.name);
-    return !group.name.empty() && !(is_medits && room.marks);  // one without a name is a label
-  };
-  const auto groups = std::count_if(mesh.groups.begin(), mesh.groups.end(), is_lost);
-  lost(room.groups, static_cast<std::size_t>(groups), "groups, with their names, are");
-  const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
-                         !are_finer_than_labels(mesh.triangles, mesh.triangle_parts) &&
-                         !are_finer_than_labels(mesh.edges, mesh.edge_parts);
-  lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
-  lost(room.groups, mesh.periodic.size(), "periodic links are");
-  lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
-  lost(room.required_vertices, mesh.required_vertices.size(), "required vertices are");
-  return notes;
+  return formats::lost_in(find_codec(file).room, format_extension(file), mesh);
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {

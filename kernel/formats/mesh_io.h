@@ -25,7 +25,8 @@ std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1,
-/// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1.
+/// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.su2` SU2, `.vol` Netgen,
+/// `.bdf` or `.nas` Nastran, `.header` a folder of Elmer.
 /// What the file holds beyond MeshData is named in its `notes`. Volume elements that cannot be kept
 /// are an error.
 /// @param label_array the array of cells that holds the labels; empty: the one with a name that
@@ -49,7 +50,8 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh);
 
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
-/// `.ele` and `.face`, and `.edge` if there are edges or an older such file. Doubles are written so
+/// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
+/// folder. Doubles are written so
 /// that reading gives the same bits. Required vertices are kept by MEDIT only. `.msh` has the
 /// version and coding that `variant` of the data names, else 4.1 binary. The file appears
 /// under its name only when complete: a temporary file beside it is renamed, so a failure leaves an

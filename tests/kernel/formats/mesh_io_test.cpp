@@ -3,8 +3,11 @@
 // any damage.
 #include "kernel/formats/mesh_io.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
+#include "kernel/geometry.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
 
@@ -17,10 +20,35 @@ bool keeps_required_vertices(std::string_view extension) {
   return extension == ".mesh" || extension == ".meshb";
 }
 
+/// Tets have positive volumes, or none that can be computed.
+void turn_round(MeshData& mesh) {
+  for (MeshData::Tet& tet : mesh.tets) {
+    auto& v = tet.vertices;
+    const auto& points = mesh.points;
+    if (volume6(points[v[0]], points[v[1]], points[v[2]], points[v[3]]) < 0) std::swap(v[0], v[1]);
+  }
+}
+
 /// The awkward mesh as the format can hold it.
 MeshData mesh_for(std::string_view extension) {
   MeshData mesh = awkward_mesh();
   if (!keeps_required_vertices(extension)) mesh.required_vertices.clear();
+  if (extension == ".su2") {
+    mesh.edges.clear();
+    for (MeshData::Tet& tet : mesh.tets) tet.label = 0;
+  }
+  if (extension == ".bdf" || extension == ".nas") {
+    mesh.edges.clear();
+    mesh.tets[1].label = 5;
+    mesh.triangles[1].label = 7;
+    mesh.triangles[2].label = 1;
+  }
+  const auto has_no_point_labels = {".su2", ".vol", ".bdf", ".nas", ".header"};
+  if (std::find(has_no_point_labels.begin(), has_no_point_labels.end(), extension) !=
+      has_no_point_labels.end()) {
+    mesh.point_labels.clear();
+  }
+  if (extension == ".vol") turn_round(mesh);
   return mesh;
 }
 
@@ -52,6 +80,8 @@ TEST_CASE("a mesh without labels, triangles and edges is read back without them"
   for (const MeshFormat& format : mesh_formats()) {
     CAPTURE(format.extension);
     const auto file = folder / ("mesh" + std::string(format.extension));
+    // Nastran's properties count from 1.
+    mesh.tets[0].label = format.name == "Nastran" ? 1 : 0;
     write_mesh(file, mesh);
     CHECK(same_mesh(read_mesh(file), mesh));
   }
@@ -83,7 +113,7 @@ TEST_CASE("an unknown extension is an error with the valid ones") {
   const TempFolder folder;
   CHECK(error_of_reading(folder / "a.stl") ==
         "a.stl: the extension '.stl' is not that of a mesh format: expected one of .mesh, .meshb, "
-        ".node, .ele, .vtk, .vtu, .msh");
+        ".node, .ele, .vtk, .vtu, .msh, .su2, .vol, .bdf, .nas, .header");
   CHECK_THROWS_AS(write_mesh(folder / "a", {}), Error);
   CHECK(folder.entries() == 0);
 }
@@ -120,6 +150,9 @@ TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
     std::vector<std::filesystem::path> parts = {file};
     if (extension == ".node") {
       parts = {file, folder / "mesh.ele", folder / "mesh.face", folder / "mesh.edge"};
+    }
+    if (extension == ".header") {
+      parts = {file, folder / "mesh.nodes", folder / "mesh.elements", folder / "mesh.boundary"};
     }
     for (const auto& part : parts) {
       CAPTURE(part);
@@ -160,6 +193,9 @@ TEST_CASE("a file with any byte changed is an error or gives a sound mesh") {
   }
   change_each_byte(folder / "mesh.node", folder / "mesh.face");
   change_each_byte(folder / "mesh.node", folder / "mesh.edge");
+  change_each_byte(folder / "mesh.header", folder / "mesh.nodes");
+  change_each_byte(folder / "mesh.header", folder / "mesh.elements");
+  change_each_byte(folder / "mesh.header", folder / "mesh.boundary");
   write_text(folder / "ascii.vtk", kVtkAscii);
   change_each_byte(folder / "ascii.vtk", folder / "ascii.vtk");
 }

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Which volume elements lie on the two sides of a triangle or quadrilateral.
+#include "kernel/formats/face_sides.h"
+
+#include <algorithm>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include "kernel/geometry.h"
+
+namespace tetmend::formats {
+namespace {
+
+constexpr std::uint8_t kNone = 255;
+using Face = std::array<std::uint8_t, 4>;
+
+/// Faces with their normals outwards; of a triangle the last corner is kNone.
+constexpr std::array<Face, 4> kTetFaces = {
+    {{0, 2, 1, kNone}, {0, 1, 3, kNone}, {1, 2, 3, kNone}, {0, 3, 2, kNone}}};
+constexpr std::array<Face, 6> kHexahedronFaces = {
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+constexpr std::array<Face, 5> kPrismFaces = {
+    {{0, 2, 1, kNone}, {3, 4, 5, kNone}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
+constexpr std::array<Face, 5> kPyramidFaces = {
+    {{0, 3, 2, 1}, {0, 1, 4, kNone}, {1, 2, 4, kNone}, {2, 3, 4, kNone}, {3, 0, 4, kNone}}};
+
+std::span<const Face> faces_of(const ElementKind& kind) {
+  switch (kind.corners) {
+    case 4:
+      return kTetFaces;
+    case 5:
+      return kPyramidFaces;
+    case 6:
+      return kPrismFaces;
+    default:
+      return kHexahedronFaces;
+  }
+}
+
+using Key = std::array<std::uint32_t, 4>;
+
+struct Hash {
+  std::size_t operator()(const Key& key) const {
+    return (key[0] * 0x9E3779B97F4A7C15ull) ^ (key[1] * 0xC2B2AE3D27D4EB4Full) ^
+           (key[2] * 0x165667B19E3779F9ull) ^ key[3];
+  }
+};
+
+Key key_of(const Key& corners) {
+  Key key = corners;
+  std::sort(key.begin(), key.end());  // kNoElement, for no corner, comes last
+  return key;
+}
+
+/// True if both name their corners in the same sense. They have the same corners.
+bool same_sense(const Key& a, const Key& b) {
+  const std::size_t width = a[3] == kNoElement ? 3 : 4;
+  for (std::size_t i = 0; i < width; ++i) {
+    if (b[i] == a[0]) return b[(i + 1) % width] == a[1];
+  }
+  return false;
+}
+
+Key corners_of(const ElementList& list, std::size_t i) {
+  const auto v = list.vertices(i);
+  return {v[0], v[1], v[2], list.kind.corners == 4 ? v[3] : kNoElement};
+}
+
+class Finder {
+ public:
+  Finder(const MeshView& mesh, const ElementLists& lists)
+      : mesh_(mesh), surfaces_(lists.of_dimension(2)), volumes_(lists.of_dimension(3)) {}
+
+  std::vector<std::vector<FaceSides>> run() {
+    for (std::uint32_t k = 0; k < surfaces_.size(); ++k) {
+      sides_.emplace_back(surfaces_[k]->count);
+      for (std::uint32_t i = 0; i < surfaces_[k]->count; ++i) {
+        places_.emplace(key_of(corners_of(*surfaces_[k], i)), std::pair{k, i});
+      }
+    }
+    std::uint32_t number = 0;
+    for (const ElementList* list : volumes_) {
+      for (std::size_t i = 0; i < list->count; ++i) look_around(*list, i, number++);
+    }
+    return std::move(sides_);
+  }
+
+ private:
+  void look_around(const ElementList& list, std::size_t i, std::uint32_t number) {
+    const auto v = list.vertices(i);
+    for (const Face& face : faces_of(list.kind)) {
+      Key corners{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        corners[k] = face[k] == kNone ? kNoElement : v[face[k]];
+      }
+      const auto [begin, end] = places_.equal_range(key_of(corners));
+      if (begin == end) continue;
+      const bool outwards = list.kind.corners != 4 || is_positive(v);
+      for (auto at = begin; at != end; ++at) {
+        const auto [k, surface] = at->second;
+        FaceSides& sides = sides_[k][surface];
+        const bool is_behind =
+            same_sense(corners, corners_of(*surfaces_[k], surface)) == outwards;
+        (is_behind ? sides.behind : sides.front) = number;
+      }
+    }
+  }
+
+  bool is_positive(std::span<const std::uint32_t> v) const {
+    return !(volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3])) <
+             0);
+  }
+
+  const MeshView& mesh_;
+  std::vector<const ElementList*> surfaces_;
+  std::vector<const ElementList*> volumes_;
+  std::vector<std::vector<FaceSides>> sides_;
+  std::unordered_multimap<Key, std::pair<std::uint32_t, std::uint32_t>, Hash> places_;
+};
+
+}  // namespace
+
+std::vector<std::vector<FaceSides>> find_face_sides(const MeshView& mesh,
+                                                    const ElementLists& lists) {
+  return Finder(mesh, lists).run();
+}
+
+}  // namespace tetmend::formats

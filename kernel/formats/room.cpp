@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "kernel/formats/room.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/label_names.h"
+#include "kernel/formats/medit_marks.h"
+#include "kernel/formats/medit_vectors.h"
+#include "kernel/parts.h"
+
+namespace tetmend::formats {
+namespace {
+
+struct LostNotes {
+  explicit LostNotes(std::string of_format) : extension(std::move(of_format)) {}
+
+  void arrays(std::string_view of, const std::vector<DataArray>& list, const Room& room) {
+    for (const DataArray& array : list) {
+      if (!room.own_arrays.empty() && array.name.starts_with(room.own_arrays)) continue;
+      if (room.marks && of == "points" && is_medit_vectors(array.name)) continue;
+      sentences.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none", array.name,
+                                      of, extension));
+    }
+  }
+  void lost(bool held, std::size_t count, std::string_view what) {
+    if (held || count == 0) return;
+    sentences.push_back(
+        fmt::format("{} {} not kept: {} has no place for them", count, what, extension));
+  }
+
+  std::string extension;
+  std::vector<std::string> sentences;
+};
+
+/// How many labels tets have; 0 if they are all the same: nothing is told apart by them.
+std::size_t several_labels(const std::vector<MeshData::Tet>& tets) {
+  std::set<Label> labels;
+  for (const MeshData::Tet& tet : tets) {
+    if (labels.empty() || tet.label != *labels.begin()) labels.insert(tet.label);
+  }
+  return labels.size() > 1 ? labels.size() : 0;
+}
+
+/// Labels of points that are not 0.
+std::size_t several_labels(const MeshData& mesh) {
+  const auto zeros = std::count(mesh.point_labels.begin(), mesh.point_labels.end(), 0);
+  return mesh.point_labels.size() - static_cast<std::size_t>(zeros);
+}
+
+/// Different labels below 1; 0 alone is the absence of labels.
+std::size_t low_labels(const MeshData& mesh) {
+  std::set<Label> labels;
+  const auto add = [&](const auto& elements) {
+    for (const auto& element : elements) {
+      if (element.label < 0) labels.insert(element.label);
+    }
+  };
+  add(mesh.tets);
+  add(mesh.triangles);
+  return labels.size();
+}
+
+bool is_medits(const Group& group) {
+  return is_medit_vectors(group.name) ||
+         std::any_of(kMeditMarks.begin(), kMeditMarks.end(),
+                     [&](const MeditMark& mark) { return mark.section == group.name; });
+}
+
+/// Groups with a name; one without is a label.
+std::size_t lost_groups(const MeshData& mesh, const Room& room) {
+  std::set<const Group*> kept;
+  if (room.named_labels != 0 && !mesh.groups.empty()) {
+    const LabelNames names(mesh);
+    for (int dimension = 1; dimension < 4; ++dimension) {
+      if ((room.named_labels >> dimension & 1U) == 0) continue;
+      for (const auto& [label, group] : names.named(dimension)) kept.insert(group);
+    }
+  }
+  const bool keeps_points = (room.named_labels & 1U) != 0;
+  const auto is_lost = [&](const Group& group) {
+    if (keeps_points && group.dimension == 0 && group.number > 0) return false;
+    return !group.name.empty() && !(room.marks && is_medits(group)) && !kept.contains(&group);
+  };
+  return static_cast<std::size_t>(std::count_if(mesh.groups.begin(), mesh.groups.end(), is_lost));
+}
+
+}  // namespace
+
+std::vector<std::string> lost_in(const Room& room, const std::string& extension,
+                                 const MeshData& mesh) {
+  LostNotes notes(extension);
+  if (!room.data) {
+    notes.arrays("points", mesh.point_data, room);
+    notes.arrays("tets", mesh.tet_data, room);
+    notes.arrays("triangles", mesh.triangle_data, room);
+    notes.arrays("edges", mesh.edge_data, room);
+  }
+  for (const OtherElements& others : mesh.other_elements) {
+    const bool held = room.others && (room.holds == nullptr || room.holds(others.vtk_type));
+    notes.lost(held, others.labels.size(),
+               fmt::format("elements of VTK's type {} are", others.vtk_type));
+  }
+  const bool has_deck = !room.deck.empty() && room.deck == mesh.variant;
+  const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
+                         !are_finer_than_labels(mesh.triangles, mesh.triangle_parts) &&
+                         !are_finer_than_labels(mesh.edges, mesh.edge_parts);
+  notes.lost(room.edges, mesh.edges.size(), "edges are");
+  notes.lost(room.tet_labels, several_labels(mesh.tets), "labels of tets are");
+  notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
+  notes.lost(room.point_labels, several_labels(mesh), "labels of points are");
+  notes.lost(room.groups, lost_groups(mesh, room), "groups, with their names, are");
+  notes.lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
+  notes.lost(room.groups || room.periodic, mesh.periodic.size(), "periodic links are");
+  notes.lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
+  notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
+             "required vertices are");
+  notes.lost(has_deck, mesh.deck.size(), "pieces of a deck, all that is no mesh, are");
+  return std::move(notes.sentences);
+}
+
+}  // namespace tetmend::formats

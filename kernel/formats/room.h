@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// What a format can hold of a mesh, and what is lost in it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// What of a MeshData a format can hold besides points, tets and triangles.
+struct Room {
+  bool data = false;    ///< named arrays
+  bool groups = false;  ///< with names and parts, entities and periodic links
+  bool others = false;  ///< elements of other kinds
+  bool required_vertices = false;
+  bool second_order = false;  ///< as elements of other kinds
+  bool marks = false;         ///< groups of the names of kMeditMarks, and kMeditVectors
+  bool point_labels = true;
+  bool tet_labels = true;
+  bool edges = true;
+  /// Which kinds of other elements; null: all, if any.
+  bool (*holds)(int vtk_type) = nullptr;
+  /// Dimensions of groups whose names it keeps if they have all elements of a label: 1 << 2.
+  unsigned named_labels = 0;
+  bool periodic = false;
+  bool low_labels = true;  ///< below 1
+  /// Arrays whose names begin so are its own.
+  std::string_view own_arrays = {};
+  /// MeshData::variant of a mesh whose deck it can write.
+  std::string_view deck = {};
+};
+
+inline constexpr unsigned kNamesOfTriangles = 1U << 2;
+inline constexpr unsigned kNamesOfElements = 14;
+inline constexpr unsigned kAllNames = 15;
+
+/// What of `mesh` is lost, one sentence each. `extension` is what the sentences call the format.
+std::vector<std::string> lost_in(const Room& room, const std::string& extension,
+                                 const MeshData& mesh);
+
+}  // namespace tetmend::formats

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// Nastran's bulk data: three forms of fields, numbers that stay, and the rest of the deck.
+#include "kernel/formats/nastran.h"
+
+#include <doctest/doctest.h>
+
+#include "kernel/formats/nastran_card.h"
+#include "tests/kernel/formats/damage.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// Small, large and free fields; points behind elements; loads, and a point in other coordinates.
+std::string text() {
+  return "SOL 101\n"
+         "CEND\n"
+         "SPC = 1\n"
+         "begin bulk\n"
+         "$ a comment\n"
+         "PARAM,POST,-1\n"
+         "CTETRA  7       3       10      20      30      40\n"
+         "CTETRA  12      3       10      20      30      40      50      60      +A\n"
+         "+A      70      80      90      100\n"
+         "CTRIA3* 9               4               10              20\n"
+         "*       30\n"
+         "CTRIA3  15      4       10      20      40      45.\n"
+         "CPENTA,17,8,10,20,30,40,50,60\n"
+         "CQUAD4,16,4,10,20,30,40\n"
+         "CTETRA,5,,20,30,40,110\n"
+         "PSOLID,3,1\n"
+         "MAT1,1,2.+11,,.3\n"
+         "GRID    10              0.      0.      0.\n"
+         "GRID*   20                              1.0D+0          -1.5-3\n"
+         "*       +.25\n"
+         "GRID,30,0,,1.\n"
+         "GRID,40,,0,0,1\n"
+         "GRID,50,,1,0,0,2\n"
+         "GRID,60,,1,.5,0\nGRID,70,,2,0,0\nGRID,80,,3,0,0\nGRID,90,,4,0,0\nGRID,100,,5,0,0\n"
+         "GRID,110,,6,0,0\n"
+         "GRID,7000,,7,0,0\n"
+         "SPC1,1,123,60,THRU,85\n"
+         "FORCE   2       90      0       1.0     0.0     0.0     1.0\n"
+         "ENDDATA\n"
+         "$ behind\n";
+}
+
+MeshData read(const TempFolder& folder, std::string_view content) {
+  write_text(folder / "a.bdf", content);
+  return read_mesh(folder / "a.bdf");
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view with) {
+  const auto at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), with);
+}
+
+bool same_extras(const MeshData& a, const MeshData& b) {
+  return a.other_elements == b.other_elements && a.deck == b.deck && a.variant == b.variant &&
+         a.point_numbers == b.point_numbers && a.tet_numbers == b.tet_numbers &&
+         a.triangle_numbers == b.triangle_numbers;
+}
+
+}  // namespace
+
+TEST_CASE("a deck of Nastran gives points and elements with their numbers, whatever the fields") {
+  const TempFolder folder;
+  const MeshData mesh = read(folder, text());
+  CHECK(mesh.point_numbers ==
+        std::vector<std::int64_t>{10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 7000});
+  CHECK(mesh.points[1] == Point(1, -0.0015, 0.25));
+  CHECK(mesh.points[2] == Point(0, 1, 0));
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}, {{1, 2, 3, 10}, 5}});
+  CHECK(mesh.tet_numbers == std::vector<std::int64_t>{7, 5});
+  CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 4}, {{0, 1, 3}, 4}});
+  CHECK(mesh.triangle_numbers == std::vector<std::int64_t>{9, 15});
+  REQUIRE(mesh.other_elements.size() == 3);
+  CHECK(mesh.other_elements[0].vtk_type == 24);
+  CHECK(mesh.other_elements[0].vertices ==
+        std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  CHECK(mesh.other_elements[2].numbers == std::vector<std::int64_t>{16});
+  CHECK(mesh.other_elements[1].vtk_type == 13);
+  CHECK(mesh.notes.empty());
+}
+
+TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its points are required") {
+  const TempFolder folder;
+  const MeshData mesh = read(folder, text());
+  const std::vector<std::string> deck = {
+      "SOL 101\nCEND\nSPC = 1\nbegin bulk\n",
+      "$ a comment\nPARAM,POST,-1\nPSOLID,3,1\nMAT1,1,2.+11,,.3\nSPC1,1,123,60,THRU,85\n"
+      "FORCE   2       90      0       1.0     0.0     0.0     1.0\n",
+      "ENDDATA\n$ behind\n", "GRID,50,,1,0,0,2\n",
+      "CTRIA3  15      4       10      20      40      45.\n"};
+  CHECK(mesh.deck == deck);
+  // 50 for its own coordinates, 60 to 80 for SPC1, 90 for FORCE.
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{4, 5, 6, 7, 8});
+}
+
+TEST_CASE("a deck of Nastran survives writing, and the second time with the same bytes") {
+  const TempFolder folder;
+  const MeshData mesh = read(folder, text());
+  CHECK(not_written(folder / "b.nas", mesh).empty());
+  write_mesh(folder / "b.nas", mesh);
+  const MeshData again = read_mesh(folder / "b.nas");
+  CHECK(same_mesh(again, mesh));
+  CHECK(again.point_numbers == mesh.point_numbers);
+  CHECK(again.other_elements == mesh.other_elements);
+  CHECK(same_extras(again, mesh));
+  write_mesh(folder / "c.nas", again);
+  CHECK(test::read_text(folder / "b.nas") == test::read_text(folder / "c.nas"));
+}
+
+TEST_CASE("middle nodes of Nastran's bricks and wedges come in another order than VTK's") {
+  const TempFolder folder;
+  MeshData mesh;
+  for (int i = 0; i < 20; ++i) mesh.points.emplace_back(i, 0, 0);
+  OtherElements brick{25, 20, {}, {2}, {}, {}, {}};
+  OtherElements wedge{26, 15, {}, {2}, {}, {}, {}};
+  for (std::uint32_t i = 0; i < 20; ++i) brick.vertices.push_back(i);
+  for (std::uint32_t i = 0; i < 15; ++i) wedge.vertices.push_back(i);
+  mesh.other_elements = {brick, wedge};
+  write_mesh(folder / "a.bdf", mesh);
+  const std::string text = test::read_text(folder / "a.bdf");
+  // Between bottom and top: 17 to 20 of VTK's brick, 13 to 15 of its wedge.
+  CHECK(text.find("CHEXA,1,2,1,2,3,4,5,6,+\n+,7,8,9,10,11,12,17,18,+\n+,19,20,13,14,15,16\n") !=
+        std::string::npos);
+  CHECK(text.find("CPENTA,2,2,1,2,3,4,5,6,+\n+,7,8,9,13,14,15,10,11,+\n+,12\n") !=
+        std::string::npos);
+  const MeshData again = read_mesh(folder / "a.bdf");
+  CHECK(again.other_elements[0].vertices == brick.vertices);
+  CHECK(again.other_elements[1].vertices == wedge.vertices);
+}
+
+TEST_CASE("new points and elements get numbers above all of a deck of Nastran") {
+  const TempFolder folder;
+  MeshData mesh = read(folder, replaced(text(), "PSOLID,3,1\n", "CBAR,900,1,10,20,0.,0.,1.\n"));
+  mesh.points.emplace_back(1, 2, 3);
+  mesh.point_numbers.push_back(0);
+  mesh.tets.push_back({{1, 2, 3, 12}, 3});
+  mesh.tet_numbers.push_back(0);
+  write_mesh(folder / "b.bdf", mesh);
+  const MeshData again = read_mesh(folder / "b.bdf");
+  CHECK(again.point_numbers.back() == 7001);
+  CHECK(again.tet_numbers.back() == 901);
+}
+
+TEST_CASE("labels below 1 become other properties of Nastran, and that is said") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  mesh.tets[0].label = 0;
+  mesh.tets[1].label = 1;
+  write_mesh(folder / "a.bdf", mesh);
+  const MeshData again = read_mesh(folder / "a.bdf");
+  CHECK(again.tets[0].label == 3);
+  CHECK(again.tets[1].label == 1);
+  CHECK(again.triangles[1].label == 2);
+  CHECK(again.triangles[0].label == 12);
+  CHECK(not_written(folder / "a.bdf", mesh)[1] ==
+        "1 labels below 1 are not kept: .bdf has no place for them");
+}
+
+TEST_CASE("reals of Nastran may lack their letter") {
+  double value = 0;
+  for (const auto& [text, expected] :
+       {std::pair("1.5-3", 1.5e-3), std::pair("-1.5+3", -1.5e3), std::pair("+.5", 0.5),
+        std::pair("7.", 7.0), std::pair("1.D2", 100.0), std::pair("2e-3", 2e-3)}) {
+    CAPTURE(text);
+    CHECK(formats::nastran_real(text, value));
+    CHECK(value == expected);
+  }
+  for (const char* text : {"", "a", "1.5-", "1.5-3-2", "--1", "nan", "inf", "1e999", "1 2", "+"}) {
+    CAPTURE(text);
+    CHECK(!formats::nastran_real(text, value));
+  }
+}
+
+TEST_CASE("bulk data of Nastran without BEGIN BULK are read; without ENDDATA with a note") {
+  const TempFolder folder;
+  const MeshData mesh = read(folder, "GRID,1\nGRID,2,,1.\nENDDATA\n");
+  CHECK(mesh.points.size() == 2);
+  const MeshData open = read(folder, "GRID,1\nGRID,2,,1.\n");
+  CHECK(open.notes ==
+        std::vector<std::string>{"the bulk data have no ENDDATA: is the file complete?"});
+}
+
+TEST_CASE("cards of Nastran that name elements are kept with a note") {
+  const TempFolder folder;
+  const MeshData mesh =
+      read(folder, replaced(text(), "FORCE ", "PLOAD4,1,7,1.\nPLOAD4,1,5,1.\nFORCE "));
+  CHECK(mesh.notes ==
+        std::vector<std::string>{"the card PLOAD4 names elements: where improving replaces them "
+                                 "it must be made anew"});
+}
+
+TEST_CASE("a deck of Nastran with a byte changed or cut away never crashes") {
+  const TempFolder folder;
+  write_text(folder / "a.bdf", text());
+  change_each_byte(folder / "a.bdf", folder / "a.bdf");
+  cut_at_each_byte(folder / "a.bdf");
+}
+
+TEST_CASE("a tet of a deck of Nastran is located by its line") {
+  const TempFolder folder;
+  write_text(folder / "a.bdf", text());
+  CHECK(locate_tet(folder / "a.bdf", 1).ends_with("a.bdf:15"));
+}
+
+TEST_CASE("a bad deck of Nastran is refused with line and reason") {
+  const std::string good = text();
+  const std::vector<BadFile> files = {
+      {"other", "solid x\n", "2: ", "the file has no points: expected GRID"},
+      {"no end", replaced(good, "ENDDATA", "ENDDAT"), "",
+       "the file ends where ENDDATA is expected"},
+      {"no point", replaced(good, "CTETRA,5,,20", "CTETRA,5,,21"),
+       "15: ", "'21' is not the number of a point: expected one of GRID"},
+      {"repeated", replaced(good, "CTETRA,5,,20", "CTETRA,5,,30"),
+       "15: ", "the point '30' is repeated in the tetrahedron"},
+      {"few", replaced(good, "CTETRA,5,,20,30,40,110", "CTETRA,5,,20,30,40"),
+       "15: ", "'' is not an integer: expected the number of a point"},
+      {"order", replaced(good, "CTETRA,5,,20,30,40,110", "CTETRA,5,,20,30,40,110,10"),
+       "15: ", "'' is not an integer"},
+      {"high order",
+       replaced(good, "+A      70      80      90      100",
+                "+A      70      80      90      100     110"),
+       "9: ", "CTETRA has more than 10 points"},
+      {"point twice", replaced(good, "GRID,70", "GRID,60"),
+       "25: ", "the number '60' of a point appears for the second time"},
+      {"element twice", replaced(good, "CQUAD4,16", "CQUAD4,7"),
+       "14: ", "the number '7' of an element appears for the second time"},
+      {"text", replaced(good, "GRID,60,,1,.5", "GRID,60,,1,.x"),
+       "24: ", "'.x' is not a finite number: expected a coordinate"},
+      {"coordinates", replaced(good, "GRID,60,,1", "GRID,60,2,1"),
+       "24: ", "expected the coordinate system 0"},
+      {"coordinates", replaced(good, "PARAM,POST,-1", "GRDSET,,2"),
+       "6: ", "expected the coordinate system 0"},
+      {"label", replaced(good, "CTETRA,5,,20", "CTETRA,5,3000000000,20"),
+       "15: ", "'3000000000' is out of range: expected the number of a property"},
+      {"number", replaced(good, "CTETRA,5,", "CTETRA,0,"), "15: ", "'0' is out of range"},
+      {"continuation", replaced(good, "PARAM,POST,-1", "+,1"),
+       "6: ", "a continuation without a card"},
+  };
+  const TempFolder folder;
+  for (const BadFile& bad : files) {
+    CAPTURE(bad.what);
+    write_text(folder / "a.bdf", bad.content);
+    const std::string error = error_of_reading(folder / "a.bdf");
+    CHECK_MESSAGE(error.starts_with("a.bdf:" + bad.place), error);
+    CHECK_MESSAGE(error.find(bad.reason) != std::string::npos, error);
+  }
+}
