@@ -15,6 +15,8 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/gmsh.h"
+#include "kernel/formats/inp.h"
+#include "kernel/formats/inp_deck.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_marks.h"
@@ -33,13 +35,16 @@ struct Room {
   bool groups = false;  ///< with names and parts, entities and periodic links
   bool others = false;  ///< elements of other kinds
   bool required_vertices = false;
-  bool marks = false;  ///< groups of the names of kMeditMarks
+  bool marks = false;    ///< groups of the names of kMeditMarks
+  bool is_deck = false;  ///< with what a deck holds besides its mesh
 };
 
 struct Codec {
   MeshData (*read)(const std::filesystem::path&, const formats::ReadRequest&);
   void (*write)(const std::filesystem::path&, const MeshView&);
   Room room;
+  /// What else is lost, one sentence each; may be null.
+  std::vector<std::string> (*lost)(const std::filesystem::path&, const MeshData&) = nullptr;
 };
 
 /// For formats that have one place for labels.
@@ -52,16 +57,17 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 7> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+constexpr std::array<MeshFormat, 8> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                       {"MEDIT binary", ".meshb"},
                                                       {"TetGen", ".node"},
                                                       {"TetGen", ".ele"},
                                                       {"legacy VTK", ".vtk"},
                                                       {"VTK XML", ".vtu"},
-                                                      {"Gmsh", ".msh"}}};
+                                                      {"Gmsh", ".msh"},
+                                                      {"Abaqus, CalculiX", ".inp"}}};
 
 // In the order of formats_table.
-constexpr std::array<Codec, 7> kCodecs = {
+constexpr std::array<Codec, 8> kCodecs = {
     {{read_plain<formats::read_medit_ascii>,
       formats::write_medit_ascii,
       {.required_vertices = true, .marks = true}},
@@ -74,7 +80,11 @@ constexpr std::array<Codec, 7> kCodecs = {
      {formats::read_vtu, formats::write_vtu, {.data = true, .others = true}},
      {read_plain<formats::read_gmsh>,
       formats::write_gmsh,
-      {.data = true, .groups = true, .others = true}}}};
+      {.data = true, .groups = true, .others = true}},
+     {read_plain<formats::read_inp>,
+      formats::write_inp,
+      {.groups = true, .others = true, .required_vertices = true, .is_deck = true},
+      formats::not_in_inp}}};
 
 /// Of "part.vtu.gz" that is ".vtu". A TetGen mesh is several files, which nobody packs one by one.
 const Codec& find_codec(const std::filesystem::path& file) {
@@ -114,7 +124,8 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
 }
 
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
-  const Room& room = find_codec(file).room;
+  const Codec& codec = find_codec(file);
+  const Room& room = codec.room;
   std::vector<std::string> notes;
   const auto arrays = [&](std::string_view of, const std::vector<DataArray>& list) {
     if (room.data) return;
@@ -149,6 +160,14 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
   lost(room.groups, mesh.periodic.size(), "periodic links are");
   lost(room.required_vertices, mesh.required_vertices.size(), "required vertices are");
+  if (!room.is_deck && formats::is_inp_deck(mesh.deck)) {
+    notes.push_back(
+        fmt::format("what the deck holds besides its mesh is not kept: {} has no place for it",
+                    file.extension().string()));
+  }
+  if (codec.lost != nullptr) {
+    for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
+  }
   return notes;
 }
 
