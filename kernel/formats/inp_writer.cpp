@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <cstdlib>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -41,7 +41,10 @@ std::string in_room(double value) {
   for (int digits = kAllDigits;; --digits) {
     for (const bool with_point : {true, false}) {
       std::string text = short_form(value, digits, with_point);
-      if (text.size() <= kMostCharacters) return text;
+      // The greatest numbers must not be rounded up.
+      if (text.size() <= kMostCharacters && std::isfinite(std::strtod(text.c_str(), nullptr))) {
+        return text;
+      }
     }
   }
 }
@@ -216,7 +219,7 @@ std::vector<std::string> not_in_inp(const std::filesystem::path& file, const Mes
     for (int axis = 0; axis < 3; ++axis) {
       const char* end = fmt::format_to(memory.data(), FMT_COMPILE("{}"), point[axis]);
       if (static_cast<std::size_t>(end - memory.data()) <= kMostCharacters) continue;
-      rounded += std::stod(in_room(point[axis])) != point[axis] ? 1 : 0;
+      rounded += std::strtod(in_room(point[axis]).c_str(), nullptr) != point[axis] ? 1 : 0;
     }
   }
   if (rounded > 0) {
