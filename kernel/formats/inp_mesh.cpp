@@ -65,7 +65,7 @@ class Reader {
       for (int k = 0; k < 3 && fields.more(); ++k) fields.real("a direction cosine");
       if (fields.more()) {
         fields.fail(fmt::format("{} is too much: expected a number and three coordinates",
-                                in_quotes(trimmed(fields.rest()))));
+                                in_quotes(fields.field())));
       }
     }
     if (mesh_.points.size() > kMostVertices) fields.fail("there are too many nodes");
@@ -115,7 +115,7 @@ class Reader {
     }
     if (fields.more()) {
       fields.fail(fmt::format("{} is too much: expected {} nodes of an element of type {}",
-                              in_quotes(trimmed(fields.rest())), width, elements.name));
+                              in_quotes(fields.field()), width, elements.name));
     }
     const bool may_repeat =
         elements.type.vtk_type != kVtkTet && elements.type.vtk_type != kVtkTet10 &&

@@ -246,13 +246,13 @@ std::size_t InpPlan::make_class(std::size_t k, Label part, Label label,
   if (of_label != group_of_label_.end()) made.groups.push_back(of_label->second);
   const bool has_label = std::any_of(made.groups.begin(), made.groups.end(),
                                      [&](std::size_t g) { return groups[g].number == label; });
-  if (!has_label && (label != 0 || (is_face && made.groups.empty()))) {
+  // Without a deck edges are sets of nodes: as elements they would need a section.
+  const bool is_element = !is_face && (has_deck_ || kind.vtk_type != kVtkEdge);
+  if (!has_label && (label != 0 || (!is_element && made.groups.empty()))) {
     made.groups.push_back(label_group(kind.dimension, label));
   }
   std::sort(made.groups.begin(), made.groups.end());
   made.groups.erase(std::unique(made.groups.begin(), made.groups.end()), made.groups.end());
-  // Without a deck edges are sets of nodes: as elements they would need a section.
-  const bool is_element = !is_face && (has_deck_ || kind.vtk_type != kVtkEdge);
   if (is_element) made.block = block_for(kind, part, made.groups);
   classes.push_back(std::move(made));
   return classes.size() - 1;

@@ -182,7 +182,7 @@ TEST_CASE("a deck that is written has its other lines word for word, and is read
 TEST_CASE(
     "points that the deck names by number inside the mesh are required, those outside are not") {
   const TempFolder folder;
-  write_mesh(folder / "cube.inp", kuhn_cube(4));
+  write_mesh(folder / "cube.inp", kuhn_cube(4, 0, 1));
   const std::string cube = read_text(folder / "cube.inp");
   const MeshData plain = read_mesh(folder / "cube.inp");
   REQUIRE(plain.required_vertices.empty());
@@ -320,7 +320,7 @@ TEST_CASE("types of elements have the nodes that their names say") {
 
 TEST_CASE("a mesh of another format becomes a deck with sets, surfaces and sets of their nodes") {
   const TempFolder folder;
-  MeshData mesh = kuhn_cube(1);
+  MeshData mesh = kuhn_cube(1, 0, 1);
   mesh.tets[0].label = 4;
   for (std::size_t t = 1; t < mesh.tets.size(); ++t) mesh.tets[t].label = 9;
   mesh.groups = {{3, 4, "left steel", {}, {}}, {2, 7, "inlet", {}, {}}, {0, 1, "corner", {}, {0}}};
@@ -490,8 +490,8 @@ TEST_CASE("bad decks are refused with line, word and what was expected") {
 TEST_CASE("a tet of a deck is located by its line") {
   const TempFolder folder;
   write_text(folder / "a.inp", kDeck);
-  CHECK(locate_tet(folder / "a.inp", 0).ends_with("a.inp:17"));
-  CHECK(locate_tet(folder / "a.inp", 1).ends_with("a.inp:20"));
+  CHECK(locate_tet(folder / "a.inp", 0).ends_with("a.inp:18"));
+  CHECK(locate_tet(folder / "a.inp", 1).ends_with("a.inp:21"));
 }
 
 TEST_CASE("a deck with any byte changed, or cut at any byte, is an error or gives a sound mesh") {
