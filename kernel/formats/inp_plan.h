@@ -88,7 +88,7 @@ class InpPlan {
   std::vector<Row> rows_of(Label block) const;
 
  private:
-  using Named = std::pair<int, Label>;
+  class SetMaker;
 
   void add_kinds();
   void find_owners();

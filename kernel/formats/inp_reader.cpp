@@ -18,48 +18,13 @@
 #include "kernel/formats/inp_deck.h"
 #include "kernel/formats/inp_faces.h"
 #include "kernel/formats/inp_mesh.h"
+#include "kernel/formats/inp_parts.h"
+#include "kernel/formats/inp_pieces.h"
 #include "kernel/formats/inp_references.h"
 #include "kernel/formats/inp_sets.h"
 
 namespace tetmend::formats {
 namespace {
-
-/// A block of the elements that are written together.
-struct Home {
-  const InpElements* first = nullptr;
-  InpSet* set = nullptr;
-};
-
-/// What elements have in common that are of one part. Faces are of no block.
-struct Part {
-  std::uint32_t home = 0;  ///< from 1
-  int dimension = 2;
-  std::vector<std::uint32_t> sets;  ///< and, behind all sets, uses of faces
-};
-
-/// Parts while sets are added one by one.
-class Parts {
- public:
-  std::vector<Part> all;
-
-  std::uint32_t of_home(std::uint32_t home, int dimension) {
-    all.push_back({home, dimension, {}});
-    return static_cast<std::uint32_t>(all.size() - 1);
-  }
-  std::uint32_t with(std::uint32_t part, std::uint32_t set) {
-    const auto [at, is_new] = next_.try_emplace({part, set}, 0);
-    if (is_new) {
-      Part next = all[part];
-      next.sets.push_back(set);
-      at->second = static_cast<std::uint32_t>(all.size());
-      all.push_back(std::move(next));
-    }
-    return at->second;
-  }
-
- private:
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> next_;
-};
 
 /// A triangle whatever corner comes first, but not turned round.
 std::array<std::uint32_t, 3> rotated(std::array<std::uint32_t, 3> corners) {
@@ -101,7 +66,8 @@ class Reader {
     add_required_set();
     add_elements();
     add_groups();
-    add_deck();
+    data_.deck =
+        make_inp_deck({file_, lines_, mesh_, sets_, faces_, parts_, homes_, home_of_block_});
     data_.point_numbers = mesh_.nodes.numbers();
     data_.points = std::move(mesh_.points);
     drop_zero_point_labels(data_);
@@ -123,18 +89,11 @@ class Reader {
   }
 
   bool is_use(const InpBlock& block) const { return uses_of_.contains(&block); }
-  static bool is_elements(const InpBlock& block) {
-    return is_mesh_block(block, "ELEMENT") &&
-           inp_type(block.value("TYPE")).kind == InpType::Kind::mesh;
-  }
-  bool is_mesh(const InpBlock& block) const {
-    return is_mesh_block(block, "NODE") || is_elements(block) || is_set_block(block);
-  }
 
   std::vector<const InpBlock*> kept_blocks() const {
     std::vector<const InpBlock*> kept;
     for (const InpBlock& block : lines_.blocks) {
-      if (!is_mesh(block)) kept.push_back(&block);
+      if (!is_listed_anew(block)) kept.push_back(&block);
     }
     return kept;
   }
@@ -188,7 +147,6 @@ class Reader {
       const auto [at, is_new] = known.try_emplace({inp_key(block.name), set},
                                                   static_cast<std::uint32_t>(homes_.size() + 1));
       if (is_new) homes_.push_back({&block, set});
-      number_of_block_[block.block] = home_of_block_.size();
       home_of_block_.push_back(at->second);
     }
   }
@@ -220,7 +178,7 @@ class Reader {
       number(set->number);
       section_sets_.insert(set);
     }
-    for (const Home& home : homes_) {
+    for (const InpHome& home : homes_) {
       if (home.set != nullptr) number(home.set->number);
     }
     next = 0;
@@ -289,7 +247,7 @@ class Reader {
     }
   }
 
-  Label label_of(const Part& part) const {
+  Label label_of(const InpPart& part) const {
     const auto sets = static_cast<std::uint32_t>(sets_.all.size());
     Label label = 0;
     Label section = 0;
@@ -326,7 +284,7 @@ class Reader {
 
   void add_elements() {
     labels_.reserve(parts_.all.size());
-    for (const Part& part : parts_.all) labels_.push_back(label_of(part));
+    for (const InpPart& part : parts_.all) labels_.push_back(label_of(part));
     std::map<int, OtherElements> others;
     for (const InpElements& block : mesh_.blocks) {
       switch (block.type.vtk_type) {
@@ -428,187 +386,22 @@ class Reader {
     for (const std::uint32_t v : set.members) data_.point_labels[v] = set.number;
   }
 
-  // ---- The deck ---------------------------------------------------------------------------------
-
-  void add_deck() {
-    find_inlined();
-    deck_.most_node = mesh_.nodes.most();
-    deck_.most_element = mesh_.most_element();
-    for (std::size_t p = 0; p < parts_.all.size(); ++p) {
-      deck_.block_of_part.emplace_back(static_cast<Label>(p + 1),
-                                       static_cast<Label>(parts_.all[p].home));
-    }
-    for (const InpBlock& block : lines_.blocks) add_block(block);
-    data_.deck = pack_deck(deck_);
-  }
-
-  /// Files with something of the mesh in them are written into the deck.
-  void find_inlined() {
-    inlined_.assign(lines_.includes.size(), false);
-    inlined_[0] = true;
-    for (const InpBlock& block : lines_.blocks) {
-      if (!is_mesh(block) && !is_use(block)) continue;
-      for (int k = block.file_number; k != 0;
-           k = lines_.includes[static_cast<std::size_t>(k)].parent) {
-        inlined_[static_cast<std::size_t>(k)] = true;
-      }
-    }
-    for (std::size_t k = 1; k < inlined_.size(); ++k) {
-      const InpLines::Include& include = lines_.includes[k];
-      const auto parent = static_cast<std::size_t>(include.parent);
-      if (!inlined_[parent]) inlined_[k] = false;
-      if (inlined_[parent] && !include.parent_is_beside) inlined_[k] = true;
-    }
-  }
-
-  void add_block(const InpBlock& block) {
-    if (!inlined_[static_cast<std::size_t>(block.file_number)]) return;
-    if (block.included != 0) {
-      if (inlined_[static_cast<std::size_t>(block.included)]) return;
-      deck_.folder = std::filesystem::absolute(file_).parent_path().lexically_normal().string();
-      return add_text(block.text());
-    }
-    if (is_mesh_block(block, "NODE")) {
-      add_nodes(block);
-    } else if (is_elements(block)) {
-      add_element_block(block);
-    } else if (is_set_block(block)) {
-      add_set(block);
-    } else if (is_use(block)) {
-      add_uses(block);
-    } else {
-      add_text(block.text());
-    }
-  }
-
-  void add_text(std::string_view text) {
-    if (text.empty()) return;
-    const bool cut = text.back() != '\n';
-    if (deck_.pieces.empty() || deck_.pieces.back().kind != InpPieceKind::verbatim) {
-      deck_.pieces.push_back({});
-    }
-    deck_.pieces.back().text += text;
-    if (cut && &lines_.blocks.back().text().back() != &text.back())
-      deck_.pieces.back().text += '\n';
-  }
-
-  /// Comments and empty lines among the data, before the first of which nothing stands or behind.
-  void add_comments(const InpBlock& block, bool leading) {
-    bool before = true;
-    std::string_view rest(block.data, static_cast<std::size_t>(block.end - block.data));
-    while (!rest.empty()) {
-      const std::size_t length = std::min(rest.find('\n'), rest.size() - 1) + 1;
-      const std::string_view line = rest.substr(0, length);
-      const std::string_view content = trimmed(line);
-      const bool is_comment = content.empty() || content.starts_with("**");
-      before = before && is_comment;
-      if (is_comment && before == leading) add_text(line);
-      rest.remove_prefix(length);
-    }
-  }
-
-  static std::string keyword_line(const InpBlock& block, const std::set<std::string>& without) {
-    const std::string_view text = trimmed(block.keyword_text());
-    std::string line(trimmed(text.substr(0, std::min(text.find(','), text.size()))));
-    for (const InpBlock::Parameter& parameter : block.parameters) {
-      if (!without.contains(parameter.name)) line += fmt::format(", {}", parameter.text);
-    }
-    return line + '\n';
-  }
-
-  InpPiece& add_piece(InpPieceKind kind, std::string text) {
-    InpPiece& piece = deck_.pieces.emplace_back();
-    piece.kind = kind;
-    piece.text = std::move(text);
-    return piece;
-  }
-
-  void add_nodes(const InpBlock& block) {
-    const InpSet* set = sets_.of_block(block);
-    if (!nodes_done_) {
-      nodes_done_ = true;
-      InpPiece& piece = add_piece(InpPieceKind::nodes, keyword_line(block, {"INPUT", "NSET"}));
-      if (set != nullptr && set_done_.insert(set).second) piece.groups = set->groups;
-    } else if (set != nullptr && set_done_.insert(set).second) {
-      add_piece(InpPieceKind::node_set, fmt::format("*NSET, NSET={}\n", block.value("NSET")))
-          .groups = set->groups;
-    }
-    add_comments(block, true);
-    add_comments(block, false);
-  }
-
-  void add_element_block(const InpBlock& block) {
-    const std::size_t number = number_of_block_[&block];
-    const std::uint32_t home = home_of_block_[number];
-    add_comments(block, true);
-    if (home_done_.insert(home).second) {
-      const bool as_is = block.input == nullptr;
-      InpPiece& piece = add_piece(InpPieceKind::elements, as_is ? std::string(block.keyword_text())
-                                                                : keyword_line(block, {"INPUT"}));
-      if (piece.text.back() != '\n') piece.text += '\n';
-      piece.type = mesh_.blocks[number].name;
-      piece.block = static_cast<Label>(home);
-      const InpSet* set = homes_[home - 1].set;
-      if (set != nullptr) piece.groups = set->groups;
-    }
-    add_comments(block, false);
-  }
-
-  void add_set(const InpBlock& block) {
-    const InpSet* set = sets_.of_block(block);
-    add_comments(block, true);
-    if (set->is_kept && set_done_.insert(set).second) {
-      const auto kind = set->of_nodes ? InpPieceKind::node_set : InpPieceKind::element_set;
-      std::set<std::string> without = {"GENERATE", "INPUT", "UNSORTED"};
-      if (set->of_nodes) without.insert("ELSET");
-      InpPiece& piece = add_piece(kind, keyword_line(block, without));
-      piece.groups = set->groups;
-      for (const std::int64_t number : set->others) piece.more += fmt::format("{},\n", number);
-    }
-    add_comments(block, false);
-  }
-
-  void add_uses(const InpBlock& block) {
-    add_comments(block, true);
-    const auto load = faces_.rest_of_load.find(&block);
-    if (load != faces_.rest_of_load.end()) {
-      add_text(block.keyword_text());
-      add_text(load->second);
-    }
-    for (const InpFaceUse* use : uses_of_[&block]) {
-      InpPiece& piece = use->is_surface
-                            ? add_piece(InpPieceKind::surface, std::string(block.keyword_text()))
-                            : add_piece(InpPieceKind::face_load, use->rest);
-      piece.groups = {{2, use->number}};
-      piece.type = use->prefix;
-      piece.suffix = use->suffix;
-      piece.more = use->more;
-    }
-    add_comments(block, false);
-  }
-
   std::filesystem::path file_;
   InpLines lines_;
   InpMesh mesh_;
   InpSets sets_;
   InpFaces faces_;
   MeshData data_;
-  InpDeck deck_;
   mutable std::set<std::string> rest_of_names_;
-  std::vector<Home> homes_;
+  std::vector<InpHome> homes_;
   std::vector<std::uint32_t> home_of_block_;
-  std::map<const InpBlock*, std::size_t> number_of_block_;
   std::map<const InpBlock*, std::vector<const InpFaceUse*>> uses_of_;
   std::set<const InpSet*> section_sets_;
-  Parts parts_;
+  InpParts parts_;
   std::map<std::uint32_t, std::uint32_t> part_of_home_;
   std::vector<std::uint32_t> part_of_;  // of each element, then of each face
   std::vector<std::array<std::uint32_t, 3>> face_corners_;
   std::vector<Label> labels_;  // of each part
-  std::vector<bool> inlined_;
-  bool nodes_done_ = false;
-  std::set<const InpSet*> set_done_;
-  std::set<std::uint32_t> home_done_;
 };
 
 }  // namespace

@@ -207,7 +207,9 @@ std::vector<std::string> not_in_inp(const std::filesystem::path& file, const Mes
     lost(others.labels.size(), fmt::format("elements of VTK's type {} are", others.vtk_type));
   }
   lost(mesh.periodic.size(), "periodic links are");
-  lost(mesh.entities.size(), "entities of the geometry are");
+  const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
+                         !are_finer_than_labels(mesh.triangles, mesh.triangle_parts);
+  if (!by_labels) lost(mesh.entities.size(), "entities of the geometry are");
   const bool has_deck = is_inp_deck(mesh.deck);
   if (!has_deck && !mesh.edges.empty()) {
     notes.push_back(
