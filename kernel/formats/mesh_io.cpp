@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "kernel/error.h"
 #include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
+#include "kernel/formats/inp.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
@@ -40,6 +42,8 @@ struct Codec {
   void (*write)(const std::filesystem::path&, const MeshView&);
   Room room;
   bool is_several_files = false;
+  /// What else is lost, one sentence each; may be null.
+  std::vector<std::string> (*lost)(const std::filesystem::path&, const MeshData&) = nullptr;
 };
 
 /// For formats that have one place for labels.
@@ -52,13 +56,14 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 12> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+constexpr std::array<MeshFormat, 13> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                        {"MEDIT binary", ".meshb"},
                                                        {"TetGen", ".node"},
                                                        {"TetGen", ".ele"},
                                                        {"legacy VTK", ".vtk"},
                                                        {"VTK XML", ".vtu"},
                                                        {"Gmsh", ".msh"},
+                                                       {"Abaqus, CalculiX", ".inp"},
                                                        {"SU2", ".su2"},
                                                        {"Netgen", ".vol"},
                                                        {"Nastran", ".bdf"},
@@ -72,6 +77,11 @@ constexpr Room kMeditRoom = {.others = true,
                              .holds = formats::medit_holds};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
 constexpr Room kGmshRoom = {.data = true, .groups = true, .others = true, .second_order = true};
+constexpr Room kInpRoom = {.groups = true,
+                           .others = true,
+                           .required_vertices = true,
+                           .second_order = true,
+                           .deck = formats::kInp};
 constexpr Room kSu2Room = {.others = true,
                            .point_labels = false,
                            .tet_labels = false,
@@ -101,7 +111,7 @@ constexpr Room kElmerRoom = {.others = true,
                              .named_labels = formats::kNamesOfElements};
 
 // In the order of formats_table.
-constexpr std::array<Codec, 12> kCodecs = {
+constexpr std::array<Codec, 13> kCodecs = {
     {{read_plain<formats::read_medit_ascii>, formats::write_medit_ascii, kMeditRoom},
      {read_plain<formats::read_medit_binary>, formats::write_medit_binary, kMeditRoom},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
@@ -109,6 +119,7 @@ constexpr std::array<Codec, 12> kCodecs = {
      {formats::read_vtk_legacy, formats::write_vtk_legacy, kVtkRoom},
      {formats::read_vtu, formats::write_vtu, kVtkRoom},
      {read_plain<formats::read_gmsh>, formats::write_gmsh, kGmshRoom},
+     {read_plain<formats::read_inp>, formats::write_inp, kInpRoom, false, formats::not_in_inp},
      {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},
      {read_plain<formats::read_netgen>, formats::write_netgen, kNetgenRoom},
      {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
@@ -170,7 +181,11 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
 }
 
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
-  return formats::lost_in(find_codec(file).room, format_extension(file), mesh);
+  const Codec& codec = find_codec(file);
+  std::vector<std::string> notes = formats::lost_in(codec.room, format_extension(file), mesh);
+  if (codec.lost == nullptr) return notes;
+  for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
+  return notes;
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {

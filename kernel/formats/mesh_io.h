@@ -25,8 +25,8 @@ std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1,
-/// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.su2` SU2, `.vol` Netgen,
-/// `.bdf` or `.nas` Nastran, `.header` a folder of Elmer.
+/// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.inp` a deck of Abaqus or
+/// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer.
 /// What the file holds beyond MeshData is named in its `notes`. Volume elements that cannot be kept
 /// are an error.
 /// @param label_array the array of cells that holds the labels; empty: the one with a name that

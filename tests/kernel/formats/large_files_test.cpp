@@ -82,6 +82,7 @@ TEST_CASE("a large mesh is written and read alike by every number of threads, in
               read_text(file("4").replace_extension(part)));
       }
     }
+    if (extension == ".inp") continue;  // a deck lists faces, not triangles: inp_test.cpp
     for (const int threads : {1, 2, 5}) {
       CHECK(on_threads(threads, [&] { return same_mesh(read_mesh(file("1")), mesh); }));
     }

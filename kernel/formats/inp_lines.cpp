@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// An Abaqus deck as a list of blocks.
+#include "kernel/formats/inp_lines.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+
+namespace tetmend::formats {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
+const char* line_end(const char* begin, const char* end) {
+  const void* found =
+      begin == end ? nullptr : std::memchr(begin, '\n', static_cast<std::size_t>(end - begin));
+  return found == nullptr ? end : static_cast<const char*>(found);
+}
+
+const char* after_line(const char* begin, const char* end) {
+  const char* stop = line_end(begin, end);
+  return stop == end ? end : stop + 1;
+}
+
+bool is_keyword(const char* begin, const char* end) {
+  while (begin != end && is_blank(*begin)) ++begin;
+  return end - begin > 1 && begin[0] == '*' && begin[1] != '*';
+}
+
+std::string in_capitals(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return result;
+}
+
+/// "Solid  section" is "SOLID SECTION".
+std::string keyword_name(std::string_view text) {
+  std::string name;
+  for (const char c : in_capitals(trimmed(text))) {
+    if (!is_blank(c) || (!name.empty() && name.back() != ' ')) name += is_blank(c) ? ' ' : c;
+  }
+  return name;
+}
+
+/// Commas in quotes part nothing.
+std::size_t find_comma(std::string_view text) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == ',' && !quoted) return i;
+  }
+  return text.size();
+}
+
+void read_parameters(InpBlock& block) {
+  std::string_view rest = trimmed(block.keyword_text()).substr(1);
+  const std::size_t first = find_comma(rest);
+  block.keyword = keyword_name(rest.substr(0, first));
+  rest.remove_prefix(first);
+  while (!rest.empty()) {
+    rest.remove_prefix(1);
+    const std::size_t length = find_comma(rest);
+    const std::string_view field = rest.substr(0, length);
+    const std::size_t equals = std::min(field.find('='), field.size());
+    InpBlock::Parameter parameter{keyword_name(field.substr(0, equals)), {}, trimmed(field)};
+    if (equals < field.size()) parameter.value = trimmed(field.substr(equals + 1));
+    if (!parameter.name.empty()) block.parameters.push_back(std::move(parameter));
+    rest.remove_prefix(length);
+  }
+}
+
+std::filesystem::path unquoted(std::string_view text) {
+  if (text.size() > 1 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return is_blank(c) || c == '\n'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string inp_key(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() > 1 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+  }
+  return in_capitals(text);
+}
+
+const InpBlock::Parameter* InpBlock::find(std::string_view name) const {
+  for (const Parameter& parameter : parameters) {
+    if (parameter.name == name) return &parameter;
+  }
+  return nullptr;
+}
+
+std::string_view InpBlock::value(std::string_view name) const {
+  const Parameter* found = find(name);
+  return found == nullptr ? std::string_view() : found->value;
+}
+
+// ---- Fields -------------------------------------------------------------------------------------
+
+InpFields::InpFields(const InpBlock& block)
+    : file_(block.input != nullptr ? *block.input : *block.file),
+      position_(block.input != nullptr ? block.input->begin() : block.data),
+      end_(block.input != nullptr ? block.input->end() : block.end),
+      line_(position_),
+      line_end_(position_),
+      place_(position_) {}
+
+bool InpFields::next_line() {
+  while (position_ != end_) {
+    line_ = position_;
+    line_end_ = line_end(line_, end_);
+    position_ = line_end_ == end_ ? end_ : line_end_ + 1;
+    const char* first = line_;
+    while (first != line_end_ && is_blank(*first)) ++first;
+    if (first == line_end_ || (line_end_ - first > 1 && first[0] == '*' && first[1] == '*')) {
+      continue;
+    }
+    place_ = next_ = first;
+    return true;
+  }
+  place_ = end_;
+  next_ = nullptr;
+  return false;
+}
+
+std::string_view InpFields::field() {
+  if (next_ == nullptr) return {};
+  const char* first = next_;
+  while (first != line_end_ && is_blank(*first)) ++first;
+  place_ = first;
+  const char* stop = first;
+  bool quoted = false;
+  while (stop != line_end_ && (*stop != ',' || quoted)) quoted ^= *stop++ == '"';
+  next_ = stop == line_end_ ? nullptr : stop + 1;
+  // A comma at the end of a line is followed by nothing.
+  if (next_ != nullptr) {
+    const char* rest = next_;
+    while (rest != line_end_ && is_blank(*rest)) ++rest;
+    if (rest == line_end_) next_ = nullptr;
+  }
+  while (stop != first && is_blank(stop[-1])) --stop;
+  return {first, static_cast<std::size_t>(stop - first)};
+}
+
+std::string_view InpFields::field_of_lines(std::string_view what) {
+  if (next_ == nullptr && !next_line()) {
+    fail(fmt::format("the data lines end where {} is expected", what));
+  }
+  return field();
+}
+
+bool to_integer(std::string_view text, std::int64_t& value) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && stop == text.data() + text.size() && !text.empty();
+}
+
+std::int64_t InpFields::integer(std::string_view what, bool of_lines) {
+  const std::string_view text = of_lines ? field_of_lines(what) : field();
+  refuse_cut(text, what);
+  std::int64_t value = 0;
+  if (!to_integer(text, value)) {
+    fail(fmt::format("{} is not an integer: expected {}", in_quotes(text), what));
+  }
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;
+  if (value < 0 || value > kMost) {
+    fail(fmt::format("{} is out of range: expected {}", in_quotes(text), what));
+  }
+  return value;
+}
+
+double InpFields::real(std::string_view what) {
+  std::string_view text = field();
+  refuse_cut(text, what);
+  if (text.empty()) return 0;
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  auto result = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec == std::errc() && result.ptr != text.data() + text.size()) {
+    std::string fortran(text.substr(0, 1000));
+    std::replace(fortran.begin(), fortran.end(), 'D', 'e');
+    std::replace(fortran.begin(), fortran.end(), 'd', 'e');
+    const char* last = fortran.data() + fortran.size();
+    result = fast_float::from_chars(fortran.data(), last, value);
+    if (result.ptr != last) result.ec = std::errc::invalid_argument;
+  }
+  if (result.ec == std::errc::invalid_argument) {
+    fail(fmt::format("{} is not a number: expected {}", in_quotes(text), what));
+  }
+  if (!std::isfinite(value)) {
+    fail(fmt::format("{} is not a finite number: expected {}", in_quotes(text), what));
+  }
+  return value;
+}
+
+// A number that touches the end of the file may have lost its last digits.
+void InpFields::refuse_cut(std::string_view text, std::string_view what) const {
+  if (text.data() == nullptr || text.data() + text.size() != file_.end()) return;
+  fail(fmt::format(
+      "the file ends right behind {}: expected {} and a line break; the file seems truncated",
+      in_quotes(text), what));
+}
+
+std::string_view InpFields::rest() const {
+  if (next_ == nullptr) return {};
+  const char* stop = line_end_;
+  while (stop != next_ && is_blank(stop[-1])) --stop;
+  return {next_ - 1, static_cast<std::size_t>(stop - next_ + 1)};
+}
+
+void InpFields::fail(std::string_view reason) const {
+  file_.fail_at_line(place_, reason);
+}
+
+// ---- Lines --------------------------------------------------------------------------------------
+
+InpLines::InpLines(const std::filesystem::path& file) {
+  folder_ = file.parent_path();
+  includes.push_back({});
+  files_.push_back(std::make_unique<InputFile>(file));
+  read(file, 0);
+}
+
+const InputFile& InpLines::open(const std::filesystem::path& path, const InpBlock* from) {
+  constexpr std::size_t kMostFiles = 10000;
+  if (files_.size() > kMostFiles) from->fail("more files are included than anybody writes");
+  try {
+    files_.push_back(std::make_unique<InputFile>(path));
+  } catch (const Error& error) {
+    from->fail(error.what());
+  }
+  return *files_.back();
+}
+
+void InpLines::read(const std::filesystem::path& path, int number) {
+  const InputFile& file = *files_.back();
+  open_.push_back(std::filesystem::weakly_canonical(path));
+  const char* end = file.end();
+  InpBlock block;
+  block.file = &file;
+  block.file_number = number;
+  block.begin = block.data = file.begin();
+  for (const char* next = file.begin(); next != end;) {
+    if (!is_keyword(next, line_end(next, end))) {
+      next = after_line(next, end);
+      continue;
+    }
+    block.end = next;
+    add(block, path);
+    block.begin = next;
+    next = after_line(next, end);
+    // A keyword line that ends in a comma goes on.
+    while (trimmed({block.begin, static_cast<std::size_t>(next - block.begin)}).ends_with(',') &&
+           next != end && !is_keyword(next, line_end(next, end))) {
+      next = after_line(next, end);
+    }
+    block.data = next;
+  }
+  block.end = end;
+  add(block, path);
+  open_.pop_back();
+}
+
+void InpLines::add(InpBlock block, const std::filesystem::path& path) {
+  if (block.begin == block.end) return;
+  if (block.data != block.begin) read_parameters(block);
+  if (block.keyword == "ASSEMBLY") in_assembly_ = true;
+  if (block.keyword == "END ASSEMBLY") in_assembly_ = false;
+  block.is_in_assembly = in_assembly_;
+  if (block.keyword == "PART" && ++parts_ > 1) {
+    block.fail("a second *PART cannot be read: expected a deck of one part");
+  }
+  if (block.keyword == "INSTANCE" && ++instances_ > 1) {
+    block.fail("a second *INSTANCE cannot be read: expected one instance of one part");
+  }
+  const bool is_include = block.keyword == "INCLUDE";
+  const bool has_input = !is_include && block.find("INPUT") != nullptr &&
+                         (block.keyword == "NODE" || block.keyword == "ELEMENT" ||
+                          block.keyword == "NSET" || block.keyword == "ELSET");
+  if (!is_include && !has_input) {
+    blocks.push_back(std::move(block));
+    return;
+  }
+  const std::string_view name = block.value("INPUT");
+  if (name.empty()) block.fail("*INCLUDE names no file: expected INPUT=FILE");
+  const std::filesystem::path target = path.parent_path() / unquoted(name);
+  const auto canonical = std::filesystem::weakly_canonical(target);
+  if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+    block.fail(fmt::format("{} includes itself: expected another file", in_quotes(name)));
+  }
+  const InputFile& file = open(target, &block);
+  if (has_input) {
+    block.input = &file;
+    blocks.push_back(std::move(block));
+    return;
+  }
+  const int number = static_cast<int>(includes.size());
+  includes.push_back({block.file_number, path.parent_path() == folder_});
+  // Comments below the line belong to the file that includes.
+  InpBlock tail = block;
+  tail.keyword.clear();
+  tail.parameters.clear();
+  tail.begin = tail.data;
+  block.end = block.data;
+  block.included = number;
+  blocks.push_back(std::move(block));
+  read(target, number);
+  if (tail.begin != tail.end) blocks.push_back(std::move(tail));
+}
+
+}  // namespace tetmend::formats

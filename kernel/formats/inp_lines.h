@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// An Abaqus deck as a list of blocks: a keyword line with parameters, and the lines below it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/formats/input_file.h"
+
+namespace tetmend::formats {
+
+/// In capitals, without blanks at the ends or quotes: names are compared so.
+std::string inp_key(std::string_view text);
+std::string_view trimmed(std::string_view text);
+
+/// Lines of a file from a keyword to the next one; the first block of a file has none.
+struct InpBlock {
+  struct Parameter {
+    std::string name;        ///< in capitals
+    std::string_view value;  ///< as it stands there; empty: none
+    std::string_view text;   ///< both
+  };
+  const InputFile* file = nullptr;
+  std::string keyword;  ///< "SOLID SECTION"; empty: what comes before the first keyword
+  std::vector<Parameter> parameters;
+  const char* begin = nullptr;  ///< of the keyword line
+  const char* data = nullptr;   ///< behind it
+  const char* end = nullptr;
+  int file_number = 0;  ///< 0: the deck, else that of an included file
+  int included = 0;     ///< of *INCLUDE: the number of that file
+  bool is_in_assembly = false;
+  const InputFile* input = nullptr;  ///< its data lines are those of this file
+
+  std::string_view text() const { return {begin, static_cast<std::size_t>(end - begin)}; }
+  std::string_view keyword_text() const { return {begin, static_cast<std::size_t>(data - begin)}; }
+  /// Null if the keyword line does not have it.
+  const Parameter* find(std::string_view name) const;
+  std::string_view value(std::string_view name) const;
+  [[noreturn]] void fail(std::string_view reason) const { file->fail_at_line(begin, reason); }
+};
+
+/// The fields of a block's data lines, parted by commas. Comments and empty lines are passed over.
+class InpFields {
+ public:
+  explicit InpFields(const InpBlock& block);
+
+  /// Goes to the next line; false at the end.
+  bool next_line();
+  /// True if this line has another field.
+  bool more() const { return next_ != nullptr; }
+  /// The next field without the blanks around it; empty if there is none.
+  std::string_view field();
+  /// The next field; where the line has none, that of the next line.
+  std::string_view field_of_lines(std::string_view what);
+  std::int64_t integer(std::string_view what, bool of_lines = false);
+  /// Empty counts as 0.
+  double real(std::string_view what);
+  /// The present line without its line break.
+  std::string_view line() const { return {line_, static_cast<std::size_t>(line_end_ - line_)}; }
+  /// What is left of the line, from the comma on.
+  std::string_view rest() const;
+  const char* place() const { return place_; }
+  [[noreturn]] void fail(std::string_view reason) const;
+
+ private:
+  void refuse_cut(std::string_view text, std::string_view what) const;
+
+  const InputFile& file_;
+  const char* position_;
+  const char* end_;
+  const char* line_;
+  const char* line_end_;
+  const char* next_ = nullptr;
+  const char* place_;
+};
+
+/// The value of a field that is nothing but an integer; false if it is none.
+bool to_integer(std::string_view text, std::int64_t& value);
+
+/// A deck with the files that it includes, each where it is included.
+class InpLines {
+ public:
+  explicit InpLines(const std::filesystem::path& file);
+
+  std::vector<InpBlock> blocks;
+  struct Include {
+    int parent = 0;                ///< file that includes it
+    bool parent_is_beside = true;  ///< beside the deck: so the line would mean the same there
+  };
+  std::vector<Include> includes;  ///< by file number; 0 is the deck itself
+
+ private:
+  void read(const std::filesystem::path& path, int number);
+  const InputFile& open(const std::filesystem::path& path, const InpBlock* from);
+  void add(InpBlock block, const std::filesystem::path& path);
+
+  std::vector<std::unique_ptr<InputFile>> files_;
+  std::vector<std::filesystem::path> open_;  // one in the other
+  std::filesystem::path folder_;
+  bool in_assembly_ = false;
+  int parts_ = 0;
+  int instances_ = 0;
+};
+
+}  // namespace tetmend::formats

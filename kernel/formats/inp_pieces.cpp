@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// From the blocks of an Abaqus deck to the pieces of MeshData::deck.
+#include "kernel/formats/inp_pieces.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/inp_deck.h"
+
+namespace tetmend::formats {
+namespace {
+
+bool is_mesh_element(const InpBlock& block) {
+  return is_mesh_block(block, "ELEMENT") &&
+         inp_type(block.value("TYPE")).kind == InpType::Kind::mesh;
+}
+
+class Maker {
+ public:
+  explicit Maker(const InpContent& content) : in_(content) {
+    for (const InpFaceUse& use : in_.faces.uses) uses_of_[use.block].push_back(&use);
+    for (std::size_t b = 0; b < in_.mesh.blocks.size(); ++b) {
+      number_of_block_[in_.mesh.blocks[b].block] = b;
+    }
+  }
+
+  std::vector<std::string> run() {
+    find_inlined();
+    deck_.most_node = in_.mesh.nodes.most();
+    deck_.most_element = in_.mesh.most_element();
+    for (std::size_t p = 0; p < in_.parts.all.size(); ++p) {
+      deck_.block_of_part.emplace_back(static_cast<Label>(p + 1),
+                                       static_cast<Label>(in_.parts.all[p].home));
+    }
+    for (const InpBlock& block : in_.lines.blocks) add_block(block);
+    return pack_deck(deck_);
+  }
+
+ private:
+  bool is_use(const InpBlock& block) const { return uses_of_.contains(&block); }
+
+  /// Files with something of the mesh in them are written into the deck.
+  void find_inlined() {
+    inlined_.assign(in_.lines.includes.size(), false);
+    inlined_[0] = true;
+    for (const InpBlock& block : in_.lines.blocks) {
+      if (!is_listed_anew(block) && !is_use(block)) continue;
+      for (int k = block.file_number; k != 0;
+           k = in_.lines.includes[static_cast<std::size_t>(k)].parent) {
+        inlined_[static_cast<std::size_t>(k)] = true;
+      }
+    }
+    for (std::size_t k = 1; k < inlined_.size(); ++k) {
+      const InpLines::Include& include = in_.lines.includes[k];
+      const auto parent = static_cast<std::size_t>(include.parent);
+      if (!inlined_[parent]) inlined_[k] = false;
+      if (inlined_[parent] && !include.parent_is_beside) inlined_[k] = true;
+    }
+  }
+
+  void add_block(const InpBlock& block) {
+    if (!inlined_[static_cast<std::size_t>(block.file_number)]) return;
+    if (block.included != 0) {
+      if (inlined_[static_cast<std::size_t>(block.included)]) return;
+      deck_.folder = std::filesystem::absolute(in_.file).parent_path().lexically_normal().string();
+      return add_text(block.text());
+    }
+    if (is_mesh_block(block, "NODE")) {
+      add_nodes(block);
+    } else if (is_mesh_element(block)) {
+      add_element_block(block);
+    } else if (is_set_block(block)) {
+      add_set(block);
+    } else if (is_use(block)) {
+      add_uses(block);
+    } else {
+      add_text(block.text());
+    }
+  }
+
+  void add_text(std::string_view text) {
+    if (text.empty()) return;
+    const bool cut = text.back() != '\n';
+    if (deck_.pieces.empty() || deck_.pieces.back().kind != InpPieceKind::verbatim) {
+      deck_.pieces.push_back({});
+    }
+    deck_.pieces.back().text += text;
+    if (cut && &in_.lines.blocks.back().text().back() != &text.back())
+      deck_.pieces.back().text += '\n';
+  }
+
+  /// Comments and empty lines among the data, before the first of which nothing stands or behind.
+  void add_comments(const InpBlock& block, bool leading) {
+    bool before = true;
+    std::string_view rest(block.data, static_cast<std::size_t>(block.end - block.data));
+    while (!rest.empty()) {
+      const std::size_t length = std::min(rest.find('\n'), rest.size() - 1) + 1;
+      const std::string_view line = rest.substr(0, length);
+      const std::string_view content = trimmed(line);
+      const bool is_comment = content.empty() || content.starts_with("**");
+      before = before && is_comment;
+      if (is_comment && before == leading) add_text(line);
+      rest.remove_prefix(length);
+    }
+  }
+
+  static std::string keyword_line(const InpBlock& block, const std::set<std::string>& without) {
+    const std::string_view text = trimmed(block.keyword_text());
+    std::string line(trimmed(text.substr(0, std::min(text.find(','), text.size()))));
+    for (const InpBlock::Parameter& parameter : block.parameters) {
+      if (!without.contains(parameter.name)) line += fmt::format(", {}", parameter.text);
+    }
+    return line + '\n';
+  }
+
+  InpPiece& add_piece(InpPieceKind kind, std::string text) {
+    InpPiece& piece = deck_.pieces.emplace_back();
+    piece.kind = kind;
+    piece.text = std::move(text);
+    return piece;
+  }
+
+  void add_nodes(const InpBlock& block) {
+    const InpSet* set = in_.sets.of_block(block);
+    if (!nodes_done_) {
+      nodes_done_ = true;
+      InpPiece& piece = add_piece(InpPieceKind::nodes, keyword_line(block, {"INPUT", "NSET"}));
+      if (set != nullptr && set_done_.insert(set).second) piece.groups = set->groups;
+    } else if (set != nullptr && set_done_.insert(set).second) {
+      add_piece(InpPieceKind::node_set, fmt::format("*NSET, NSET={}\n", block.value("NSET")))
+          .groups = set->groups;
+    }
+    add_comments(block, true);
+    add_comments(block, false);
+  }
+
+  void add_element_block(const InpBlock& block) {
+    const std::size_t number = number_of_block_[&block];
+    const std::uint32_t home = in_.home_of_block[number];
+    add_comments(block, true);
+    if (home_done_.insert(home).second) {
+      const bool as_is = block.input == nullptr;
+      InpPiece& piece = add_piece(InpPieceKind::elements, as_is ? std::string(block.keyword_text())
+                                                                : keyword_line(block, {"INPUT"}));
+      if (piece.text.back() != '\n') piece.text += '\n';
+      piece.type = in_.mesh.blocks[number].name;
+      piece.block = static_cast<Label>(home);
+      const InpSet* set = in_.homes[home - 1].set;
+      if (set != nullptr) piece.groups = set->groups;
+    }
+    add_comments(block, false);
+  }
+
+  void add_set(const InpBlock& block) {
+    const InpSet* set = in_.sets.of_block(block);
+    add_comments(block, true);
+    if (set->is_kept && set_done_.insert(set).second) {
+      const auto kind = set->of_nodes ? InpPieceKind::node_set : InpPieceKind::element_set;
+      std::set<std::string> without = {"GENERATE", "INPUT", "UNSORTED"};
+      if (set->of_nodes) without.insert("ELSET");
+      InpPiece& piece = add_piece(kind, keyword_line(block, without));
+      piece.groups = set->groups;
+      for (const std::int64_t number : set->others) piece.more += fmt::format("{},\n", number);
+    }
+    add_comments(block, false);
+  }
+
+  void add_uses(const InpBlock& block) {
+    add_comments(block, true);
+    const auto load = in_.faces.rest_of_load.find(&block);
+    if (load != in_.faces.rest_of_load.end()) {
+      add_text(block.keyword_text());
+      add_text(load->second);
+    }
+    for (const InpFaceUse* use : uses_of_[&block]) {
+      InpPiece& piece = use->is_surface
+                            ? add_piece(InpPieceKind::surface, std::string(block.keyword_text()))
+                            : add_piece(InpPieceKind::face_load, use->rest);
+      piece.groups = {{2, use->number}};
+      piece.type = use->prefix;
+      piece.suffix = use->suffix;
+      piece.more = use->more;
+    }
+    add_comments(block, false);
+  }
+
+  const InpContent& in_;
+  InpDeck deck_;
+  std::map<const InpBlock*, std::vector<const InpFaceUse*>> uses_of_;
+  std::map<const InpBlock*, std::size_t> number_of_block_;
+  std::vector<bool> inlined_;
+  bool nodes_done_ = false;
+  std::set<const InpSet*> set_done_;
+  std::set<std::uint32_t> home_done_;
+};
+
+}  // namespace
+
+bool is_listed_anew(const InpBlock& block) {
+  return is_mesh_block(block, "NODE") || is_mesh_element(block) || is_set_block(block);
+}
+
+std::vector<std::string> make_inp_deck(const InpContent& content) {
+  return Maker(content).run();
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// The sets of nodes and elements of an Abaqus deck.
+#include "kernel/formats/inp_sets.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace tetmend::formats {
+namespace {
+
+template <class T>
+void make_unique(std::vector<T>& values) {
+  if (!std::is_sorted(values.begin(), values.end())) std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Of "Part-1-1.17" that is "17".
+std::string_view without_instance(std::string_view text) {
+  const std::size_t dot = text.rfind('.');
+  const bool has_instance =
+      dot != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text[0])) != 0;
+  return has_instance ? text.substr(dot + 1) : text;
+}
+
+}  // namespace
+
+bool to_label(std::string_view key, Label& label) {
+  constexpr std::string_view kPrefix = "LABEL_";
+  if (!key.starts_with(kPrefix)) return false;
+  std::string digits(key.substr(kPrefix.size()));
+  if (digits.starts_with('M')) digits[0] = '-';
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, label);
+  return error == std::errc() && stop == end && inp_key(label_name(label)) == key;
+}
+
+std::string label_name(Label label) {
+  return label < 0 ? fmt::format("Label_m{}", -std::int64_t{label})
+                   : fmt::format("Label_{}", label);
+}
+
+bool is_set_block(const InpBlock& block) {
+  const bool is_set = block.keyword == "NSET" || block.keyword == "ELSET";
+  return is_set && (!block.is_in_assembly || block.find("INSTANCE") != nullptr);
+}
+
+InpSets::InpSets(const InpLines& lines, const InpMesh& mesh) : mesh_(mesh) {
+  std::uint32_t nodes = 0;
+  for (const InpBlock& block : lines.blocks) {
+    if (!is_mesh_block(block, "NODE")) continue;
+    InpFields fields(block);
+    std::uint32_t count = 0;
+    InpSet* set = of_block(block);
+    while (set != nullptr && fields.next_line()) ++count;
+    // Counting again is needed only where a set is named; else the place is found by the next.
+    if (set == nullptr) {
+      while (fields.next_line()) ++count;
+    } else {
+      for (std::uint32_t i = 0; i < count; ++i) set->members.push_back(nodes + i);
+    }
+    nodes += count;
+  }
+  for (const InpElements& elements : mesh.blocks) {
+    InpSet* set = of_block(*elements.block);
+    if (set == nullptr) continue;
+    for (std::size_t i = 0; i < elements.count; ++i) {
+      set->members.push_back(static_cast<std::uint32_t>(elements.first + i));
+    }
+  }
+  for (const InpBlock& block : lines.blocks) {
+    // Springs and their like.
+    if (is_mesh_block(block, "ELEMENT") &&
+        inp_type(block.value("TYPE")).kind == InpType::Kind::other) {
+      InpSet* set = of_block(block);
+      InpFields fields(block);
+      std::int64_t number = 0;
+      while (set != nullptr && fields.next_line()) {
+        if (to_integer(fields.field(), number)) set->others.push_back(number);
+      }
+    }
+  }
+  for (InpSet& set : all) make_unique(set.members);
+  for (const InpBlock& block : lines.blocks) {
+    if (is_set_block(block)) read(block);
+  }
+}
+
+InpSet& InpSets::named(bool of_nodes, bool in_assembly, std::string_view name) {
+  const Key key{{of_nodes, in_assembly}, inp_key(name)};
+  const auto found = by_key_.find(key);
+  if (found != by_key_.end()) return *found->second;
+  InpSet& set = all.emplace_back();
+  set.key = key.second;
+  const bool quoted = name.size() > 1 && name.front() == '"' && name.back() == '"';
+  set.name = quoted ? name.substr(1, name.size() - 2) : name;
+  set.of_nodes = of_nodes;
+  return *by_key_.emplace(key, &set).first->second;
+}
+
+InpSet* InpSets::find(bool of_nodes, std::string_view name, const InpBlock& where) {
+  for (const std::string_view text : {name, without_instance(name)}) {
+    for (const bool in_assembly : {where.is_in_assembly, !where.is_in_assembly}) {
+      const auto found = by_key_.find({{of_nodes, in_assembly}, inp_key(text)});
+      if (found != by_key_.end()) return found->second;
+    }
+  }
+  return nullptr;
+}
+
+InpSet* InpSets::of_block(const InpBlock& block) {
+  const bool of_nodes = block.keyword == "NODE" || block.keyword == "NSET";
+  const std::string_view name = block.value(of_nodes ? "NSET" : "ELSET");
+  return name.empty() ? nullptr : &named(of_nodes, block.is_in_assembly, name);
+}
+
+void InpSets::read(const InpBlock& block) {
+  InpSet* set = of_block(block);
+  if (set == nullptr) {
+    block.fail(fmt::format("*{} has no name: expected {}=NAME", block.keyword, block.keyword));
+  }
+  set->is_listed = true;
+  set->is_internal = block.find("INTERNAL") != nullptr;
+  InpFields fields(block);
+  if (set->of_nodes && block.find("ELSET") != nullptr) {
+    add_nodes_of(block, *set);
+  } else if (block.find("GENERATE") != nullptr) {
+    while (fields.next_line()) read_range(fields, *set);
+  } else {
+    while (fields.next_line()) read_members(fields, block, *set);
+  }
+  make_unique(set->members);
+  make_unique(set->others);
+}
+
+void InpSets::read_range(InpFields& fields, InpSet& set) {
+  const std::int64_t first = fields.integer("the first number of a range");
+  const std::int64_t last = fields.more() ? fields.integer("the last number of a range") : first;
+  const std::int64_t step = fields.more() ? fields.integer("the step of a range") : 1;
+  if (step == 0) fields.fail("'0' is no step of a range: expected 1 or more");
+  const std::int64_t most = set.of_nodes ? mesh_.nodes.most() : mesh_.most_element();
+  if (last < first || last > most) {
+    fields.fail(fmt::format("'{}' is not the last number of a range: expected {} to {}", last,
+                            first, most));
+  }
+  numbers(set).collect(first, last, step, set.members);
+  if (set.of_nodes) return;
+  const auto begin = std::lower_bound(mesh_.others.begin(), mesh_.others.end(), first);
+  const auto end = std::upper_bound(begin, mesh_.others.end(), last);
+  std::copy_if(begin, end, std::back_inserter(set.others),
+               [&](std::int64_t number) { return (number - first) % step == 0; });
+}
+
+void InpSets::read_members(InpFields& fields, const InpBlock& block, InpSet& set) {
+  while (fields.more()) {
+    const std::string_view text = fields.field();
+    if (text.empty()) continue;
+    std::int64_t number = 0;
+    if (to_integer(text, number)) {
+      const std::uint32_t place = numbers(set).find(number);
+      const bool is_other =
+          !set.of_nodes && std::binary_search(mesh_.others.begin(), mesh_.others.end(), number);
+      if (place != InpNumbers::kNone) {
+        set.members.push_back(place);
+      } else if (is_other) {
+        set.others.push_back(number);
+      } else {
+        fields.fail(fmt::format("'{}' is not the number of {}: expected one of {}", number,
+                                set.of_nodes ? "a node" : "an element",
+                                set.of_nodes ? "*NODE" : "*ELEMENT"));
+      }
+      continue;
+    }
+    const InpSet* other = find(set.of_nodes, text, block);
+    if (other == nullptr) {
+      fields.fail(
+          fmt::format("{} is neither a number nor the name of a set: expected one that is "
+                      "defined above",
+                      in_quotes(text)));
+    }
+    if (other == &set) continue;
+    set.members.insert(set.members.end(), other->members.begin(), other->members.end());
+    set.others.insert(set.others.end(), other->others.begin(), other->others.end());
+    if (set.members.size() > 4 * numbers(set).numbers().size()) make_unique(set.members);
+  }
+}
+
+void InpSets::add_nodes_of(const InpBlock& block, InpSet& set) {
+  const InpSet* elements = find(false, block.value("ELSET"), block);
+  if (elements == nullptr) {
+    block.fail(
+        fmt::format("{} is not the name of a set of elements: expected one that is defined "
+                    "above",
+                    in_quotes(block.value("ELSET"))));
+  }
+  for (const std::uint32_t element : elements->members) {
+    const std::uint32_t* vertices = mesh_.vertices_of(element);
+    set.members.insert(set.members.end(), vertices, vertices + mesh_.block_of(element).type.width);
+  }
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The sets of nodes and elements of an Abaqus deck.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kernel/formats/inp_deck.h"
+#include "kernel/formats/inp_mesh.h"
+
+namespace tetmend::formats {
+
+struct InpSet {
+  std::string key;
+  std::string name;  ///< as it stands there first
+  bool of_nodes = false;
+  std::vector<std::uint32_t> members;  ///< points, or elements of the mesh; in ascending order
+  std::vector<std::int64_t> others;    ///< numbers of elements that are not in the mesh
+  bool is_listed = false;              ///< by *NSET or *ELSET
+  bool is_internal = false;
+  bool is_kept = true;
+  Label number = 0;  ///< of its groups
+  std::vector<InpGroupName> groups;
+};
+
+/// "Label_7" names what has the label 7, and has no other name: "Label_m7" is -7. False for others.
+bool to_label(std::string_view key, Label& label);
+std::string label_name(Label label);
+
+class InpSets {
+ public:
+  InpSets(const InpLines& lines, const InpMesh& mesh);
+
+  std::deque<InpSet> all;  ///< in the order of the deck, those of *NODE and *ELEMENT first
+
+  /// The set that a line of this block means; null if there is none. The name may have the prefix
+  /// of an instance.
+  InpSet* find(bool of_nodes, std::string_view name, const InpBlock& where);
+  /// The set that a *NSET, *ELSET, *NODE or *ELEMENT block adds to; null if it names none.
+  InpSet* of_block(const InpBlock& block);
+
+ private:
+  using Key = std::pair<std::pair<bool, bool>, std::string>;  // of nodes, in the assembly; name
+
+  InpSet& named(bool of_nodes, bool in_assembly, std::string_view name);
+  void read(const InpBlock& block);
+  void read_range(InpFields& fields, InpSet& set);
+  void read_members(InpFields& fields, const InpBlock& block, InpSet& set);
+  void add_nodes_of(const InpBlock& block, InpSet& set);
+  const InpNumbers& numbers(const InpSet& set) const {
+    return set.of_nodes ? mesh_.nodes : mesh_.elements;
+  }
+
+  const InpMesh& mesh_;
+  std::map<Key, InpSet*> by_key_;
+};
+
+/// *NSET or *ELSET that lists members of the mesh: not the reference points of an assembly.
+bool is_set_block(const InpBlock& block);
+
+}  // namespace tetmend::formats
