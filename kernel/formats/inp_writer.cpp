@@ -212,8 +212,8 @@ std::vector<std::string> not_in_inp(const std::filesystem::path& file, const Mes
   if (!by_labels) lost(mesh.entities.size(), "entities of the geometry are");
   const bool has_deck = is_inp_deck(mesh.deck);
   if (!has_deck && !mesh.edges.empty()) {
-    notes.push_back(
-        fmt::format("{} edges are kept as sets of their points only", mesh.edges.size()));
+    notes.push_back(fmt::format(
+        "{} edges, and groups of them, are kept as sets of their points only", mesh.edges.size()));
   }
   std::size_t rounded = 0;
   RealText memory;

@@ -16,8 +16,9 @@ namespace {
 constexpr std::size_t kSmall = 8;
 
 std::string_view without_comment(std::string_view line) {
-  const std::size_t end = line.find_first_of("$\r\n");
-  return line.substr(0, end);
+  line = line.substr(0, line.find('$'));
+  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+  return line;
 }
 
 void add(NastranCardText& card, std::string_view field) {

@@ -64,6 +64,9 @@ class Reader {
     read_rest();
     check_numbers();
     require_points();
+    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n"}) {
+      mesh_.deck.clear();  // the writer's own
+    }
     mesh_.variant = kNastran;
     return std::move(mesh_);
   }

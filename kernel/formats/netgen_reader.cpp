@@ -80,6 +80,10 @@ class Reader {
     if (!seen_.contains("points")) text_.fail("the section points is missing");
     finish_edges();
     move_arrays();
+    // What the writer says by itself.
+    std::erase_if(mesh_.deck, [](const std::string& piece) {
+      return piece == "geomtype\n0\n" || piece == "endmesh\n";
+    });
     mesh_.variant = kNetgen;
     return std::move(mesh_);
   }

@@ -287,10 +287,10 @@ TEST_CASE("elements of second order come back with their type, in two lines or i
   text += "*ELEMENT, TYPE=C3D10M, ELSET=A\n5, 1, 2, 3, 4, 5, 6, 7,\n8, 9, 10\n";
   text += "*ELEMENT, TYPE=T3D3, ELSET=B\n6, 1, 5, 2\n*SURFACE, NAME=S\nA, S3\n";
   const MeshData mesh = read_text(folder, text);
-  REQUIRE(mesh.other_elements.size() == 2);
-  CHECK(mesh.other_elements[0].vtk_type == 21);
-  CHECK(mesh.other_elements[0].vertices == std::vector<std::uint32_t>{0, 1, 4});
-  CHECK(mesh.other_elements[1].vtk_type == 24);
+  CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.mid_nodes.size() == 6);
+  REQUIRE(mesh.edges.size() == 1);
+  CHECK(mesh.edges[0].vertices == std::array<std::uint32_t, 2>{0, 1});
   CHECK(mesh.triangles.size() == 1);
   round_trip(folder, text);
   const std::string written = read_text(folder / "b.inp");
@@ -332,7 +332,7 @@ TEST_CASE("a mesh of another format becomes a deck with sets, surfaces and sets 
   mesh.point_labels[2] = -3;
   const auto notes = not_written(folder / "a.inp", mesh);
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == "1 edges are kept as sets of their points only");
+  CHECK(notes[0] == "1 edges, and groups of them, are kept as sets of their points only");
   write_mesh(folder / "a.inp", mesh);
   const std::string text = read_text(folder / "a.inp");
   for (const std::string_view part :
@@ -441,7 +441,7 @@ TEST_CASE("what a deck says of tets by number and is not a face is noted") {
   REQUIRE(dropped.notes.size() == 1);
   CHECK(dropped.notes[0].starts_with("the set of elements 'T' is not kept"));
   CHECK(not_written(folder / "a.vtk", dropped).back() ==
-        "what the deck holds besides its mesh is not kept: .vtk has no place for it");
+        "4 pieces of a deck, all that is no mesh, are not kept: .vtk has no place for them");
 }
 
 TEST_CASE("bad decks are refused with line, word and what was expected") {
