@@ -83,6 +83,7 @@ constexpr Room kInpRoom = {.groups = true,
                            .second_order = true,
                            .deck = formats::kInp};
 constexpr Room kSu2Room = {.others = true,
+                           .second_order = true,
                            .point_labels = false,
                            .tet_labels = false,
                            .edges = false,
