@@ -28,10 +28,11 @@ int run_convert(Options& options) {
   name_streams(options.format, options.input, &options.output);
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
+  check_variant(options.output, options.carry);
   check_writable(options.output);
   std::vector<std::string> notes;
   const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
-  save(options.output, mesh, options.threads);
+  save(options.output, mesh, options.threads, options.carry.variant);
   fmt::print(stream_beside(options.output), "{}: {} vertices, {} tets, {} triangles, {} edges\n",
              options.output.string(), grouped(mesh.point_count()), grouped(mesh.tet_count()),
              grouped(mesh.triangle_count()), grouped(mesh.edge_count()));
@@ -60,6 +61,7 @@ Formats, by extension:
 Examples:
   tetmend convert part.mesh part.vtk
   tetmend convert part.ele part.meshb --strict
+  tetmend convert part.vtu part.msh --variant "2.2 ASCII"
   mesher | tetmend convert - part.vtu --format msh
 
 Exit status: 0 success, 1 a file cannot be read or written, or --strict found

@@ -44,6 +44,7 @@ class Stopwatch {
 void check_files(const ImproveOptions& options) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
+  check_variant(options.output, options.carry);
   if (!options.report.empty()) {
     constexpr std::string_view kJson = ".json";
     check_extension(options.report, {&kJson, 1});
@@ -101,7 +102,7 @@ int run_improve(ImproveOptions& options, const Invocation& invocation) {
   {
     const Stopwatch watch(report.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
-    save(options.output, mesh, threads);
+    save(options.output, mesh, threads, options.carry.variant);
   }
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);

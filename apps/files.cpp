@@ -82,7 +82,24 @@ void add_carry_options(CLI::App& command, CarryOptions& options) {
                   "Array over cells that holds the labels; default: by\nits name, or the only one "
                   "of integers")
       ->type_name("NAME");
+  command
+      .add_option("--variant", options.variant,
+                  "How OUT is written. For .msh '2.2 ASCII', '2.2\nbinary', '4.1 ASCII' or '4.1 "
+                  "binary'; default: as IN")
+      ->type_name("NAME");
   command.add_flag("--strict", options.strict, "Write nothing if anything of IN would be lost");
+}
+
+void check_variant(const std::filesystem::path& output, const CarryOptions& options) {
+  const auto known = file_variants(output);
+  if (options.variant.empty() ||
+      std::find(known.begin(), known.end(), options.variant) != known.end()) {
+    return;
+  }
+  throw UsageError(fmt::format("--variant: '{}' is none of {}: expected {}", options.variant,
+                               output.string(),
+                               known.empty() ? "nothing, there is only one"
+                                             : fmt::format("one of {}", fmt::join(known, ", "))));
 }
 
 Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& output, int threads,

@@ -46,9 +46,13 @@ void check_writable(const std::filesystem::path& file);
 /// How a command reads a mesh that it writes again.
 struct CarryOptions {
   std::string label_array;  ///< --label-array
+  std::string variant;      ///< --variant
   bool strict = false;      ///< --strict
 };
 void add_carry_options(CLI::App& command, CarryOptions& options);
+
+/// @throws UsageError unless the format of `output` has the variant, if there is one.
+void check_variant(const std::filesystem::path& output, const CarryOptions& options);
 
 /// Loads `input`. Names on standard error all of it that `output` will not have.
 /// @param notes these sentences are added

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Meshes from files and to files.
+#include <algorithm>
+
+#include <fmt/format.h>
 #include <tetmend/io.h>
 
 #include "face/arena.h"
@@ -17,8 +20,20 @@ std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh
   return not_written(file, MeshAccess::data(mesh));
 }
 
-void save(const std::filesystem::path& file, const Mesh& mesh, int threads) {
-  face::on_threads(threads, [&] { write_mesh(file, MeshAccess::data(mesh)); });
+void save(const std::filesystem::path& file, const Mesh& mesh, int threads,
+          const std::string& variant) {
+  const auto known = mesh_variants(file);
+  if (!variant.empty() && std::find(known.begin(), known.end(), variant) == known.end()) {
+    throw Error(fmt::format("{}: the format has no variant '{}'", file.string(), variant));
+  }
+  MeshView view(MeshAccess::data(mesh));
+  view.set_variant(variant);
+  face::on_threads(threads, [&] { write_mesh(file, view); });
+}
+
+std::vector<std::string_view> file_variants(const std::filesystem::path& file) {
+  const auto known = mesh_variants(file);
+  return {known.begin(), known.end()};
 }
 
 std::vector<FileFormat> file_formats() {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -25,6 +26,13 @@ class MeshView {
 
   /// The data that it looks at, with all that a file may hold besides; null for a TetMesh.
   const MeshData* data() const { return data_; }
+
+  /// How a format that can be written in several ways is to be written; empty: as it likes.
+  std::string_view variant() const {
+    if (!variant_.empty() || data_ == nullptr) return variant_;
+    return data_->variant;
+  }
+  void set_variant(std::string_view variant) { variant_ = variant; }
 
   std::size_t point_count() const { return point_count_; }
   const Point& point(std::size_t i) const { return points_[order_.empty() ? i : order_[i]]; }
@@ -49,6 +57,7 @@ class MeshView {
   void number_tets();
   void collect_named();
 
+  std::string_view variant_;
   const MeshData* data_ = nullptr;  // one of the two
   const TetMesh* mesh_ = nullptr;
   std::size_t point_count_ = 0;

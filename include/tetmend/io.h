@@ -25,8 +25,14 @@ TETMEND_API Mesh load(const std::filesystem::path& file, int threads = 1,
 
 /// Writes a mesh; coordinates keep all their bits. The file appears under its name only when it is
 /// complete: a failure leaves an older file as it was.
-/// @throws Error "FILE: reason" when it cannot be written or the extension is unknown.
-TETMEND_API void save(const std::filesystem::path& file, const Mesh& mesh, int threads = 1);
+/// @param variant for `.msh`: "2.2 ASCII", "2.2 binary", "4.1 ASCII" or "4.1 binary"; empty: as the
+/// mesh was read, else 4.1 binary
+/// @throws Error "FILE: reason" when it cannot be written, or the extension or the variant is
+/// unknown.
+TETMEND_API void save(const std::filesystem::path& file, const Mesh& mesh, int threads = 1,
+                      const std::string& variant = {});
+/// The variants of the format of `file`; empty if there is only one.
+TETMEND_API std::vector<std::string_view> file_variants(const std::filesystem::path& file);
 
 /// What of the mesh the format of `file` cannot hold, one sentence each; empty: save() keeps all.
 /// @throws Error "FILE: reason" when the extension is unknown

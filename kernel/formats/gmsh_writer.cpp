@@ -470,7 +470,7 @@ class Writer {
 }  // namespace
 
 void write_gmsh(const std::filesystem::path& file, const MeshView& mesh) {
-  const std::string variant = mesh.data() == nullptr ? std::string() : mesh.data()->variant;
+  const std::string_view variant = mesh.variant();
   const bool is_2 = variant == "2.2 ASCII" || variant == "2.2 binary";
   const bool binary = variant != "2.2 ASCII" && variant != "4.1 ASCII";
   OutputFile out(file);

@@ -189,6 +189,13 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   return notes;
 }
 
+std::span<const std::string_view> mesh_variants(const std::filesystem::path& file) {
+  static constexpr std::array<std::string_view, 4> kOfGmsh = {"2.2 ASCII", "2.2 binary",
+                                                              "4.1 ASCII", "4.1 binary"};
+  if (format_extension(file) == ".msh") return kOfGmsh;
+  return {};
+}
+
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
   assert(mesh.point_labels.empty() || mesh.point_labels.size() == mesh.points.size());
   write_mesh(file, MeshView(mesh));
@@ -199,7 +206,9 @@ void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
   if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
   const MeshData as_held =
       codec.room.second_order ? with_second_order(*mesh.data()) : without_mid_nodes(*mesh.data());
-  codec.write(file, MeshView(as_held));
+  MeshView view(as_held);
+  view.set_variant(mesh.variant());
+  codec.write(file, view);
 }
 
 }  // namespace tetmend

@@ -49,6 +49,10 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 /// @throws Error for an unknown extension
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh);
 
+/// The names of the ways in which the format of `file` can be written, MeshView::variant(); empty if
+/// there is only one.
+std::span<const std::string_view> mesh_variants(const std::filesystem::path& file);
+
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
 /// folder. Doubles are written so
