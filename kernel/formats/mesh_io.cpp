@@ -75,6 +75,7 @@ constexpr Room kMeditRoom = {.others = true,
                              .second_order = true,
                              .marks = true,
                              .holds = formats::medit_holds};
+constexpr Room kTetgenRoom = {.second_order = true, .own_arrays = formats::kTetgenArrays};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
 constexpr Room kGmshRoom = {.data = true, .groups = true, .others = true, .second_order = true};
 constexpr Room kInpRoom = {.groups = true,
@@ -115,8 +116,8 @@ constexpr Room kElmerRoom = {.others = true,
 constexpr std::array<Codec, 13> kCodecs = {
     {{read_plain<formats::read_medit_ascii>, formats::write_medit_ascii, kMeditRoom},
      {read_plain<formats::read_medit_binary>, formats::write_medit_binary, kMeditRoom},
-     {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
-     {read_plain<formats::read_tetgen>, formats::write_tetgen, {}, true},
+     {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
+     {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
      {formats::read_vtk_legacy, formats::write_vtk_legacy, kVtkRoom},
      {formats::read_vtu, formats::write_vtu, kVtkRoom},
      {read_plain<formats::read_gmsh>, formats::write_gmsh, kGmshRoom},
@@ -204,8 +205,10 @@ void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
 void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
   const Codec& codec = find_codec(file);
   if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
-  const MeshData as_held =
-      codec.room.second_order ? with_second_order(*mesh.data()) : without_mid_nodes(*mesh.data());
+  const formats::Room& room = codec.room;
+  const bool has_marks = room.groups || room.marks || room.named_labels != 0;
+  const MeshData as_held = room.second_order ? with_second_order(*mesh.data(), has_marks)
+                                             : without_mid_nodes(*mesh.data());
   MeshView view(as_held);
   view.set_variant(mesh.variant());
   codec.write(file, view);

@@ -3,6 +3,7 @@
 #include "kernel/formats/tetgen.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <optional>
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
@@ -32,6 +34,9 @@ std::filesystem::path sibling(const std::filesystem::path& file, std::string_vie
   }
   return std::filesystem::path(file).replace_extension(wanted);
 }
+
+/// Behind the vertices of a tet: where the node of each edge stands, in VTK's order of the edges.
+constexpr std::array<std::size_t, 6> kTetgenNodes = {2, 3, 5, 1, 4, 0};
 
 /// One file: a line of counts, then numbered rows of one line each.
 class Table {
@@ -116,13 +121,14 @@ class Reader {
     table.end_row("the counts");
     mesh_.points.resize(count);
     mesh_.point_labels.resize(markers == 0 ? 0 : count);
+    std::vector<std::vector<double>> values(static_cast<std::size_t>(attributes));
     for (std::size_t i = 0; i < count; ++i) {
       table.begin_row("vertex");
       if (i == 0) base_ = table.integer("the number of the first vertex", 0, 1);
       const auto number = static_cast<std::int64_t>(i) + base_;
       if (i > 0) table.integer("the next vertex", number, number);
       for (int axis = 0; axis < 3; ++axis) mesh_.points[i][axis] = table.real("a coordinate");
-      for (auto k = attributes; k > 0; --k) table.real("an attribute of a vertex");
+      for (auto& column : values) column.push_back(table.real("an attribute of a vertex"));
       if (markers != 0) {
         mesh_.point_labels[i] =
             static_cast<Label>(table.integer("a boundary marker", INT32_MIN, INT32_MAX));
@@ -130,6 +136,15 @@ class Reader {
       table.end_row("a vertex");
     }
     table.end("vertex");
+    keep_attributes(values, 1, mesh_.point_data);
+  }
+
+  /// The first column has the number `first`.
+  static void keep_attributes(std::vector<std::vector<double>>& values, std::size_t first,
+                              std::vector<DataArray>& data) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      data.push_back({fmt::format("{}{}", kTetgenArrays, first + k), 1, std::move(values[k])});
+    }
   }
 
   void read_tets() {
@@ -139,25 +154,60 @@ class Reader {
         table.text().count("tetrahedra", std::string_view("0 0 1 2 3\n").size());
     const auto corners =
         table.integer_or(4, "the number of vertices of a tetrahedron", 1, INT32_MAX);
-    if (corners != 4) {
-      table.text().fail(fmt::format("tetrahedra with {} vertices{} cannot be read: expected 4",
-                                    corners, corners == 10 ? " (second order)" : ""));
+    if (corners != 4 && corners != 10) {
+      table.text().fail(fmt::format(
+          "tetrahedra with {} vertices cannot be read: expected 4, or 10 of second order",
+          corners));
     }
+    is_second_order_ = corners == 10;
     const auto attributes = table.integer_or(0, "the number of attributes", 0, kMostAttributes);
     table.end_row("the counts");
     mesh_.tets.resize(count);
+    std::vector<std::array<std::uint32_t, 6>> nodes;
+    std::vector<std::vector<double>> values(
+        attributes > 1 ? static_cast<std::size_t>(attributes) - 1 : 0);
     for (MeshData::Tet& tet : mesh_.tets) {
       read_corners(table, tet);
+      if (is_second_order_) read_nodes_between(table, nodes.emplace_back());
       if (is_asked_for(question_, mesh_.tets, tet)) {
         question_->place = table.text().place_of(table.text().last_word());
       }
       for (std::int64_t k = 0; k < attributes; ++k) {
         const double value = table.real("an attribute of a tetrahedron");
-        if (k == 0) tet.label = rounded_label(table, value);
+        if (k == 0) {
+          tet.label = rounded_label(table, value);
+        } else {
+          values[static_cast<std::size_t>(k) - 1].push_back(value);
+        }
       }
       table.end_row("a tetrahedron");
     }
     table.end("tetrahedron");
+    keep_attributes(values, 2, mesh_.tet_data);
+    if (is_second_order_) take_nodes_between(nodes);
+  }
+
+  void read_nodes_between(Table& table, std::array<std::uint32_t, 6>& nodes) {
+    const auto last = static_cast<std::int64_t>(mesh_.points.size()) - 1 + base_;
+    for (std::uint32_t& node : nodes) {
+      node = static_cast<std::uint32_t>(
+          table.integer("the number of a node of an edge", base_, last) - base_);
+    }
+  }
+
+  void take_nodes_between(const std::vector<std::array<std::uint32_t, 6>>& nodes) {
+    OtherElements& others = mesh_.other_elements.emplace_back();
+    others.vtk_type = 24;
+    others.vertex_count = 10;
+    others.data = std::move(mesh_.tet_data);
+    for (std::size_t t = 0; t < nodes.size(); ++t) {
+      const MeshData::Tet& tet = mesh_.tets[t];
+      others.vertices.insert(others.vertices.end(), tet.vertices.begin(), tet.vertices.end());
+      for (const std::size_t place : kTetgenNodes) others.vertices.push_back(nodes[t][place]);
+      others.labels.push_back(tet.label);
+    }
+    mesh_.tets.clear();
+    mesh_.tet_data.clear();
   }
 
   static Label rounded_label(Table& table, double value) {
@@ -169,8 +219,8 @@ class Reader {
     return static_cast<Label>(label);
   }
 
-  /// The columns behind the marker are not ours: TetGen's switch -nn adds the adjacent tets, -o2
-  /// the middle vertices.
+  /// In a mesh of second order the nodes of the edges, which the tets have too, come before the
+  /// marker. The columns behind it are not ours: TetGen's switch -nn adds the adjacent tets.
   template <class Element>
   void read_markers(std::string_view extension, std::vector<Element>& elements,
                     std::string_view what) {
@@ -185,6 +235,11 @@ class Reader {
     table.end_row("the counts");
     for (Element& element : elements) {
       read_corners(table, element);
+      if (is_second_order_) {
+        constexpr std::size_t kNodes = kNumbers == 4 ? 3 : 1;
+        for (std::size_t k = 0; k < kNodes; ++k)
+          table.integer("the number of a node", 0, INT64_MAX);
+      }
       if (markers != 0) {
         element.label =
             static_cast<Label>(table.integer("a boundary marker", INT32_MIN, INT32_MAX));
@@ -211,21 +266,50 @@ class Reader {
   std::filesystem::path file_;
   TetPlace* question_;
   std::int64_t base_ = 0;
+  bool is_second_order_ = false;
   MeshData mesh_;
 };
 
 // TetGen's own files end with a comment as well; a file cut short lacks at least its line break.
 constexpr std::string_view kLastLine = "# Generated by tetmend\n";
 
+using Columns = std::vector<const DataArray*>;
+
+/// The arrays that are attributes.
+Columns attributes_of(const std::vector<DataArray>& data) {
+  Columns columns;
+  for (const DataArray& array : data) {
+    if (array.name.starts_with(kTetgenArrays)) columns.push_back(&array);
+  }
+  return columns;
+}
+std::size_t width_of(const Columns& columns) {
+  std::size_t width = 0;
+  for (const DataArray* array : columns) width += array->components;
+  return width;
+}
+
+void write_attributes(OutputBuffer& out, const Columns& columns, std::size_t row) {
+  for (const DataArray* array : columns) {
+    for (std::size_t k = 0; k < array->components; ++k) {
+      out.put(' ');
+      out.put_real(real_value(*array, row * array->components + k));
+    }
+  }
+}
+
 void write_nodes(OutputFile& out, const MeshView& mesh) {
   const bool marked = mesh.has_point_labels();
-  out.put(fmt::format("{} 3 0 {}\n", mesh.point_count(), marked ? 1 : 0));
+  const Columns columns =
+      mesh.data() == nullptr ? Columns() : attributes_of(mesh.data()->point_data);
+  out.put(fmt::format("{} 3 {} {}\n", mesh.point_count(), width_of(columns), marked ? 1 : 0));
   put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
     buffer.put_integer(static_cast<std::int64_t>(i));
     for (int axis = 0; axis < 3; ++axis) {
       buffer.put(' ');
       buffer.put_real(mesh.point(i)[axis]);
     }
+    write_attributes(buffer, columns, i);
     if (marked) {
       buffer.put(' ');
       buffer.put_integer(mesh.point_label(i));
@@ -235,40 +319,78 @@ void write_nodes(OutputFile& out, const MeshView& mesh) {
   out.put(kLastLine);
 }
 
-template <class Element>
-void write_row(OutputBuffer& out, std::size_t number, const Element& element, bool with_label) {
+/// A row without its end.
+void write_numbers(OutputBuffer& out, std::size_t number, std::span<const std::uint32_t> vertices) {
   out.put_integer(static_cast<std::int64_t>(number));
-  for (const std::uint32_t vertex : element.vertices) {
+  for (const std::uint32_t vertex : vertices) {
     out.put(' ');
     out.put_integer(vertex);
   }
-  if (with_label) {
+}
+
+void write_end(OutputBuffer& out, const Label* label, const Columns& columns, std::size_t row) {
+  if (label != nullptr) {
     out.put(' ');
-    out.put_integer(element.label);
+    out.put_integer(*label);
   }
+  write_attributes(out, columns, row);
   out.put('\n');
 }
 
 void write_tets(OutputFile& out, const MeshView& mesh) {
   std::vector<MeshData::Tet> buffer;
-  bool labelled = false;
+  const Columns columns = mesh.data() == nullptr ? Columns() : attributes_of(mesh.data()->tet_data);
+  bool labelled = !columns.empty();  // they come behind the label
   for (std::size_t block = 0; block < mesh.tet_blocks() && !labelled; ++block) {
     const auto tets = mesh.tets(block, buffer);
     labelled = std::any_of(tets.begin(), tets.end(),
                            [](const MeshData::Tet& tet) { return tet.label != 0; });
   }
-  out.put(fmt::format("{} 4 {}\n", mesh.tet_count(), labelled ? 1 : 0));
+  out.put(fmt::format("{} 4 {}\n", mesh.tet_count(), width_of(columns) + (labelled ? 1 : 0)));
   put_tets(out, mesh, [&](std::size_t number, const MeshData::Tet& tet, OutputBuffer& rows) {
-    write_row(rows, number, tet, labelled);
+    write_numbers(rows, number, tet.vertices);
+    write_end(rows, labelled ? &tet.label : nullptr, columns, number);
   });
   out.put(kLastLine);
 }
 
+/// The elements of second order of a kind; null if there are none.
+const OtherElements* second_order(const MeshView& mesh, int vtk_type) {
+  if (mesh.data() == nullptr) return nullptr;
+  for (const OtherElements& others : mesh.data()->other_elements) {
+    if (others.vtk_type == vtk_type) return &others;
+  }
+  return nullptr;
+}
+
+void write_second_order_tets(OutputFile& out, const OtherElements& tets) {
+  const Columns columns = attributes_of(tets.data);
+  out.put(fmt::format("{} 10 {}\n", tets.labels.size(), 1 + width_of(columns)));
+  put_rows(out, tets.labels.size(), [&](std::size_t i, OutputBuffer& buffer) {
+    std::array<std::uint32_t, 10> row;
+    std::copy_n(&tets.vertices[10 * i], 4, row.begin());
+    for (std::size_t e = 0; e < 6; ++e) row[4 + kTetgenNodes[e]] = tets.vertices[10 * i + 4 + e];
+    write_numbers(buffer, i, row);
+    write_end(buffer, &tets.labels[i], columns, i);
+  });
+  out.put(kLastLine);
+}
+
+/// Of first order, or of second if the mesh is.
 template <class Element>
-void write_elements(OutputFile& out, std::span<const Element> elements) {
-  out.put(fmt::format("{} 1\n", elements.size()));
-  put_rows(out, elements.size(),
-           [&](std::size_t i, OutputBuffer& buffer) { write_row(buffer, i, elements[i], true); });
+void write_elements(OutputFile& out, std::span<const Element> elements,
+                    const OtherElements* second) {
+  const std::size_t count = second == nullptr ? elements.size() : second->labels.size();
+  out.put(fmt::format("{} 1\n", count));
+  put_rows(out, count, [&](std::size_t i, OutputBuffer& buffer) {
+    if (second == nullptr) {
+      write_numbers(buffer, i, elements[i].vertices);
+    } else {
+      const std::size_t width = second->vertex_count;
+      write_numbers(buffer, i, std::span(second->vertices).subspan(i * width, width));
+    }
+    write_end(buffer, second == nullptr ? &elements[i].label : &second->labels[i], {}, i);
+  });
   out.put(kLastLine);
 }
 
@@ -285,14 +407,18 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
   std::optional<OutputFile> edges;
   std::error_code ignored;
   const std::filesystem::path edge_file = sibling(node_or_ele, ".edge");
-  if (!mesh.edges().empty() || std::filesystem::exists(edge_file, ignored))
-    edges.emplace(edge_file);
+  const bool has_edges = !mesh.edges().empty() || second_order(mesh, 21) != nullptr;
+  if (has_edges || std::filesystem::exists(edge_file, ignored)) edges.emplace(edge_file);
 
   write_nodes(nodes, mesh);
-  write_tets(tets, mesh);
-  write_elements(faces, mesh.triangles());
+  if (const OtherElements* second = second_order(mesh, 24)) {
+    write_second_order_tets(tets, *second);
+  } else {
+    write_tets(tets, mesh);
+  }
+  write_elements(faces, mesh.triangles(), second_order(mesh, 22));
   if (edges) {
-    write_elements(*edges, mesh.edges());
+    write_elements(*edges, mesh.edges(), second_order(mesh, 21));
     edges->finish();
   }
   nodes.finish();

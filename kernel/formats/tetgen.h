@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
@@ -10,9 +11,12 @@
 
 namespace tetmend::formats {
 
+/// Names of the arrays that hold attributes of vertices and tets begin so; a number follows.
+inline constexpr std::string_view kTetgenArrays = "attribute";
+
 /// Reads `.node` and `.ele`, and `.face` and `.edge` where they exist beside them. Vertices count
 /// from 0 or 1, as the first line of `.node` has it. The first attribute of a tet is its label,
-/// rounded to an integer; boundary markers are the labels of vertices, triangles and edges; a
+/// rounded to an integer, the others are arrays; boundary markers are the labels of vertices, triangles and edges; a
 /// missing column is 0. @throws Error
 MeshData read_tetgen(const std::filesystem::path& node_or_ele, TetPlace* question = nullptr);
 

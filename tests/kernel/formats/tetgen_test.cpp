@@ -47,6 +47,38 @@ TEST_CASE("TetGen files that count from 1 with comments, attributes and markers 
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, -7}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 5}, {{3, 1, 2}, 6}});
   CHECK(mesh.edges == std::vector<MeshData::Edge>{{{2, 3}, 0}});
+  CHECK(mesh.point_data ==
+        std::vector<DataArray>{{"attribute1", 1, std::vector<double>{0.5, 0, 0, 0}},
+                               {"attribute2", 1, std::vector<double>{9, 0, 0, 0}}});
+  CHECK(mesh.tet_data == std::vector<DataArray>{{"attribute2", 1, std::vector<double>{0.25}}});
+  const TempFolder folder;
+  write_mesh(folder / "b.ele", mesh);
+  const MeshData again = read_mesh(folder / "b.node");
+  CHECK(again.point_data == mesh.point_data);
+  CHECK(again.tet_data == mesh.tet_data);
+  CHECK(again.tets == mesh.tets);
+}
+
+TEST_CASE("TetGen's order of the nodes of edges is that of its switch -o2") {
+  // Nodes 5 to 10 are in the middle of the edges 3-4, 1-4, 1-2, 2-3, 2-4 and 1-3.
+  const MeshData mesh = read({.node = "10 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n5 0 1 1\n"
+                                      "6 0 0 1\n7 1 0 0\n8 1 1 0\n9 1 0 1\n10 0 1 0\n",
+                              .ele = "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n",
+                              .face = "1 1\n1 1 3 2 10 8 7 4\n",
+                              .edge = "1 1\n1 1 2 7 -5\n"});
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}});
+  CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 2, 1}, 4}});
+  CHECK(mesh.edges == std::vector<MeshData::Edge>{{{0, 1}, -5}});
+  REQUIRE(mesh.mid_nodes.size() == 6);
+  for (const auto& [a, b, node] : mesh.mid_nodes) {
+    CHECK(mesh.points[node] == (mesh.points[a] + mesh.points[b]) / 2);
+  }
+  const TempFolder folder;
+  write_mesh(folder / "b.ele", mesh);
+  const MeshData again = read_mesh(folder / "b.node");
+  CHECK(again.mid_nodes == mesh.mid_nodes);
+  CHECK(again.triangles == mesh.triangles);
+  CHECK(again.edges == mesh.edges);
 }
 
 TEST_CASE("TetGen counts that are left out have their usual values") {
@@ -120,10 +152,14 @@ TEST_CASE("a bad TetGen file is refused with file, line, word and reason") {
       {"nan", {.node = "1 3 0 0\n0 0 0 nan\n"}, "a.node:2: ", "'nan' is not a finite number"},
       {"marker", {.node = "1 3 0 1\n0 0 0 0 1.5\n"}, "a.node:2: ", "'1.5' is not an integer"},
       {"cut", {.node = "1 3 0 0\n0 0 0 12"}, "a.node:2: ", "the file ends right behind '12'"},
-      {"second order",
-       {.ele = "1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n"},
+      {"third order",
+       {.ele = "1 20 0\n0 0 1 2 3 4 5 6 7 8 9\n"},
        "a.ele:1: ",
-       "tetrahedra with 10 vertices (second order)"},
+       "tetrahedra with 20 vertices cannot be read"},
+      {"no such node",
+       {.ele = "1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n"},
+       "a.ele:2: ",
+       "'4' is out of range"},
       {"index 4",
        {.ele = "1 4 0\n0 0 1 2 4\n"},
        "a.ele:2: ",
