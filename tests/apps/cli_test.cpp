@@ -503,11 +503,13 @@ TEST_CASE("converting there and back keeps points, elements and labels") {
       const std::string there = (folder / ("there" + std::string(format.extension))).string();
       const std::string back = (folder / "back.meshb").string();
       CHECK(run_program({"convert", asset(name), there}).status == 0);
-      // Decks sort triangles by tets; what is lost is the subject of the tests of formats.
-      if (format.extension == ".inp" || !not_written(there, original).empty()) continue;
+      // What is lost is the subject of the tests of formats. Decks sort triangles by tets, and SU2
+      // has no label for a mesh of one region.
+      const bool is_other = format.extension == ".inp" || format.extension == ".su2";
+      if (is_other || !not_written(there, original).empty()) continue;
       const Outcome outcome = run_program({"convert", there, back});
       CHECK(outcome.status == 0);
-      CHECK(outcome.err.empty());
+      CHECK(outcome.err.empty() == not_written(back, read_mesh(there)).empty());
       const MeshData mesh = read_mesh(back);
       CHECK(mesh.points == original.points);
       CHECK(mesh.tets == original.tets);
