@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "apps/facts.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tetmend/io.h>
+#include <tetmend/measure.h>
+
+#include "face/grouped.h"
+#include "kernel/curved.h"
+#include "kernel/exact_orientation.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/geometry.h"
+
+namespace tetmend::apps {
+
+using face::grouped;
+
+Fact at_least(std::string name, std::string_view what, double value, double wanted) {
+  return {std::move(name), value >= wanted,
+          fmt::format("{} {:.6g}, wanted at least {:.6g}", what, value, wanted), value, wanted};
+}
+Fact at_most(std::string name, std::string_view what, double value, double wanted) {
+  return {std::move(name), value <= wanted,
+          fmt::format("{} {:.6g}, wanted at most {:.6g}", what, value, wanted), value, wanted};
+}
+
+Fact no_inverted(const MeshData& mesh, std::size_t allowed) {
+  std::size_t count = 0;
+  std::optional<std::size_t> first;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& v = mesh.tets[t].vertices;
+    const auto point = [&](std::size_t k) { return mesh.points[v[k]]; };
+    if (exact_orientation(point(0), point(1), point(2), point(3)) > 0) continue;
+    if (count++ == 0) first = t;
+  }
+  std::string text = "no inverted or flat tet, in exact arithmetic";
+  if (first) {
+    text = fmt::format("{} inverted or flat {}, the first is tet {} (from 1)", grouped(count),
+                       count == 1 ? "tet" : "tets", *first + 1);
+    if (allowed > 0) text += fmt::format("; there were {}", grouped(allowed));
+  }
+  return {"inverted", count <= allowed, text, count, allowed};
+}
+
+namespace {
+
+using Bits = std::array<std::uint64_t, 3>;
+
+/// A triangle by the bits of its corners, whatever the numbers of its vertices, and what is on its
+/// two sides.
+struct Wall {
+  std::array<Bits, 3> corners{};
+  std::array<Label, 2> labels{};
+  bool is_boundary = true;
+  friend auto operator<=>(const Wall&, const Wall&) = default;
+};
+
+Bits bits_of(const Point& p) {
+  return {std::bit_cast<std::uint64_t>(p.x()), std::bit_cast<std::uint64_t>(p.y()),
+          std::bit_cast<std::uint64_t>(p.z())};
+}
+
+std::array<Bits, 3> corners_of(const MeshData& mesh, const std::array<std::uint32_t, 3>& vertices) {
+  std::array<Bits, 3> corners{};
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = bits_of(mesh.points[vertices[k]]);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+/// Faces with one tet, or with two of different labels.
+std::vector<Wall> walls_of(const MeshData& mesh) {
+  struct Face {
+    std::array<std::uint32_t, 3> vertices;
+    Label label;
+  };
+  std::vector<Face> faces;
+  faces.reserve(4 * mesh.tets.size());
+  for (const MeshData::Tet& tet : mesh.tets) {
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      Face face{{}, tet.label};
+      for (std::size_t k = 0; k < 3; ++k) face.vertices[k] = tet.vertices[k < left_out ? k : k + 1];
+      std::sort(face.vertices.begin(), face.vertices.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
+    return std::pair(a.vertices, a.label) < std::pair(b.vertices, b.label);
+  });
+  std::vector<Wall> walls;
+  for (std::size_t i = 0; i < faces.size();) {
+    const bool is_pair = i + 1 < faces.size() && faces[i + 1].vertices == faces[i].vertices;
+    const Label other = faces[is_pair ? i + 1 : i].label;
+    if (!is_pair || other != faces[i].label) {
+      walls.push_back({corners_of(mesh, faces[i].vertices), {faces[i].label, other}, !is_pair});
+    }
+    i += is_pair ? 2 : 1;
+  }
+  std::sort(walls.begin(), walls.end());
+  return walls;
+}
+
+std::vector<std::pair<std::array<Bits, 3>, Label>> named_triangles(const MeshData& mesh) {
+  std::vector<std::pair<std::array<Bits, 3>, Label>> triangles;
+  for (const MeshData::Triangle& triangle : mesh.triangles) {
+    triangles.emplace_back(corners_of(mesh, triangle.vertices), triangle.label);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+template <class T>
+std::size_t count_differences(const std::vector<T>& a, const std::vector<T>& b) {
+  std::vector<T> differing;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(),
+                                std::back_inserter(differing));
+  return differing.size();
+}
+
+template <class T>
+Fact same(std::string name, std::string_view what, const std::vector<T>& before,
+          const std::vector<T>& after) {
+  const std::size_t differing = count_differences(before, after);
+  const std::string text =
+      differing == 0
+          ? fmt::format("{}: the same {}, bit for bit", what, grouped(before.size()))
+          : fmt::format("{}: {} and {}, {} of them in one mesh only", what, grouped(before.size()),
+                        grouped(after.size()), grouped(differing));
+  return {std::move(name), differing == 0, text, differing, 0};
+}
+
+std::map<Label, double> volumes_of(const MeshData& mesh) {
+  std::map<Label, double> volumes;
+  for (const MeshData::Tet& tet : mesh.tets) {
+    const auto& v = tet.vertices;
+    volumes[tet.label] +=
+        volume6(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) / 6;
+  }
+  return volumes;
+}
+
+/// Volumes of inverted tets count as they are, so the sum over a region depends on its walls alone.
+std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after) {
+  constexpr double kRounding = 1e-9;
+  const std::map<Label, double> then = volumes_of(before);
+  const std::map<Label, double> now = volumes_of(after);
+  std::vector<Fact> facts;
+  for (const auto& [label, volume] : then) {
+    const auto found = now.find(label);
+    const double other = found == now.end() ? 0 : found->second;
+    const double change = std::abs(other - volume) / std::max(std::abs(volume), 1e-300);
+    facts.push_back({"volume", change <= kRounding,
+                     fmt::format("volume of label {}: {:.9g}, was {:.9g}", label, other, volume),
+                     other, volume});
+  }
+  for (const auto& [label, volume] : now) {
+    if (then.contains(label)) continue;
+    facts.push_back({"volume", false, fmt::format("label {} is new", label), volume, nullptr});
+  }
+  return facts;
+}
+
+/// Of edges that had to stay.
+std::vector<Bits> fixed_mid_nodes(const MeshData& mesh) {
+  const std::vector<bool> is_fixed = find_fixed_mid_nodes(mesh, true).is_fixed;
+  std::vector<Bits> nodes;
+  for (std::size_t i = 0; i < is_fixed.size(); ++i) {
+    if (is_fixed[i]) nodes.push_back(bits_of(mesh.points[mesh.mid_nodes[i][2]]));
+  }
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+void add_second_order(const CurvedStatistics& was, const CurvedStatistics& is,
+                      std::vector<Fact>& facts) {
+  facts.push_back(at_most("turned_over", "curved tets turned over",
+                          static_cast<double>(is.turned_over),
+                          static_cast<double>(was.turned_over)));
+  facts.push_back(at_least("jacobian_ratio", "worst Jacobian ratio at the nodes", is.worst.at_nodes,
+                           was.worst.at_nodes));
+  facts.push_back(at_least("jacobian_bound", "worst bound of a Jacobian ratio", is.worst.bound,
+                           was.worst.bound));
+}
+
+std::vector<std::string> group_names(const MeshData& mesh) {
+  std::vector<std::string> names;
+  for (const Group& group : mesh.groups) {
+    names.push_back(fmt::format("{} {} '{}'", group.dimension, group.number, group.name));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Numbers of the elements of a group, for one kind of element.
+template <class Element>
+std::vector<std::size_t> members_of(const Group& group, const std::vector<Element>& elements,
+                                    const std::vector<Label>& parts) {
+  std::vector<std::size_t> members(group.members.begin(), group.members.end());
+  if (!members.empty()) return members;
+  const bool by_part = !group.parts.empty();
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const bool is_in = by_part ? !parts.empty() && std::find(group.parts.begin(), group.parts.end(),
+                                                             parts[i]) != group.parts.end()
+                               : elements[i].label == group.number;
+    if (is_in) members.push_back(i);
+  }
+  return members;
+}
+
+/// What a named group has: its triangles or edges by their corners, or the volume of its tets.
+struct GroupContent {
+  std::vector<std::vector<Bits>> elements;
+  double volume = 0;
+};
+std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh) {
+  std::map<std::string, GroupContent> contents;
+  for (const Group& group : mesh.groups) {
+    if (group.name.empty() || group.dimension == 0) continue;
+    GroupContent& content = contents[fmt::format("{} '{}'", group.dimension, group.name)];
+    const auto add = [&](const auto& element) {
+      std::vector<Bits>& corners = content.elements.emplace_back();
+      for (const std::uint32_t v : element.vertices) corners.push_back(bits_of(mesh.points[v]));
+      std::sort(corners.begin(), corners.end());
+    };
+    if (group.dimension == 1) {
+      for (const std::size_t i : members_of(group, mesh.edges, mesh.edge_parts)) add(mesh.edges[i]);
+    } else if (group.dimension == 2) {
+      for (const std::size_t i : members_of(group, mesh.triangles, mesh.triangle_parts)) {
+        add(mesh.triangles[i]);
+      }
+    } else {
+      for (const std::size_t i : members_of(group, mesh.tets, mesh.tet_parts)) {
+        const auto& v = mesh.tets[i].vertices;
+        content.volume +=
+            volume6(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) / 6;
+      }
+    }
+    std::sort(content.elements.begin(), content.elements.end());
+  }
+  return contents;
+}
+
+/// One fact for all groups, which names the first that differs.
+Fact same_groups(const MeshData& before, const MeshData& after) {
+  constexpr double kRounding = 1e-9;
+  const auto then = contents_of_groups(before);
+  const auto now = contents_of_groups(after);
+  std::string first;
+  std::size_t differing = 0;
+  for (const auto& [name, content] : then) {
+    const auto found = now.find(name);
+    if (found == now.end()) continue;  // named elsewhere
+    const double change = std::abs(found->second.volume - content.volume);
+    if (found->second.elements == content.elements &&
+        change <= kRounding * std::abs(content.volume)) {
+      continue;
+    }
+    if (differing++ == 0) first = name;
+  }
+  const std::string text =
+      differing == 0
+          ? fmt::format("triangles, edges and volumes of {} named groups: the same",
+                        grouped(then.size()))
+          : fmt::format("{} groups have other triangles, edges or volumes, the first is {}",
+                        grouped(differing), first);
+  return {"group_contents", differing == 0, text, differing, 0};
+}
+
+}  // namespace
+
+std::vector<Fact> compare_meshes(const std::filesystem::path& file,
+                                 const std::filesystem::path& improved, int threads) {
+  const MeshData before = read_mesh(file);
+  const MeshData after = read_mesh(improved);
+  std::vector<Wall> then = walls_of(before);
+  std::vector<Wall> now = walls_of(after);
+  const auto split = [](std::vector<Wall>& walls) {
+    const auto middle = std::stable_partition(walls.begin(), walls.end(),
+                                              [](const Wall& wall) { return wall.is_boundary; });
+    std::vector<Wall> inner(middle, walls.end());
+    walls.erase(middle, walls.end());
+    return inner;
+  };
+  const std::vector<Wall> inner_then = split(then);
+  const std::vector<Wall> inner_now = split(now);
+  std::vector<Fact> facts;
+  facts.push_back(same("surface", "triangles of the surface", then, now));
+  facts.push_back(same("walls", "faces between two labels", inner_then, inner_now));
+  facts.push_back(same("triangles", "named triangles with labels", named_triangles(before),
+                       named_triangles(after)));
+  facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
+  facts.push_back(same_groups(before, after));
+  for (Fact& fact : same_volumes(before, after)) facts.push_back(std::move(fact));
+  facts.push_back(no_inverted(after, no_inverted(before).value.get<std::size_t>()));
+  if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
+    facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
+                         fixed_mid_nodes(after)));
+  }
+  const MeasureOptions wanted = {.threads = threads};
+  const Measurement first = measure(load(file, threads), wanted);
+  const Measurement second = measure(load(improved, threads), wanted);
+  if (first.curved && second.curved) add_second_order(*first.curved, *second.curved, facts);
+  const MeshStatistics& was = first.statistics;
+  const MeshStatistics& is = second.statistics;
+  facts.push_back(at_least("theta_min", "smallest dihedral angle", is.theta_min, was.theta_min));
+  facts.push_back(at_most("theta_max", "largest dihedral angle", is.theta_max,
+                          std::max(was.theta_max, Goal().max_angle)));
+  facts.push_back(
+      at_most("n_bad", "bad tets", static_cast<double>(is.n_bad), static_cast<double>(was.n_bad)));
+  return facts;
+}
+
+}  // namespace tetmend::apps
