@@ -7,9 +7,11 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "contract/zoo.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/quality.h"
 #include "tests/apps/program.h"
+#include "tests/support/second_order.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
@@ -108,6 +110,40 @@ TEST_CASE("bad tets are listed, and written as a mesh of their own") {
   const Outcome text = run_program({"quality", file, "--list", "3"});
   CHECK(contains(text.out, "the worst 3"));
   CHECK(run_program({"quality", file, "--list", "0"}).status == 2);
+}
+
+TEST_CASE("check finds what has left a group, and a moved mid-side node") {
+  const TempFolder folder;
+  MeshData mesh = second_order(contract::kuhn_cube(2, 0.1, 1), 0.1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.tet_parts.push_back(t % 2 == 0 ? 1 : 2);
+  const auto& v = mesh.tets[0].vertices;
+  mesh.triangles = {{{v[0], v[1], v[2]}, 4}, {{v[1], v[2], v[3]}, 4}};
+  mesh.triangle_parts = {7, 8};
+  mesh.groups = {{3, 1, "steel", {1}, {}}, {2, 2, "inlet", {7}, {}}};
+  const std::string file = (folder / "a.msh").string();
+  const std::string other = (folder / "b.msh").string();
+  const auto verdict = [&](const MeshData& changed) {
+    write_mesh(other, changed);
+    const Outcome outcome = run_program({"check", file, other, "--json"});
+    std::string failing;
+    const auto json = nlohmann::json::parse(outcome.out);
+    for (const auto& fact : json["facts"]) {
+      if (!fact["holds"]) failing += fact["name"].get<std::string>() + " ";
+    }
+    CHECK(outcome.status == (failing.empty() ? 0 : 3));
+    return failing;
+  };
+  write_mesh(file, mesh);
+  CHECK(verdict(mesh) == "");
+  MeshData changed = mesh;
+  changed.tet_parts[0] = 2;
+  CHECK(contains(verdict(changed), "group_contents "));
+  changed = mesh;
+  changed.triangle_parts[1] = 7;
+  CHECK(contains(verdict(changed), "group_contents "));
+  changed = mesh;
+  changed.points[mesh.mid_nodes.front()[2]] += Point(0, 0, 1e-9);
+  CHECK(contains(verdict(changed), "mid_nodes"));
 }
 
 TEST_CASE("the integral of an array of the tets stays when it is asked for") {
