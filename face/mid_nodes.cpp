@@ -14,19 +14,22 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-/// Each once, ascending.
-std::vector<Edge> edges_of(const MeshData& data) {
-  std::vector<Edge> edges;
-  edges.reserve(6 * data.tets.size());
-  for (const MeshData::Tet& tet : data.tets) {
-    for (const auto& [i, j] : kMidNodeEdges) {
-      edges.push_back(
-          {std::min(tet.vertices[i], tet.vertices[j]), std::max(tet.vertices[i], tet.vertices[j])});
+template <class Elements>
+void append_edges(const Elements& elements, std::vector<Edge>& edges) {
+  for (const auto& element : elements) {
+    const std::size_t n = element.vertices.size();
+    for (std::size_t e = 0; e < n * (n - 1) / 2; ++e) {
+      const std::uint32_t a = element.vertices[kMidNodeEdges[e][0]];
+      const std::uint32_t b = element.vertices[kMidNodeEdges[e][1]];
+      edges.push_back({std::min(a, b), std::max(a, b)});
     }
   }
+}
+
+/// Each once, ascending.
+void make_list(std::vector<Edge>& edges) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
 }
 
 class Renewal {
@@ -34,12 +37,21 @@ class Renewal {
   Renewal(const MeshData& before, std::vector<std::uint32_t>& vertex_map, MeshData& now)
       : before_(before), vertex_map_(vertex_map), now_(now), is_used_(now.points.size(), true) {
     for (const auto& mid : before.mid_nodes) is_used_[vertex_map[mid[2]]] = false;
+    for (const OtherElements& others : before.other_elements) {
+      for (const std::uint32_t v : others.vertices) is_used_[vertex_map[v]] = true;
+    }
   }
 
   void run() {
-    const std::vector<Edge> edges = edges_of(now_);
-    keep_old(edges);
-    for (const Edge& edge : edges) {
+    std::vector<Edge> of_tets;
+    append_edges(now_.tets, of_tets);
+    make_list(of_tets);
+    std::vector<Edge> all = of_tets;
+    append_edges(now_.triangles, all);
+    append_edges(now_.edges, all);
+    make_list(all);
+    keep_old(all);
+    for (const Edge& edge : of_tets) {
       if (!std::binary_search(kept_.begin(), kept_.end(), edge)) add(edge);
     }
     drop_unused();

@@ -2,8 +2,12 @@
 #include "viewer/document.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
@@ -32,6 +36,22 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
   }
 }
 
+/// What a file holds that the mesh in the window does not: "2 arrays, 3 groups"; empty: nothing.
+std::string named_beside(const MeshData& data) {
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t count, std::string_view what) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
+  };
+  add(data.point_data.size() + data.tet_data.size() + data.triangle_data.size() +
+          data.edge_data.size(),
+      "arrays");
+  add(data.groups.size(), "groups");
+  add(data.other_elements.size(), "kinds of other elements");
+  add(data.mid_nodes.size(), "mid-side nodes as such");
+  add(data.deck.size(), "pieces of a deck");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 }  // namespace
 
 void Document::resize(const Canvas& size) {
@@ -42,12 +62,15 @@ void Document::resize(const Canvas& size) {
 
 void Document::open(const std::filesystem::path& file) {
   if (is_trace(file)) return open_trace(file);
-  TetMesh read = read_tet_mesh(file);
+  MeshData data = read_mesh(file);
+  const std::string beside = named_beside(data);
+  TetMesh read = build_tet_mesh(file, std::move(data));
   read.set_standard(standard_);
   MeasuredMesh mesh(std::move(read));
   live.forget();
   followed_ = LiveState::idle;
   set_mesh(std::move(mesh), file.string());
+  not_saved_ = beside;
 }
 
 void Document::open_trace(const std::filesystem::path& file) {
@@ -70,7 +93,9 @@ void Document::open_trace(const std::filesystem::path& file) {
 
 void Document::save(const std::filesystem::path& file) {
   write_mesh(file, MeshView(mesh_));
-  message = {"wrote " + file.string(), false};
+  const bool is_whole = not_saved_.empty();
+  message = {fmt::format("wrote {}{}", file.string(), is_whole ? "" : ", without " + not_saved_),
+             !is_whole};
 }
 
 void Document::set_mesh(TetMesh mesh, const std::string& name) {
@@ -79,6 +104,7 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   debugger_.reset();
+  not_saved_.clear();
   marks_ = {};
   near_.clear();
   const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);

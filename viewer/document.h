@@ -136,6 +136,7 @@ class Document {
   TetMesh mesh_;
   Standard standard_ = Standard(Goal{});
   std::string file_;
+  std::string not_saved_;  // what the file holds beside its mesh
   Ball ball_;
   std::array<glm::dvec3, 8> box_{};  // corners of the box around the mesh
   MeshStatistics statistics_;

@@ -36,6 +36,22 @@ TEST_CASE("a file that cannot be opened leaves everything as it was") {
   CHECK(s.document.file() == "test.mesh");
 }
 
+TEST_CASE("saving says what of the file is not in the window") {
+  const test::TempFolder folder;
+  MeshData mesh = test::kuhn_cube(2, 0.1, 1);
+  write_mesh(folder / "plain.vtu", mesh);
+  mesh.point_data = {{"heat", 1, std::vector<double>(mesh.points.size(), 1.0)}};
+  write_mesh(folder / "a.vtu", mesh);
+  TestSession s(test::one_tet());
+  s.document.open(folder / "a.vtu");
+  s.document.save(folder / "b.vtu");
+  CHECK(s.document.message.text.ends_with(", without 1 arrays"));
+  CHECK(s.document.message.is_error);
+  s.document.open(folder / "plain.vtu");
+  s.document.save(folder / "b.vtu");
+  CHECK_FALSE(s.document.message.is_error);
+}
+
 TEST_CASE("the list of the worst leads from tet to tet, and around") {
   TestSession s(test::delaunay_ball(100, 1));
   const auto worst = s.document.worst();
