@@ -136,7 +136,7 @@ void add_quality(CLI::App& app, Invocation& invocation) {
       ->add_option("--list", options->list,
                    "Name the worst N bad tets: number, region, centre,\nangles and why they resist")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}).description(""));
   command
       ->add_option("--cells", options->cells,
                    "Write the bad tets as a mesh of their own, with these\nfigures as arrays")

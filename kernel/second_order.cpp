@@ -265,14 +265,14 @@ void take_second_order(MeshData& mesh) {
   }
 }
 
-MeshData with_second_order(const MeshData& mesh, bool has_marks) {
+MeshData with_second_order(const MeshData& mesh, bool has_marks, bool has_edges) {
   MeshData made = mesh;
   if (!has_marks) made.groups.clear();
   const MidNodes mid_nodes(mesh.mid_nodes);
   const std::vector<bool> none(mesh.tets.size(), false);
   give(made, mid_nodes, 24, none, tets_of(made));
   give(made, mid_nodes, 22, marked(made, 2, mesh.triangles.size()), triangles_of(made));
-  give(made, mid_nodes, 21, marked(made, 1, mesh.edges.size()), edges_of(made));
+  if (has_edges) give(made, mid_nodes, 21, marked(made, 1, mesh.edges.size()), edges_of(made));
   made.mid_nodes.clear();
   return made;
 }

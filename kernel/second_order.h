@@ -63,8 +63,9 @@ std::vector<std::uint32_t> MidNodes::of(const std::array<std::uint32_t, N>& vert
 void take_second_order(MeshData& mesh);
 
 /// The other way round: what writers print. Elements that a group names one by one stay of first
-/// order: they are marks. Without `has_marks` groups mean nothing. Cost: copies the mesh.
-MeshData with_second_order(const MeshData& mesh, bool has_marks = true);
+/// order: they are marks. Without `has_marks` groups mean nothing;
+/// without `has_edges` edges stay of first order. Cost: copies the mesh.
+MeshData with_second_order(const MeshData& mesh, bool has_marks = true, bool has_edges = true);
 
 /// The mesh without its mid-side nodes, for formats that have none. Cost: copies the mesh.
 MeshData without_mid_nodes(const MeshData& mesh);

@@ -79,14 +79,39 @@ std::optional<std::size_t> find_known_name(const std::vector<DataArray>& arrays)
   return best;
 }
 
-std::optional<std::size_t> find_only_integers(const std::vector<DataArray>& arrays) {
-  std::optional<std::size_t> only;
-  for (std::size_t i = 0; i < arrays.size(); ++i) {
-    if (arrays[i].components != 1 || !is_integral(arrays[i])) continue;
-    if (only) return std::nullopt;
-    only = i;
+/// Arrays whose name says nothing, but whose numbers could be labels: integers before others.
+std::vector<std::size_t> find_candidates(const std::vector<DataArray>& arrays) {
+  std::vector<std::size_t> found;
+  for (const bool integers : {true, false}) {
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+      if (arrays[i].components != 1 || is_integral(arrays[i]) != integers) continue;
+      if (!has_fractions(arrays[i]) && looks_like_labels(arrays[i])) found.push_back(i);
+    }
   }
-  return only && looks_like_labels(arrays[*only]) ? only : std::nullopt;
+  return found;
+}
+
+/// The array of labels, if only one can be meant; else which might be is noted.
+std::optional<std::size_t> guess_labels(const std::vector<DataArray>& arrays, MeshData& mesh) {
+  std::vector<std::size_t> candidates = find_candidates(arrays);
+  const auto is_number = [&](std::size_t i) { return is_integral(arrays[i]); };
+  const auto integers = std::count_if(candidates.begin(), candidates.end(), is_number);
+  if (integers == 1) return candidates.front();
+  // One value for all tells nothing apart.
+  std::erase_if(candidates, [&](std::size_t i) {
+    for (std::size_t k = 1; k < arrays[i].size(); ++k) {
+      if (real_value(arrays[i], k) != real_value(arrays[i], 0)) return false;
+    }
+    return true;
+  });
+  if (candidates.empty()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const std::size_t i : candidates) names.push_back(fmt::format("'{}'", arrays[i].name));
+  mesh.notes.push_back(fmt::format(
+      "no array has the name of labels, so regions are not told apart: {} might hold them; "
+      "--label-array NAME says which, 'none' that none does",
+      fmt::join(names, ", ")));
+  return std::nullopt;
 }
 
 std::size_t find_wanted(const std::vector<DataArray>& arrays, const std::string& name) {
@@ -156,10 +181,12 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
                        const LabelChoice& choice) {
   std::optional<std::size_t> which;
   if (!choice.wanted.empty()) {
-    which = find_wanted(arrays, choice.wanted);
+    const auto is_wanted = [&](const DataArray& array) { return array.name == choice.wanted; };
+    const bool is_there = std::any_of(arrays.begin(), arrays.end(), is_wanted);
+    if (choice.wanted != "none" || is_there) which = find_wanted(arrays, choice.wanted);
   } else {
     which = find_known_name(arrays);
-    if (!which) which = find_only_integers(arrays);
+    if (!which) which = guess_labels(arrays, mesh);
   }
   if (which) {
     const std::vector<Label> labels = to_labels(arrays, *which, choice.fail);

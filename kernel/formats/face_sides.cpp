@@ -100,8 +100,7 @@ class Finder {
       for (auto at = begin; at != end; ++at) {
         const auto [k, surface] = at->second;
         FaceSides& sides = sides_[k][surface];
-        const bool is_behind =
-            same_sense(corners, corners_of(*surfaces_[k], surface)) == outwards;
+        const bool is_behind = same_sense(corners, corners_of(*surfaces_[k], surface)) == outwards;
         (is_behind ? sides.behind : sides.front) = number;
       }
     }

@@ -24,6 +24,9 @@ MeshData read_inp(const std::filesystem::path& file, TetPlace* question);
 /// for each group of triangles.
 void write_inp(const std::filesystem::path& file, const MeshView& mesh);
 
+/// A name that decks take as it is.
+bool is_inp_name(std::string_view name);
+
 /// What a deck cannot hold of a mesh, one sentence each.
 std::vector<std::string> not_in_inp(const std::filesystem::path& file, const MeshData& mesh);
 

@@ -65,6 +65,11 @@ bool is_tet(const InpKind& kind) {
 
 }  // namespace
 
+bool is_inp_name(std::string_view name) {
+  std::map<std::string, int> none;
+  return inp_name(name, none) == name;
+}
+
 std::string inp_name(std::string_view name, std::map<std::string, int>& taken) {
   constexpr std::size_t kLongest = 70;
   std::string valid;

@@ -82,6 +82,8 @@ constexpr Room kInpRoom = {.groups = true,
                            .others = true,
                            .required_vertices = true,
                            .second_order = true,
+                           .second_order_edges = false,
+                           .takes_name = formats::is_inp_name,
                            .deck = formats::kInp};
 constexpr Room kSu2Room = {.others = true,
                            .second_order = true,
@@ -90,12 +92,14 @@ constexpr Room kSu2Room = {.others = true,
                            .edges = false,
                            .holds = formats::su2_holds,
                            .named_labels = formats::kNamesOfTriangles,
+                           .takes_name = formats::is_word,
                            .deck = formats::kSu2};
 constexpr Room kNetgenRoom = {.others = true,
                               .second_order = true,
                               .point_labels = false,
                               .holds = formats::netgen_holds,
                               .named_labels = formats::kAllNames,
+                              .takes_name = formats::is_word,
                               .periodic = true,
                               .own_arrays = "netgen:",
                               .deck = formats::kNetgen};
@@ -110,7 +114,8 @@ constexpr Room kElmerRoom = {.others = true,
                              .second_order = true,
                              .point_labels = false,
                              .holds = formats::elmer_holds,
-                             .named_labels = formats::kNamesOfElements};
+                             .named_labels = formats::kNamesOfElements,
+                             .takes_name = formats::is_word};
 
 // In the order of formats_table.
 constexpr std::array<Codec, 13> kCodecs = {
@@ -207,7 +212,8 @@ void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
   if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
   const formats::Room& room = codec.room;
   const bool has_marks = room.groups || room.marks || room.named_labels != 0;
-  const MeshData as_held = room.second_order ? with_second_order(*mesh.data(), has_marks)
+  const bool has_edges = room.second_order_edges || room.deck == mesh.data()->variant;
+  const MeshData as_held = room.second_order ? with_second_order(*mesh.data(), has_marks, has_edges)
                                              : without_mid_nodes(*mesh.data());
   MeshView view(as_held);
   view.set_variant(mesh.variant());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -377,13 +378,18 @@ class Writer {
     for (const auto& [label, group] : names) last = label <= kGreatestNamed ? label : last;
     if (last < 1) return;
     out_.put(fmt::format("\n{}\n{}\n", section, last));
+    std::set<std::string> taken;
     for (Label label = 1; label <= last; ++label) {
       const auto found = names.find(label);
       std::string name = found == names.end() ? "default" : found->second->name;
       for (char& c : name) {
         if (c == '#' || static_cast<unsigned char>(c) <= ' ') c = '_';
       }
-      out_.put(fmt::format("{} {}\n", label, name));
+      std::string unique = name;
+      for (int i = 2; found != names.end() && !taken.insert(unique).second; ++i) {
+        unique = fmt::format("{}_{}", name, i);
+      }
+      out_.put(fmt::format("{} {}\n", label, unique));
     }
   }
 

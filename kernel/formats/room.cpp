@@ -71,25 +71,53 @@ bool is_medits(const Group& group) {
                      [&](const MeditMark& mark) { return mark.section == group.name; });
 }
 
-/// Groups with a name; one without is a label.
-std::size_t lost_groups(const MeshData& mesh, const Room& room) {
-  std::set<const Group*> kept;
+/// Groups with a name, which the format keeps; one without is a label.
+std::vector<const Group*> kept_groups(const MeshData& mesh, const Room& room) {
+  std::set<const Group*> whole;
   if (room.named_labels != 0 && !mesh.groups.empty()) {
     const LabelNames names(mesh);
     for (int dimension = 1; dimension < 4; ++dimension) {
       if ((room.named_labels >> dimension & 1U) == 0) continue;
-      for (const auto& [label, group] : names.named(dimension)) kept.insert(group);
+      for (const auto& [label, group] : names.named(dimension)) whole.insert(group);
     }
   }
   const bool keeps_points = (room.named_labels & 1U) != 0;
-  const auto is_lost = [&](const Group& group) {
-    if (keeps_points && group.dimension == 0 && group.number > 0) return false;
-    return !group.name.empty() && !(room.marks && is_medits(group)) && !kept.contains(&group);
-  };
-  return static_cast<std::size_t>(std::count_if(mesh.groups.begin(), mesh.groups.end(), is_lost));
+  std::vector<const Group*> kept;
+  for (const Group& group : mesh.groups) {
+    if (group.name.empty()) continue;
+    const bool is_point_group = keeps_points && group.dimension == 0 && group.number > 0;
+    if (room.groups || is_point_group || (room.marks && is_medits(group)) ||
+        whole.contains(&group)) {
+      kept.push_back(&group);
+    }
+  }
+  return kept;
+}
+
+/// Groups that are lost, and names that the writer has to change.
+void note_groups(const Room& room, const MeshData& mesh, LostNotes& notes) {
+  const std::vector<const Group*> kept = kept_groups(mesh, room);
+  const auto named = std::count_if(mesh.groups.begin(), mesh.groups.end(),
+                                   [](const Group& group) { return !group.name.empty(); });
+  notes.lost(false, static_cast<std::size_t>(named) - kept.size(), "groups, with their names, are");
+  const bool is_own = !room.deck.empty() && room.deck == mesh.variant;  // its names are good
+  if (room.takes_name == nullptr || is_own) return;
+  const auto is_changed = [&](const Group* group) { return !room.takes_name(group->name); };
+  const auto first = std::find_if(kept.begin(), kept.end(), is_changed);
+  if (first == kept.end()) return;
+  notes.sentences.push_back(
+      fmt::format("names of groups are not kept as they are: {} has other rules for {} of them, "
+                  "the first is '{}'",
+                  notes.extension, std::count_if(first, kept.end(), is_changed), (*first)->name));
 }
 
 }  // namespace
+
+bool is_word(std::string_view name) {
+  return !name.empty() && std::none_of(name.begin(), name.end(), [](char c) {
+    return c == '#' || c == '%' || c == '=' || static_cast<unsigned char>(c) <= ' ';
+  });
+}
 
 std::vector<std::string> lost_in(const Room& room, const std::string& extension,
                                  const MeshData& mesh) {
@@ -113,7 +141,7 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.tet_labels, several_labels(mesh.tets), "labels of tets are");
   notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
   notes.lost(room.point_labels, several_labels(mesh), "labels of points are");
-  notes.lost(room.groups, lost_groups(mesh, room), "groups, with their names, are");
+  note_groups(room, mesh, notes);
   notes.lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
   notes.lost(room.groups || room.periodic, mesh.periodic.size(), "periodic links are");
   notes.lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");

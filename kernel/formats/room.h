@@ -16,8 +16,9 @@ struct Room {
   bool groups = false;  ///< with names and parts, entities and periodic links
   bool others = false;  ///< elements of other kinds
   bool required_vertices = false;
-  bool second_order = false;  ///< as elements of other kinds
-  bool marks = false;         ///< groups of the names of kMeditMarks, and kMeditVectors
+  bool second_order = false;       ///< as elements of other kinds
+  bool second_order_edges = true;  ///< else only in a mesh with a deck of the format
+  bool marks = false;              ///< groups of the names of kMeditMarks, and kMeditVectors
   bool point_labels = true;
   bool tet_labels = true;
   bool edges = true;
@@ -25,6 +26,8 @@ struct Room {
   bool (*holds)(int vtk_type) = nullptr;
   /// Dimensions of groups whose names it keeps if they have all elements of a label: 1 << 2.
   unsigned named_labels = 0;
+  /// Which names it takes as they are; null: all.
+  bool (*takes_name)(std::string_view name) = nullptr;
   bool periodic = false;
   bool low_labels = true;  ///< below 1
   /// Arrays whose names begin so are its own.
@@ -36,6 +39,9 @@ struct Room {
 inline constexpr unsigned kNamesOfTriangles = 1U << 2;
 inline constexpr unsigned kNamesOfElements = 14;
 inline constexpr unsigned kAllNames = 15;
+
+/// A name of one word without signs that open comments or values.
+bool is_word(std::string_view name);
 
 /// What of `mesh` is lost, one sentence each. `extension` is what the sentences call the format.
 std::vector<std::string> lost_in(const Room& room, const std::string& extension,

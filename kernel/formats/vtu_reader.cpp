@@ -124,6 +124,10 @@ class Reader {
       text += "</AppendedData></VTKFile>";
       result = document_.load_buffer(text.data(), text.size());
     }
+    const std::size_t first = all.find_first_not_of(" \t\r\n");
+    if (!result && (first == std::string_view::npos || all[first] != '<')) {
+      file_.fail_at_line(file_.begin(), "this is not the beginning of a VTK XML file: expected <");
+    }
     if (!result) {
       const auto at = std::min<std::size_t>(static_cast<std::size_t>(result.offset), all.size());
       file_.fail_at_line(file_.begin() + at,
@@ -292,6 +296,10 @@ class Reader {
           node.attribute("NumberOfComponents") ? count(node, "NumberOfComponents") : 1;
       if (components == 0) continue;
       DataArray made{name, components, read_values(node, rows, components)};
+      if (has_wrapped(node, made)) {
+        note(fmt::format("the array '{}' is not kept: it has numbers above {}", name, INT64_MAX));
+        continue;
+      }
       const auto same = std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& other) {
         return other.name == name && other.components == components;
       });
@@ -325,6 +333,14 @@ class Reader {
               more.values);
         },
         array.values);
+  }
+
+  /// Integers are kept with a sign: greater ones would come out below 0.
+  static bool has_wrapped(const pugi::xml_node& node, const DataArray& array) {
+    if (std::string_view(node.attribute("type").as_string()) != "UInt64") return false;
+    const auto* values = std::get_if<std::vector<std::int64_t>>(&array.values);
+    return values != nullptr && std::any_of(values->begin(), values->end(),
+                                            [](std::int64_t value) { return value < 0; });
   }
 
   void note(std::string text) { mesh_.notes.push_back(std::move(text)); }
@@ -399,6 +415,10 @@ class Reader {
       return parse_as<double>(node, size);
     }
     if (is_narrow(type)) return parse_as<std::int32_t>(node, size);
+    if (type.kind == Kind::unsigned_integer && type.size == 8) {
+      const std::vector<std::uint64_t> values = parse_as<std::uint64_t>(node, size);
+      return std::vector<std::int64_t>(values.begin(), values.end());  // see has_wrapped()
+    }
     return parse_as<std::int64_t>(node, size);
   }
 

@@ -114,8 +114,12 @@ class Writer {
 
   void write_cell_data() {
     out_.put("<CellData>\n");
-    write_array(rest_.label_array.empty() ? "CellEntityIds" : rest_.label_array, "Int32", 1,
-                bytes_of(labels_));
+    const bool tell_apart =
+        std::any_of(labels_.begin(), labels_.end(), [](Label l) { return l != 0; });
+    if (tell_apart || !rest_.label_array.empty()) {
+      write_array(rest_.label_array.empty() ? "CellEntityIds" : rest_.label_array, "Int32", 1,
+                  bytes_of(labels_));
+    }
     for (const DataArray& array : join_cell_arrays(rest_)) write_array(array);
     out_.put("</CellData>\n");
   }

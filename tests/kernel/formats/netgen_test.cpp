@@ -205,7 +205,16 @@ TEST_CASE("labels without a name are default for Netgen, and names are words") {
   CHECK(read_mesh(folder / "a.vol").groups == std::vector<Group>{{2, 7, "outer_wall", {}, {}}});
   CHECK(not_written(folder / "a.vol", mesh) ==
         std::vector<std::string>{
-            "1 groups, with their names, are not kept: .vol has no place for them"});
+            "1 groups, with their names, are not kept: .vol has no place for them",
+            "names of groups are not kept as they are: .vol has other rules for 1 of them, the "
+            "first is 'outer wall'"});
+  // Two names may become one word.
+  mesh.groups.push_back({2, 8, "outer_wall", {}, {}});
+  mesh.triangles[0].label = 8;
+  mesh.triangles[1].label = 7;
+  write_mesh(folder / "b.vol", mesh);
+  CHECK(test::read_text(folder / "b.vol").find("7 outer_wall\n8 outer_wall_2\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("older lists of edges are read from a file of Netgen with a note") {

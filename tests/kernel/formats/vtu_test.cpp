@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contract/zoo.h"
 #include "kernel/formats/base64.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/output_file.h"
@@ -77,6 +78,53 @@ TEST_CASE("the pieces of a VTK XML file become one mesh") {
         std::vector<std::string>{"the array 'q' is not kept: not every piece has it"});
 }
 
+TEST_CASE("labels are guessed from the only array that could hold them, else asked for") {
+  const TempFolder folder;
+  MeshData mesh = contract::kuhn_cube(2, 0, 1);
+  std::vector<std::int32_t> region, id, owner;
+  std::vector<double> zone;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    region.push_back(t % 2 == 0 ? 5 : 6);
+    owner.push_back(t % 3 == 0 ? 1 : 2);
+    zone.push_back(t % 2 == 0 ? 1 : 2);
+    id.push_back(static_cast<std::int32_t>(1000 + t));
+  }
+  const auto read_with = [&](std::vector<DataArray> arrays, const std::string& wanted) {
+    mesh.tet_data = std::move(arrays);
+    write_mesh(folder / "a.vtu", mesh);
+    return read_mesh(folder / "a.vtu", wanted);
+  };
+  const MeshData one = read_with({{"id", 1, id}, {"my_region", 1, region}}, "");
+  CHECK(one.label_array == "my_region");
+  CHECK(one.tets[0].label == 5);
+  CHECK(one.notes.empty());
+  const MeshData two = read_with({{"owner", 1, owner}, {"my_region", 1, region}}, "");
+  CHECK(two.label_array.empty());
+  REQUIRE(two.notes.size() == 1);
+  CHECK(two.notes[0].find("'owner', 'my_region' might hold them") != std::string::npos);
+  CHECK(read_with({{"zone", 1, zone}}, "").notes.size() == 1);
+  CHECK(read_with({{"zone", 1, zone}}, "zone").tets[1].label == 2);
+  CHECK(read_with({{"zone", 1, zone}}, "none").notes.empty());
+  // Without labels there is no array of them.
+  CHECK(read_text(folder / "a.vtu").find("CellEntityIds") == std::string::npos);
+}
+
+TEST_CASE("an array with integers of 64 bits and no sign is noted if they are too great") {
+  const TempFolder folder;
+  const std::string text = R"(<VTKFile type="UnstructuredGrid"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3">
+0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>
+<DataArray type="Int64" Name="connectivity">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets">4</DataArray><DataArray type="UInt8" Name="types">10</DataArray></Cells>
+<PointData><DataArray type="UInt64" Name="id">1 2 3 18446744073709551613</DataArray></PointData>
+</Piece></UnstructuredGrid></VTKFile>)";
+  write_text(folder / "a.vtu", text);
+  const MeshData mesh = read_mesh(folder / "a.vtu");
+  CHECK(mesh.point_data.empty());
+  REQUIRE(mesh.notes.size() == 1);
+  CHECK(mesh.notes[0].find("'id' is not kept") != std::string::npos);
+}
+
 TEST_CASE("a bad VTK XML file is refused with line and reason") {
   const std::string good = kOpening + piece("") + kEnd;
   CHECK(read(good).tets.size() == 1);
@@ -88,7 +136,7 @@ TEST_CASE("a bad VTK XML file is refused with line and reason") {
                     "0 0 0 1 0 0 0 1 0 0.25 0 1", data);
   };
   const std::vector<BadFile> files = {
-      {"no XML", "solid cube", ":1: ", "the XML is broken"},
+      {"no XML", "solid cube", ":1: ", "is not the beginning of a VTK XML file"},
       {"other root", "<html></html>", ":1: ", "expected the element VTKFile"},
       {"other type", replaced(good, "Unstr", "Str"), ":2: ", "'StructuredGrid' cannot be read"},
       {"cut", good.substr(0, good.size() - 30), ":", "the XML is broken"},
