@@ -123,3 +123,45 @@ TEST_CASE("a straight mesh of second order is improved like one of first order")
   CHECK(b.curved_after->worst.at_nodes == 1);
   check_second_order(MeshAccess::data(second));
 }
+
+TEST_CASE("nodes of curved triangles without a tet and of prisms beside the tets stay") {
+  MeshData before = test::second_order(contract::delaunay_ball(400, 4), 0.1);
+  // A triangle of its own, far away, with curved edges.
+  const auto first = static_cast<std::uint32_t>(before.points.size());
+  for (const Point& p : {Point(9, 0, 0), Point(10, 0, 0), Point(9, 1, 0), Point(9.5, -0.2, 0),
+                         Point(9.6, 0.6, 0), Point(8.8, 0.5, 0)}) {
+    before.points.push_back(p);
+  }
+  before.triangles.push_back({{first, first + 1, first + 2}, 3});
+  before.mid_nodes.push_back({first, first + 1, first + 3});
+  before.mid_nodes.push_back({first + 1, first + 2, first + 4});
+  before.mid_nodes.push_back({first, first + 2, first + 5});
+  // An element of another kind that has the nodes of some edges of the tets for its own.
+  OtherElements others;
+  others.vtk_type = 26;
+  others.vertex_count = 15;
+  for (std::size_t i = 0; i < 15; ++i) {
+    others.vertices.push_back(before.mid_nodes[i / 3][i % 3]);
+  }
+  others.labels = {1};
+  before.other_elements = {others};
+  std::vector<Point> places;
+  for (const std::uint32_t v : others.vertices) {
+    before.required_vertices.push_back(v);
+    places.push_back(before.points[v]);
+  }
+  Mesh mesh = MeshAccess::make(before);
+  improve(mesh);
+  const MeshData& after = MeshAccess::data(mesh);
+  REQUIRE(after.triangles.size() == 1);
+  const auto nodes = MidNodes(after.mid_nodes).of(after.triangles[0].vertices);
+  REQUIRE(nodes.size() == 3);
+  CHECK(after.points[nodes[0]] == Point(9.5, -0.2, 0));
+  CHECK(after.points[nodes[1]] == Point(9.6, 0.6, 0));
+  CHECK(after.points[nodes[2]] == Point(8.8, 0.5, 0));
+  REQUIRE(after.other_elements.size() == 1);
+  for (std::size_t i = 0; i < 15; ++i) {
+    REQUIRE(after.other_elements[0].vertices[i] < after.points.size());
+    CHECK(after.points[after.other_elements[0].vertices[i]] == places[i]);
+  }
+}
