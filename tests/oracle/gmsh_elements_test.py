@@ -17,8 +17,8 @@ from pathlib import Path
 
 from with_gmsh import start_with_gmsh
 
-TET, PRISM, TET10, TRIANGLE6 = 4, 6, 11, 9
-WIDTH = {TET: 4, PRISM: 6, TET10: 10, TRIANGLE6: 6}
+TET, PRISM, TET10, TRIANGLE6, PRISM15 = 4, 6, 11, 9, 18
+WIDTH = {TET: 4, PRISM: 6, TET10: 10, TRIANGLE6: 6, PRISM15: 15}
 failures = 0
 
 
@@ -33,8 +33,8 @@ def begin(gmsh, name: str) -> None:
     gmsh.option.setNumber("Mesh.Optimize", 0)
 
 
-def prisms_on_tets(gmsh, file: Path) -> None:
-    begin(gmsh, "mixed")
+def prisms_on_tets(gmsh, file: Path, order: int) -> None:
+    begin(gmsh, f"mixed{order}")
     occ = gmsh.model.occ
     box = occ.addBox(0, 0, 0, 1, 1, 1)
     occ.synchronize()
@@ -46,7 +46,12 @@ def prisms_on_tets(gmsh, file: Path) -> None:
     occ.synchronize()
     gmsh.model.addPhysicalGroup(3, [tag for dim, tag in made if dim == 3], 2)
     gmsh.model.setPhysicalName(3, 2, "prisms")
+    # Triangles on the prisms, which no tet has.
+    far = gmsh.model.getEntitiesInBoundingBox(-1, -1, 1.2, 2, 2, 1.4, 2)
+    gmsh.model.addPhysicalGroup(2, [tag for _, tag in far], 3)
+    gmsh.option.setNumber("Mesh.SecondOrderIncomplete", 1)
     gmsh.model.mesh.generate(3)
+    gmsh.model.mesh.setOrder(order)
     gmsh.write(str(file))
 
 
@@ -99,13 +104,28 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         mixed, better = folder / "mixed.msh", folder / "mixed2.msh"
-        prisms_on_tets(gmsh, mixed)
+        prisms_on_tets(gmsh, mixed, 1)
         report = improve(tetmend, mixed, better)
         before, after = elements(gmsh, mixed), elements(gmsh, better)
         check(len(before[PRISM]) > 200 and before[PRISM] == after[PRISM],
               f"{len(before[PRISM])} prisms with the same bits")
         check(report["before"]["n_bad"] > 0 and report["after"]["n_bad"] == 0,
               f"{len(before[TET])} tets: {report['before']['n_bad']} bad ones, then {report['after']['n_bad']}")
+
+        for format in ("msh", "vtu"):
+            there, better = folder / f"mixed_there.{format}", folder / f"mixed_better.{format}"
+            back = folder / f"mixed_{format}.msh"
+            prisms_on_tets(gmsh, mixed, 2)
+            subprocess.run([tetmend, "convert", mixed, there], check=True, capture_output=True)
+            report = improve(tetmend, there, better)
+            subprocess.run([tetmend, "convert", better, back], check=True, capture_output=True)
+            before, after = elements(gmsh, mixed), elements(gmsh, back)
+            check(len(before[PRISM15]) > 200 and sorted(before[PRISM15]) == sorted(after[PRISM15]),
+                  f"{format}: {len(before[PRISM15])} prisms of second order with the same bits")
+            check(len(before[TRIANGLE6]) > 50 and sorted(before[TRIANGLE6]) == sorted(after[TRIANGLE6]),
+                  f"{format}: {len(before[TRIANGLE6])} triangles of second order with the same bits")
+            check(report["after"]["n_bad"] == 0 and min(after["ratios"]) > 0,
+                  f"{format}: {report['before']['n_bad']} bad tets of second order, then none")
 
         ball = folder / "ball.msh"
         curved_ball(gmsh, ball)
