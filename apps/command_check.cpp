@@ -47,6 +47,7 @@ struct Preset {
   std::string_view name;
   std::string_view source;
   std::vector<std::pair<Ruler, double>> rulers;
+  bool wants_markers = false;  ///< on all of the boundary
 };
 
 const std::vector<Preset>& presets() {
@@ -56,7 +57,10 @@ const std::vector<Preset>& presets() {
       {"openfoam",
        "limits of checkMesh: non-orthogonality 70, skewness 4, aspect ratio 1000",
        {{Ruler::non_orthogonality, 70}, {Ruler::skewness, 4}, {Ruler::aspect_ratio, 1000}}},
-      {"su2", "the dual volumes of a mesh must be positive", {}}};
+      {"su2",
+       "the dual volumes of a mesh must be positive, all of the boundary in markers",
+       {},
+       true}};
   return kPresets;
 }
 
@@ -101,6 +105,9 @@ std::vector<Fact> check_one(const Options& options) {
   std::vector<Fact> facts;
   if (options.no_inverted || !options.preset.empty()) {
     facts.push_back(no_inverted(read_mesh(options.file)));
+  }
+  if (!options.preset.empty() && find_preset(options.preset).wants_markers) {
+    facts.push_back(no_bare_boundary(read_mesh(options.file)));
   }
   const Measurement measured = measure(mesh, {.threads = options.threads});
   if (measured.curved && (options.no_inverted || !options.preset.empty())) {

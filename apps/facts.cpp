@@ -276,6 +276,25 @@ Fact same_groups(const MeshData& before, const MeshData& after) {
 
 }  // namespace
 
+Fact no_bare_boundary(const MeshData& mesh) {
+  std::vector<std::array<Bits, 3>> named;
+  for (const MeshData::Triangle& triangle : mesh.triangles) {
+    named.push_back(corners_of(mesh, triangle.vertices));
+  }
+  std::sort(named.begin(), named.end());
+  std::size_t count = 0;
+  for (const Wall& wall : walls_of(mesh)) {
+    count += wall.is_boundary && !std::binary_search(named.begin(), named.end(), wall.corners);
+  }
+  const std::string text =
+      count == 0 ? "every triangle of the boundary is in the file, with a label or marker"
+                 : fmt::format(
+                       "{} triangles of the boundary are not in the file: they have no "
+                       "label or marker",
+                       grouped(count));
+  return {"bare_boundary", count == 0, text, count, 0};
+}
+
 std::vector<Fact> compare_meshes(const std::filesystem::path& file,
                                  const std::filesystem::path& improved, int threads) {
   const MeshData before = read_mesh(file);

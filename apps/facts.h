@@ -28,6 +28,9 @@ Fact at_most(std::string name, std::string_view what, double value, double wante
 /// In exact arithmetic. `allowed`: so many there were before.
 Fact no_inverted(const MeshData& mesh, std::size_t allowed = 0);
 
+/// Faces of one tet only that no triangle of the file has: solvers want a boundary condition on each.
+Fact no_bare_boundary(const MeshData& mesh);
+
 /// What an improved mesh must have in common with the mesh that it came from, and that it is no
 /// worse. Looks at the files alone: it knows nothing of the run.
 /// @throws Error when one of them cannot be read or is no mesh

@@ -284,6 +284,11 @@ void Improvement::measure_before() {
   surface_before_ = surface_fingerprint(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
   note(face::advice_before(mesh_, result_));
+  if (const auto most = plan_.growth.most(result_.before.tets);
+      most && *most < result_.before.tets) {
+    note({fmt::format("--tets {} is less than the {} tets that there are: none is added",
+                      options_.tets, result_.before.tets)});
+  }
   notes_before_ = result_.notes.size();
 }
 
