@@ -146,6 +146,20 @@ TEST_CASE("check finds what has left a group, and a moved mid-side node") {
   CHECK(contains(verdict(changed), "mid_nodes"));
 }
 
+TEST_CASE("check for SU2 wants a marker on the whole boundary") {
+  const TempFolder folder;
+  const std::string file = (folder / "a.su2").string();
+  MeshData mesh = read_mesh(asset("bracket.meshb"));
+  write_mesh(file, mesh);
+  CHECK(run_program({"check", file, "--for", "su2"}).status == 0);
+  mesh.triangles.pop_back();
+  write_mesh(file, mesh);
+  const Outcome outcome = run_program({"check", file, "--for", "su2"});
+  CHECK(outcome.status == 3);
+  CHECK(contains(outcome.out, "FAIL  1 triangles of the boundary"));
+  CHECK(run_program({"check", file, "--for", "fenicsx"}).status == 0);
+}
+
 TEST_CASE("the integral of an array of the tets stays when it is asked for") {
   const TempFolder folder;
   MeshData mesh = read_mesh(asset("bracket.meshb"));

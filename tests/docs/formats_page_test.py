@@ -25,7 +25,11 @@ Box(2) = {1, 0, 0, 1, 1, 1};
 BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
 Physical Volume("steel", 1) = {1};
 Physical Volume("copper", 2) = {2};
-Physical Surface("inlet", 3) = Surface In BoundingBox {-0.1, -1, -1, 0.1, 2, 2};
+inlet() = Surface In BoundingBox {-0.1, -1, -1, 0.1, 2, 2};
+walls() = Abs(CombinedBoundary{ Volume{1}; Volume{2}; });
+walls() -= inlet();
+Physical Surface("inlet", 3) = inlet();
+Physical Surface("wall", 4) = walls();
 Mesh.MeshSizeMax = 0.25;
 Mesh.Optimize = 0;
 """
