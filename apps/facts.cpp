@@ -19,6 +19,7 @@
 #include "kernel/exact_orientation.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/geometry.h"
+#include "kernel/tet_faces.h"
 
 namespace tetmend::apps {
 
@@ -78,32 +79,15 @@ std::array<Bits, 3> corners_of(const MeshData& mesh, const std::array<std::uint3
 
 /// Faces with one tet, or with two of different labels.
 std::vector<Wall> walls_of(const MeshData& mesh) {
-  struct Face {
-    std::array<std::uint32_t, 3> vertices;
-    Label label;
-  };
-  std::vector<Face> faces;
-  faces.reserve(4 * mesh.tets.size());
-  for (const MeshData::Tet& tet : mesh.tets) {
-    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-      Face face{{}, tet.label};
-      for (std::size_t k = 0; k < 3; ++k) face.vertices[k] = tet.vertices[k < left_out ? k : k + 1];
-      std::sort(face.vertices.begin(), face.vertices.end());
-      faces.push_back(face);
-    }
-  }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return std::pair(a.vertices, a.label) < std::pair(b.vertices, b.label);
-  });
   std::vector<Wall> walls;
-  for (std::size_t i = 0; i < faces.size();) {
-    const bool is_pair = i + 1 < faces.size() && faces[i + 1].vertices == faces[i].vertices;
-    const Label other = faces[is_pair ? i + 1 : i].label;
-    if (!is_pair || other != faces[i].label) {
-      walls.push_back({corners_of(mesh, faces[i].vertices), {faces[i].label, other}, !is_pair});
-    }
-    i += is_pair ? 2 : 1;
-  }
+  for_face_pairs(sorted_tet_faces(mesh), [&](const TetFace& face, const TetFace* second) {
+    const Label label = mesh.tets[face.tet].label;
+    const Label other = second == nullptr ? label : mesh.tets[second->tet].label;
+    if (second != nullptr && other == label) return;
+    walls.push_back({corners_of(mesh, face.vertices),
+                     {std::min(label, other), std::max(label, other)},
+                     second == nullptr});
+  });
   std::sort(walls.begin(), walls.end());
   return walls;
 }

@@ -17,7 +17,9 @@
 #include "kernel/chunks.h"
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/geometry.h"
+#include "kernel/lists_of_kind.h"
 #include "kernel/parts.h"
+#include "kernel/tet_faces.h"
 
 namespace tetmend::face {
 
@@ -42,60 +44,17 @@ std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> vertices) {
   return vertices;
 }
 
-struct Face {
-  std::array<std::uint32_t, 3> vertices;
-  std::uint32_t tet;
-};
-
-/// Of all tets, by their vertices.
-std::vector<Face> sorted_faces(const MeshData& data) {
-  std::vector<Face> faces;
-  faces.reserve(4 * data.tets.size());
-  for (std::uint32_t t = 0; t < data.tets.size(); ++t) {
-    const auto& v = data.tets[t].vertices;
-    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-      std::array<std::uint32_t, 3> face{};
-      for (std::size_t k = 0; k < 3; ++k) face[k] = v[k < left_out ? k : k + 1];
-      faces.push_back({sorted(face), t});
-    }
-  }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return std::pair(a.vertices, a.tet) < std::pair(b.vertices, b.tet);
-  });
-  return faces;
-}
-
 /// By point: it is a vertex of tets, and of no face of one tet only.
 std::vector<bool> inner_vertices(const MeshData& data) {
   std::vector<bool> is_inside(data.points.size(), false);
   for (const MeshData::Tet& tet : data.tets) {
     for (const std::uint32_t v : tet.vertices) is_inside[v] = true;
   }
-  const std::vector<Face> faces = sorted_faces(data);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const bool is_shared = (i > 0 && faces[i].vertices == faces[i - 1].vertices) ||
-                           (i + 1 < faces.size() && faces[i].vertices == faces[i + 1].vertices);
-    if (is_shared) continue;
-    for (const std::uint32_t v : faces[i].vertices) is_inside[v] = false;
-  }
+  for_face_pairs(sorted_tet_faces(data), [&](const TetFace& face, const TetFace* other) {
+    if (other != nullptr) return;
+    for (const std::uint32_t v : face.vertices) is_inside[v] = false;
+  });
   return is_inside;
-}
-
-/// What there is of elements of one kind.
-template <class Element, class Data, class Labels, class Numbers>
-struct Lists {
-  Element& elements;
-  Data& data;
-  Labels& parts;
-  Numbers& numbers;
-};
-template <class Mesh>
-auto triangles_of(Mesh& mesh) {
-  return Lists{mesh.triangles, mesh.triangle_data, mesh.triangle_parts, mesh.triangle_numbers};
-}
-template <class Mesh>
-auto edges_of(Mesh& mesh) {
-  return Lists{mesh.edges, mesh.edge_data, mesh.edge_parts, mesh.edge_numbers};
 }
 
 class Carrying {
@@ -483,17 +442,14 @@ bool holds_more(const MeshData& data) {
 
 std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
   if (!are_finer_than_labels(data.tets, data.tet_parts)) return {};
-  const std::vector<Face> faces = sorted_faces(data);
   std::vector<MeshData::Triangle> walls;
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    const Face& a = faces[i - 1];
-    const Face& b = faces[i];
-    if (a.vertices != b.vertices || data.tet_parts[a.tet] == data.tet_parts[b.tet] ||
-        data.tets[a.tet].label != data.tets[b.tet].label) {
-      continue;
+  for_face_pairs(sorted_tet_faces(data), [&](const TetFace& a, const TetFace* b) {
+    if (b == nullptr || data.tet_parts[a.tet] == data.tet_parts[b->tet] ||
+        data.tets[a.tet].label != data.tets[b->tet].label) {
+      return;
     }
     walls.push_back({a.vertices, 0});
-  }
+  });
   std::vector<std::array<std::uint32_t, 3>> named;
   for (const MeshData::Triangle& triangle : data.triangles)
     named.push_back(sorted(triangle.vertices));

@@ -2,9 +2,10 @@
 #include "kernel/curved.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 #include "kernel/second_order.h"
+#include "kernel/tet_faces.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -92,44 +93,22 @@ double ratio(double least, double greatest) {
   return std::max(least / greatest, -1.0);
 }
 
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
 /// Edges that no run changes: of faces between two regions or outside, and, with the interior, those
 /// that are named. Ascending.
 std::vector<std::uint64_t> edges_that_stay(const MeshData& data, bool with_interior) {
-  struct Face {
-    std::array<std::uint32_t, 3> vertices;
-    Label label, part;
-    auto key() const { return std::tie(vertices, label, part); }
-    bool operator<(const Face& other) const { return key() < other.key(); }
-    bool operator==(const Face& other) const { return key() == other.key(); }
-  };
-  std::vector<Face> faces;
-  faces.reserve(4 * data.tets.size());
-  for (std::size_t t = 0; t < data.tets.size(); ++t) {
-    const MeshData::Tet& tet = data.tets[t];
-    for (const auto& local : kFaceVertices) {
-      Face face{{}, tet.label, data.tet_parts.empty() ? 0 : data.tet_parts[t]};
-      for (std::size_t k = 0; k < 3; ++k) face.vertices[k] = tet.vertices[local[k]];
-      std::sort(face.vertices.begin(), face.vertices.end());
-      faces.push_back(face);
-    }
-  }
-  std::sort(faces.begin(), faces.end());
   std::vector<std::uint64_t> edges;
-  const auto add = [&](std::uint32_t a, std::uint32_t b) { edges.push_back(key_of(a, b)); };
+  const auto add = [&](std::uint32_t a, std::uint32_t b) { edges.push_back(edge_key(a, b)); };
   const auto add_triangle = [&](const std::array<std::uint32_t, 3>& v) {
     add(v[0], v[1]);
     add(v[1], v[2]);
     add(v[0], v[2]);
   };
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const bool is_shared =
-        (i > 0 && faces[i] == faces[i - 1]) || (i + 1 < faces.size() && faces[i] == faces[i + 1]);
-    if (!is_shared) add_triangle(faces[i].vertices);
-  }
+  const auto part_of = [&](std::uint32_t t) {
+    return std::pair(data.tets[t].label, data.tet_parts.empty() ? 0 : data.tet_parts[t]);
+  };
+  for_face_pairs(sorted_tet_faces(data), [&](const TetFace& face, const TetFace* other) {
+    if (other == nullptr || part_of(face.tet) != part_of(other->tet)) add_triangle(face.vertices);
+  });
   if (with_interior) {
     for (const MeshData::Triangle& triangle : data.triangles) add_triangle(triangle.vertices);
     for (const MeshData::Edge& edge : data.edges) add(edge.vertices[0], edge.vertices[1]);
@@ -176,7 +155,7 @@ FixedMidNodes find_fixed_mid_nodes(const MeshData& data, bool with_interior) {
   std::vector<bool> is_required(data.points.size(), false);
   for (const std::uint32_t v : data.required_vertices) is_required[v] = true;
   for (const auto& mid : data.mid_nodes) {
-    const bool stays = std::binary_search(stay.begin(), stay.end(), key_of(mid[0], mid[1]));
+    const bool stays = std::binary_search(stay.begin(), stay.end(), edge_key(mid[0], mid[1]));
     const bool is_held = with_interior && (is_required[mid[2]] || is_bent(data, mid, kSlightBend));
     fixed.is_fixed.push_back(stays || is_held);
     if (is_held && !stays) fixed.inside.push_back({{mid[0], mid[1]}, 0});
@@ -202,7 +181,7 @@ CurvedEdges::CurvedEdges(const MeshData& data, const TetMesh& mesh, const std::v
     const auto& [a, b, node] = data.mid_nodes[i];
     if (!which[i] || !is_bent(data, data.mid_nodes[i], kStraight)) continue;
     const Point bend = data.points[node] - (data.points[a] + data.points[b]) / 2;
-    edges_.push_back({key_of(slot_of[a], slot_of[b]), bend});
+    edges_.push_back({edge_key(slot_of[a], slot_of[b]), bend});
     has_curved_[slot_of[a]] = has_curved_[slot_of[b]] = true;
   }
   std::sort(edges_.begin(), edges_.end(),
@@ -210,7 +189,7 @@ CurvedEdges::CurvedEdges(const MeshData& data, const TetMesh& mesh, const std::v
 }
 
 const Point* CurvedEdges::bend_of(VertexHandle a, VertexHandle b) const {
-  const std::uint64_t ends = key_of(a.index(), b.index());
+  const std::uint64_t ends = edge_key(a.index(), b.index());
   const auto found =
       std::lower_bound(edges_.begin(), edges_.end(), ends,
                        [](const Edge& edge, std::uint64_t key) { return edge.ends < key; });

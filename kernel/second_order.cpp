@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/lists_of_kind.h"
 #include "kernel/error.h"
 #include "kernel/formats/cell_arrays.h"
 
@@ -24,31 +25,6 @@ std::size_t corners_of(const OtherElements& others) {
   if (is(22, 69, 6)) return 3;
   if (is(21, 68, 3)) return 2;
   return 0;
-}
-
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
-/// All lists of one kind of element.
-template <class Elements, class Labels, class Numbers, class Data>
-struct Lists {
-  Elements& elements;
-  Labels& parts;
-  Numbers& numbers;
-  Data& data;
-};
-template <class Mesh>
-auto tets_of(Mesh& mesh) {
-  return Lists{mesh.tets, mesh.tet_parts, mesh.tet_numbers, mesh.tet_data};
-}
-template <class Mesh>
-auto triangles_of(Mesh& mesh) {
-  return Lists{mesh.triangles, mesh.triangle_parts, mesh.triangle_numbers, mesh.triangle_data};
-}
-template <class Mesh>
-auto edges_of(Mesh& mesh) {
-  return Lists{mesh.edges, mesh.edge_parts, mesh.edge_numbers, mesh.edge_data};
 }
 
 void append_rows(DataArray& to, const DataArray& from) {
@@ -242,13 +218,13 @@ void give(MeshData& mesh, const MidNodes& mid_nodes, int vtk_type, const std::ve
 
 MidNodes::MidNodes(std::span<const std::array<std::uint32_t, 3>> mid_nodes) {
   edges_.reserve(mid_nodes.size());
-  for (const auto& [a, b, node] : mid_nodes) edges_.push_back({key_of(a, b), node});
+  for (const auto& [a, b, node] : mid_nodes) edges_.push_back({edge_key(a, b), node});
   std::sort(edges_.begin(), edges_.end(),
             [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
 }
 
 std::uint32_t MidNodes::of(std::uint32_t a, std::uint32_t b) const {
-  const std::uint64_t ends = key_of(a, b);
+  const std::uint64_t ends = edge_key(a, b);
   const auto found =
       std::lower_bound(edges_.begin(), edges_.end(), ends,
                        [](const Edge& edge, std::uint64_t key) { return edge.ends < key; });

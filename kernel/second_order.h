@@ -3,6 +3,7 @@
 // beside the middle, so that the element is curved.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,11 @@
 namespace tetmend {
 
 inline constexpr std::uint32_t kNoMidNode = UINT32_MAX;
+
+/// One number for an edge, whichever end comes first.
+inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
 
 /// Finds the mid-side node of an edge. A value; immutable.
 class MidNodes {
