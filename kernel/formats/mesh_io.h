@@ -53,6 +53,10 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
 /// there is only one.
 std::span<const std::string_view> mesh_variants(const std::filesystem::path& file);
 
+/// The files that a mesh under this name is, `file` first; only that one if the extension is unknown.
+/// Not all of them need be there.
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file);
+
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
 /// folder. Doubles are written so
