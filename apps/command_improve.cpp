@@ -146,12 +146,13 @@ void add_improve(CLI::App& app, Invocation& invocation) {
 before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
 
-Ctrl-C stops the work: OUT is still written, with the mesh as improved so far,
-and the exit status is 4. Ctrl-C again ends the program at once. A time limit
-stops the work in the same way, with exit status 0. A mistake in a script ends
+Ctrl-C, SIGTERM or a lost terminal stop the work: OUT is still written, with the
+mesh as improved so far, and the exit status is 4. The second time they end the
+program at once. A time limit stops the work likewise, with exit status 0. A mistake in a script ends
 it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
-then. The same input gives the same output, byte for byte.
+then, and hands down owner and permissions. OUT may be IN; other files that are
+named must differ. The same input gives the same output, byte for byte.
 
 Named arrays come over: of points linearly in the old mesh, of tets from the old
 tet at the centroid. What of IN cannot be kept is named on standard error and in

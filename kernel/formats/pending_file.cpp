@@ -234,7 +234,7 @@ void PendingFile::commit_all(std::span<PendingFile* const> files) {
     throw Error(message);
   }
   for (Replacement& each : made) each.accept();
-  if (!files.empty()) sync_folder(files.front()->target_);
+  for (const PendingFile* file : files) sync_folder(file->target_);
 }
 
 void PendingFile::fail(int error) const {

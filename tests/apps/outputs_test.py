@@ -247,6 +247,47 @@ def signal_at_a_rename():
                           "a signal at a rename lets the set be finished", call, number, end)
 
 
+def signal_while_writing():
+    if shutil.which("strace") is None:
+        return
+    with Folder() as folder:
+        (folder / "o.vtu").write_text("older")
+        kept = entries(folder)
+        for call in ("fsync:when=1", "write:when=1"):
+            name, when = call.split(":")
+            done = subprocess.run(["strace", "-f", "-qq", "-o", "/dev/null", "-e", f"inject={name}:signal=TERM:{when}",
+                                   PROGRAM, "convert", folder / "in.mesh", folder / "o.vtu"], capture_output=True)
+            check(done.returncode in (-15, 143), "a signal while writing ends the program", call, done)
+            check(entries(folder) == kept, "a signal while writing leaves no temporary", call, entries(folder))
+            check((folder / "o.vtu").read_text() == "older", "a signal while writing leaves the older file", call)
+
+
+def strace(folder, what, *command):
+    """Status, and the lines of the trace."""
+    log = folder / "strace.log"
+    done = subprocess.run(["strace", "-f", "-y", "-o", str(log), "-e", what, PROGRAM, *map(str, command)], capture_output=True)
+    lines = log.read_text().splitlines()
+    log.unlink()
+    return done.returncode, lines
+
+
+def writing_outlives_signals_and_loss_of_power():
+    if shutil.which("strace") is None:
+        return
+    with Folder() as folder:
+        run("improve", folder / "in.mesh", "-o", folder / "good.mesh", "-q")
+        status, _ = strace(folder, "inject=rename:signal=HUP:when=1", "improve", folder / "in.mesh", "-o", folder / "o.mesh", "-q")
+        check(status == 0, "a signal while all is written does not change the status", status)
+        check((folder / "o.mesh").read_bytes() == (folder / "good.mesh").read_bytes(), "nor the mesh")
+        for command, name in ((("-o", folder / "o.mesh"), "o.mesh"),
+                              (("-o", folder / "o.mesh", "--trace", folder / "run.trace"), "run.trace")):
+            _, lines = strace(folder, "trace=fsync,rename", "improve", folder / "in.mesh", *command, "-q")
+            renamed = next(i for i, line in enumerate(lines) if "rename(" in line and f'{name}"' in line)
+            source = Path(lines[renamed].split('"')[1]).name
+            check(any("fsync(" in line and source in line for line in lines[:renamed]), "on the disk before the name", lines)
+            check("fsync(" in lines[renamed + 1] and f"{folder.name}>" in lines[renamed + 1], "and the name, too", lines)
+
+
 def limits_are_errors():
     with Folder() as folder:
         kept = entries(folder)
@@ -295,5 +336,7 @@ what_is_said_does_not_change_the_status()
 signals_stop_in_order()
 signals_leave_no_temporaries()
 signal_at_a_rename()
+signal_while_writing()
+writing_outlives_signals_and_loss_of_power()
 limits_are_errors()
 sys.exit(f"{len(failures)} checks failed" if failures else 0)
