@@ -32,7 +32,7 @@ def run(*arguments, shell_tail=None, limits=None, **options):
     words = [PROGRAM, *map(str, arguments)]
     if shell_tail is not None:
         words = ["bash", "-c", 'exec "$@" ' + shell_tail, "bash", *words]
-    done = subprocess.run(words, capture_output=True, text=True, preexec_fn=limits, timeout=300, **options)
+    done = subprocess.run(words, capture_output=True, text=True, preexec_fn=limits, timeout=120, **options)
     status = done.returncode if done.returncode >= 0 else 128 - done.returncode
     return status, done.stdout, done.stderr
 
