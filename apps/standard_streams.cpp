@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "apps/standard_streams.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 
 #include <fcntl.h>
 #include <unistd.h>
+
+#include "apps/commands.h"
 
 namespace tetmend::apps {
 
@@ -25,6 +28,20 @@ void say(std::FILE* stream, std::string_view text) noexcept {
 
 void ignore_broken_pipes() noexcept {
   ::signal(SIGPIPE, SIG_IGN);
+}
+
+// Also where memory is out: nothing here may need some.
+int complain(Status status, std::string_view message) noexcept {
+  std::fflush(stdout);
+  say(stderr, "tetmend: ");
+  while (!message.empty()) {
+    const std::string_view line = message.substr(0, message.find('\n'));
+    say(stderr, line);
+    if (line.size() < message.size()) say(stderr, " ");
+    message.remove_prefix(std::min(line.size() + 1, message.size()));
+  }
+  say(stderr, "\n");
+  return status;
 }
 
 }  // namespace tetmend::apps

@@ -25,20 +25,6 @@
 
 namespace tetmend::apps {
 
-// Also where memory is out: nothing here may need some.
-int complain(Status status, std::string_view message) noexcept {
-  std::fflush(stdout);
-  say(stderr, "tetmend: ");
-  while (!message.empty()) {
-    const std::string_view line = message.substr(0, message.find('\n'));
-    say(stderr, line);
-    if (line.size() < message.size()) say(stderr, " ");
-    message.remove_prefix(std::min(line.size() + 1, message.size()));
-  }
-  say(stderr, "\n");
-  return status;
-}
-
 namespace {
 
 std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
