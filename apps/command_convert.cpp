@@ -10,6 +10,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/standard_streams.h"
 #include "apps/threads.h"
 
 namespace tetmend::apps {
@@ -24,18 +25,22 @@ struct Options {
 };
 
 /// No adjacency is built, so that a mesh of broken topology can be converted too.
-int run_convert(Options& options) {
+int run_convert(Options& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_variant(options.output, options.carry);
-  check_writable(options.output);
+  const NamedFile input = {"IN", options.input, true};
+  const NamedFile output = {"OUT", options.output, true};
+  prepare_files({&input, 1}, {&output, 1});
   std::vector<std::string> notes;
   const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
   save(options.output, mesh, options.threads, options.carry.variant);
-  fmt::print(stream_beside(options.output), "{}: {} vertices, {} tets, {} triangles, {} edges\n",
-             options.output.string(), grouped(mesh.point_count()), grouped(mesh.tet_count()),
-             grouped(mesh.triangle_count()), grouped(mesh.edge_count()));
+  invocation.wrote_files = true;
+  say(stream_beside(options.output),
+      fmt::format("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
+                  grouped(mesh.point_count()), grouped(mesh.tet_count()),
+                  grouped(mesh.triangle_count()), grouped(mesh.edge_count())));
   return 0;
 }
 
@@ -67,8 +72,9 @@ Examples:
 Exit status: 0 success, 1 a file cannot be read or written, or --strict found
 a loss, 2 wrong usage)",
       mesh_format_list()));
-  command->callback(
-      [options, &invocation] { invocation.action = [options] { return run_convert(*options); }; });
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] { return run_convert(*options, invocation); };
+  });
 }
 
 }  // namespace tetmend::apps

@@ -2,7 +2,9 @@
 // tetmend improve: a mesh goes in, a better one comes out.
 //
 //   check names and folders | read | improve | write
-//   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual
+//   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual;
+//   later: what is left to do is done
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -20,6 +22,7 @@
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
 #include "apps/progress_line.h"
+#include "apps/standard_streams.h"
 #include "kernel/formats/output_file.h"
 
 namespace tetmend::apps {
@@ -48,18 +51,24 @@ void check_files(const ImproveOptions& options) {
   if (!options.report.empty()) {
     constexpr std::string_view kJson = ".json";
     check_extension(options.report, {&kJson, 1});
-    check_writable(options.report);
   }
-  check_writable(options.output);
+  const std::filesystem::path schedule = options.run.schedule;
+  const std::array inputs = {
+      NamedFile{"IN", options.input, true},
+      NamedFile{"--schedule", schedule.extension() == ".lua" ? schedule : ""}};
+  const std::array outputs = {NamedFile{"--report", options.report},
+                              NamedFile{"-o", options.output, true},
+                              NamedFile{"--trace", options.run.trace}};
+  prepare_files(inputs, outputs);
 }
 
-/// Signals interrupt the schedule only: before and after they end the program as usual.
-Result improve_watched(Mesh& mesh, Options options, ProgressLine& line) {
-  std::optional<Interruption> interruption;
+/// Before the schedule signals end the program: there is nothing to be saved yet.
+/// @param interruption begins then
+Result improve_watched(Mesh& mesh, Options options, ProgressLine& line,
+                       std::optional<Interruption>& interruption) {
   options.cancel = &Interruption::requested();
   options.progress = [&](const Progress& progress) {
     if (progress.stage == Stage::improving && !interruption) interruption.emplace();
-    if (progress.stage != Stage::improving) interruption.reset();
     line.show(progress);
     return true;
   };
@@ -84,7 +93,7 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-int run_improve(ImproveOptions& options, const Invocation& invocation) {
+int run_improve(ImproveOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   check_files(options);
   complete(options);
@@ -98,7 +107,8 @@ int run_improve(ImproveOptions& options, const Invocation& invocation) {
     progress.clear();
     mesh = load_for(options.input, options.output, threads, options.carry, report.file_notes);
   }
-  report.result = improve_watched(mesh, options.run, progress);
+  std::optional<Interruption> interruption;  // until all is written
+  report.result = improve_watched(mesh, options.run, progress, interruption);
   {
     const Stopwatch watch(report.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
@@ -106,10 +116,12 @@ int run_improve(ImproveOptions& options, const Invocation& invocation) {
   }
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);
+  invocation.wrote_files = true;
   progress.clear();
   if (!options.quiet) {
-    fmt::print(stream_beside(options.output), "tetmend {}: {} -> {}\n\n{}", version(),
-               options.input.string(), options.output.string(), format_report(report));
+    say(stream_beside(options.output),
+        fmt::format("tetmend {}: {} -> {}\n\n{}", version(), options.input.string(),
+                    options.output.string(), format_report(report)));
   }
   if (report.result.ending == Ending::cancelled) {
     return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
@@ -134,12 +146,13 @@ void add_improve(CLI::App& app, Invocation& invocation) {
 before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
 
-Ctrl-C stops the work: OUT is still written, with the mesh as improved so far,
-and the exit status is 4. Ctrl-C again ends the program at once. A time limit
-stops the work in the same way, with exit status 0. A mistake in a script ends
+Ctrl-C, SIGTERM or a lost terminal stop the work: OUT is still written, with the
+mesh as improved so far, and the exit status is 4. The second time they end the
+program at once. A time limit stops the work likewise, with exit status 0. A mistake in a script ends
 it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
-then. The same input gives the same output, byte for byte.
+then, and hands down owner and permissions. OUT may be IN; other files that are
+named must differ. The same input gives the same output, byte for byte.
 
 Named arrays come over: of points linearly in the old mesh, of tets from the old
 tet at the centroid. What of IN cannot be kept is named on standard error and in

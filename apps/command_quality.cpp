@@ -67,7 +67,9 @@ int run_quality(Options& options) {
   check_mesh_extension(options.file);
   if (!options.cells.empty()) {
     check_mesh_extension(options.cells);
-    check_writable(options.cells);
+    const NamedFile input = {"FILE", options.file};
+    const NamedFile cells = {"--cells", options.cells};
+    prepare_files({&input, 1}, {&cells, 1});
   }
   const MeasureOptions wanted = {.measure = list_measures(options.measures),
                                  .limit = options.limit,

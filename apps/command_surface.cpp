@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/surface.h"
@@ -22,14 +23,16 @@ struct Options {
   int threads = 1;
 };
 
-int run_surface(const Options& options) {
+int run_surface(const Options& options, Invocation& invocation) {
   check_mesh_extension(options.input);
   try {
     check_surface_extension(options.output);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
-  check_writable(options.output);
+  const NamedFile input = {"IN", options.input};
+  const NamedFile output = {"OUT", options.output};
+  prepare_files({&input, 1}, {&output, 1});
   const ThreadLimit limit(options.threads);
   BuildReport build;
   const TetMesh mesh = read_tet_mesh(options.input, MeshOrder::of_file, &build);
@@ -37,8 +40,9 @@ int run_surface(const Options& options) {
                               : options.constraints ? extract_constraints(mesh)
                                                     : extract_boundary(mesh);
   write_surface(options.output, surface);
-  fmt::print("{}: {} vertices, {} triangles\n", options.output.string(),
-             grouped(surface.mesh.n_vertices()), grouped(surface.mesh.n_faces()));
+  invocation.wrote_files = true;
+  say(stdout, fmt::format("{}: {} vertices, {} triangles\n", options.output.string(),
+                          grouped(surface.mesh.n_vertices()), grouped(surface.mesh.n_faces())));
   return 0;
 }
 
@@ -73,8 +77,9 @@ Examples:
 
 Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)",
       mesh_format_list()));
-  command->callback(
-      [options, &invocation] { invocation.action = [options] { return run_surface(*options); }; });
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] { return run_surface(*options, invocation); };
+  });
 }
 
 }  // namespace tetmend::apps

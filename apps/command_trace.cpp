@@ -141,9 +141,18 @@ int run_trace(const Options& options) {
   if (options.extract && options.output.empty()) {
     throw UsageError("--extract needs -o, a folder for the files");
   }
-  if (!options.output.empty() && !options.extract) check_writable(options.output);
+  const NamedFile input = {"FILE", options.file};
+  if (options.extract) {
+    for (const char* name : {"call.mesh", "call.lua", "README.txt"}) {
+      const NamedFile output = {"a file of -o", options.output / name};
+      check_distinct({&input, 1}, {&output, 1});
+    }
+  } else if (!options.output.empty()) {
+    const NamedFile output = {"-o", options.output};
+    prepare_files({&input, 1}, {&output, 1});
+  }
   const TraceFile file(options.file);
-  if (!file.damage().empty()) fmt::print(stderr, "tetmend: warning: {}\n", file.damage());
+  if (!file.damage().empty()) complain(kSuccess, "warning: " + file.damage());
   if (options.at) {
     write_mesh_at(options, file);
   } else if (options.extract) {

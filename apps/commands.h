@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/error.h"
@@ -24,12 +25,13 @@ class UsageError : public Error {
 enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2, kGoalMissed = 3, kInterrupted = 4 };
 
 /// Writes the message to standard error, in one line, and gives the status.
-int complain(Status status, std::string message);
+int complain(Status status, std::string_view message) noexcept;
 
 /// What the user asked for. The parser fills in the action; main runs it.
 struct Invocation {
   std::vector<std::string> arguments;  ///< without the name of the program
   std::function<int()> action;         ///< returns the exit status; @throws Error, UsageError
+  bool wrote_files = false;            ///< then what was said besides is not what counts
 };
 
 // Precondition of each: `invocation` outlives the parser.

@@ -14,8 +14,9 @@
 #include <tetmend/io.h>
 
 #include "apps/commands.h"
+#include "apps/standard_streams.h"
 #include "kernel/formats/mesh_io.h"
-#include "kernel/formats/output_file.h"
+#include "kernel/formats/pending_file.h"
 #include "kernel/formats/standard_stream.h"
 
 namespace tetmend::apps {
@@ -72,8 +73,57 @@ std::FILE* stream_beside(const std::filesystem::path& output) {
   return formats::is_standard_stream(output) ? stderr : stdout;
 }
 
+namespace {
+
+bool is_same(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error) && !error) return true;
+  const auto real_a = std::filesystem::weakly_canonical(a, error).lexically_normal();
+  if (error) return a.lexically_normal() == b.lexically_normal();
+  const auto real_b = std::filesystem::weakly_canonical(b, error).lexically_normal();
+  return real_a == real_b;
+}
+
+void check_pair(const NamedFile& output, const NamedFile& other) {
+  if (output.in_place && other.in_place) return;
+  for (const std::filesystem::path& file : mesh_files(output.file)) {
+    for (const std::filesystem::path& taken : mesh_files(other.file)) {
+      if (formats::is_standard_stream(file) || !is_same(file, taken)) continue;
+      throw UsageError(fmt::format("{}: {} and {} would be the same file", file.string(),
+                                   other.option, output.option));
+    }
+  }
+}
+
 void check_writable(const std::filesystem::path& file) {
-  const OutputFile probe(file);  // vanishes without commit()
+  if (formats::is_standard_stream(file)) return;
+  for (const std::filesystem::path& each : mesh_files(file)) {
+    std::error_code error;
+    // Of several files, not all need be written.
+    if (each != file && !std::filesystem::exists(each, error)) continue;
+    const formats::PendingFile probe(each);  // vanishes without commit()
+    for (const std::string& text : probe.notes()) {
+      say(stderr, fmt::format("note: {}: {}\n", each.string(), text));
+    }
+  }
+}
+
+}  // namespace
+
+void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    if (output->file.empty()) continue;
+    for (const NamedFile& input : inputs) check_pair(*output, input);
+    for (auto other = outputs.begin(); other != output; ++other) check_pair(*output, *other);
+  }
+}
+
+void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+  ignore_broken_pipes();
+  check_distinct(inputs, outputs);
+  for (const NamedFile& output : outputs) {
+    if (!output.file.empty()) check_writable(output.file);
+  }
 }
 
 void add_carry_options(CLI::App& command, CarryOptions& options) {
@@ -108,7 +158,7 @@ Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& o
   std::vector<std::string> lost = mesh.notes();
   for (std::string& text : not_saved(output, mesh)) lost.push_back(std::move(text));
   for (const std::string& text : lost) {
-    fmt::print(stderr, "note: {}: {}\n", shown(input), text);
+    say(stderr, fmt::format("note: {}: {}\n", shown(input), text));
   }
   if (options.strict && !lost.empty()) {
     throw Error(

@@ -39,9 +39,22 @@ std::string shown(const std::filesystem::path& file);
 /// Where a command speaks to people: not where a mesh goes.
 std::FILE* stream_beside(const std::filesystem::path& output);
 
-/// Tries whether `file` could be written, and leaves everything as it was.
+/// A file that the user named, and how.
+struct NamedFile {
+  std::string_view option;     ///< "--trace", "IN"
+  std::filesystem::path file;  ///< empty: not named
+  bool in_place = false;       ///< of an input and an output: may be the same file
+};
+
+/// @throws UsageError when two outputs, or an output and an input, are the same file, however they
+/// are named; also for the other files of a mesh in several.
+void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+
+/// What a command that writes files does first: check_distinct(), and try whether the outputs could
+/// be written, which leaves everything as it was. What replacing an older file will change besides
+/// its content is noted on standard error.
 /// @throws Error with the reason, such as a folder that does not exist.
-void check_writable(const std::filesystem::path& file);
+void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
 
 /// How a command reads a mesh that it writes again.
 struct CarryOptions {

@@ -1,40 +1,66 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C: the first asks the work to stop, the second ends the program at once.
+// What a signal from outside does: it ends the program without remains, or asks the work to stop.
 #include "apps/interruption.h"
+
+#include <exception>
+
+#include <unistd.h>
+
+#include "apps/commands.h"
+#include "kernel/formats/temporary_names.h"
 
 namespace tetmend::apps {
 namespace {
 
-// A signal handler can reach nothing but a global.
+// A signal handler can reach nothing but globals.
+std::atomic<bool> stops_in_order{false};
 std::atomic<bool> signalled{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take a lock");
 
 extern "C" void on_signal(int number) {
-  if (!signalled.exchange(true)) return;
-  ::signal(number, SIG_DFL);
-  ::raise(number);  // takes effect when the handler returns
+  if (stops_in_order && !signalled.exchange(true)) return;
+  formats::end_by_signal(number);
 }
 
-void install(int number, struct sigaction& old) {
-  ::sigaction(number, nullptr, &old);
-  if (old.sa_handler == SIG_IGN) return;
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART;
-  ::sigaction(number, &action, nullptr);
+/// oneTBB, for one, throws where nothing can be caught when the system has no thread for it.
+[[noreturn]] void on_terminate() {
+  formats::remove_temporaries();
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+    complain(kFailed, "unexpected failure");
+  } catch (const std::bad_alloc&) {
+    complain(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    complain(kFailed, error.what());
+  } catch (...) {
+    complain(kFailed, "unexpected failure");
+  }
+  ::_exit(kFailed);
 }
 
 }  // namespace
 
+void end_without_remains() {
+  std::set_terminate(on_terminate);
+  ::signal(SIGXFSZ, SIG_IGN);
+  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    ::sigaction(number, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(number, &action, nullptr);
+  }
+}
+
 Interruption::Interruption() {
   signalled = false;
-  install(SIGINT, old_interrupt_);
-  install(SIGTERM, old_terminate_);
+  stops_in_order = true;
 }
 
 Interruption::~Interruption() {
-  ::sigaction(SIGINT, &old_interrupt_, nullptr);
-  ::sigaction(SIGTERM, &old_terminate_, nullptr);
+  stops_in_order = false;
 }
 
 const std::atomic<bool>& Interruption::requested() {

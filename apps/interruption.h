@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C: the first asks the work to stop, the second ends the program at once.
+// What a signal from outside does: it ends the program without remains, or asks the work to stop.
 #pragma once
 
 #include <atomic>
@@ -7,8 +7,13 @@
 
 namespace tetmend::apps {
 
-/// While one lives, SIGINT and SIGTERM set a flag the first time and act as usual the second time.
-/// A signal that the parent process chose to ignore (nohup) stays ignored. At most one at a time.
+/// From now on SIGHUP, SIGINT and SIGTERM remove unfinished files before they end the program; so
+/// does std::terminate(), with a line on standard error and status 1. A file beyond a limit is an
+/// error of writing. A signal that the parent process chose to ignore (nohup) stays ignored.
+void end_without_remains();
+
+/// While one lives, these signals set a flag the first time and end the program the second time. At
+/// most one at a time.
 class Interruption {
  public:
   Interruption();
@@ -17,10 +22,6 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 
   static const std::atomic<bool>& requested();
-
- private:
-  struct sigaction old_interrupt_ {};
-  struct sigaction old_terminate_ {};
 };
 
 }  // namespace tetmend::apps

@@ -9,6 +9,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "apps/standard_streams.h"
+
 namespace tetmend::apps {
 namespace {
 
@@ -44,7 +46,8 @@ void ProgressLine::show(const Progress& progress) {
 void ProgressLine::note(std::string_view text) {
   if (!active_) return;
   clear();
-  fmt::print(stderr, "{}\n", text);
+  say(stderr, text);
+  say(stderr, "\n");
 }
 
 void ProgressLine::clear() {
@@ -60,7 +63,8 @@ void ProgressLine::draw(std::string line) {
   const std::size_t length = line.size();
   // Blanks over the rest of the longer line before: every terminal understands them.
   line.resize(std::max(length, std::min(drawn_width_, width)), ' ');
-  fmt::print(stderr, "\r{}", line);
+  say(stderr, "\r");
+  say(stderr, line);
   std::fflush(stderr);
   drawn_width_ = length;
 }

@@ -20,15 +20,10 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/help_formatter.h"
+#include "apps/interruption.h"
+#include "apps/standard_streams.h"
 
 namespace tetmend::apps {
-
-int complain(Status status, std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::fflush(stdout);
-  fmt::print(stderr, "tetmend: {}\n", message);
-  return status;
-}
 
 namespace {
 
@@ -91,8 +86,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
   return fmt::format("{} (see tetmend --help)", error.what());
 }
 
-int run(int argc, char** argv) {
-  Invocation invocation;
+int run(int argc, char** argv, Invocation& invocation) {
   invocation.arguments.assign(argv + std::min(argc, 1), argv + argc);
   const auto app = make_parser(invocation);
   try {
@@ -106,11 +100,19 @@ int run(int argc, char** argv) {
 
 constexpr const char* kNoOutput = "cannot write to standard output";
 
+/// Where files are what was asked for, they alone decide on the status.
+int end_of_talk(int status, bool wrote_files) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  if (!wrote_files) return complain(kFailed, kNoOutput);
+  complain(kSuccess, "cannot write to standard output: only the report on it is lost");
+  return status;
+}
+
 int run_and_catch(int argc, char** argv) {
   try {
-    const int status = run(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain(kFailed, kNoOutput);
-    return status;
+    Invocation invocation;
+    const int status = run(argc, argv, invocation);
+    return end_of_talk(status, invocation.wrote_files);
   } catch (const UsageError& error) {
     return complain(kWrongUsage, error.what());
   } catch (const std::bad_alloc&) {
@@ -137,6 +139,8 @@ void give_back_memory() {
 }  // namespace tetmend::apps
 
 int main(int argc, char** argv) {
+  tetmend::apps::reserve_standard_streams();
+  tetmend::apps::end_without_remains();
   tetmend::apps::give_back_memory();
   return tetmend::apps::run_and_catch(argc, argv);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The viewer: reads the command line, then shows a window, draws a picture or runs a script.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -9,8 +10,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/standard_streams.h"
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/temporary_names.h"
 #include "viewer/commands/script.h"
 #include "viewer/ui/headless.h"
 #include "viewer/ui/window.h"
@@ -100,8 +103,15 @@ int run(const Options& options) {
 }
 
 int complain(Status status, const std::string& message) {
-  fmt::print(stderr, "tetmend-view: {}\n", message);
+  say(stderr, fmt::format("tetmend-view: {}\n", message));
   return status;
+}
+
+/// The trace of a run that is under way is unfinished.
+void end_without_remains() {
+  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
+    if (std::signal(number, formats::end_by_signal) == SIG_IGN) std::signal(number, SIG_IGN);
+  }
 }
 
 }  // namespace
@@ -109,6 +119,8 @@ int complain(Status status, const std::string& message) {
 
 int main(int argc, char** argv) {
   using namespace tetmend::apps;
+  reserve_standard_streams();
+  end_without_remains();
   Options options;
   CLI::App app(
       "tetmend-view shows a tetrahedral mesh and where it is bad, or a recorded run step by step.",

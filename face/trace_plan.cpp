@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <tetmend/catalogue.h>
 
-#include "kernel/formats/output_file.h"
+#include "kernel/formats/pending_file.h"
 
 namespace tetmend::face {
 
@@ -56,7 +56,7 @@ TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(o
   if (options.trace_depth >= 0) filter_.depth = static_cast<unsigned>(options.trace_depth);
   if (options.trace_limit > 0) filter_.most_bytes = options.trace_limit;
   if (!options.trace_around.empty()) read_around(options.trace_around);
-  if (!file_.empty()) const OutputFile probe(file_);  // vanishes without commit()
+  if (!file_.empty()) const formats::PendingFile probe(file_);  // vanishes without commit()
 }
 
 void TracePlan::read_around(std::string_view text) {

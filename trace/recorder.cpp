@@ -70,9 +70,7 @@ TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TetMesh& m
   write_frame('M', content.bytes());
 }
 
-TraceRecorder::~TraceRecorder() {
-  if (active_) write_chunk();
-}
+TraceRecorder::~TraceRecorder() = default;
 
 std::uint64_t TraceRecorder::ticks() const {
   constexpr std::uint64_t kTicksPerStep = 16;

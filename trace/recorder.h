@@ -62,7 +62,7 @@ enum class TraceClock : std::uint8_t {
 enum class TraceEnd : std::uint8_t { complete, limit_reached };
 
 /// A file that is being written is FILE.part, and can be read up to the last chunk; finish() gives
-/// it its name. Cost: linear in the mesh at the beginning, about 100 bytes in memory and 10 in the
+/// it its name, and a crash leaves it. Cost: linear in the mesh at the beginning, about 100 bytes in memory and 10 in the
 /// file for each attempt. Trouble with the file ends the trace, not the run: finish() reports it.
 class TraceRecorder final : public TraceSink {
  public:
@@ -70,7 +70,7 @@ class TraceRecorder final : public TraceSink {
   /// Precondition: `mesh` is the one of the run, outlives the recorder, and no transaction is open.
   TraceRecorder(const std::filesystem::path& file, const TetMesh& mesh, TraceHeader header,
                 TraceFilter filter = {}, TraceClock clock = TraceClock::real);
-  /// Without finish(): writes what it has, into FILE.part.
+  /// Without finish() nothing stays.
   ~TraceRecorder() override;
   TraceRecorder(const TraceRecorder&) = delete;
   TraceRecorder& operator=(const TraceRecorder&) = delete;
@@ -80,8 +80,7 @@ class TraceRecorder final : public TraceSink {
   /// False once the limit is reached or the file made trouble.
   bool is_active() const { return active_; }
   /// Writes what is left. No event may follow.
-  /// @throws Error when the file could not be written, now or earlier: then FILE.part holds what
-  /// could be.
+  /// @throws Error when the file could not be written, now or earlier.
   void finish();
 
   void pass_begins(std::string_view name, unsigned round) override;

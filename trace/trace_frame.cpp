@@ -2,13 +2,9 @@
 #include "trace/trace_frame.h"
 
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zstd.h>
 
 namespace tetmend {
@@ -45,25 +41,15 @@ struct FrameWriter::Compressor {
   Compressor& operator=(const Compressor&) = delete;
 };
 
-FrameWriter::FrameWriter(std::filesystem::path file)
-    : file_(std::move(file)), part_(file_), compressor_(std::make_unique<Compressor>()) {
-  part_ += ".part";
-  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd_ < 0) fail();
+FrameWriter::FrameWriter(const std::filesystem::path& file)
+    : file_(file, formats::PendingFile::Name::part), compressor_(std::make_unique<Compressor>()) {
   std::array<std::byte, kTraceMagicSize> head{};
   std::memcpy(head.data(), kMagic.data(), kMagic.size());
   std::memcpy(head.data() + kMagic.size(), &kTraceVersion, sizeof kTraceVersion);
   write(head);
 }
 
-FrameWriter::~FrameWriter() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
-void FrameWriter::fail() const {
-  throw Error(fmt::format("{}: cannot be written: {}", part_.string(),
-                          std::generic_category().message(errno)));
-}
+FrameWriter::~FrameWriter() = default;
 
 std::span<const std::byte> FrameWriter::pack(std::span<const std::byte> content) {
   FrameHead head{content.size(), 0};
@@ -78,19 +64,7 @@ std::span<const std::byte> FrameWriter::pack(std::span<const std::byte> content)
 
 void FrameWriter::write(std::span<const std::byte> packed) {
   written_ += packed.size();
-  while (!packed.empty()) {
-    const ssize_t done = ::write(fd_, packed.data(), packed.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done < 0) fail();
-    packed = packed.subspan(static_cast<std::size_t>(done));
-  }
-}
-
-void FrameWriter::finish() {
-  const int closed = ::close(fd_);
-  fd_ = -1;
-  if (closed != 0) fail();
-  if (::rename(part_.c_str(), file_.c_str()) != 0) fail();
+  file_.write({reinterpret_cast<const char*>(packed.data()), packed.size()});
 }
 
 FrameReader::FrameReader(const std::filesystem::path& file) : file_(file) {

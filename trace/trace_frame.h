@@ -10,6 +10,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/input_file.h"
+#include "kernel/formats/pending_file.h"
 
 namespace tetmend {
 
@@ -18,17 +19,17 @@ inline constexpr std::size_t kTraceMagicSize = 12;
 inline constexpr std::uint32_t kTraceVersion = 2;
 
 /// Writes frames into FILE.part, each at once. So a crash costs only what was not handed over yet.
-/// finish() gives the file its name; without it FILE.part stays.
+/// finish() gives the file its name; without it, short of a crash, FILE.part vanishes.
 class FrameWriter {
  public:
   /// @throws Error when the file cannot be written.
-  explicit FrameWriter(std::filesystem::path file);
+  explicit FrameWriter(const std::filesystem::path& file);
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
   /// Where the bytes are until finish().
-  const std::filesystem::path& part() const { return part_; }
+  const std::filesystem::path& part() const { return file_.temporary(); }
   /// Bytes in the file.
   std::size_t written() const { return written_; }
   /// Compresses; the bytes of a frame as they are to be written, valid until the next call.
@@ -36,15 +37,12 @@ class FrameWriter {
   /// @throws Error when the disk is full.
   void write(std::span<const std::byte> packed);
   /// @throws Error
-  void finish();
+  void finish() { file_.commit(); }
 
  private:
   struct Compressor;
-  [[noreturn]] void fail() const;
 
-  std::filesystem::path file_;
-  std::filesystem::path part_;
-  int fd_ = -1;
+  formats::PendingFile file_;
   std::size_t written_ = 0;
   std::unique_ptr<Compressor> compressor_;
   std::vector<std::byte> packed_;

@@ -25,6 +25,9 @@
 namespace tetmend::formats {
 namespace {
 
+constexpr std::array<std::string_view, 5> kExtensions = {".header", ".nodes", ".elements",
+                                                         ".boundary", ".names"};
+
 constexpr std::string_view kBodies = "! ----- names for bodies -----\n";
 constexpr std::string_view kBoundaries = "! ----- names for boundaries -----\n";
 
@@ -292,10 +295,9 @@ class Writer {
     write_boundary();
     write_header();
     if (names_) write_names();
-    for (OutputFile* file : {&nodes_, &elements_, &boundary_, &header_}) file->finish();
-    if (names_) names_->finish();
-    if (names_) names_->commit();
-    for (OutputFile* file : {&nodes_, &elements_, &boundary_, &header_}) file->commit();
+    std::vector<OutputFile*> all = {&nodes_, &elements_, &boundary_, &header_};
+    if (names_) all.push_back(&*names_);
+    OutputFile::commit_all(all);
   }
 
  private:
@@ -412,6 +414,15 @@ MeshData read_elmer(const std::filesystem::path& header, TetPlace* question) {
 
 void write_elmer(const std::filesystem::path& header, const MeshView& mesh) {
   Writer(header, mesh).write();
+}
+
+std::vector<std::filesystem::path> elmer_files(const std::filesystem::path& header) {
+  std::vector<std::filesystem::path> files = {header};
+  for (const std::string_view extension : kExtensions) {
+    const std::filesystem::path file = sibling(header, extension);
+    if (file != header) files.push_back(file);
+  }
+  return files;
 }
 
 }  // namespace tetmend::formats

@@ -49,4 +49,7 @@ MeshData read_elmer(const std::filesystem::path& header, TetPlace* question = nu
 /// @throws Error
 void write_elmer(const std::filesystem::path& header, const MeshView& mesh);
 
+/// All files of a mesh that is named by one of them, that one first.
+std::vector<std::filesystem::path> elmer_files(const std::filesystem::path& header);
+
 }  // namespace tetmend::formats

@@ -202,6 +202,13 @@ std::span<const std::string_view> mesh_variants(const std::filesystem::path& fil
   return {};
 }
 
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file) {
+  const std::string extension = file.extension() == ".gz" ? "" : format_extension(file);
+  if (extension == ".node" || extension == ".ele") return formats::tetgen_files(file);
+  if (extension == ".header") return formats::elmer_files(file);
+  return {file};
+}
+
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
   assert(mesh.point_labels.empty() || mesh.point_labels.size() == mesh.points.size());
   write_mesh(file, MeshView(mesh));

@@ -53,13 +53,17 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
 /// there is only one.
 std::span<const std::string_view> mesh_variants(const std::filesystem::path& file);
 
+/// The files that a mesh under this name is, `file` first; only that one if the extension is unknown.
+/// Not all of them need be there.
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file);
+
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
 /// folder. Doubles are written so
 /// that reading gives the same bits. Required vertices are kept by MEDIT only. `.msh` has the
-/// version and coding that `variant` of the data names, else 4.1 binary. The file appears
-/// under its name only when complete: a temporary file beside it is renamed, so a failure leaves an
-/// older file untouched.
+/// version and coding that `variant` of the data names, else 4.1 binary. A file appears
+/// under its name only when complete, see PendingFile, so a failure leaves an older file untouched,
+/// and of several files all.
 /// Precondition: vertex numbers are in range, coordinates finite, and `point_labels` is empty or
 /// has one for each point.
 /// @throws Error when the file cannot be written, with the reason of the operating system, or when

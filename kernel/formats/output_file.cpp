@@ -10,11 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -46,14 +44,12 @@ void OutputBuffer::grow(std::size_t size) {
   bytes_ = std::move(larger);
 }
 
-OutputFile::OutputFile(const std::filesystem::path& target)
-    : name_(target.string()), target_(target), is_standard_(formats::is_standard_stream(target)) {
-  if (is_standard_) {
-    name_ = "standard output";
-    fd_ = ::memfd_create("tetmend", MFD_CLOEXEC);
-    if (fd_ < 0) fail(errno);
+OutputFile::OutputFile(const std::filesystem::path& target) {
+  if (formats::is_standard_stream(target)) {
+    memory_ = ::memfd_create("tetmend", MFD_CLOEXEC);
+    if (memory_ < 0) fail_stream(errno);
   } else {
-    make_temporary();
+    file_.emplace(target);
   }
   if (target.extension() == ".gz") {
     gzip_ =
@@ -61,34 +57,8 @@ OutputFile::OutputFile(const std::filesystem::path& target)
   }
 }
 
-void OutputFile::make_temporary() {
-  std::error_code ignored;
-  // Renaming onto a link would replace the link, not the file that the user keeps behind it.
-  if (const auto real = std::filesystem::canonical(target_, ignored); !ignored) target_ = real;
-  mode_t mode = 0;
-  struct stat older {};
-  if (::stat(target_.c_str(), &older) == 0) {
-    if (S_ISDIR(older.st_mode)) fail(EISDIR);
-    if (!S_ISREG(older.st_mode)) {
-      throw Error(fmt::format("{}: cannot be written: not a regular file", name_));
-    }
-    // A rename would get past the write protection of the file, which asks the folder only.
-    if (::access(target_.c_str(), W_OK) != 0) fail(errno);
-    mode = older.st_mode & 0777;
-  }
-  // The name does not contain the target's, which may have the greatest length allowed.
-  for (int attempt = 0; fd_ < 0; ++attempt) {
-    temporary_ = target_.parent_path() / fmt::format(".tetmend-{}-{}.tmp", ::getpid(), attempt);
-    fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd_ < 0 && errno != EEXIST) fail(errno);
-  }
-  if (mode != 0)
-    static_cast<void>(::fchmod(fd_, mode));  // best effort: a file system may know no modes
-}
-
 OutputFile::~OutputFile() {
-  if (fd_ >= 0) ::close(fd_);
-  if (!committed_ && !is_standard_) ::unlink(temporary_.c_str());
+  if (memory_ >= 0) ::close(memory_);
 }
 
 void OutputFile::put(std::string_view text) {
@@ -126,20 +96,27 @@ void OutputFile::put_blocks(
 }
 
 void OutputFile::finish() {
-  if (fd_ < 0) return;
+  if (is_finished_) return;
   flush();
   if (gzip_) gzip_->finish();
-  if (is_standard_) return;
-  const int closed = ::close(fd_);
-  fd_ = -1;
-  if (closed != 0) fail(errno);
+  if (file_) file_->finish();
+  is_finished_ = true;
 }
 
 void OutputFile::commit() {
   finish();
-  if (is_standard_) return copy_to_standard_output();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  committed_ = true;
+  if (!file_) return copy_to_standard_output();
+  file_->commit();
+}
+
+void OutputFile::commit_all(std::span<OutputFile* const> outputs) {
+  std::vector<formats::PendingFile*> files;
+  for (OutputFile* output : outputs) {
+    output->finish();
+    if (!output->file_) throw Error("several files cannot go to standard output");
+    files.push_back(&*output->file_);
+  }
+  formats::PendingFile::commit_all(files);
 }
 
 void OutputFile::flush() {
@@ -152,31 +129,29 @@ void OutputFile::write_out(std::string_view bytes) {
   write_raw(bytes);
 }
 
+void OutputFile::write_raw(std::string_view bytes) {
+  if (file_) return file_->write(bytes);
+  if (const int error = formats::write_fully(memory_, bytes); error != 0) fail_stream(error);
+}
+
 void OutputFile::copy_to_standard_output() {
   std::array<char, 1 << 16> buffer;
   off_t place = 0;
   for (;;) {
-    const ssize_t got = ::pread(fd_, buffer.data(), buffer.size(), place);
+    const ssize_t got = ::pread(memory_, buffer.data(), buffer.size(), place);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(errno);
+    if (got < 0) fail_stream(errno);
     if (got == 0) return;
-    write_to(STDOUT_FILENO, {buffer.data(), static_cast<std::size_t>(got)});
+    const std::string_view bytes(buffer.data(), static_cast<std::size_t>(got));
+    const int error = formats::write_fully(STDOUT_FILENO, bytes);
+    if (error != 0) fail_stream(error);
     place += got;
   }
 }
 
-void OutputFile::write_to(int fd, std::string_view bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(errno);
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-void OutputFile::fail(int error) const {
-  throw Error(
-      fmt::format("{}: cannot be written: {}", name_, std::generic_category().message(error)));
+void OutputFile::fail_stream(int error) {
+  throw Error(fmt::format("standard output: cannot be written: {}",
+                          std::generic_category().message(error)));
 }
 
 }  // namespace tetmend

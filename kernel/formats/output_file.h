@@ -8,9 +8,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+
+#include "kernel/formats/pending_file.h"
 
 namespace tetmend {
 
@@ -52,15 +56,13 @@ class OutputBuffer {
   std::size_t used_ = 0;
 };
 
-/// Buffered output into a temporary file beside the target, which `commit()` renames to the target.
-/// Without `commit()` (an exception, a full disk) the temporary file vanishes and an older target
-/// stays as it was. Under a name that ends in .gz it is packed. Links are followed, and the
-/// permissions of an older target are kept. What goes to standard output, see is_standard_stream(),
-/// goes there when it is complete.
+/// Buffered output into a file that takes its name with `commit()`, see PendingFile. Without
+/// `commit()` (an exception, a full disk) it vanishes and an older file stays as it was. Under a name
+/// that ends in .gz it is packed. What goes to standard output, see is_standard_stream(), goes there
+/// when it is complete.
 class OutputFile {
  public:
-  /// @throws Error when the target is a directory or write-protected or when its folder cannot be
-  /// written.
+  /// @throws Error as PendingFile does
   explicit OutputFile(const std::filesystem::path& target);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -82,32 +84,29 @@ class OutputFile {
                   const std::function<void(std::size_t block, OutputBuffer& buffer)>& fill);
 
   /// Writes out what is buffered and closes the temporary file: what can fail for want of space
-  /// fails here. Where several files belong together, finish all before the first commit.
+  /// fails here.
   void finish();
   /// Finishes, then gives the file its name.
   void commit();
+  /// The same for files that belong together: all are new, or after an error all old.
+  static void commit_all(std::span<OutputFile* const> outputs);
 
  private:
-  void make_temporary();
   void copy_to_standard_output();
   void flush_if_full() {
     if (buffer_.content().size() >= kFull) flush();
   }
   void flush();
   void write_out(std::string_view bytes);
-  void write_raw(std::string_view bytes) { write_to(fd_, bytes); }
-  void write_to(int fd, std::string_view bytes) const;
-  [[noreturn]] void fail(int error) const;
+  void write_raw(std::string_view bytes);
+  [[noreturn]] static void fail_stream(int error);
 
   static constexpr std::size_t kFull = std::size_t{1} << 18;
-  std::string name_;  // as the user gave it, for messages
-  std::filesystem::path target_;
-  std::filesystem::path temporary_;
+  std::optional<formats::PendingFile> file_;  // nothing: standard output
   OutputBuffer buffer_;
   std::unique_ptr<formats::GzipWriter> gzip_;  // null: not packed
-  int fd_ = -1;
-  bool committed_ = false;
-  bool is_standard_ = false;
+  int memory_ = -1;                            // what is to go to standard output
+  bool is_finished_ = false;
 };
 
 }  // namespace tetmend

@@ -23,6 +23,8 @@
 namespace tetmend::formats {
 namespace {
 
+constexpr std::array<std::string_view, 4> kExtensions = {".node", ".ele", ".face", ".edge"};
+
 /// The file of the same stem with another extension, in the case of the one given (MESH.NODE goes
 /// with MESH.ELE).
 std::filesystem::path sibling(const std::filesystem::path& file, std::string_view extension) {
@@ -419,16 +421,19 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
   write_elements(faces, mesh.triangles(), second_order(mesh, 22));
   if (edges) {
     write_elements(*edges, mesh.edges(), second_order(mesh, 21));
-    edges->finish();
   }
-  nodes.finish();
-  tets.finish();
-  faces.finish();
+  std::vector<OutputFile*> all = {&faces, &nodes, &tets};
+  if (edges) all.push_back(&*edges);
+  OutputFile::commit_all(all);
+}
 
-  if (edges) edges->commit();
-  faces.commit();
-  nodes.commit();
-  tets.commit();
+std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& node_or_ele) {
+  std::vector<std::filesystem::path> files = {node_or_ele};
+  for (const std::string_view extension : kExtensions) {
+    const std::filesystem::path file = sibling(node_or_ele, extension);
+    if (file != node_or_ele) files.push_back(file);
+  }
+  return files;
 }
 
 }  // namespace tetmend::formats

@@ -26,4 +26,7 @@ MeshData read_tetgen(const std::filesystem::path& node_or_ele, TetPlace* questio
 /// before the first is renamed. @throws Error
 void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh);
 
+/// All files of a mesh that is named by one of them, that one first.
+std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& node_or_ele);
+
 }  // namespace tetmend::formats

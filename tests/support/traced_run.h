@@ -108,12 +108,19 @@ inline TetMesh asset_mesh(const std::string& name) {
       read_mesh(std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes" / name));
 }
 
+/// Takes the last frame from a trace, the one that says it is complete.
+inline void cut_end(const std::filesystem::path& file) {
+  FrameReader frames(file);
+  while (frames.next()) {
+  }
+  std::filesystem::resize_file(file, frames.offset());
+}
+
 /// Runs a schedule over the mesh and records it; returns the fingerprints that were wanted.
 inline std::map<std::uint64_t, std::uint64_t> record(
     TetMesh& mesh, const std::filesystem::path& file, const TraceFilter& filter = {},
     const std::set<std::uint64_t>& wanted = {},
-    const Schedule& schedule = Schedule::builtin("shell"), bool finish = true,
-    TraceClock clock = TraceClock::real) {
+    const Schedule& schedule = Schedule::builtin("shell"), TraceClock clock = TraceClock::real) {
   Registry registry = Registry::builtin();
   TraceRecorder recorder(file, mesh,
                          {.program = "test",
@@ -127,7 +134,7 @@ inline std::map<std::uint64_t, std::uint64_t> record(
   Run run(mesh, registry);
   run.set_trace(&witness);
   improve(run, schedule);
-  if (finish) recorder.finish();
+  recorder.finish();
   return witness.fingerprints;
 }
 

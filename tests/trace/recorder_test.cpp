@@ -79,7 +79,7 @@ TEST_CASE("equal runs give equal files when steps are the clock") {
   const TempFolder folder;
   const auto bytes = [&](TraceClock clock) {
     TetMesh mesh = asset_mesh("sheet.mesh");
-    record(mesh, folder / "trace", {}, {}, Schedule("brief", "local_reconnection{}"), true, clock);
+    record(mesh, folder / "trace", {}, {}, Schedule("brief", "local_reconnection{}"), clock);
     return read_text(folder / "trace");
   };
   CHECK(bytes(TraceClock::steps) == bytes(TraceClock::steps));
@@ -162,12 +162,37 @@ TEST_CASE("a trace with a limit ends before it, and the run goes on") {
   CHECK(some.event_count() < TraceFile(folder / "all").event_count());
 }
 
-TEST_CASE("a trace that is not finished stays as a part and can be read") {
+TEST_CASE("a trace that is not finished leaves nothing") {
+  const TempFolder folder;
+  const TetMesh mesh = asset_mesh("sheet.mesh");
+  write_text(folder / "trace", "older");
+  {
+    const TraceRecorder recorder(folder / "trace", mesh, {});
+    CHECK(std::filesystem::exists(folder / "trace.part"));
+  }
+  CHECK(folder.entries() == 1);
+  CHECK(read_text(folder / "trace") == "older");
+}
+
+TEST_CASE("a trace follows no link at the name of its part, and takes no file away") {
   const TempFolder folder;
   TetMesh mesh = asset_mesh("sheet.mesh");
-  record(mesh, folder / "trace", {}, {}, Schedule::builtin("shell"), false);
-  CHECK(!std::filesystem::exists(folder / "trace"));
-  const TraceFile file(folder / "trace.part");
+  write_text(folder / "dear", "dear to me");
+  std::filesystem::create_symlink(folder / "dear", folder / "trace.part");
+  record(mesh, folder / "trace");
+  CHECK(read_text(folder / "dear") == "dear to me");
+  CHECK(std::filesystem::is_symlink(folder / "trace.part"));
+  CHECK(!std::filesystem::is_symlink(folder / "trace"));
+  CHECK(TraceFile(folder / "trace").damage().empty());
+  CHECK(folder.entries() == 3);
+}
+
+TEST_CASE("a trace without its end, as a crash leaves it, can be read") {
+  const TempFolder folder;
+  TetMesh mesh = asset_mesh("sheet.mesh");
+  record(mesh, folder / "trace");
+  cut_end(folder / "trace");
+  const TraceFile file(folder / "trace");
   CHECK(file.damage().find("has no end") != std::string::npos);
   CHECK(ends_with(file, mesh));
 }

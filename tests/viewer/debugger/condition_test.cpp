@@ -89,8 +89,10 @@ TEST_CASE("a call that was cut off is neither accepted nor refused") {
     TraceRecorder recorder(folder / "cut.trace", mesh, {});
     const std::array edge = {VertexHandle(0), VertexHandle(1)};
     recorder.attempt_begins({"shell_transformation", edge, 0, ""});
+    recorder.finish();
   }
-  const TraceFile file(folder / "cut.trace.part");
+  test::cut_end(folder / "cut.trace");
+  const TraceFile file(folder / "cut.trace");
   REQUIRE(file.calls().size() == 1);
   CHECK(stop(file, "edge 0 1", 0) == 1);
   CHECK(stop(file, "refused", 0) == std::nullopt);
