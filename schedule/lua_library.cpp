@@ -15,6 +15,9 @@ namespace {
 /// So many bytes are copied or compared while Lua does one instruction.
 constexpr std::size_t kBytesPerStep = 64;
 
+/// Quoting a byte may take as long as many instructions.
+constexpr std::size_t kLongestToQuote = std::size_t{64} << 10;
+
 std::size_t text_length(lua_State* lua, int index) {
   return lua_type(lua, index) == LUA_TSTRING ? static_cast<std::size_t>(lua_rawlen(lua, index)) : 0;
 }
@@ -269,6 +272,9 @@ int format_text(lua_State* lua) {
     if (i >= format.size() || argument > lua_gettop(lua)) break;  // Lua says what is wrong
     if (format[i] == 'p') {
       return luaL_error(lua, "string.format: %%p is an address, which changes from run to run");
+    }
+    if (format[i] == 'q' && text_length(lua, argument) > kLongestToQuote) {
+      return luaL_error(lua, "string.format: the text is too long for %%q");
     }
     if (format[i] == 's') {
       push_text(lua, argument);

@@ -46,6 +46,7 @@ struct LuaBox {
   std::size_t new_bytes = 0;  // since the last watch
   std::size_t largest_block = kUsualBlock;
   bool hook_is_near = false;
+  bool has_long_text = false;
 
   std::size_t enough_memory() const { return limits.memory - limits.memory / 4; }
   /// An instruction may copy or compare a whole block.
@@ -147,6 +148,10 @@ void look(lua_State* lua, int level) {
     if (box.used > box.enough_memory()) {
       throw Error(fmt::format("the script holds more than {} MB", box.enough_memory() >> 20));
     }
+    // Comparing or reading it would be one step for Lua, however long.
+    if (box.has_long_text) {
+      throw Error(fmt::format("a text is longer than {} MB", box.limits.text >> 20));
+    }
     if (box.watch) box.watch();
     return 0;
   });
@@ -167,8 +172,8 @@ void note_block(LuaBox& box, std::size_t size) {
   box.new_bytes += size;
   const bool is_largest = size > box.largest_block;
   if (is_largest) box.largest_block = size;
-  const bool must_look =
-      is_largest || box.new_bytes > kBytesBetweenWatches || box.used > box.enough_memory();
+  const bool must_look = is_largest || box.has_long_text || box.new_bytes > kBytesBetweenWatches ||
+                         box.used > box.enough_memory();
   if (!must_look || box.running == nullptr || box.hook_is_near) return;
   box.hook_is_near = true;
   lua_sethook(box.running, on_count, LUA_MASKCOUNT, 1);
@@ -187,6 +192,10 @@ void* allocate(void* data, void* block, std::size_t old_size, std::size_t size) 
   void* moved = std::realloc(block, size);
   if (moved == nullptr) return nullptr;
   box.used = box.used - held + size;
+  // Without a block, the old size says what it is for.
+  if (block == nullptr && old_size == LUA_TSTRING && size > box.limits.text) {
+    box.has_long_text = true;
+  }
   if (size > held) note_block(box, size);
   return moved;
 }

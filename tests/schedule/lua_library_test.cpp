@@ -80,7 +80,7 @@ TEST_CASE("no function of the library works long without a watch") {
       {kList, "table.sort(t)", 200},
       {kList, "table.sort(t, function() return true end)", 200},
       {kEmptyTexts, "local s = table.concat(t)", 20},
-      {kEmptyTexts + kText, "local s = table.concat({s, s, s}, s)", 50},
+      {kEmptyTexts + kText, "local u = table.concat({s, s}, s)", 45},
       {kList, "table.insert(t, 1, 0)", 19},
       {kList, "table.remove(t, 1)", 19},
       {kList, "local n = select('#', table.unpack(t))", 20},
@@ -93,7 +93,7 @@ TEST_CASE("no function of the library works long without a watch") {
       {kText, "local u = s:byte(1)", 16},
       {kText, "local u = string.char(s:byte(1, 100000))", 100},
       {kText, "local u = string.format('%s', s)", 16},
-      {kText, "local u = string.format('%q', s)", 16},
+      {kText + "s = s:sub(1, 60000)", "for i = 1, 40 do local u = string.format('%q', s) end", 30},
       {kText, "local u = tonumber(s, 36)", 16},
       {kText, "say(type(s))", 0},
       {kText + "local u, v = s .. 'a', s .. 'b' ", "for i = 1, 1000 do local e = u == v end", 40},
@@ -123,6 +123,16 @@ TEST_CASE("a list that claims an enormous length can be stopped") {
     const Watched watched = run(trap + "local x = " + call, 1000);
     CHECK((watched.stopped || watched.error != "" || watched.watches < 1000));
   }
+}
+
+TEST_CASE("texts that one instruction would take long for are refused") {
+  CHECK(run("local s = 'x' while true do s = s .. s end").error ==
+        "test.lua:1: a text is longer than 4 MB");
+  CHECK(
+      run("local t = {} for i = 1, 5 do t[i] = 'x' end\n" + kText + "local u = table.concat(t, s)")
+          .error == "test.lua:2: a text is longer than 4 MB");
+  CHECK(run(kText + "local u = string.format('%q', s)").error ==
+        "test.lua:1: string.format: the text is too long for %q");
 }
 
 TEST_CASE("a usual script is watched every thousand instructions and no more often") {
