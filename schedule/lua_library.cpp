@@ -235,9 +235,8 @@ int to_text(lua_State* lua) {
   return 1;
 }
 
-/// Of a-z and A-Z alone: the rest would depend on the locale.
-template <char kFirst, char kLast>
-int change_case(lua_State* lua) {
+/// Of the letters `first` to `last`, which are among a-z or A-Z: the rest would depend on the locale.
+int change_case(lua_State* lua, char first, char last) {
   constexpr std::size_t kPiece = 4096;
   std::size_t length = 0;
   const char* text = luaL_checklstring(lua, 1, &length);
@@ -246,12 +245,20 @@ int change_case(lua_State* lua) {
   for (std::size_t begin = 0; begin < length; begin += kPiece) {
     charge_steps(lua, kPiece / kBytesPerStep);
     const std::size_t end = std::min(length, begin + kPiece);
-    std::transform(text + begin, text + end, to + begin, [](char c) {
-      return c >= kFirst && c <= kLast ? static_cast<char>(c ^ ('a' ^ 'A')) : c;
+    std::transform(text + begin, text + end, to + begin, [=](char c) {
+      return c >= first && c <= last ? static_cast<char>(c ^ ('a' ^ 'A')) : c;
     });
   }
   luaL_pushresultsize(&changed, length);
   return 1;
+}
+
+int to_lower(lua_State* lua) {
+  return change_case(lua, 'A', 'Z');
+}
+
+int to_upper(lua_State* lua) {
+  return change_case(lua, 'a', 'z');
 }
 
 bool modifies_format(char c) {
@@ -323,8 +330,8 @@ void push_string_library(lua_State* lua) {
        {"dump", "find", "gmatch", "gsub", "match", "pack", "packsize", "rep", "unpack", "reverse"});
   for (const char* name : {"byte", "char", "sub"}) stand_before(lua, name, charged);
   stand_before(lua, "format", format_text);
-  put(lua, "lower", change_case<'A', 'Z'>);
-  put(lua, "upper", change_case<'a', 'z'>);
+  put(lua, "lower", to_lower);
+  put(lua, "upper", to_upper);
 }
 
 }  // namespace

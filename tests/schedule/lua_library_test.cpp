@@ -217,6 +217,8 @@ TEST_CASE("no address is told") {
 TEST_CASE("pairs goes by the whole key, and refuses keys that have no order") {
   CHECK(said("local t = {['a\\0c'] = 3, ['a\\0b'] = 2, a = 1, [true] = 0, [2.5] = 9, [-1] = 8}\n"
              "for k, v in pairs(t) do say(v) end") == "0 8 9 1 2 3 ");
+  CHECK(said("local t = {} for i = 1, 9 do t['a\\0' .. i] = i end\n"
+             "for k, v in pairs(t) do say(v) end") == "1 2 3 4 5 6 7 8 9 ");
   CHECK(said("local t = {[9007199254740993] = 2, [9007199254740992] = 1, [2.0^60] = 3}\n"
              "for k, v in pairs(t) do say(v) end") == "1 2 3 ");
   for (const char* key : {"{}", "say", "table.sort"}) {
