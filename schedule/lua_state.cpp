@@ -2,40 +2,65 @@
 #include "schedule/lua_state.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <deque>
 #include <exception>
+#include <iterator>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "schedule/lua_library.h"
+#include "schedule/printable.h"
 
 namespace tetmend {
 
-/// All that the callbacks of the interpreter need.
-struct LuaState::Box {
-  struct Word {
-    Function function;
-    Box* box;
-  };
+namespace {
 
-  std::size_t limit = 0;
-  std::size_t used = 0;
-  Watch watch;
-  std::deque<Word> words;      // addresses must stay
-  std::exception_ptr pending;  // to come out of run()
+constexpr std::size_t kStepsBetweenWatches = 1000;
+constexpr std::size_t kBytesBetweenWatches = std::size_t{4} << 20;
+constexpr std::size_t kUsualBlock = std::size_t{64} << 10;
+constexpr std::size_t kLongestMessage = 4000;
+constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kMostNames = 200;
+constexpr const char* kWords = "tetmend words";
+
+}  // namespace
+
+/// All that the callbacks of the interpreter need. The state has its address in its extra space.
+struct LuaBox {
+  LuaState::Limits limits;
+  LuaState::Watch watch;
+  std::deque<LuaState::Function> words;  // addresses must stay
+  std::exception_ptr pending;            // to come out of run()
+  std::string start_of_messages;         // of Lua, when it knows the line
+  lua_State* running = nullptr;          // null: nothing to be watched
+
+  std::size_t used = 0;       // bytes of the interpreter
+  std::size_t kept = 0;       // bytes that words keep outside
+  std::size_t in_call = 0;    // bytes that the present word needs outside
+  std::size_t steps = 0;      // charged since the last watch
+  std::size_t new_bytes = 0;  // since the last watch
+  std::size_t largest_block = kUsualBlock;
+  bool hook_is_near = false;
+  bool has_long_text = false;
+
+  std::size_t enough_memory() const { return limits.memory - limits.memory / 4; }
+  /// An instruction may copy or compare a whole block.
+  int instructions_between_watches() const {
+    const std::size_t n = kStepsBetweenWatches * kUsualBlock / largest_block;
+    return static_cast<int>(std::max<std::size_t>(n, 1));
+  }
 };
 
 namespace {
 
-constexpr int kInstructionsBetweenWatches = 1000;
-constexpr const char* kBox = "tetmend box";
-constexpr const char* kWords = "tetmend words";
+LuaBox& box_of(lua_State* lua) {
+  return **static_cast<LuaBox**>(lua_getextraspace(lua));
+}
 
 /// An error of the line that runs at `level`. Does not return.
 int fail(lua_State* lua, const std::string& message, int level = 1) {
@@ -45,80 +70,7 @@ int fail(lua_State* lua, const std::string& message, int level = 1) {
   return lua_error(lua);
 }
 
-// ---- The library: what is safe and the same on every run ----------------------------------------
-
-/// A key by which a script may walk a table.
-struct Key {
-  int type = LUA_TNIL;
-  double number = 0;
-  std::string text;
-  int place = 0;  // in the list of keys
-
-  friend bool operator<(const Key& x, const Key& y) {
-    if (x.type != y.type) return x.type < y.type;
-    return x.type == LUA_TSTRING ? x.text < y.text : x.number < y.number;
-  }
-};
-
-int next_pair(lua_State* lua) {
-  // upvalues: keys in order, how many of them are done, table
-  const lua_Integer i = lua_tointeger(lua, lua_upvalueindex(2)) + 1;
-  lua_pushinteger(lua, i);
-  lua_replace(lua, lua_upvalueindex(2));
-  if (lua_rawgeti(lua, lua_upvalueindex(1), i) == LUA_TNIL) return 1;
-  lua_pushvalue(lua, -1);
-  lua_rawget(lua, lua_upvalueindex(3));
-  return 2;
-}
-
-/// pairs(): the built-in order changes from run to run.
-int pairs_in_order(lua_State* lua) {
-  luaL_checktype(lua, 1, LUA_TTABLE);
-  lua_settop(lua, 1);
-  lua_newtable(lua);  // keys as they come
-  std::vector<Key> keys;
-  lua_pushnil(lua);
-  while (lua_next(lua, 1) != 0) {
-    lua_pop(lua, 1);
-    Key key;
-    key.type = lua_type(lua, -1);
-    if (key.type == LUA_TSTRING) {
-      key.text = lua_tostring(lua, -1);
-    } else if (key.type == LUA_TBOOLEAN) {
-      key.number = lua_toboolean(lua, -1);
-    } else if (key.type == LUA_TNUMBER) {
-      key.number = lua_tonumber(lua, -1);
-    } else {
-      return fail(lua, "pairs: keys must be numbers, strings or booleans");
-    }
-    key.place = static_cast<int>(keys.size()) + 1;
-    lua_pushvalue(lua, -1);
-    lua_rawseti(lua, 2, key.place);
-    keys.push_back(std::move(key));
-  }
-  std::sort(keys.begin(), keys.end());
-  lua_createtable(lua, static_cast<int>(keys.size()), 0);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    lua_rawgeti(lua, 2, keys[i].place);
-    lua_rawseti(lua, 3, static_cast<lua_Integer>(i) + 1);
-  }
-  lua_pushinteger(lua, 0);
-  lua_pushvalue(lua, 1);
-  lua_pushcclosure(lua, next_pair, 3);
-  return 1;
-}
-
-/// tostring() without addresses, which change from run to run.
-int to_text(lua_State* lua) {
-  luaL_checkany(lua, 1);
-  const int type = lua_type(lua, 1);
-  if (type == LUA_TTABLE || type == LUA_TFUNCTION || type == LUA_TUSERDATA) {
-    lua_pushstring(lua, lua_typename(lua, type));
-  } else {
-    luaL_tolstring(lua, 1, nullptr);
-  }
-  return 1;
-}
+// ---- Names -------------------------------------------------------------------------------------
 
 int unknown_global(lua_State* lua) {
   lua_getfield(lua, LUA_REGISTRYINDEX, kWords);
@@ -130,10 +82,14 @@ int unknown_global(lua_State* lua) {
     lua_pushnil(lua);
     while (lua_next(lua, table) != 0) {
       lua_pop(lua, 1);
-      if (lua_type(lua, -1) == LUA_TSTRING) valid.insert(lua_tostring(lua, -1));
+      charge_steps(lua, 1);
+      if (lua_type(lua, -1) != LUA_TSTRING || lua_rawlen(lua, -1) > kLongestName) continue;
+      valid.insert(lua_tostring(lua, -1));
+      if (valid.size() > kMostNames) valid.erase(std::prev(valid.end()));
     }
   }
-  return fail(lua, fmt::format("unknown name '{}'; valid: {}", name, fmt::join(valid, ", ")));
+  return fail(lua, fmt::format("unknown name '{}'; valid: {}", printable(name, kLongestName),
+                               fmt::join(valid, ", ")));
 }
 
 int new_global(lua_State* lua) {
@@ -149,52 +105,8 @@ int new_global(lua_State* lua) {
   return 0;
 }
 
-/// Leaves in the table on top only the named fields. What is left out runs for a time that nobody
-/// can interrupt, differs from run to run, or reaches outside.
-void keep_fields(lua_State* lua, const std::vector<std::string>& names) {
-  lua_newtable(lua);
-  for (const std::string& name : names) {
-    lua_getfield(lua, -2, name.c_str());
-    lua_setfield(lua, -2, name.c_str());
-  }
-}
-
-void drop_fields(lua_State* lua, const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    lua_pushnil(lua);
-    lua_setfield(lua, -2, name.c_str());
-  }
-}
-
-void open_library(lua_State* lua) {
-  lua_newtable(lua);  // words
-  const auto take_over = [&](const char* name) { lua_setfield(lua, -2, name); };
-  luaL_requiref(lua, "_G", luaopen_base, 0);
-  for (const char* name : {"assert", "error", "ipairs", "select", "tonumber", "type"}) {
-    lua_getfield(lua, -1, name);
-    lua_setfield(lua, -3, name);
-  }
-  lua_pop(lua, 1);
-  lua_pushcfunction(lua, pairs_in_order);
-  take_over("pairs");
-  lua_pushcfunction(lua, to_text);
-  take_over("tostring");
-
-  luaL_requiref(lua, "table", luaopen_table, 0);
-  keep_fields(lua, {"concat", "insert", "pack", "remove", "sort", "unpack"});
-  lua_remove(lua, -2);
-  take_over("table");
-  luaL_requiref(lua, "math", luaopen_math, 0);
-  drop_fields(lua, {"random", "randomseed"});
-  take_over("math");
-  // Strings find their methods in this very table.
-  luaL_requiref(lua, "string", luaopen_string, 0);
-  drop_fields(lua, {"dump", "find", "gmatch", "gsub", "match", "pack", "packsize", "rep", "unpack",
-                    "reverse"});
-  take_over("string");
-  lua_setfield(lua, LUA_REGISTRYINDEX, kWords);
-
-  // A fresh table of globals: it holds what the script makes.
+/// A fresh table of globals: it holds what the script makes.
+void make_globals(lua_State* lua) {
   lua_newtable(lua);
   lua_newtable(lua);
   lua_pushcfunction(lua, unknown_global);
@@ -211,69 +123,193 @@ void open_library(lua_State* lua) {
 
 namespace {
 
-template <class BoxType>
-void* allocate(void* data, void* block, std::size_t old_size, std::size_t size) {
-  BoxType& box = *static_cast<BoxType*>(data);
-  const std::size_t held = block != nullptr ? old_size : 0;
-  if (size == 0) {
-    std::free(block);
-    box.used -= held;
-    return nullptr;
-  }
-  if (size > held && size - held > box.limit - std::min(box.limit, box.used)) return nullptr;
-  void* moved = std::realloc(block, size);
-  if (moved != nullptr) box.used = box.used - held + size;
-  return moved;
-}
-
 /// Runs what may throw in a frame that Lua called.
-template <class BoxType, class Work>
-int guarded(lua_State* lua, BoxType& box, int level, const Work& work) {
+template <class Work>
+int guarded(lua_State* lua, int level, const Work& work) {
   std::string message;
   try {
     return work();
   } catch (const Error& error) {
     message = error.what();
   } catch (const ScriptStop&) {
-    box.pending = std::current_exception();
+    box_of(lua).pending = std::current_exception();
   } catch (const std::exception&) {
-    box.pending = std::current_exception();
+    box_of(lua).pending = std::current_exception();
   }
   return fail(lua, message, level);
 }
 
-template <class BoxType>
-void on_count(lua_State* lua, lua_Debug*) {
-  lua_getfield(lua, LUA_REGISTRYINDEX, kBox);
-  BoxType& box = *static_cast<BoxType*>(lua_touserdata(lua, -1));
-  lua_pop(lua, 1);
-  guarded(lua, box, 0, [&] {
+/// Asks whether the script may go on.
+void look(lua_State* lua, int level) {
+  LuaBox& box = box_of(lua);
+  box.new_bytes = 0;
+  guarded(lua, level, [&] {
     // Before the limit itself is met, which no line could be blamed for.
-    if (box.used > box.limit - box.limit / 4) {
-      throw Error(
-          fmt::format("the script holds more than {} MB", (box.limit - box.limit / 4) >> 20));
+    if (box.used > box.enough_memory()) {
+      throw Error(fmt::format("the script holds more than {} MB", box.enough_memory() >> 20));
+    }
+    // Comparing or reading it would be one step for Lua, however long.
+    if (box.has_long_text) {
+      throw Error(fmt::format("a text is longer than {} MB", box.limits.text >> 20));
     }
     if (box.watch) box.watch();
     return 0;
   });
 }
 
-template <class WordType>
+void on_count(lua_State* lua, lua_Debug*) {
+  LuaBox& box = box_of(lua);
+  if (box.hook_is_near) {  // costs a walk through all calls
+    box.hook_is_near = false;
+    lua_sethook(lua, on_count, LUA_MASKCOUNT, box.instructions_between_watches());
+  }
+  look(lua, 0);
+}
+
+/// Brings the next watch forward when an instruction takes much memory, and so time. Lua allows
+/// lua_sethook() at any moment.
+void note_block(LuaBox& box, std::size_t size) {
+  box.new_bytes += size;
+  const bool is_largest = size > box.largest_block;
+  if (is_largest) box.largest_block = size;
+  const bool must_look = is_largest || box.has_long_text || box.new_bytes > kBytesBetweenWatches ||
+                         box.used > box.enough_memory();
+  if (!must_look || box.running == nullptr || box.hook_is_near) return;
+  box.hook_is_near = true;
+  lua_sethook(box.running, on_count, LUA_MASKCOUNT, 1);
+}
+
+void* allocate(void* data, void* block, std::size_t old_size, std::size_t size) {
+  LuaBox& box = *static_cast<LuaBox*>(data);
+  const std::size_t held = block != nullptr ? old_size : 0;
+  if (size == 0) {
+    std::free(block);
+    box.used -= held;
+    return nullptr;
+  }
+  const std::size_t limit = box.limits.memory;
+  if (size > held && size - held > limit - std::min(limit, box.used)) return nullptr;
+  void* moved = std::realloc(block, size);
+  if (moved == nullptr) return nullptr;
+  box.used = box.used - held + size;
+  // Without a block, the old size says what it is for.
+  if (block == nullptr && old_size == LUA_TSTRING && size > box.limits.text) {
+    box.has_long_text = true;
+  }
+  if (size > held) note_block(box, size);
+  return moved;
+}
+
 int call_word(lua_State* lua) {
-  auto& word = *static_cast<WordType*>(lua_touserdata(lua, lua_upvalueindex(1)));
-  return guarded(lua, *word.box, 1, [&] { return word.function(lua); });
+  const auto& function =
+      *static_cast<const LuaState::Function*>(lua_touserdata(lua, lua_upvalueindex(1)));
+  charge_arguments(lua);
+  box_of(lua).in_call = 0;
+  return guarded(lua, 1, [&] { return function(lua); });
+}
+
+/// Watches the script for as long as it runs.
+class Watching {
+ public:
+  Watching(lua_State* lua, LuaBox& box) : lua_(lua), box_(box) {
+    box_.running = lua_;
+    box_.hook_is_near = false;
+    lua_sethook(lua_, on_count, LUA_MASKCOUNT, box_.instructions_between_watches());
+  }
+  ~Watching() {
+    box_.running = nullptr;
+    lua_sethook(lua_, nullptr, 0, 0);
+  }
+  Watching(const Watching&) = delete;
+  Watching& operator=(const Watching&) = delete;
+
+ private:
+  lua_State* lua_;
+  LuaBox& box_;
+};
+
+/// How messages of Lua begin: it shortens long names of files.
+std::string name_in_messages(const std::string& name) {
+  constexpr std::size_t kLongest = LUA_IDSIZE - 1;
+  constexpr std::size_t kKept = LUA_IDSIZE - 4;
+  return name.size() <= kLongest ? name : "..." + name.substr(name.size() - kKept);
+}
+
+std::string_view text_at(lua_State* lua, int index) {
+  std::size_t length = 0;
+  const char* text = lua_tolstring(lua, index, &length);
+  return {text, length};
+}
+
+/// Adds file and line to messages from within functions of C++, for which Lua has none.
+int add_place(lua_State* lua) {
+  const bool has_place =
+      lua_type(lua, 1) != LUA_TSTRING || text_at(lua, 1).starts_with(box_of(lua).start_of_messages);
+  if (has_place) return 1;
+  lua_Debug caller;
+  for (int level = 1; lua_getstack(lua, level, &caller) != 0; ++level) {
+    lua_getinfo(lua, "l", &caller);
+    if (caller.currentline <= 0) continue;
+    luaL_where(lua, level);
+    lua_insert(lua, 1);
+    lua_concat(lua, 2);
+    return 1;
+  }
+  return 1;
+}
+
+/// What went wrong, from the value on top of the stack.
+std::string message_of(lua_State* lua, const std::string& name) {
+  if (lua_type(lua, -1) != LUA_TSTRING) {
+    return fmt::format("{}: error({}) was called", name, luaL_typename(lua, -1));
+  }
+  const std::string message = printable(text_at(lua, -1), kLongestMessage);
+  const bool has_file = text_at(lua, -1).starts_with(box_of(lua).start_of_messages);
+  return has_file ? message : fmt::format("{}: {}", name, message);
 }
 
 }  // namespace
 
-LuaState::LuaState(Limits limits, Watch watch) : box_(std::make_unique<Box>()) {
-  box_->limit = limits.memory;
+void charge_steps(lua_State* lua, std::size_t steps) {
+  LuaBox& box = box_of(lua);
+  box.steps += steps;
+  while (box.running != nullptr && box.steps >= kStepsBetweenWatches) {
+    box.steps -= kStepsBetweenWatches;
+    look(lua, 1);
+  }
+}
+
+namespace {
+
+void check_outside(const LuaBox& box) {
+  if (box.kept + box.in_call <= box.limits.outside) return;
+  throw Error(fmt::format("arguments, notes and descriptions take more than {} MB",
+                          box.limits.outside >> 20));
+}
+
+}  // namespace
+
+void hold_in_call(lua_State* lua, std::size_t bytes) {
+  LuaBox& box = box_of(lua);
+  box.in_call += bytes;
+  check_outside(box);
+}
+
+void hold_for_good(lua_State* lua, std::size_t bytes) {
+  LuaBox& box = box_of(lua);
+  box.kept += bytes;
+  check_outside(box);
+}
+
+LuaState::LuaState(Limits limits, Watch watch) : box_(std::make_unique<LuaBox>()) {
+  box_->limits = limits;
   box_->watch = std::move(watch);
-  lua_ = lua_newstate(allocate<Box>, box_.get());
+  lua_ = lua_newstate(allocate, box_.get());
   if (lua_ == nullptr) throw std::bad_alloc();
-  open_library(lua_);
-  lua_pushlightuserdata(lua_, box_.get());
-  lua_setfield(lua_, LUA_REGISTRYINDEX, kBox);
+  *static_cast<LuaBox**>(lua_getextraspace(lua_)) = box_.get();
+  push_library(lua_);
+  lua_setfield(lua_, LUA_REGISTRYINDEX, kWords);
+  make_globals(lua_);
 }
 
 LuaState::~LuaState() {
@@ -281,9 +317,8 @@ LuaState::~LuaState() {
 }
 
 void LuaState::push_function(Function function) {
-  Box::Word& word = box_->words.emplace_back(Box::Word{std::move(function), box_.get()});
-  lua_pushlightuserdata(lua_, &word);
-  lua_pushcclosure(lua_, call_word<Box::Word>, 1);
+  lua_pushlightuserdata(lua_, &box_->words.emplace_back(std::move(function)));
+  lua_pushcclosure(lua_, call_word, 1);
 }
 
 void LuaState::add_word(const std::string& name, Function function) {
@@ -295,26 +330,23 @@ void LuaState::add_word(const std::string& name, Function function) {
 
 void LuaState::run(std::string_view text, const std::string& name) {
   box_->pending = nullptr;
+  box_->start_of_messages = name_in_messages(name) + ":";
+  lua_pushcfunction(lua_, add_place);
   const std::string chunk = "@" + name;
   int status = luaL_loadbufferx(lua_, text.data(), text.size(), chunk.c_str(), "t");
   if (status == LUA_OK) {
-    lua_sethook(lua_, on_count<Box>, LUA_MASKCOUNT, kInstructionsBetweenWatches);
-    status = lua_pcall(lua_, 0, 0, 0);
-    lua_sethook(lua_, nullptr, 0, 0);
+    const Watching watching(lua_, *box_);
+    status = lua_pcall(lua_, 0, 0, -2);
   }
   if (box_->pending) {
     lua_settop(lua_, 0);
     std::rethrow_exception(std::exchange(box_->pending, nullptr));
   }
-  if (status == LUA_OK) return;
-  std::string message;
-  if (status == LUA_ERRMEM) {
-    message = fmt::format("{}: the script needs more than {} MB", name, box_->limit >> 20);
-  } else if (lua_type(lua_, -1) == LUA_TSTRING) {
-    message = lua_tostring(lua_, -1);
-  } else {
-    message = fmt::format("{}: error({}) was called", name, luaL_typename(lua_, -1));
-  }
+  if (status == LUA_OK) return lua_settop(lua_, 0);
+  const std::string message =
+      status == LUA_ERRMEM
+          ? fmt::format("{}: the script needs more than {} MB", name, box_->limits.memory >> 20)
+          : message_of(lua_, name);
   lua_settop(lua_, 0);
   throw Error(message);
 }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "schedule/printable.h"
 
 namespace tetmend {
 
@@ -21,7 +22,11 @@ constexpr double kExactIntegers = 9007199254740992;  // 2^53
 
 std::vector<std::string> read_choices(const Subject& subject, const ScriptValue& value) {
   std::vector<std::string> choices;
-  for (const ScriptValue& choice : value.list) choices.push_back(read_text(subject, choice));
+  for (const ScriptValue& choice : value.list) {
+    choices.push_back(read_text(subject, choice));
+    if (printable(choices.back()) == choices.back()) continue;
+    throw Error(fmt::format("{}: '{}' has control characters", subject.text, choices.back()));
+  }
   if (choices.empty()) throw Error(fmt::format("{} must be a list of texts", subject.text));
   return choices;
 }
@@ -111,7 +116,7 @@ ScheduleParameter read_parameter(const ScriptValue& value,
     } else if (name == "high") {
       parameter.high = read_number(subject.of(name), field);
     } else if (name == "help") {
-      parameter.help = read_text(subject.of(name), field);
+      parameter.help = printable(read_text(subject.of(name), field));
     } else if (name == "choices") {
       parameter.choices = read_choices(subject.of(name), field);
     } else {

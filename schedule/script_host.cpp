@@ -10,14 +10,21 @@
 #include "kernel/error.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
+#include "schedule/lua_library.h"
+#include "schedule/printable.h"
 #include "schedule/single_attempt.h"
 
 namespace tetmend {
 
 namespace {
 
-/// About a second: a script that only declares is done long before.
-constexpr std::size_t kMostWatchesToDescribe = 50000;
+/// Ten million instructions: a script that only declares is done long before.
+constexpr std::size_t kMostWatchesToDescribe = 10000;
+/// Where each instruction copies megabytes.
+constexpr std::chrono::seconds kMostTimeToDescribe{2};
+
+/// Of one byte that is written as \x1b.
+constexpr std::size_t kMostBytesShown = 4;
 
 constexpr const char* kQualityTable = "tetmend quality";
 
@@ -76,6 +83,18 @@ ScheduleSettings read_settings(const WordInfo& word, const ScriptValue& value) {
   return settings;
 }
 
+std::size_t memory_of(const ScheduleParameter& parameter) {
+  std::size_t bytes = sizeof(parameter) + parameter.name.size() + parameter.help.size();
+  for (const std::string& choice : parameter.choices) bytes += sizeof(choice) + choice.size();
+  return bytes;
+}
+
+bool is_place_in_list(lua_State* lua, int index, lua_Integer length) {
+  if (lua_isinteger(lua, index) == 0) return false;
+  const lua_Integer place = lua_tointeger(lua, index);
+  return place >= 1 && place <= length;
+}
+
 QualityIndicators read_indicators(const Subject& subject, const ScriptValue& value) {
   const auto number = [&](std::string_view name) {
     const ScriptValue* field = value.field(name);
@@ -107,7 +126,8 @@ void ScriptHost::execute(const Schedule& schedule) {
 
 void ScriptHost::watch() {
   if (run_ == nullptr) {
-    if (++watches_ > kMostWatchesToDescribe) throw ScriptStop();
+    const bool is_late = std::chrono::steady_clock::now() - start_ > kMostTimeToDescribe;
+    if (++watches_ > kMostWatchesToDescribe || is_late) throw ScriptStop();
     return;
   }
   run_->check_time();
@@ -158,15 +178,18 @@ void ScriptHost::add_words() {
 // ---- Declarations -------------------------------------------------------------------------------
 
 int ScriptHost::describe(lua_State* lua) {
-  info_.description = read_text({"description"}, read_value(lua, 1));
+  info_.description = printable(read_text({"description"}, read_value(lua, 1)));
+  hold_for_good(lua, info_.description.size());
   return 0;
 }
 
 int ScriptHost::declare(lua_State* lua) {
   if (working_) throw Error("parameter: to be declared before the first pass");
   const ScriptValue value = read_table(lua, 1, find_word("parameter"));
+  charge_steps(lua, info_.parameters.size());
   const ScheduleParameter& parameter =
       info_.parameters.emplace_back(read_parameter(value, info_.parameters));
+  hold_for_good(lua, memory_of(parameter));
   const auto [number, text] = chosen_value(parameter, settings_);
   switch (parameter.kind) {
     case ScheduleParameter::Kind::integer:
@@ -350,11 +373,21 @@ int ScriptHost::attempt(lua_State* lua) {
 
 int ScriptHost::compose(lua_State* lua, const char* how) {
   luaL_checktype(lua, 1, LUA_TTABLE);
+  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, 1));
   lua_newtable(lua);
-  for (lua_pushnil(lua); lua_next(lua, 1) != 0;) {
-    lua_pushvalue(lua, -2);  // lua_next needs the key again
-    lua_insert(lua, -2);
-    lua_rawset(lua, -4);
+  const int made = lua_gettop(lua);
+  for (lua_Integer i = 1; i <= length; ++i) {
+    charge_steps(lua, 1);
+    lua_rawgeti(lua, 1, i);
+    lua_rawseti(lua, made, i);
+  }
+  // What is no name is refused by the word that reads the table.
+  for (lua_pushnil(lua); lua_next(lua, 1) != 0; lua_pop(lua, 1)) {
+    charge_steps(lua, 1);
+    if (is_place_in_list(lua, -2, length)) continue;
+    lua_pushvalue(lua, -2);
+    lua_pushvalue(lua, -2);
+    lua_rawset(lua, made);
   }
   lua_pushstring(lua, how);
   lua_setfield(lua, -2, "how");
@@ -505,15 +538,15 @@ int ScriptHost::log(lua_State* lua) {
   std::string text;
   const int count = lua_gettop(lua);
   for (int i = 1; i <= count; ++i) {
+    push_text(lua, i);
+    std::size_t length = 0;
+    const char* part = lua_tolstring(lua, -1, &length);
+    hold_in_call(lua, kMostBytesShown * (length + 1));
     if (i > 1) text += ' ';
-    const int type = lua_type(lua, i);
-    if (type == LUA_TTABLE || type == LUA_TFUNCTION) {
-      text += lua_typename(lua, type);
-    } else {
-      text += luaL_tolstring(lua, i, nullptr);
-      lua_pop(lua, 1);
-    }
+    text += printable({part, length});
+    lua_pop(lua, 1);
   }
+  hold_for_good(lua, sizeof(text) + text.size());
   run_->note(text);
   return 0;
 }

@@ -2,6 +2,7 @@
 // Carries out what a script says: gives the words of the language their meaning.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ class ScriptHost {
   ScheduleInfo info_;
   bool working_ = false;
   std::size_t watches_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   LuaState lua_;
 };
 

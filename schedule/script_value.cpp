@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "schedule/lua_state.h"
 
 namespace tetmend {
 
@@ -17,6 +18,18 @@ namespace {
 using Kind = ScriptValue::Kind;
 
 constexpr int kDeepest = 16;
+
+/// Memory of a value and of what is made from it: a composition, a place in a vector that grows.
+constexpr std::size_t kBytesOfValue = 256;
+
+/// The text at an index, copied. What is shared in Lua may be large when it is copied often.
+std::string take_text(lua_State* lua, int index) {
+  hold_in_call(lua, 2 * lua_rawlen(lua, index));
+  charge_steps(lua, lua_rawlen(lua, index) / 64);
+  std::size_t length = 0;
+  const char* text = lua_tolstring(lua, index, &length);
+  return {text, length};
+}
 
 ScriptValue read_nested(lua_State* lua, int index, int depth);
 
@@ -34,7 +47,8 @@ ScriptValue read_table(lua_State* lua, int index, int depth) {
   lua_pushnil(lua);
   while (lua_next(lua, index) != 0) {
     if (lua_type(lua, -2) == LUA_TSTRING) {
-      value.fields.push_back({lua_tostring(lua, -2), read_nested(lua, lua_gettop(lua), depth + 1)});
+      std::string name = take_text(lua, -2);
+      value.fields.push_back({std::move(name), read_nested(lua, lua_gettop(lua), depth + 1)});
     } else if (!lua_isinteger(lua, -2) || lua_tointeger(lua, -2) < 1 ||
                lua_tointeger(lua, -2) > length) {
       throw Error("a table has keys that are neither names nor 1, 2, ... n");
@@ -47,6 +61,8 @@ ScriptValue read_table(lua_State* lua, int index, int depth) {
 }
 
 ScriptValue read_nested(lua_State* lua, int index, int depth) {
+  hold_in_call(lua, kBytesOfValue);
+  charge_steps(lua, 1);
   ScriptValue value;
   switch (lua_type(lua, index)) {
     case LUA_TNIL:
@@ -63,7 +79,7 @@ ScriptValue read_nested(lua_State* lua, int index, int depth) {
       return value;
     case LUA_TSTRING:
       value.kind = Kind::text;
-      value.text = lua_tostring(lua, index);
+      value.text = take_text(lua, index);
       return value;
     case LUA_TTABLE:
       return read_table(lua, index, depth);

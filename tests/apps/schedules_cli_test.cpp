@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "schedule/lua_state.h"
 #include "schedule/schedule.h"
 #include "tests/apps/program.h"
 #include "tests/support/text.h"
@@ -49,11 +50,13 @@ TEST_CASE("scripts with mistakes end with status 1, name line and word, and touc
       {"smooth{cycles = 'many'}", "my.lua:1: smooth: cycles must be a number, is 'many'"},
       {"local function f() return 1 + f() end\nf()", "my.lua:1: stack overflow"},
       {"local t = {} while true do t[#t + 1] = {} end", "my.lua:1: the script holds more than"},
-      {"local s = 'x' while true do s = s .. s end", "the script needs more than 128 MB"},
+      {"local s = 'x' while true do s = s .. s end", "my.lua:1: a text is longer than 4 MB"},
+      {"error('\\27[2J\\nwritten')", "my.lua:1: \\x1b[2J\\nwritten"},
+      {"log(string.format('%p', {}))", "my.lua:1: string.format: %p is an address"},
       {"io.open('/etc/passwd')", "my.lua:1: unknown name 'io'"},
       {"os.execute('true')", "my.lua:1: unknown name 'os'"},
       {"require 'os'", "my.lua:1: unknown name 'require'"},
-      {"\x1bLua", "attempt to load a binary chunk"},
+      {"\x1bLua", "my.lua: attempt to load a binary chunk"},
   };
   Bench bench;
   const std::string input = read_text(kSheet);
@@ -178,6 +181,15 @@ TEST_CASE("docs/schedules.md is what the program says") {
   const std::size_t first = page.find(begin) + begin.size();
   // To put it right: replace what stands between the marks by the output of the command.
   CHECK(page.substr(first, page.find(end) - first) == run_program({"schedules", "--markdown"}).out);
+}
+
+TEST_CASE("the limits that docs/schedules.md names are those of the box") {
+  const std::string page = read_text(std::string(TETMEND_SOURCE_DIR) + "/docs/schedules.md");
+  const LuaState::Limits limits;
+  const auto megabytes = [](std::size_t bytes) { return std::to_string(bytes >> 20) + " MB"; };
+  CHECK(contains(page, "| all that the script holds | " + megabytes(limits.memory) + ";"));
+  CHECK(contains(page, "| one text | " + megabytes(limits.text) + " |"));
+  CHECK(contains(page, "the arguments of one call | " + megabytes(limits.outside) + " |"));
 }
 
 TEST_CASE("the examples of docs/schedules.md run") {

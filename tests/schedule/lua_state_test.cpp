@@ -68,7 +68,8 @@ TEST_CASE("what reaches outside, differs from run to run or cannot be interrupte
 }
 
 TEST_CASE("compiled scripts are refused") {
-  CHECK(contains(run(std::string("\x1bLua\x54\x00", 6)).error, "attempt to load a binary chunk"));
+  CHECK(contains(run(std::string("\x1bLua\x54\x00", 6)).error,
+                 "test.lua: attempt to load a binary chunk"));
 }
 
 TEST_CASE("an unknown name is an error with its line and the names that there are") {
@@ -108,7 +109,11 @@ TEST_CASE("a script that wants too much memory is stopped") {
             .error.starts_with("test.lua:"));
   CHECK(contains(run("local t = {} while true do t[#t + 1] = {} end", limits).error, " MB"));
   CHECK(contains(run("local s = 'x' while true do s = s .. s end", limits).error,
-                 "test.lua: the script needs more than 8 MB"));
+                 "test.lua:1: the script holds more than 6 MB"));
+  CHECK(contains(
+      run("local s = 'x' while true do s = s .. s .. s .. s end", {.memory = std::size_t{2} << 20})
+          .error,
+      "test.lua: the script needs more than 2 MB"));
   CHECK(run("local t = {} for i = 1, 1000 do t[i] = i end say(#t)", limits).said == "1000 ");
 }
 
@@ -138,4 +143,43 @@ TEST_CASE("pairs goes through a table in the order of its keys") {
 TEST_CASE("tostring tells no addresses") {
   CHECK(run("say(tostring({}), tostring(say), tostring(1.5), tostring(nil))").said ==
         "table function 1.5 nil ");
+}
+
+TEST_CASE("every message begins with the file, and shows no control characters") {
+  CHECK(run("error('a\\0b\\27[31mred\\nline')").error == "test.lua:1: a\\x00b\\x1b[31mred\\nline");
+  CHECK(run("error('no place', 0)").error == "test.lua:1: no place");
+  CHECK(run("error(nil)").error == "test.lua: error(nil) was called");
+  CHECK(run("local x = " + std::string(300, '(')).error.starts_with("test.lua:"));
+  CHECK(run("local x = '\x1b").error.starts_with("test.lua:1: unfinished string"));
+  CHECK_FALSE(contains(run("local x = '\x1b").error, "\x1b"));
+  CHECK(run("local s = 'x' for i = 1, 20 do s = s .. s end error(s)").error.size() < 5000);
+  CHECK(run("for i = 1, 10000 do _ENV['name' .. i] = i end say(nope)").error.size() < 5000);
+  LuaState lua;
+  const std::string long_name =
+      "/a/folder/with/a/name/that/is/far/too/long/for/a/message/of/lua.lua";
+  try {
+    lua.run("\nerror('x')", long_name);
+    CHECK(false);
+  } catch (const Error& error) {
+    CHECK(contains(error.what(), "/a/message/of/lua.lua:2: x"));
+    CHECK(std::string(error.what()).starts_with("..."));
+  }
+}
+
+TEST_CASE("what words hold outside of the interpreter has one budget") {
+  const LuaState::Limits limits{.outside = std::size_t{1} << 20};
+  LuaState lua(limits);
+  lua.add_word("keep", [](lua_State* state) {
+    hold_for_good(state, std::size_t{100} << 10);
+    return 0;
+  });
+  lua.add_word("need", [](lua_State* state) {
+    hold_in_call(state, std::size_t{600} << 10);
+    return 0;
+  });
+  CHECK_NOTHROW(lua.run("for i = 1, 100 do need() end", "test.lua"));
+  CHECK_NOTHROW(lua.run("for i = 1, 4 do keep() need() end", "test.lua"));
+  CHECK_THROWS_WITH_AS(lua.run("keep()\nneed()", "test.lua"),
+                       "test.lua:2: arguments, notes and descriptions take more than 1 MB", Error);
+  CHECK_THROWS_AS(lua.run("for i = 1, 100 do keep() end", "test.lua"), Error);
 }

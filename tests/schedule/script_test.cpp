@@ -398,3 +398,66 @@ TEST_CASE("a word takes the parameters of its operators and no others") {
     }
   }
 }
+
+TEST_CASE("a script that makes much of little for a word is stopped, also while it is described") {
+  // Small in Lua, enormous when copied: tables and texts that are shared.
+  const std::string tables =
+      "local t = {'smoothing'} for d = 1, 14 do t = {t, t, t, t, t, t, t, t} end ";
+  const std::string texts =
+      "local s = 'x' for i = 1, 20 do s = s .. s end local t = {} for i = 1, 4000 do t[i] = s end ";
+  for (const std::string& bomb : {tables, texts}) {
+    for (const char* call : {"apply(t)", "smooth{on = t}", "attempt('smoothing', t)",
+                             "run_schedule('shell', t)", "is_progress(t, t)"}) {
+      CAPTURE(call);
+      CHECK(contains(run(bomb + "begin_round() " + call).error, "take more than 16 MB"));
+    }
+    for (const char* call : {"description(t)", "parameter{'p', choices = t}", "parameter(t)"}) {
+      CAPTURE(call);
+      CHECK_THROWS_WITH_AS(Schedule("test.lua", bomb + call).describe(),
+                           "test.lua:1: arguments, notes and descriptions take more than 16 MB",
+                           Error);
+    }
+  }
+  CHECK_NOTHROW(Schedule("test.lua",
+                         "local i = 0 while true do i = i + 1 parameter{'p' .. i, default = 1} end")
+                    .describe());
+}
+
+TEST_CASE("notes come to an end, and show no control characters") {
+  const Outcome flood =
+      run("local s = 'x' for i = 1, 16 do s = s .. s end while true do log(s) end");
+  CHECK(contains(flood.error, "take more than 16 MB"));
+  std::size_t bytes = 0;
+  for (const std::string& text : flood.notes) bytes += text.size();
+  CHECK(bytes > (std::size_t{10} << 20));
+  CHECK(bytes < (std::size_t{16} << 20));
+  CHECK(note("'a\\27[2Jb\\n', 3, {}, log, nil, '\\255'") ==
+        "a\\x1b[2Jb\\n 3 table function nil \\xff");
+  const ScheduleInfo info = Schedule("test.lua",
+                                     "description 'a\\7b'\n"
+                                     "parameter{'p', default = 1, help = '\\27[1m'}")
+                                .describe();
+  CHECK(info.description == "a\\x07b");
+  CHECK(info.parameters.at(0).help == "\\x1b[1m");
+  CHECK_THROWS_AS(Schedule("test.lua", "parameter{'p', choices = {'a\\27'}}").describe(), Error);
+}
+
+TEST_CASE("a script that never comes to a pass can be described, wherever it spends its time") {
+  const std::string list = "local t = {} for i = 1, 50000 do t[i] = i end ";
+  const std::string text = "local s = 'x' for i = 1, 21 do s = s .. s end ";
+  for (const std::string& script :
+       {list + "while true do table.sort(t) end",
+        list + "while true do for k in pairs(t) do end end",
+        list + "while true do table.insert(t, 1, 0) table.remove(t, 1) end",
+        text + "while true do local u = s:upper() end",
+        text + "local a, b = s .. 'a', s .. 'b' while true do local e = a < b end",
+        text + "while true do local u = s .. 'x' end"}) {
+    CAPTURE(script);
+    CHECK_NOTHROW(Schedule("test.lua", script).describe());
+    TetMesh mesh(delaunay_ball(150, 7));
+    Run limited(mesh, kRegistry);
+    limited.set_time_limit(0.02);
+    CHECK_NOTHROW(improve(limited, Schedule("test.lua", "begin_round() " + script)));
+    CHECK(limited.out_of_time());
+  }
+}
