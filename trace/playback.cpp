@@ -23,12 +23,19 @@ void check_live(const SlotMesh& mesh, TetHandle t) {
   throw ByteReader::Damage(fmt::format("a tet in slot {}, where there is none", t.index()));
 }
 
-/// A new tet or vertex lies in a free slot or in the one behind the last.
+/// First slot that nothing new lies in. Threads that share a pass get free slots each, more of them
+/// for a larger mesh; slots far beyond would only cost memory.
+std::size_t end_of_slots(const SlotMesh& mesh, std::size_t slots) {
+  return std::max(slots + 1, (std::size_t{1} << 16) + 16 * mesh.tet_count());
+}
+
+/// A new tet or vertex lies in a free slot.
 void check_free(bool is_free, std::uint32_t slot, std::size_t end) {
-  if (is_free && slot <= end) return;
-  throw ByteReader::Damage(
-      fmt::format("slot {} for something new; {}", slot,
-                  is_free ? fmt::format("there are {}", end) : std::string("it is in use")));
+  if (!is_free) {
+    throw ByteReader::Damage(fmt::format("slot {} for something new; it is in use", slot));
+  }
+  if (slot < end) return;
+  throw ByteReader::Damage(fmt::format("slot {} for something new; {} are the most", slot, end));
 }
 
 }  // namespace
@@ -80,13 +87,12 @@ void Playback::log_cavity(const TraceEvent& event) {
     throw ByteReader::Damage("a cavity without tets");
   }
   const std::size_t kept = event.removed.size();
-  std::size_t end = mesh_.tet_slots();
+  const std::size_t end = end_of_slots(mesh_, mesh_.tet_slots() + event.created.size());
   for (const TetHandle t : event.removed) check_live(mesh_, t);
   for (const TetVertices& tet : event.created_vertices) mesh_.check_corners(tet);
   for (std::size_t k = kept; k < event.created.size(); ++k) {
     const TetHandle t = event.created[k];
     check_free(mesh_.is_deleted(t), t.index(), end);
-    end += t.index() == end ? 1 : 0;
   }
   const Label label = mesh_.label(event.removed.front());
   for (std::size_t k = 0; k < std::max(kept, event.created.size()); ++k) {
@@ -102,7 +108,7 @@ void Playback::log_vertex(const TraceEvent& event) {
   const bool was_there = !mesh_.is_deleted(v);
   const bool is_there = event.kind != EventKind::remove_vertex;
   if (event.kind == EventKind::add_vertex) {
-    check_free(!was_there, v.index(), mesh_.vertex_slots());
+    check_free(!was_there, v.index(), end_of_slots(mesh_, mesh_.vertex_slots()));
   } else if (!was_there) {
     throw ByteReader::Damage(fmt::format("vertex {}, which is none of the mesh", v.index()));
   }

@@ -62,7 +62,7 @@ class SlotMesh {
   /// @throws ByteReader::Damage unless these are four live vertices, each another.
   void check_corners(const TetVertices& tet) const;
 
-  // For replay: contents of slots; the one behind the last comes into being. An invalid first vertex
+  // For replay: contents of slots, which come into being as needed. An invalid first vertex
   // deletes a tet.
   void set_tet(TetHandle t, const TetVertices& vertices, Label label);
   void set_vertex(VertexHandle v, bool live, const Point& point);

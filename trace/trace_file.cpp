@@ -22,7 +22,7 @@ ByteReader content_of(const std::vector<std::byte>& frame) {
 }
 
 /// Far more than operators and sequences nest.
-constexpr std::uint32_t kDeepest = 1000;
+constexpr std::uint32_t kDeepest = 255;
 
 }  // namespace
 

@@ -82,6 +82,7 @@ class TraceFile {
   /// Cost: linear; about 0.6 s for a million events.
   explicit TraceFile(const std::filesystem::path& file);
 
+  const std::filesystem::path& path() const { return path_; }
   const TraceHeader& header() const { return header_; }
   /// Before the first event.
   const SlotMesh& initial_mesh() const { return mesh_; }
