@@ -15,6 +15,7 @@
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtk_legacy.h"
 #include "trace/call_extract.h"
+#include "trace/call_script.h"
 #include "trace/call_tree.h"
 #include "trace/replay.h"
 #include "trace/trace_file.h"
@@ -96,12 +97,12 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
   out.commit();
 }
 
-/// What was tried, as a script writes it.
-std::string script_of(const TraceFile& file, const Call& call) {
-  const std::string_view name = file.name(call.operator_name);
-  const std::string_view settings = file.name(call.settings);
-  if (name == kSequenceName) return fmt::format("{}{{{}}}", name, settings);
-  return fmt::format("{{\"{}\"{}{}}}", name, settings.empty() ? "" : ", ", settings);
+/// The name of a file, fit for a comment of one line.
+std::string name_of(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return name;
 }
 
 /// A folder with all that repeating one call needs.
@@ -110,6 +111,7 @@ void write_extract(const Options& options, const TraceFile& file) {
   Replay replay(file, 0);
   const CallExtract kit = extract_call(file, replay, *options.extract);
   const Call& call = file.calls()[kit.call];
+  const std::string script = script_of_call(file, call);
   const Goal& goal = kit.standard.goal();
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
@@ -118,10 +120,10 @@ void write_extract(const Options& options, const TraceFile& file) {
              fmt::format("-- Call {} of {}: {} -> {}\n"
                          "goal{{min = {}, max = {}}}\njudge_by{{measure = \"{}\", price = {}}}\n"
                          "attempt({}, {{{}}}{})\n",
-                         kit.call, options.file.filename().string(), describe_call(file, kit.call),
+                         kit.call, name_of(options.file), describe_call(file, kit.call),
                          call.verdict_text(), goal.min_angle, goal.max_angle,
-                         to_string(kit.standard.terms()), kit.standard.price(),
-                         script_of(file, call), fmt::join(kit.target, ", "),
+                         to_string(kit.standard.terms()), kit.standard.price(), script,
+                         fmt::join(kit.target, ", "),
                          kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
   write_text(options.output / "README.txt",
              fmt::format("Repeats call {} of a run of {}\n\n"

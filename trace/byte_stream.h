@@ -77,7 +77,7 @@ class ByteReader {
   /// Thrown when the bytes end too early or make no sense.
   class Damage : public Error {
    public:
-    Damage() : Error("its content makes no sense") {}
+    explicit Damage(const std::string& reason = "its content makes no sense") : Error(reason) {}
   };
 
   explicit ByteReader(std::span<const std::byte> bytes)
@@ -90,22 +90,23 @@ class ByteReader {
   std::uint64_t get() {
     std::uint64_t value = 0;
     for (unsigned shift = 0; shift < 64; shift += 7) {
-      if (next_ == end_) throw Damage();
+      if (next_ == end_) throw Damage("a number is cut off");
       const auto byte = static_cast<std::uint64_t>(*next_++);
+      if (shift == 63 && byte > 1) break;  // more than 64 bits
       value |= (byte & 127u) << shift;
       if (byte < 128) return value;
     }
-    throw Damage();
+    throw Damage("a number has more than 64 bits");
   }
   std::uint32_t get32() {
     const std::uint64_t value = get();
-    if (value > UINT32_MAX) throw Damage();
+    if (value > UINT32_MAX) throw Damage("a number has more than 32 bits");
     return static_cast<std::uint32_t>(value);
   }
-  /// A number of things that take at least one byte each.
-  std::size_t get_count() {
+  /// A number of things that take at least so many bytes each: as many may be made room for.
+  std::size_t get_count(std::size_t least_bytes = 1) {
     const std::uint64_t value = get();
-    if (value > left()) throw Damage();
+    if (value > left() / least_bytes) throw Damage("it counts more than its bytes can hold");
     return value;
   }
   std::int64_t get_signed() {
@@ -113,9 +114,10 @@ class ByteReader {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
   }
   std::uint32_t get_step(std::uint32_t& from) {
-    const std::int64_t value = get_signed() + static_cast<std::int64_t>(from);
-    if (value < 0 || value > UINT32_MAX) throw Damage();
-    return from = static_cast<std::uint32_t>(value);
+    const std::int64_t step = get_signed();
+    const std::int64_t least = -static_cast<std::int64_t>(from);
+    if (step < least || step > least + UINT32_MAX) throw Damage("a step leads out of 32 bits");
+    return from = static_cast<std::uint32_t>(step - least);
   }
   template <class T>
   requires std::is_trivially_copyable_v<T> T get_raw() {
@@ -128,8 +130,16 @@ class ByteReader {
     get_bytes(text.data(), text.size());
     return text;
   }
+  /// A text for a terminal: control characters become '?'.
+  std::string get_line() {
+    std::string text = get_text();
+    for (char& c : text) {
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
+    return text;
+  }
   void get_bytes(void* bytes, std::size_t size) {
-    if (left() < size) throw Damage();
+    if (left() < size) throw Damage("it ends too early");
     if (size > 0) std::memcpy(bytes, next_, size);
     next_ += size;
   }

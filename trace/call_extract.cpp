@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace tetmend {
 
 namespace {
@@ -136,15 +138,21 @@ CallExtract extract_call(const TraceFile& file, Replay& replay, std::uint32_t ca
   result.mesh = mesh.extract(tets, &slots);
   add_bounds(file.initial_mesh(), result.mesh);
   result.frozen = mark_frozen(mesh.frozen_tets(), tets, result.mesh);
+  // Nothing if one of them was gone before the call began.
   const auto numbers_of = [&slots](std::span<const VertexHandle> vertices) {
     std::vector<std::uint32_t> numbers;
     for (const VertexHandle v : vertices) {
       const auto found = std::lower_bound(slots.begin(), slots.end(), v.index());
+      if (found == slots.end() || *found != v.index()) return std::vector<std::uint32_t>();
       numbers.push_back(static_cast<std::uint32_t>(found - slots.begin()));
     }
     return numbers;
   };
   result.target = numbers_of(file.calls()[call].target());
+  if (result.target.empty()) {
+    throw Error(fmt::format("{}: what call {} aims at was gone before it began",
+                            file.path().string(), call));
+  }
   if (const Visit* visit = visit_of(file, call)) result.tet = numbers_of(visit->tet);
   return result;
 }

@@ -2,6 +2,7 @@
 #include "trace/lesson.h"
 
 #include <algorithm>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -14,11 +15,21 @@ namespace tetmend {
 
 namespace {
 
+/// A file beside the lesson or below: who sends a lesson does not choose among the files of others.
+std::filesystem::path file_of(const nlohmann::json& json, const char* member,
+                              const std::filesystem::path& folder) {
+  const std::filesystem::path name = json.at(member).get<std::string>();
+  if (name.empty() || name.is_absolute() || std::ranges::find(name, "..") != name.end()) {
+    throw Error(fmt::format("'{}' leads out of its folder", member));
+  }
+  return folder / name;
+}
+
 Lesson from_json(const nlohmann::json& json, const std::filesystem::path& folder) {
   Lesson lesson;
   lesson.title = json.at("title").get<std::string>();
-  lesson.mesh = folder / json.at("mesh").get<std::string>();
-  lesson.trace = folder / json.at("trace").get<std::string>();
+  lesson.mesh = file_of(json, "mesh", folder);
+  lesson.trace = file_of(json, "trace", folder);
   for (const nlohmann::json& step : json.at("steps")) {
     const nlohmann::json& at = step.at("at");
     if (!at.is_number_unsigned()) throw Error("'at' is no number of events");
@@ -36,7 +47,9 @@ Lesson read_lesson(const std::filesystem::path& file) {
   try {
     return from_json(nlohmann::json::parse(text.begin(), text.end()), file.parent_path());
   } catch (const std::exception& error) {
-    throw Error(fmt::format("{}: is no lesson: {}", file.string(), error.what()));
+    constexpr std::size_t kLongest = 200;  // the reason may quote any amount of the file
+    throw Error(fmt::format("{}: is no lesson: {}", file.string(),
+                            std::string_view(error.what()).substr(0, kLongest)));
   }
 }
 

@@ -22,7 +22,7 @@ struct Lesson {
 };
 
 /// Reads a JSON file: {"title": "", "mesh": "FILE", "trace": "FILE", "steps": [{"at": 0, "text":
-/// ""}]}. Files are named from the folder that it lies in, and are not opened.
+/// ""}]}. Files lie in its folder or below, and are not opened.
 /// @throws Error when it cannot be read or is no lesson, with the reason.
 Lesson read_lesson(const std::filesystem::path& file);
 

@@ -32,14 +32,15 @@ void TraceHeader::encode(ByteWriter& out) const {
 
 TraceHeader TraceHeader::decode(ByteReader& in) {
   TraceHeader header;
-  for (std::string* text :
-       {&header.program, &header.input, &header.schedule, &header.schedule_text, &header.filter}) {
-    *text = in.get_text();
+  for (std::string* text : {&header.program, &header.input, &header.schedule}) {
+    *text = in.get_line();
   }
-  header.settings.resize(in.get_count());
-  for (auto& [name, value] : header.settings) {
-    name = in.get_text();
-    value = in.get_text();
+  header.schedule_text = in.get_text();
+  header.filter = in.get_line();
+  for (std::size_t left = in.get_count(2); left > 0; --left) {
+    auto& [name, value] = header.settings.emplace_back();
+    name = in.get_line();
+    value = in.get_line();
   }
   return header;
 }

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
+
+#include <fmt/format.h>
 
 #include "kernel/mesh_view.h"
 #include "trace/traced_standard.h"
@@ -31,14 +34,26 @@ void encode_slots(ByteWriter& out, std::span<const std::uint32_t> slots) {
   for (const std::uint32_t slot : slots) out.put_step(slot, last);
 }
 
+/// Slots below `end`.
 std::vector<std::uint32_t> decode_slots(ByteReader& in, std::size_t end) {
   std::vector<std::uint32_t> slots(in.get_count());
   std::uint32_t last = 0;
   for (std::uint32_t& slot : slots) {
     slot = in.get_step(last);
-    if (slot >= end) throw ByteReader::Damage();
+    if (slot >= end) throw ByteReader::Damage(fmt::format("slot {} of {}", slot, end));
   }
   return slots;
+}
+
+/// A step from one label to another, which stay 32 bits wide.
+Label decode_label(ByteReader& in, Label from) {
+  constexpr std::int64_t kMost = std::numeric_limits<Label>::max();
+  constexpr std::int64_t kLeast = std::numeric_limits<Label>::min();
+  const std::int64_t step = in.get_signed();
+  if (step < kLeast - from || step > kMost - from) {
+    throw ByteReader::Damage("a label has more than 32 bits");
+  }
+  return static_cast<Label>(from + step);
 }
 
 template <class Element>
@@ -51,16 +66,23 @@ void encode_named(ByteWriter& out, std::span<const Element> elements) {
   }
 }
 
+/// Triangles or edges of live vertices.
 template <class Element>
-void decode_named(ByteReader& in, std::size_t vertices, std::vector<Element>& elements) {
-  elements.resize(in.get_count());
+void decode_named(ByteReader& in, const SlotMesh& mesh, std::vector<Element>& elements) {
+  elements.resize(in.get_count(1 + Element().vertices.size()));
   std::uint32_t last = 0;
   for (Element& element : elements) {
     for (std::uint32_t& v : element.vertices) {
       v = in.get_step(last);
-      if (v >= vertices) throw ByteReader::Damage();
+      if (mesh.is_deleted(VertexHandle(v))) {
+        throw ByteReader::Damage(fmt::format("a triangle or edge of vertex {}, which is none", v));
+      }
     }
-    element.label = static_cast<Label>(in.get_signed());
+    for (const std::uint32_t v : element.vertices) {
+      if (std::ranges::count(element.vertices, v) == 1) continue;
+      throw ByteReader::Damage(fmt::format("a triangle or edge with vertex {} twice", v));
+    }
+    element.label = decode_label(in, 0);
   }
 }
 
@@ -188,7 +210,7 @@ void SlotMesh::encode(ByteWriter& out) const {
   }
   std::int64_t label = 0;
   for (const Label next : labels_) {
-    out.put_signed(next - label);
+    out.put_signed(std::int64_t{next} - label);
     label = next;
   }
   encode_named<MeshData::Triangle>(out, triangles_);
@@ -197,35 +219,66 @@ void SlotMesh::encode(ByteWriter& out) const {
   encode_slots(out, frozen_tets_);
 }
 
-SlotMesh SlotMesh::decode(ByteReader& in) {
-  SlotMesh mesh;
-  mesh.standard_ = get_standard(in);
-  const std::size_t vertices = in.get_count();
-  mesh.live_.resize(vertices);
-  in.get_bytes(mesh.live_.data(), vertices);
-  if (in.left() / sizeof(Point) < vertices) throw ByteReader::Damage();
-  mesh.points_.resize(vertices);
-  in.get_bytes(mesh.points_.data(), vertices * sizeof(Point));
-  mesh.tets_.resize(in.get_count());
+void SlotMesh::decode_vertices(ByteReader& in) {
+  const std::size_t vertices = in.get_count(1 + sizeof(Point));
+  live_.resize(vertices);
+  in.get_bytes(live_.data(), vertices);
+  points_.resize(vertices);
+  in.get_bytes(points_.data(), vertices * sizeof(Point));
+  for (std::size_t i = 0; i < vertices; ++i) {
+    if (live_[i] > 1) throw ByteReader::Damage(fmt::format("vertex {} is not told to live", i));
+    if (!points_[i].allFinite()) {
+      throw ByteReader::Damage(fmt::format("vertex {} has no finite coordinates", i));
+    }
+    vertex_count_ += live_[i];
+  }
+}
+
+void SlotMesh::decode_tets(ByteReader& in) {
+  tets_.resize(in.get_count(4));
   TetVertices corner{VertexHandle(0), VertexHandle(0), VertexHandle(0), VertexHandle(0)};
-  for (TetVertices& tet : mesh.tets_) {
+  for (std::size_t k = 0; k < tets_.size(); ++k) {
     for (unsigned i = 0; i < 4; ++i) {
       std::uint32_t from = corner[i].index();
       corner[i] = VertexHandle(in.get_step(from));
-      if (corner[i].is_valid() && corner[i].index() >= vertices) throw ByteReader::Damage();
     }
-    tet = corner;
-    if (tet[0].is_valid()) ++mesh.tet_count_;
+    if (corner != TetVertices()) {
+      check_corners(corner);
+      ++tet_count_;
+    }
+    tets_[k] = corner;
   }
-  std::int64_t label = 0;
-  mesh.labels_.resize(mesh.tets_.size());
-  for (Label& next : mesh.labels_) next = static_cast<Label>(label += in.get_signed());
-  decode_named(in, vertices, mesh.triangles_);
-  decode_named(in, vertices, mesh.edges_);
-  mesh.required_vertices_ = decode_slots(in, vertices);
+  Label label = 0;
+  labels_.resize(tets_.size());
+  for (Label& next : labels_) next = label = decode_label(in, label);
+}
+
+void SlotMesh::check_corners(const TetVertices& tet) const {
+  for (unsigned i = 0; i < 4; ++i) {
+    if (is_deleted(tet[i])) {
+      throw ByteReader::Damage(
+          fmt::format("a tet of vertex {}, which is none of the mesh", tet[i].index()));
+    }
+    for (unsigned k = 0; k < i; ++k) {
+      if (tet[k] != tet[i]) continue;
+      throw ByteReader::Damage(fmt::format("a tet with vertex {} twice", tet[i].index()));
+    }
+  }
+}
+
+SlotMesh SlotMesh::decode(ByteReader& in) {
+  SlotMesh mesh;
+  mesh.standard_ = get_standard(in);
+  mesh.decode_vertices(in);
+  mesh.decode_tets(in);
+  decode_named(in, mesh, mesh.triangles_);
+  decode_named(in, mesh, mesh.edges_);
+  mesh.required_vertices_ = decode_slots(in, mesh.points_.size());
   mesh.frozen_tets_ = decode_slots(in, mesh.tets_.size());
-  mesh.vertex_count_ =
-      vertices - static_cast<std::size_t>(std::ranges::count(mesh.live_, std::uint8_t{0}));
+  if (!std::ranges::is_sorted(mesh.frozen_tets_)) {
+    throw ByteReader::Damage("frozen tets are not in order");
+  }
+  if (!in.at_end()) throw ByteReader::Damage("bytes behind the mesh");
   return mesh;
 }
 

@@ -56,8 +56,11 @@ class SlotMesh {
   std::size_t bytes() const;
 
   void encode(ByteWriter& out) const;
+  /// Every tet has four live vertices. That they fit together is for TraceAudit to see.
   /// @throws ByteReader::Damage
   static SlotMesh decode(ByteReader& in);
+  /// @throws ByteReader::Damage unless these are four live vertices, each another.
+  void check_corners(const TetVertices& tet) const;
 
   // For replay: contents of slots, which come into being as needed. An invalid first vertex
   // deletes a tet.
@@ -65,6 +68,9 @@ class SlotMesh {
   void set_vertex(VertexHandle v, bool live, const Point& point);
 
  private:
+  void decode_vertices(ByteReader& in);
+  void decode_tets(ByteReader& in);
+
   Standard standard_ = Standard(Goal{});
   std::vector<TetVertices> tets_;
   std::vector<Label> labels_;

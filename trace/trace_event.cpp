@@ -6,6 +6,8 @@
 #include <bit>
 #include <cassert>
 
+#include <fmt/format.h>
+
 #include "trace/traced_standard.h"
 
 namespace tetmend {
@@ -164,7 +166,7 @@ void EventEncoder::undo() {
 
 // --- reading -------------------------------------------------------------------------------------
 
-void EventDecoder::begin(std::span<const std::byte> content, std::vector<std::string>& names) {
+void EventDecoder::begin(std::span<const std::byte> content, NameTable& names) {
   in_ = ByteReader(content);
   ticks_ = 0;
   names_ = &names;
@@ -172,20 +174,26 @@ void EventDecoder::begin(std::span<const std::byte> content, std::vector<std::st
 }
 
 void EventDecoder::get_time(TraceEvent& event) {
-  ticks_ += in_.get();
+  constexpr std::uint64_t kMostTicks = std::uint64_t{1} << 56;
+  const std::uint64_t step = in_.get();
+  if (step > kMostTicks - ticks_) throw ByteReader::Damage("a time that is none");
+  ticks_ += step;
   event.seconds = static_cast<double>(ticks_ * EventEncoder::kTickNanoseconds) * 1e-9;
 }
 
 auto EventDecoder::get_name() -> const Name& {
   const std::uint64_t number = in_.get();
   if (number < chunk_names_.size()) return chunk_names_[number];
-  if (number > chunk_names_.size()) throw ByteReader::Damage();
-  const std::string text = in_.get_text();
-  const auto found = std::find(names_->begin(), names_->end(), text);
-  chunk_names_.push_back(
-      {static_cast<std::uint32_t>(found - names_->begin()), algorithm_of(text), verdict_of(text)});
-  if (found == names_->end()) names_->push_back(text);
+  if (number > chunk_names_.size()) throw ByteReader::Damage("a name that was not given yet");
+  const std::string text = in_.get_line();
+  chunk_names_.push_back({names_->number_of(text), algorithm_of(text), verdict_of(text)});
   return chunk_names_.back();
+}
+
+/// Finite: the rest of the program computes with it unseen.
+void EventDecoder::get_point(TraceEvent& event) {
+  in_.get_bytes(event.point.data(), 3 * sizeof(double));
+  if (!event.point.allFinite()) throw ByteReader::Damage("a coordinate is no finite number");
 }
 
 void EventDecoder::get_vertices(TraceEvent& event) {
@@ -195,13 +203,13 @@ void EventDecoder::get_vertices(TraceEvent& event) {
 }
 
 void EventDecoder::get_qualities(std::vector<Quality>& qualities) {
-  qualities.resize(in_.get_count());
+  qualities.resize(in_.get_count(sizeof(Quality)));
   in_.get_bytes(qualities.data(), qualities.size() * sizeof(Quality));
 }
 
 void EventDecoder::get_cavity(TraceEvent& event) {
   event.removed.resize(in_.get_count());
-  event.created.resize(in_.get_count());
+  event.created.resize(in_.get_count(4));
   event.created_vertices.resize(event.created.size());
   std::uint32_t last = 0;
   for (TetHandle& t : event.removed) t = TetHandle(in_.get_step(last));
@@ -224,7 +232,9 @@ void EventDecoder::get_star(TraceEvent& event) {
 
 void EventDecoder::next(TraceEvent& event) {
   const std::uint64_t kind = in_.get();
-  if (kind >= kEventKinds) throw ByteReader::Damage();
+  if (kind >= kEventKinds) {
+    throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
+  }
   event.kind = static_cast<EventKind>(kind);
   if (has_time(event.kind)) get_time(event);
   switch (event.kind) {
@@ -253,7 +263,7 @@ void EventDecoder::next(TraceEvent& event) {
     }
     case EventKind::attempt_ends: {
       const std::optional<Verdict> verdict = get_name().verdict;
-      if (!verdict) throw ByteReader::Damage();
+      if (!verdict) throw ByteReader::Damage("an attempt ends without a verdict");
       event.verdict = *verdict;
       get_qualities(event.before);
       get_qualities(event.after);
@@ -267,7 +277,7 @@ void EventDecoder::next(TraceEvent& event) {
     case EventKind::remove_vertex:
       event.vertices.assign(1, VertexHandle(in_.get32()));
       if (event.kind == EventKind::remove_vertex) break;
-      in_.get_bytes(event.point.data(), 3 * sizeof(double));
+      get_point(event);
       if (event.kind == EventKind::move_vertex) get_star(event);
       break;
     case EventKind::standard_changes:

@@ -13,6 +13,7 @@
 #include "kernel/tet_mesh.h"
 #include "trace/algorithm.h"
 #include "trace/byte_stream.h"
+#include "trace/name_table.h"
 #include "trace/trace_sink.h"
 
 namespace tetmend {
@@ -114,9 +115,9 @@ class EventEncoder {
 class EventDecoder {
  public:
   /// Begins a chunk. `names` are those of the file: new ones are added.
-  void begin(std::span<const std::byte> content, std::vector<std::string>& names);
+  void begin(std::span<const std::byte> content, NameTable& names);
+  /// What the event says is in its own bounds; whether it fits the mesh is for others to see.
   /// @throws ByteReader::Damage
-  /// Precondition: not at_end().
   void next(TraceEvent& event);
   bool at_end() const { return in_.at_end(); }
 
@@ -131,13 +132,14 @@ class EventDecoder {
   void get_time(TraceEvent& event);
   const Name& get_name();
   void get_vertices(TraceEvent& event);
+  void get_point(TraceEvent& event);
   void get_qualities(std::vector<Quality>& qualities);
   void get_cavity(TraceEvent& event);
   void get_star(TraceEvent& event);
 
   ByteReader in_{{}};
   std::uint64_t ticks_ = 0;
-  std::vector<std::string>* names_ = nullptr;
+  NameTable* names_ = nullptr;
   std::vector<Name> chunk_names_;
 };
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "trace/trace_audit.h"
+
 namespace tetmend {
 
 namespace {
@@ -13,20 +15,40 @@ char kind_of(const std::vector<std::byte>& frame) {
   return frame.empty() ? '\0' : static_cast<char>(frame.front());
 }
 
+/// What follows the kind.
 ByteReader content_of(const std::vector<std::byte>& frame) {
+  if (frame.empty()) throw ByteReader::Damage("an empty frame");
   return ByteReader(std::span(frame).subspan(1));
 }
+
+/// Far more than operators and sequences nest.
+constexpr std::uint32_t kDeepest = 255;
 
 }  // namespace
 
 TraceFile::TraceFile(const std::filesystem::path& file) : path_(file), frames_(file) {
+  try {
+    read_beginning();
+    TraceAudit audit(mesh_);
+    read_chunks(audit);
+  } catch (const ByteReader::Damage& damage) {
+    throw Error(fmt::format("{}: byte {}: event {}: {}", path_.string(), frames_.offset(), events_,
+                            damage.what()));
+  }
+  close_all();
+}
+
+/// What lies before the first event.
+void TraceFile::read_beginning() {
   std::vector<std::byte> frame;
   const auto expect = [&](char kind) {
     if (!frames_.next()) {
       throw Error(fmt::format("{}: ends before its first event", path_.string()));
     }
     frames_.unpack(frames_.offset(), frame);
-    if (kind_of(frame) != kind) throw ByteReader::Damage();
+    if (kind_of(frame) != kind) {
+      throw ByteReader::Damage(fmt::format("is no frame of kind '{}'", kind));
+    }
     return content_of(frame);
   };
   try {
@@ -35,23 +57,27 @@ TraceFile::TraceFile(const std::filesystem::path& file) : path_(file), frames_(f
     ByteReader mesh = expect('M');
     mesh_ = SlotMesh::decode(mesh);
     standard_ = mesh_.standard();
-  } catch (const ByteReader::Damage&) {
-    throw Error(fmt::format("{}: byte {}: damaged before its first event", path_.string(),
-                            frames_.offset()));
+  } catch (const ByteReader::Damage& damage) {
+    throw Error(fmt::format("{}: byte {}: damaged before its first event: {}", path_.string(),
+                            frames_.offset(), damage.what()));
   }
-  read_chunks();
-  close_all();
 }
 
-/// Reads up to the end or the first damage.
-void TraceFile::read_chunks() {
+/// Reads up to the end or to the first frame that is not whole. In a whole one all makes sense, or
+/// whoever wrote it was no recorder: then nothing of the trace is to be believed.
+void TraceFile::read_chunks(TraceAudit& audit) {
+  std::vector<std::byte> frame;
   while (!ended_ && frames_.next()) {
     try {
-      index_chunk(frames_.offset());
-    } catch (const Error&) {
-      damage_ = fmt::format("{}: byte {}: damaged; read up to event {}", path_.string(),
-                            frames_.offset(), events_);
+      frames_.unpack(frames_.offset(), frame);
+    } catch (const Error& error) {
+      damage_ = fmt::format("{}; read up to event {}", error.what(), events_);
       return;
+    }
+    if (kind_of(frame) == 'Z') {
+      read_end(frame);
+    } else {
+      index_chunk(frame, audit);
     }
   }
   if (!frames_.damage().empty()) {
@@ -62,28 +88,42 @@ void TraceFile::read_chunks() {
   }
 }
 
-void TraceFile::index_chunk(std::size_t offset) {
-  std::vector<std::byte> frame;
-  frames_.unpack(offset, frame);
+void TraceFile::read_end(const std::vector<std::byte>& frame) {
   ByteReader in = content_of(frame);
-  if (kind_of(frame) == 'Z') {
-    if (in.get() != events_) throw ByteReader::Damage();
-    limit_reached_ = in.get() == static_cast<std::uint64_t>(TraceEnd::limit_reached);
-    ended_ = true;
-    return;
-  }
-  if (kind_of(frame) != 'E' || in.get() != events_) throw ByteReader::Damage();
   const std::uint64_t count = in.get();
+  const std::uint64_t end = in.get();
+  if (count != events_) {
+    throw ByteReader::Damage(fmt::format("the end counts {} events", count));
+  }
+  if (end > static_cast<std::uint64_t>(TraceEnd::limit_reached) || !in.at_end()) {
+    throw ByteReader::Damage("an end of no known kind");
+  }
+  limit_reached_ = end == static_cast<std::uint64_t>(TraceEnd::limit_reached);
+  ended_ = true;
+}
+
+void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit& audit) {
+  if (kind_of(frame) != 'E') throw ByteReader::Damage("a frame of no known kind");
+  ByteReader in = content_of(frame);
+  const std::uint64_t first = in.get();
+  const std::size_t count = in.get_count();
+  if (first != events_) {
+    throw ByteReader::Damage(fmt::format("a chunk that begins with event {}", first));
+  }
+  if (count == 0) throw ByteReader::Damage("a chunk without events");
   EventDecoder decoder;
   decoder.begin(std::span(frame).last(in.left()), names_);
   chunk_begins_.push_back(events_);
-  chunk_offsets_.push_back(offset);
+  chunk_offsets_.push_back(frames_.offset());
+  audit.begin_chunk();
   TraceEvent event;
-  for (std::uint64_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     decoder.next(event);
+    audit.follow(event);
     index_event(event);
     ++events_;
   }
+  if (!decoder.at_end()) throw ByteReader::Damage("a chunk has more events than it counts");
 }
 
 EventRange TraceFile::begin_of(const TraceEvent& event) const {
@@ -96,7 +136,8 @@ void TraceFile::close(EventRange& range, double seconds) const {
 }
 
 void TraceFile::begin_visit(const TraceEvent& event) {
-  if (event.vertices.size() != 4) throw ByteReader::Damage();
+  if (event.vertices.size() != 4) throw ByteReader::Damage("a visit of something that is no tet");
+  if (visit_open_) throw ByteReader::Damage("a visit inside a visit");
   Visit& visit = visits_.emplace_back();
   visit.events = begin_of(event);
   visit.quality = event.quality;
@@ -106,7 +147,13 @@ void TraceFile::begin_visit(const TraceEvent& event) {
 }
 
 void TraceFile::begin_call(const TraceEvent& event) {
-  if (event.vertices.size() > 4) throw ByteReader::Damage();
+  if (event.vertices.empty() || event.vertices.size() > 4) {
+    throw ByteReader::Damage(fmt::format("a target of {} vertices", event.vertices.size()));
+  }
+  if (event.number > kDeepest || open_.size() > kDeepest) {
+    throw ByteReader::Damage(fmt::format("a call inside {} others, of level {}; {} is the most",
+                                         open_.size(), event.number, kDeepest));
+  }
   const auto number = static_cast<std::uint32_t>(calls_.size());
   Call& call = calls_.emplace_back();
   call.events = begin_of(event);
@@ -122,7 +169,7 @@ void TraceFile::begin_call(const TraceEvent& event) {
 }
 
 void TraceFile::end_call(const TraceEvent& event) {
-  if (open_.empty()) throw ByteReader::Damage();
+  if (open_.empty()) throw ByteReader::Damage("an attempt ends that never began");
   Call& call = calls_[open_.back()];
   open_.pop_back();
   close(call.events, event.seconds);
@@ -136,11 +183,12 @@ void TraceFile::index_event(const TraceEvent& event) {
   const auto calls = static_cast<std::uint32_t>(calls_.size());
   switch (event.kind) {
     case EventKind::pass_begins:
+      if (pass_open_) throw ByteReader::Damage("a pass inside a pass");
       passes_.push_back({begin_of(event), event.name, event.number, standard_, {}, calls, 0});
       pass_open_ = true;
       break;
     case EventKind::pass_ends:
-      if (!pass_open_) throw ByteReader::Damage();
+      if (!pass_open_) throw ByteReader::Damage("a pass ends that never began");
       close(passes_.back().events, event.seconds);
       passes_.back().now = event.now;
       passes_.back().last_call = calls;
@@ -150,7 +198,7 @@ void TraceFile::index_event(const TraceEvent& event) {
       begin_visit(event);
       break;
     case EventKind::visit_ends:
-      if (!visit_open_) throw ByteReader::Damage();
+      if (!visit_open_) throw ByteReader::Damage("a visit ends that never began");
       close(visits_.back().events, event.seconds);
       visits_.back().last_call = calls;
       visit_open_ = false;
@@ -162,7 +210,7 @@ void TraceFile::index_event(const TraceEvent& event) {
       end_call(event);
       break;
     case EventKind::candidate_found:
-      if (open_.empty()) throw ByteReader::Damage();
+      if (open_.empty()) throw ByteReader::Damage("a candidate without an attempt");
       calls_[open_.back()].candidate_found = true;
       return;
     case EventKind::replace_cavity:
@@ -253,7 +301,6 @@ void EventCursor::open_chunk(std::size_t chunk) {
   ByteReader in = content_of(content_);
   in.get();  // number of the first event
   in.get();  // number of events
-  names_ = file_.names_;
   decoder_.begin(std::span<const std::byte>(content_).last(in.left()), names_);
   chunk_ = chunk;
   position_ = begins[chunk];

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstring>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -14,8 +16,10 @@ namespace {
 constexpr std::array<char, 8> kMagic = {'T', 'E', 'T', 'T', 'R', 'A', 'C', '\n'};
 /// The run waits for it: level -3 takes twice the time and saves a quarter of the file.
 constexpr int kLevel = -16;
-/// More than any frame that is written, far less than what a damaged length may ask for.
-constexpr std::uint64_t kMostContent = std::uint64_t{1} << 36;
+/// A frame may ask for this much, and for this many times the bytes that it has: far more than any
+/// that is written.
+constexpr std::uint64_t kFreeContent = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMostRatio = 64;
 
 struct FrameHead {
   std::uint64_t content;  // bytes before compression
@@ -24,6 +28,33 @@ struct FrameHead {
 
 void check(std::size_t result) {
   if (ZSTD_isError(result) != 0) throw Error(ZSTD_getErrorName(result));
+}
+
+/// How much the blocks of a Zstandard frame can unpack to at most, whatever its head claims. Nothing
+/// if the blocks do not end where the frame does. [RFC 8878, 3.1.1]
+std::optional<std::uint64_t> most_content(std::span<const std::byte> frame) {
+  const auto byte = [&](std::size_t i) { return std::to_integer<std::uint32_t>(frame[i]); };
+  constexpr std::size_t kMagicBytes = 4;
+  constexpr std::uint32_t kMostInBlock = 1u << 17;
+  if (frame.size() <= kMagicBytes) return std::nullopt;
+  const std::uint32_t flags = byte(kMagicBytes);
+  const bool single = (flags & 32u) != 0;
+  constexpr std::array<std::size_t, 4> kDictionaryBytes = {0, 1, 2, 4};
+  constexpr std::array<std::size_t, 4> kSizeBytes = {0, 2, 4, 8};
+  const std::size_t size_bytes = single && flags < 64 ? 1 : kSizeBytes[flags >> 6];
+  std::size_t at = kMagicBytes + 1 + (single ? 0 : 1) + kDictionaryBytes[flags & 3u] + size_bytes;
+  std::uint64_t most = 0;
+  for (bool last = false; !last;) {
+    if (at + 3 > frame.size()) return std::nullopt;
+    const std::uint32_t head = byte(at) | byte(at + 1) << 8 | byte(at + 2) << 16;
+    const std::uint32_t size = head >> 3;
+    const std::uint32_t kind = head >> 1 & 3u;  // raw, repeated byte, compressed
+    last = (head & 1u) != 0;
+    most += kind == 2 ? kMostInBlock : size;
+    at += 3 + (kind == 1 ? 1 : size);
+  }
+  at += (flags & 4u) != 0 ? 4 : 0;  // checksum
+  return at == frame.size() ? std::optional(most) : std::nullopt;
 }
 
 }  // namespace
@@ -96,15 +127,22 @@ bool FrameReader::next() {
 void FrameReader::unpack(std::size_t offset, std::vector<std::byte>& content) const {
   FrameHead head{};
   std::memcpy(&head, at(offset), sizeof head);
-  const std::byte* packed = at(offset + sizeof head);
-  const auto size = ZSTD_getFrameContentSize(packed, head.stored);
-  if (head.content <= kMostContent && size == head.content) {
-    content.resize(head.content);
-    if (ZSTD_decompress(content.data(), content.size(), packed, head.stored) == head.content) {
-      return;
-    }
+  const auto fail = [&](std::string_view reason) {
+    throw Error(fmt::format("{}: byte {}: damaged: {}", file_.name(), offset, reason));
+  };
+  const std::span<const std::byte> packed(at(offset + sizeof head), head.stored);
+  if (ZSTD_getFrameContentSize(packed.data(), packed.size()) != head.content) {
+    fail("its two lengths differ");
   }
-  throw Error(fmt::format("{}: byte {}: damaged", file_.name(), offset));
+  // Room is made only for what the bytes that are there can fill.
+  const std::optional<std::uint64_t> most = most_content(packed);
+  if (!most || head.content > *most || head.content > kFreeContent + kMostRatio * packed.size()) {
+    fail(fmt::format("{} bytes cannot hold {}", packed.size(), head.content));
+  }
+  content.resize(head.content);
+  const std::size_t got =
+      ZSTD_decompress(content.data(), content.size(), packed.data(), packed.size());
+  if (got != head.content) fail("its checksum or its compression is wrong");
 }
 
 }  // namespace tetmend

@@ -63,6 +63,7 @@ class FrameReader {
   /// Nothing if all is well so far.
   const std::string& damage() const { return damage_; }
   /// The content of the frame at `offset`, which next() found.
+  /// Takes no more memory than the bytes of the frame can fill.
   /// @throws Error when it is damaged.
   void unpack(std::size_t offset, std::vector<std::byte>& content) const;
   std::size_t file_size() const { return file_.size(); }

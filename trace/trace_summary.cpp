@@ -59,7 +59,6 @@ TraceSummary summarize(const TraceFile& file) {
   for (std::uint32_t c = 0; c < calls.size(); ++c) {
     const Call& call = calls[c];
     TraceSummary::Operator& op = summary.operators[std::string(file.name(call.operator_name))];
-    if (op.levels.size() <= call.level) op.levels.resize(call.level + 1u);
     for (TraceSummary::Tally* tally : {&op.all, &op.levels[call.level]}) {
       ++tally->calls;
       tally->accepted += call.accepted() ? 1 : 0;
@@ -103,8 +102,8 @@ std::string format_summary(const TraceFile& file, const TraceSummary& summary) {
   for (const auto& [name, op] : summary.operators) {
     fmt::format_to(out, "{:<32} {:>9} {:>9} {:>7.1f} {:>9.3f} {:>9.3f}\n", name, op.all.calls,
                    op.all.accepted, percent(op.all), op.seconds, op.own_seconds);
-    for (std::size_t level = 0; op.levels.size() > 1 && level < op.levels.size(); ++level) {
-      const TraceSummary::Tally& tally = op.levels[level];
+    if (op.levels.rbegin()->first == 0) continue;
+    for (const auto& [level, tally] : op.levels) {
       fmt::format_to(out, "  {:<30} {:>9} {:>9} {:>7.1f}\n", level, tally.calls, tally.accepted,
                      percent(tally));
     }

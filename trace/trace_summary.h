@@ -21,7 +21,7 @@ struct TraceSummary {
   struct Operator {
     Tally all;
     std::map<std::string_view, std::size_t> verdicts;  ///< by Call::verdict_text()
-    std::vector<Tally> levels;                         ///< by level of recursion
+    std::map<unsigned, Tally> levels;                  ///< by level of recursion
     double seconds = 0;      ///< of calls that are in no other call of the operator
     double own_seconds = 0;  ///< without calls in them
   };

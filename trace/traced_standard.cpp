@@ -20,7 +20,7 @@ Standard get_standard(ByteReader& in) {
   const auto price = in.get_raw<double>();
   if (!is_sound(goal) || terms > static_cast<std::uint64_t>(Standard::Terms::sine_and_length) ||
       !(price >= 0)) {
-    throw ByteReader::Damage();
+    throw ByteReader::Damage("its goal or standard is none");
   }
   return Standard(goal, static_cast<Standard::Terms>(terms), price);
 }

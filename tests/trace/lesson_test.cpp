@@ -53,6 +53,35 @@ TEST_CASE("what is no lesson is refused with the name of the file and the reason
   CHECK_THROWS_WITH_AS(read_lesson(folder / "none.json"), doctest::Contains("No such file"), Error);
 }
 
+TEST_CASE("a lesson of a stranger names no file of others, and its message is short") {
+  const TempFolder folder;
+  const auto complaint = [&](const std::string& text) -> std::string {
+    write_text(folder / "a.json", text);
+    try {
+      read_lesson(folder / "a.json");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string steps = R"(, "steps": [{"at": 0, "text": ""}]})";
+  for (const char* name : {"/etc/passwd", "../b.trace", "b/../../c.trace", ""}) {
+    CAPTURE(name);
+    const std::string text = R"({"title": "a", "mesh": "m.mesh", "trace": ")";
+    CHECK(complaint(text + name + '"' + steps).find("'trace' leads out of its folder") !=
+          std::string::npos);
+  }
+  const std::string inner = R"({"title": "a", "mesh": "b/m.mesh", "trace": "..b.trace")";
+  CHECK(complaint(inner + steps).empty());
+  for (const std::string& text :
+       {std::string(1'000'000, '['), std::string(1'000'000, 'x'), '"' + std::string(1'000'000, 'x'),
+        std::string(500'000, '[') + std::string(500'000, ']')}) {
+    const std::string message = complaint(text);
+    CHECK(message.find("a.json: is no lesson: ") != std::string::npos);
+    CHECK(message.size() < 500);
+  }
+}
+
 TEST_CASE("the lessons of a folder are its JSON files, by name") {
   const TempFolder folder;
   for (const char* name : {"b.json", "a.json", "a.trace"}) write_text(folder / name, "");

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The faces of a mesh that a file describes: is each the face of one tet a side?
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "kernel/handles.h"
+
+namespace tetmend {
+
+/// Open addressing. The hash has a part that no file can know, so that none makes the table slow.
+class TetFaces {
+ public:
+  TetFaces() : salt_((std::uint64_t{std::random_device()()} << 32) | std::random_device()()) {}
+
+  /// Room for the faces of so many tets.
+  void reserve(std::size_t tets) {
+    std::size_t size = kLeast;
+    while (size < 3 * tets) size *= 2;
+    if (size > entries_.size()) rehash(size);
+  }
+  /// False if the face has a tet on this side already.
+  bool add(const TetVertices& tet, unsigned face) {
+    if (4 * (used_ + 1) > 3 * entries_.size()) make_room();
+    const auto [key, side] = key_of(tet, face);
+    Entry& entry = probe(key);
+    if (entry.sides == kFree) {
+      entry = {key, 0};
+      ++used_;
+    }
+    const bool is_new = (entry.sides & side) == 0;
+    entry.sides |= side;
+    return is_new;
+  }
+  /// Precondition: it was added.
+  void remove(const TetVertices& tet, unsigned face) {
+    const auto [key, side] = key_of(tet, face);
+    probe(key).sides &= ~side;  // the entry stays until the next rehash
+  }
+  /// What one large cavity took is given back: clearing stays cheap.
+  void clear() {
+    constexpr std::size_t kKept = 16 * kLeast;
+    if (entries_.size() > kKept) entries_ = std::vector<Entry>(kLeast);
+    if (used_ > 0) entries_.assign(entries_.size(), Entry());
+    used_ = 0;
+  }
+  /// The same faces have a tet on one side only, and that the same.
+  bool same_hull(const TetFaces& other) const {
+    std::size_t open = 0;
+    for (const Entry& entry : entries_) {
+      if (!entry.is_open()) continue;
+      ++open;
+      if (other.sides_of(entry.key) != entry.sides) return false;
+    }
+    return open == other.count_open();
+  }
+
+ private:
+  using Key = std::array<std::uint32_t, 3>;  // sorted
+  static constexpr std::size_t kLeast = 64;
+  static constexpr std::uint32_t kFree = 4;
+
+  struct Entry {
+    Key key{};
+    std::uint32_t sides = kFree;  // bits: a tet that lists it evenly, one that does not
+    bool is_open() const { return sides == 1 || sides == 2; }
+  };
+
+  static std::pair<Key, std::uint32_t> key_of(const TetVertices& tet, unsigned face) {
+    const auto& local = kFaceVertices[face];
+    Key key = {tet[local[0]].index(), tet[local[1]].index(), tet[local[2]].index()};
+    std::uint32_t side = 1;
+    const auto order = [&](std::size_t i, std::size_t j) {
+      if (key[i] <= key[j]) return;
+      std::swap(key[i], key[j]);
+      side = 3 - side;
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+    return {key, side};
+  }
+  std::size_t place_of(const Key& key) const {
+    std::uint64_t mixed = salt_;
+    for (const std::uint32_t v : key) {
+      mixed = (mixed ^ v) * 0x9E3779B97F4A7C15u;
+      mixed ^= mixed >> 32;
+    }
+    std::size_t i = mixed & (entries_.size() - 1);
+    while (entries_[i].sides != kFree && entries_[i].key != key)
+      i = (i + 1) & (entries_.size() - 1);
+    return i;
+  }
+  Entry& probe(const Key& key) { return entries_[place_of(key)]; }
+  std::uint32_t sides_of(const Key& key) const { return entries_[place_of(key)].sides; }
+  std::size_t count_open() const {
+    return static_cast<std::size_t>(std::ranges::count_if(entries_, &Entry::is_open));
+  }
+  void make_room() {
+    const auto live = static_cast<std::size_t>(std::ranges::count_if(
+        entries_, [](const Entry& entry) { return entry.sides != 0 && entry.sides != kFree; }));
+    rehash(2 * live > entries_.size() ? 2 * entries_.size() : entries_.size());
+  }
+  /// Forgets the faces without a tet.
+  void rehash(std::size_t size) {
+    const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(size));
+    used_ = 0;
+    for (const Entry& entry : old) {
+      if (entry.sides == kFree || entry.sides == 0) continue;
+      probe(entry.key) = entry;
+      ++used_;
+    }
+  }
+
+  std::uint64_t salt_;
+  std::vector<Entry> entries_ = std::vector<Entry>(kLeast);
+  std::size_t used_ = 0;
+};
+
+}  // namespace tetmend

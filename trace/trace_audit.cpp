@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "trace/trace_audit.h"
+
+#include <fmt/format.h>
+
+namespace tetmend {
+
+namespace {
+
+std::string text_of(const TetVertices& tet) {
+  return fmt::format("{} {} {} {}", tet[0].index(), tet[1].index(), tet[2].index(), tet[3].index());
+}
+
+}  // namespace
+
+TraceAudit::TraceAudit(const SlotMesh& mesh)
+    : playback_(mesh), tets_of_(mesh.vertex_slots(), 0), last_changed_(mesh.tet_slots(), 0) {
+  faces_.reserve(mesh.tet_count());
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    if (!mesh.is_deleted(TetHandle(i))) add_tet(mesh.vertices(TetHandle(i)));
+  }
+}
+
+void TraceAudit::add_tet(const TetVertices& tet) {
+  for (unsigned f = 0; f < 4; ++f) {
+    if (faces_.add(tet, f)) continue;
+    throw ByteReader::Damage(
+        fmt::format("tet {} lies on the same side of a face as another", text_of(tet)));
+  }
+  for (const VertexHandle v : tet) ++tets_of_[v.index()];
+}
+
+void TraceAudit::remove_tet(const TetVertices& tet) {
+  for (unsigned f = 0; f < 4; ++f) faces_.remove(tet, f);
+  for (const VertexHandle v : tet) --tets_of_[v.index()];
+}
+
+void TraceAudit::follow(const TraceEvent& event) {
+  check_names(event);
+  ++position_;
+  if (!playback_.prepare(event, position_ - 1)) return;
+  const auto tets = playback_.tet_changes(position_);
+  if (event.kind == EventKind::replace_cavity) {
+    check_slots(tets);
+    check_hull(tets);
+  }
+  if (event.kind != EventKind::move_vertex) follow_tets(tets);
+  follow_vertices(playback_.vertex_changes(position_));
+  playback_.make();
+}
+
+/// What an attempt aims at and what a visit is of may be gone, but have a slot.
+void TraceAudit::check_names(const TraceEvent& event) const {
+  if (event.kind != EventKind::attempt_begins && event.kind != EventKind::visit_begins) return;
+  for (const VertexHandle v : event.vertices) {
+    if (v.index() < playback_.mesh().vertex_slots()) continue;
+    throw ByteReader::Damage(fmt::format("a target with vertex {}; the mesh has slots for {}",
+                                         v.index(), playback_.mesh().vertex_slots()));
+  }
+}
+
+/// Each slot once, and all tets that a cavity takes have one label.
+void TraceAudit::check_slots(std::span<const TetChange> changes) {
+  for (const TetChange& change : changes) {
+    const std::size_t i = change.tet.index();
+    if (i >= last_changed_.size()) last_changed_.resize(i + 1, 0);
+    if (last_changed_[i] == position_) {
+      throw ByteReader::Damage(fmt::format("a cavity with tet {} twice", i));
+    }
+    last_changed_[i] = position_;
+    if (change.before[0].is_valid() && change.label_before != changes.front().label_before) {
+      throw ByteReader::Damage("a cavity with tets of two labels");
+    }
+  }
+}
+
+/// The open faces of the tets removed and created are the same.
+void TraceAudit::check_hull(std::span<const TetChange> changes) {
+  removed_.clear();
+  created_.clear();
+  for (const TetChange& change : changes) {
+    for (unsigned f = 0; f < 4; ++f) {
+      if (change.before[0].is_valid()) removed_.add(change.before, f);
+      if (change.after[0].is_valid() && !created_.add(change.after, f)) {
+        throw ByteReader::Damage(fmt::format(
+            "new tet {} lies on the same side of a face as another", text_of(change.after)));
+      }
+    }
+  }
+  if (!removed_.same_hull(created_)) {
+    throw ByteReader::Damage("the new tets do not fill the cavity of the old ones");
+  }
+}
+
+void TraceAudit::follow_tets(std::span<const TetChange> changes) {
+  for (const TetChange& change : changes) {
+    if (change.before[0].is_valid()) remove_tet(change.before);
+  }
+  for (const TetChange& change : changes) {
+    if (change.after[0].is_valid()) add_tet(change.after);
+  }
+}
+
+void TraceAudit::follow_vertices(std::span<const VertexChange> changes) {
+  for (const VertexChange& change : changes) {
+    const std::size_t v = change.vertex.index();
+    if (v >= tets_of_.size()) tets_of_.resize(v + 1, 0);
+    if (change.is_there || tets_of_[v] == 0) continue;
+    throw ByteReader::Damage(fmt::format("vertex {} goes, and {} tets have it", v, tets_of_[v]));
+  }
+}
+
+}  // namespace tetmend
