@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces of strangers: whatever they say, an Error or a trace whose mesh is one after every event.
+#include <array>
 #include <csignal>
 #include <functional>
 #include <limits>
