@@ -21,6 +21,13 @@ SMALL = MESHES / "two_materials.mesh"
 failures = []
 
 
+def can_trace() -> bool:
+    """strace is there, and may trace."""
+    if shutil.which("strace") is None:
+        return False
+    return subprocess.run(["strace", "-qq", "-o", "/dev/null", "true"], capture_output=True).returncode == 0
+
+
 def check(holds, what, *details):
     if not holds:
         failures.append(what)
@@ -95,7 +102,7 @@ def same_files_are_refused():
 
 
 def a_set_is_all_new_or_all_old():
-    if shutil.which("strace") is None:
+    if not can_trace():
         print("no strace: faults of single renames are not tried here")
         return
     with Folder() as folder:
@@ -212,7 +219,7 @@ def signals_leave_no_temporaries():
             check(entries(folder) == kept, "a signal leaves no temporary", entries(folder))
             check((folder / "a.vtu").read_bytes() in (b"older", old), "a file is old or new")
         check(ended > 0, "some signal came in time")
-    if shutil.which("strace") is None:
+    if not can_trace():
         return
     with Folder() as folder:
         # While the trace is being written, and the second signal right after the first.
@@ -229,7 +236,7 @@ def signals_leave_no_temporaries():
 
 def signal_at_a_rename():
     """Between the renames of a set the program cannot be ended."""
-    if shutil.which("strace") is None:
+    if not can_trace():
         return
     with Folder() as folder:
         run("convert", folder / "in.mesh", folder / "a.ele")
@@ -248,7 +255,7 @@ def signal_at_a_rename():
 
 
 def signal_while_writing():
-    if shutil.which("strace") is None:
+    if not can_trace():
         return
     with Folder() as folder:
         (folder / "o.vtu").write_text("older")
@@ -272,7 +279,7 @@ def strace(folder, what, *command):
 
 
 def writing_outlives_signals_and_loss_of_power():
-    if shutil.which("strace") is None:
+    if not can_trace():
         return
     with Folder() as folder:
         run("improve", folder / "in.mesh", "-o", folder / "good.mesh", "-q")
