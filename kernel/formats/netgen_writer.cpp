@@ -379,18 +379,24 @@ class Writer {
     if (last < 1) return;
     out_.put(fmt::format("\n{}\n{}\n", section, last));
     std::set<std::string> taken;
+    for (const auto& [label, group] : names) taken.insert(group->name);
     for (Label label = 1; label <= last; ++label) {
       const auto found = names.find(label);
-      std::string name = found == names.end() ? "default" : found->second->name;
-      for (char& c : name) {
-        if (c == '#' || static_cast<unsigned char>(c) <= ' ') c = '_';
-      }
-      std::string unique = name;
-      for (int i = 2; found != names.end() && !taken.insert(unique).second; ++i) {
-        unique = fmt::format("{}_{}", name, i);
-      }
-      out_.put(fmt::format("{} {}\n", label, unique));
+      const std::string name = found == names.end() ? "default" : found->second->name;
+      out_.put(fmt::format("{} {}\n", label, as_word(name, taken)));
     }
+  }
+
+  /// Netgen may have a name twice; one that has to be changed is not to become another.
+  static std::string as_word(const std::string& name, std::set<std::string>& taken) {
+    std::string word = name;
+    for (char& c : word) {
+      if (c == '#' || static_cast<unsigned char>(c) <= ' ') c = '_';
+    }
+    if (word == name) return word;
+    std::string unique = word;
+    for (int i = 2; !taken.insert(unique).second; ++i) unique = fmt::format("{}_{}", word, i);
+    return unique;
   }
 
   OutputFile out_;

@@ -213,7 +213,7 @@ TEST_CASE("labels without a name are default for Netgen, and names are words") {
   mesh.triangles[0].label = 8;
   mesh.triangles[1].label = 7;
   write_mesh(folder / "b.vol", mesh);
-  CHECK(test::read_text(folder / "b.vol").find("7 outer_wall\n8 outer_wall_2\n") !=
+  CHECK(test::read_text(folder / "b.vol").find("7 outer_wall_2\n8 outer_wall\n") !=
         std::string::npos);
 }
 
