@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "kernel/lists_of_kind.h"
 #include "kernel/error.h"
 #include "kernel/formats/cell_arrays.h"
+#include "kernel/lists_of_kind.h"
 
 namespace tetmend {
 
