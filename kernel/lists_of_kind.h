@@ -14,6 +14,9 @@ struct ListsOfKind {
   Data& data;
 };
 
+template <class Elements, class Labels, class Numbers, class Data>
+ListsOfKind(Elements&, Labels&, Numbers&, Data&) -> ListsOfKind<Elements, Labels, Numbers, Data>;
+
 template <class Mesh>
 auto tets_of(Mesh& mesh) {
   return ListsOfKind{mesh.tets, mesh.tet_parts, mesh.tet_numbers, mesh.tet_data};

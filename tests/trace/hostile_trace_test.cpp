@@ -296,7 +296,8 @@ TEST_CASE("chunks and ends that count wrong are refused") {
       {"a frame of no known kind", FrameContent()},
       {"the end counts 4 events", end_frame(4)},
       {"an end of no known kind", end_frame(0, 2)}};
-  for (const auto& [reason, frame] : wrong) {
+  for (const auto& [expected, frame] : wrong) {
+    const std::string reason = expected;
     CAPTURE(reason);
     write_forged(folder, beginning, frame);
     REQUIRE(use_within_bounds(folder / "forged") == 0);
@@ -316,7 +317,8 @@ TEST_CASE("a mesh that is none is refused before the first event") {
       {"vertex 2 has no finite coordinates", forged_mesh({0, 1, 2, 3}, 1, std::nan(""))},
       {"vertex 0 is not told to live", forged_mesh({0, 1, 2, 3}, 1, 1, 2)},
       {"counts more than its bytes can hold", forged_mesh({0, 1, 2, 3}, 1u << 30)}};
-  for (const auto& [reason, mesh] : wrong) {
+  for (const auto& [expected, mesh] : wrong) {
+    const std::string reason = expected;
     CAPTURE(reason);
     write_frames(folder / "forged", {beginning[0], mesh});
     REQUIRE(use_within_bounds(folder / "forged") == 0);

@@ -230,7 +230,8 @@ TEST_CASE("a mesh goes from each format to each other and back, or what is lost 
       {"rich", rich_mesh()},
       {"prism", with_prism()},
       {"second order", test::second_order(contract::kuhn_cube(2, 0.1, 1), 0.1)}};
-  for (const auto& [name, mesh] : meshes) {
+  for (const auto& [kind, mesh] : meshes) {
+    const std::string name = kind;
     for (const MeshFormat& from : mesh_formats()) {
       const TempFolder folder;
       CAPTURE(name);

@@ -165,9 +165,10 @@ TEST_CASE("labels below 1 become other properties of Nastran, and that is said")
 
 TEST_CASE("reals of Nastran may lack their letter") {
   double value = 0;
-  for (const auto& [text, expected] :
+  for (const auto& [word, expected] :
        {std::pair("1.5-3", 1.5e-3), std::pair("-1.5+3", -1.5e3), std::pair("+.5", 0.5),
         std::pair("7.", 7.0), std::pair("1.D2", 100.0), std::pair("2e-3", 2e-3)}) {
+    const char* const text = word;
     CAPTURE(text);
     CHECK(formats::nastran_real(text, value));
     CHECK(value == expected);
