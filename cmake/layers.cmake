@@ -9,6 +9,7 @@ function(tetmend_layer name below)
   target_include_directories(tetmend_${name} PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
   target_compile_features(tetmend_${name} PUBLIC cxx_std_20)
   target_link_libraries(tetmend_${name} PUBLIC ${below} ${ARGN} PRIVATE tetmend_flags)
-  # The same objects make the shared library.
-  set_target_properties(tetmend_${name} PROPERTIES LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON)
+  # The same objects make the shared library, which shows what is marked TETMEND_API.
+  set_target_properties(tetmend_${name} PROPERTIES
+    LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
 endfunction()

@@ -1,4 +1,4 @@
-# Warnings, floating-point rules and sanitizers that every target of this project shares.
+# Warnings, floating-point rules, hardening and sanitizers that every target of this project shares.
 add_library(tetmend_flags INTERFACE)
 target_compile_options(tetmend_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
@@ -8,4 +8,10 @@ if(TETMEND_SANITIZE)
   target_compile_options(tetmend_flags INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -UNDEBUG)
   target_link_options(tetmend_flags INTERFACE -fsanitize=address,undefined)
+else()
+  # A slip of memory ends the program instead of going on with what it wrote over.
+  target_compile_options(tetmend_flags INTERFACE -fstack-protector-strong
+    $<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
 endif()
+target_compile_definitions(tetmend_flags INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+target_link_options(tetmend_flags INTERFACE -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)

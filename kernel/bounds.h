@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include <tetmend/api.h>
+
 #include "kernel/quality.h"
 
 namespace tetmend {
@@ -13,7 +15,7 @@ class TetMesh;
 /// Bounds on every new tet: those of the worst tets that a run began with. The quality of a tet
 /// does not hold them: it takes large and small angles for the same, and a needle may be better
 /// than a tet with a sharp angle. A value; immutable.
-class Bounds {
+class TETMEND_API Bounds {
  public:
   /// No bounds.
   Bounds() = default;

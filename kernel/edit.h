@@ -6,13 +6,15 @@
 #include <cstdint>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
 /// One change: a set of tets replaced by another with the same outer surface, or a vertex moved,
 /// added or removed. The data lie in the arrays of the journal; `*_begin` to `*_end` name the part.
-struct Edit {
+struct TETMEND_API Edit {
   enum class Kind : std::uint8_t { replace_cavity, move_vertex, add_vertex, remove_vertex };
 
   Kind kind{};
@@ -27,7 +29,7 @@ struct Edit {
 };
 
 /// Edits in the order in which they happened, with all that undoing them needs.
-struct Journal {
+struct TETMEND_API Journal {
   struct RemovedTet {
     TetHandle tet;
     TetVertices vertices;
@@ -74,7 +76,7 @@ struct Journal {
 
 /// Told of every edit and of every undo, in the order in which they happen; also of edits in
 /// attempts that are refused later.
-class EditListener {
+class TETMEND_API EditListener {
  public:
   virtual ~EditListener() = default;
   /// The last edit of the journal was just made: the mesh holds what it created. A vertex that lost

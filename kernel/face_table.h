@@ -9,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/handles.h"
 
 namespace tetmend {
 
 /// Open addressing with stamps, as IndexSet.
-class FaceTable {
+class TETMEND_API FaceTable {
  public:
   struct Entry {
     std::array<std::uint32_t, 3> key{};  // sorted

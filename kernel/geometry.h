@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include <Eigen/Geometry>
+#include <tetmend/api.h>
 
 #include "kernel/mesh_data.h"
 
@@ -32,7 +33,7 @@ inline double cube_root(double x) {
 /// Six times the signed volume of a tet as computed, and more than its rounding error. Source:
 /// static filter of [shewchuk_predicates], constant (7 + 56 eps) eps; the last term covers products
 /// that underflow.
-struct FilteredVolume {
+struct TETMEND_API FilteredVolume {
   double value;
   double error;
 };

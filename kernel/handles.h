@@ -8,11 +8,13 @@
 #include <functional>
 #include <type_traits>
 
+#include <tetmend/api.h>
+
 namespace tetmend {
 
 /// A 32-bit index of one kind of entity. Default-constructed handles are invalid.
 template <class Tag>
-class Handle {
+class TETMEND_API Handle {
  public:
   static constexpr std::uint32_t kInvalid = 0xFFFFFFFFu;
 
@@ -47,7 +49,7 @@ inline constexpr std::array<std::array<std::uint8_t, 4>, 4> kEdgeOf = {
 
 /// One side of a face: face f of tet t, coded 4 t + f. Codes with the top bit set stand for the
 /// outside of the mesh and carry the number of a boundary triangle instead.
-class HalfFace {
+class TETMEND_API HalfFace {
  public:
   constexpr HalfFace() = default;
   constexpr HalfFace(TetHandle tet, unsigned face) : code_(4 * tet.index() + face) {}
@@ -73,7 +75,7 @@ class HalfFace {
 
 /// An edge named by a tet that contains it: edge e of tet t. The shell of the edge is found without
 /// a search.
-class TetEdge {
+class TETMEND_API TetEdge {
  public:
   constexpr TetEdge() = default;
   constexpr TetEdge(TetHandle tet, unsigned edge) : code_(6 * tet.index() + edge) {}

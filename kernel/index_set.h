@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/api.h>
+
 namespace tetmend {
 
 /// Open addressing; an entry counts only if it carries the current stamp. Allocates only when it
 /// grows beyond its largest size so far.
-class IndexSet {
+class TETMEND_API IndexSet {
  public:
   IndexSet() : slots_(256, 0) {}
 
@@ -69,7 +71,7 @@ class IndexSet {
 };
 
 /// A set of pairs of indices, likewise.
-class PairSet {
+class TETMEND_API PairSet {
  public:
   PairSet() : slots_(256) {}
 

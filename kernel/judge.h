@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/handles.h"
 #include "kernel/quality.h"
 
@@ -24,7 +26,7 @@ inline constexpr Quality kQualityTolerance = 2e-6f;
 /// lexicographically, the shorter better when one continues the other ([chen, 6.1]). The first
 /// entry that differs by more than kQualityTolerance decides, and no earlier entry may be lower at
 /// all, so true also holds in the strict order.
-bool improves(std::span<const Quality> now, std::span<const Quality> before);
+TETMEND_API bool improves(std::span<const Quality> now, std::span<const Quality> before);
 
 /// How much a tet lacks to be good, (1 - q)^4, or 0: a sum of it weighs one very bad tet against
 /// several mild ones.
@@ -42,7 +44,7 @@ inline constexpr double kDesperate = 0.4;
 
 /// The qualities of all that a transaction has touched, as they were when it began and as they are
 /// now. One for each worker; empty when nothing was compared.
-class Comparison {
+class TETMEND_API Comparison {
  public:
   Comparison() = default;
   /// In any order.
@@ -70,7 +72,7 @@ class Comparison {
 };
 
 /// What a judge looks at.
-struct Change {
+struct TETMEND_API Change {
   const Transaction& transaction;
   Comparison& qualities;     ///< buffers; filled by the judge
   TetHandle aimed_at = {};   ///< the tet of the target; invalid if that is a vertex
@@ -78,7 +80,7 @@ struct Change {
 };
 
 /// What a fair judge takes for fair.
-struct Fairness {
+struct TETMEND_API Fairness {
   /// What a bad tet lacks counts with this exponent; large: mild ones hardly count.
   double exponent = 4;
   double desperate = kDesperate;  ///< a worst tet below this may gain at a price
@@ -90,7 +92,7 @@ struct Fairness {
 
 /// Decides whether a change stays, and tells a search beforehand what it will ask for. A value of a
 /// few words; immutable.
-class Judge {
+class TETMEND_API Judge {
  public:
   enum class Kind : std::uint8_t { strict, fair, reaches, lowers_angle, raises_mean, opening };
 

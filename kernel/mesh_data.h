@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <tetmend/api.h>
 
 namespace tetmend {
 
@@ -20,7 +21,7 @@ using Label = std::int32_t;
 
 /// Numbers that a file gives under a name for each point, or each element of a kind: `components` of
 /// them for the first, then for the second, and so on.
-struct DataArray {
+struct TETMEND_API DataArray {
   using Values = std::variant<std::vector<std::int32_t>, std::vector<std::int64_t>,
                               std::vector<float>, std::vector<double>>;
   std::string name;
@@ -35,7 +36,7 @@ struct DataArray {
 };
 
 /// A named or numbered set of points or elements. One of them may be in several.
-struct Group {
+struct TETMEND_API Group {
   int dimension = 3;                   ///< 0: points, 1: edges, 2: triangles, 3: tets
   Label number = 0;                    ///< no other group of this dimension has it; 0: none
   std::string name;                    ///< may be empty
@@ -46,7 +47,7 @@ struct Group {
 };
 
 /// A vertex, curve, surface or volume of the geometry that a mesh was made from.
-struct GeometricEntity {
+struct TETMEND_API GeometricEntity {
   int dimension = 3;
   Label tag = 0;                ///< no other entity of this dimension has it
   std::array<double, 6> box{};  ///< x, y, z at least, then at most; of a vertex its place, twice
@@ -56,7 +57,7 @@ struct GeometricEntity {
 };
 
 /// Points of one entity, each the image of a point of another.
-struct PeriodicLink {
+struct TETMEND_API PeriodicLink {
   int dimension = 2;
   Label tag = 0;
   Label master = 0;
@@ -66,7 +67,7 @@ struct PeriodicLink {
 };
 
 /// Elements that are no tets, triangles or edges of first order. They stay as they are.
-struct OtherElements {
+struct TETMEND_API OtherElements {
   int vtk_type = 0;                     ///< as VTK numbers cell types: 12 is a hexahedron
   std::size_t vertex_count = 0;         ///< of one
   std::vector<std::uint32_t> vertices;  ///< of the first, then of the second, in VTK's order
@@ -80,7 +81,7 @@ struct OtherElements {
 /// A tetrahedral mesh without adjacency. Vertex numbers count from 0 in the order of the file,
 /// whatever the file counts from. Orientation is not promised: a reader keeps the order of the
 /// file.
-struct MeshData {
+struct TETMEND_API MeshData {
   struct Triangle {
     std::array<std::uint32_t, 3> vertices{};
     Label label = 0;

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/error.h"
 
 namespace tetmend {
@@ -20,7 +22,7 @@ namespace tetmend {
 /// Names a property of type T on one kind of entity. Cheap to copy; valid until the property is
 /// removed.
 template <class HandleType, class T>
-class PropertyHandle {
+class TETMEND_API PropertyHandle {
  public:
   PropertyHandle() = default;
   bool is_valid() const { return index_ != kInvalid; }
@@ -36,7 +38,7 @@ class PropertyHandle {
 /// All properties of one kind of entity. A slot that is created or re-used starts with the default
 /// value of each property; undo of a transaction brings the old value back.
 template <class HandleType>
-class PropertyTable {
+class TETMEND_API PropertyTable {
  public:
   PropertyTable() = default;
   PropertyTable(const PropertyTable& other) : size_(other.size_) {

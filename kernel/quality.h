@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include <tetmend/api.h>
 #include <tetmend/goal.h>
 
 #include "kernel/geometry.h"
@@ -25,7 +26,7 @@ using Quality = float;
 inline constexpr Quality kBadThreshold = 1;
 
 /// A measure is a pure function of the four points of a tet, in positive order for a valid tet.
-struct QualityMeasure {
+struct TETMEND_API QualityMeasure {
   std::string_view name;  ///< as in `--measure NAME`
   std::string_view help;  ///< one line: formula and value of the regular tet
   double (*evaluate)(const Point& a, const Point& b, const Point& c, const Point& d);
@@ -43,7 +44,7 @@ struct QualityMeasure {
 /// operators make them, and nothing can repair the thin tets around. A needle is no worse than
 /// `flat`, so among the worst tets sines alone decide. Where the surface forces needles, these do
 /// not hide the angles. A value of a few words; immutable.
-class Standard {
+class TETMEND_API Standard {
  public:
   /// Of a new bad tet, in runs that do not say otherwise. The paper has none.
   static constexpr double kUsualPrice = 0.1;
@@ -105,36 +106,39 @@ inline double minimum_sine(const Point& p0, const Point& p1, const Point& p2, co
 
 /// As options and scripts write it: "sine" or "sine_and_length".
 /// @throws Error for another name, with these two.
-Standard::Terms to_terms(std::string_view name);
-std::string_view to_string(Standard::Terms terms);
+TETMEND_API Standard::Terms to_terms(std::string_view name);
+TETMEND_API std::string_view to_string(Standard::Terms terms);
 
 /// True if the angles of a goal are within their bounds.
-bool is_sound(const Goal& goal);
+TETMEND_API bool is_sound(const Goal& goal);
 
 /// The six dihedral angles in degrees, 0..180, at the edges in the order of kEdgeVertices. For an
 /// inverted tet the angles of its mirror image. The angles at a degenerate face are 0.
-std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
-                                      const Point& d);
+TETMEND_API std::array<double, 6> dihedral_angles(const Point& a, const Point& b, const Point& c,
+                                                  const Point& d);
 
 /// Smallest dihedral angle in degrees, with the sign of the volume. Regular tet: 70.5288.
-double minimum_dihedral_angle(const Point& a, const Point& b, const Point& c, const Point& d);
+TETMEND_API double minimum_dihedral_angle(const Point& a, const Point& b, const Point& c,
+                                          const Point& d);
 
 /// 6 sqrt(2) V / l_rms^3, l_rms the root mean square edge length. Regular tet: 1. Source:
 /// [shewchuk_good].
-double volume_length(const Point& a, const Point& b, const Point& c, const Point& d);
+TETMEND_API double volume_length(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// 3 r / R: inradius over circumradius, with the sign of the volume. Regular tet: 1.
-double radius_ratio(const Point& a, const Point& b, const Point& c, const Point& d);
+TETMEND_API double radius_ratio(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// 12 (3 V)^(2/3) / sum of squared edge lengths, with the sign of the volume. Regular tet: 1.
-double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d);
+TETMEND_API double mean_ratio(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// Minimum sine in which the sine of an obtuse angle counts 0.75 times: large angles weigh more.
 /// Regular tet: 0.942809. Source: option of [klingner_shewchuk].
-double warped_minimum_sine(const Point& a, const Point& b, const Point& c, const Point& d);
+TETMEND_API double warped_minimum_sine(const Point& a, const Point& b, const Point& c,
+                                       const Point& d);
 
 /// Sine of the largest dihedral angle, with the sign of the volume; 1 if none is obtuse.
-double largest_angle_sine(const Point& a, const Point& b, const Point& c, const Point& d);
+TETMEND_API double largest_angle_sine(const Point& a, const Point& b, const Point& c,
+                                      const Point& d);
 
 inline double Standard::quality(const Point& p0, const Point& p1, const Point& p2,
                                 const Point& p3) const {
@@ -179,9 +183,9 @@ inline double Standard::quality(const Point& p0, const Point& p1, const Point& p
 }
 
 /// All measures; the first is the default.
-std::span<const QualityMeasure> quality_measures();
+TETMEND_API std::span<const QualityMeasure> quality_measures();
 
 /// @throws Error for an unknown name, with the valid ones.
-const QualityMeasure& find_quality_measure(std::string_view name);
+TETMEND_API const QualityMeasure& find_quality_measure(std::string_view name);
 
 }  // namespace tetmend

@@ -17,6 +17,8 @@
 #include <iterator>
 #include <optional>
 
+#include <tetmend/api.h>
+
 #include "kernel/territory.h"
 #include "kernel/tet_mesh.h"
 
@@ -36,7 +38,7 @@ enum class ShellKind : std::uint8_t {
 };
 
 /// The ring of a closed shell. Ring arithmetic is modulo degree.
-struct Shell {
+struct TETMEND_API Shell {
   VertexHandle a;
   VertexHandle b;
   unsigned degree = 0;
@@ -50,16 +52,16 @@ struct Shell {
 /// Walks around an edge. The ring begins at the tet that names the edge: tets[0] is that tet. Fills
 /// `shell` completely only for ShellKind::closed. Precondition: the tet of the edge lies in the
 /// territory. Cost: one step for each tet, no memory.
-ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
-                     const Territory& territory = {});
+TETMEND_API ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
+                                 const Territory& territory = {});
 
 /// A tet that contains the edge between two vertices, searched in the star of the first. Nothing
 /// when there is none, or when the search leaves the territory of the workspace, which notes it.
 /// Looks at `hint` first. At a vertex whose star is not connected through faces (touching fans),
 /// only the fan of its stored tet is searched. Cost: about 26 tets without a useful hint
 /// ([chen, 5.2]).
-std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b,
-                                 Workspace& workspace, TetHandle hint = {});
+TETMEND_API std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHandle b,
+                                             Workspace& workspace, TetHandle hint = {});
 
 /// The edge between two vertices if `t` contains both.
 inline std::optional<TetEdge> edge_in(const TetMesh& mesh, TetHandle t, VertexHandle a,
@@ -72,7 +74,7 @@ inline std::optional<TetEdge> edge_in(const TetMesh& mesh, TetHandle t, VertexHa
 
 /// Lazy range over the tets around an edge, open shells included: yields the edge as each tet names
 /// it. Works for boundary and constrained edges.
-class ShellRange {
+class TETMEND_API ShellRange {
  public:
   class Iterator {
    public:

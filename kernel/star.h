@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -16,19 +18,22 @@ class Workspace;
 /// through faces from the stored tet; the order follows from the connectivity alone. `out` is
 /// cleared first. False, with a part of the link, if the star leaves the territory of the
 /// workspace. Cost: linear in the star.
-bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
-                  std::vector<HalfFace>& out);
+TETMEND_API bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+                              std::vector<HalfFace>& out);
 
 /// Link, star (the tets around v) and one-ring (their other vertices, each once). The span is valid
 /// until the next call of the same function with the same workspace. Precondition: the star lies in
 /// the territory of the workspace.
-std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
-std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
-std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Workspace& workspace);
+TETMEND_API std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v,
+                                           Workspace& workspace);
+TETMEND_API std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v,
+                                            Workspace& workspace);
+TETMEND_API std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v,
+                                                   Workspace& workspace);
 
 /// Edge (a, b) in the star of a; nothing if there is none in the territory of the workspace.
 /// Precondition: a is a live vertex with a tet.
-std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
-                                    Workspace& workspace);
+TETMEND_API std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
+                                                Workspace& workspace);
 
 }  // namespace tetmend

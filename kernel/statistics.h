@@ -2,6 +2,7 @@
 // The figures by which a mesh is judged, computed.
 #pragma once
 
+#include <tetmend/api.h>
 #include <tetmend/goal.h>
 #include <tetmend/statistics.h>
 
@@ -18,14 +19,14 @@ inline constexpr double kAngleTolerance = 1e-9;
 /// in a fixed order, so the result depends on the mesh alone, not on the number of threads.
 /// @param goal  a tet with an angle outside is bad; lambda counts angles at its ends and outside
 /// Cost: one pass over the tets, about 0.03 s for a million on one thread.
-MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal = {});
+TETMEND_API MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal = {});
 
 /// From the cached qualities of the tets that are not frozen.
 /// Cost: one pass over the cached qualities.
-QualityIndicators quality_indicators(const TetMesh& mesh);
+TETMEND_API QualityIndicators quality_indicators(const TetMesh& mesh);
 
 /// Precondition: the name of `measure` outlives the result, as those of quality_measures() do.
 /// Cost: one evaluation for each tet.
-MeasureSummary summarize(const TetMesh& mesh, const QualityMeasure& measure);
+TETMEND_API MeasureSummary summarize(const TetMesh& mesh, const QualityMeasure& measure);
 
 }  // namespace tetmend

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include <tetmend/api.h>
+
 #include "kernel/handles.h"
 
 namespace tetmend {
@@ -15,7 +17,7 @@ using BlockId = std::uint16_t;
 /// The tets whose vertices all belong to one block. A tet between blocks belongs to nobody and
 /// stays as it is; only its neighbour across a face of one block changes, and only with that block.
 /// So a walk from tet to tet meets a foreign vertex before it meets what others change.
-class Territory {
+class TETMEND_API Territory {
  public:
   /// The whole mesh.
   Territory() = default;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/quality.h"
 #include "kernel/wide.h"
 
@@ -12,7 +14,7 @@ namespace tetmend {
 
 /// Says what Standard::quality() and certified_positive() say, to the last bit, in less time.
 /// Allocates only when it outgrows its largest size so far.
-class TetBatch {
+class TETMEND_API TetBatch {
  public:
   void clear() { size_ = 0; }
   void add(const Point& a, const Point& b, const Point& c, const Point& d);

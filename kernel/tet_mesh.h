@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/api.h>
 #include <tetmend/statistics.h>
 
 #include "kernel/bounds.h"
@@ -38,7 +39,7 @@ using Date = std::uint32_t;
 enum class InteriorConstraints : std::uint8_t { kept, dropped };
 
 /// What a caller of TetMesh::build() wishes, and wants to know.
-struct BuildDetails {
+struct TETMEND_API BuildDetails {
   bool sorted = true;  ///< along a space-filling curve
   InteriorConstraints interior = InteriorConstraints::kept;
   std::uint32_t first_number = 1;  ///< from which messages count tets and vertices
@@ -48,7 +49,7 @@ struct BuildDetails {
 
 /// A face that every operation keeps: a triangle of the boundary, a triangle named by the file, or
 /// a face between two labels.
-struct SurfaceTriangle {
+struct TETMEND_API SurfaceTriangle {
   std::array<VertexHandle, 3> vertices;
   Label label = 0;
   bool named = false;     ///< the file lists it; only these are written back
@@ -60,7 +61,7 @@ struct SurfaceTriangle {
 /// quality, label, flags; per vertex: a point, one incident tet, flags and the date of the last
 /// change around it. Deleted slots stay until collect_garbage(). All const member functions may be
 /// called from several threads.
-class TetMesh {
+class TETMEND_API TetMesh {
  public:
   TetMesh() = default;
   /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is corrected; tets
@@ -314,7 +315,7 @@ class TetMesh {
 
 /// An error in the topology of a file's contents; names the tet so that the reader can add its
 /// line.
-class BuildError : public Error {
+class TETMEND_API BuildError : public Error {
  public:
   BuildError(const std::string& message, std::size_t tet) : Error(message), tet_(tet) {}
   std::size_t tet() const { return tet_; }

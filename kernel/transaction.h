@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/tet_mesh.h"
 #include "kernel/workspace.h"
 
@@ -25,7 +27,7 @@ enum class EditResult : std::uint8_t {
 };
 
 /// A vertex, where it is to go, and its link (see star.h).
-struct VertexMove {
+struct TETMEND_API VertexMove {
   VertexHandle vertex;
   Point point;
   std::span<const HalfFace> link;
@@ -35,7 +37,7 @@ struct VertexMove {
 /// its child. Undo restores every slot of the mesh bit for bit, handle numbers included. The
 /// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
 /// journal. Tets and vertices given to a transaction must lie in the territory of the workspace.
-class Transaction {
+class TETMEND_API Transaction {
  public:
   Transaction(TetMesh& mesh, Workspace& workspace);
   ~Transaction();

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/edit.h"
 #include "kernel/face_table.h"
 #include "kernel/index_set.h"
@@ -19,7 +21,7 @@ namespace tetmend {
 
 /// The working memory of one worker. The mesh holds nothing of the kind, so any thread may read it.
 /// A workspace belongs to one mesh; garbage collection and sorting of the mesh make it invalid.
-class Workspace {
+class TETMEND_API Workspace {
  public:
   /// Collects the free slots of the mesh; notes whether it has tets that are not positive. Cost:
   /// linear in the slots.

@@ -12,6 +12,8 @@
 #include <typeinfo>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/error.h"
 #include "kernel/judge.h"
 #include "kernel/transaction.h"
@@ -24,7 +26,7 @@ namespace tetmend {
 enum class TargetKind : std::uint8_t { tet, edge, face, vertex };
 
 /// What an attempt is aimed at: a handle and its kind.
-struct Target {
+struct TETMEND_API Target {
   TargetKind kind;
   std::uint32_t code;
 
@@ -41,7 +43,7 @@ struct Target {
 
 /// The vertices of a target, which outlive its handle: 1 of a vertex, 2 of an edge, 3 of a face, 4
 /// of a tet.
-class TargetVertices {
+class TETMEND_API TargetVertices {
  public:
   TargetVertices(const TetMesh& mesh, Target target);
   std::span<const VertexHandle> all() const { return {vertices_.data(), count_}; }
@@ -55,13 +57,13 @@ class Operator;
 class Registry;
 
 /// What one operator remembers from stage to stage, and its buffers; see OperatorOf.
-class OperatorState {
+class TETMEND_API OperatorState {
  public:
   virtual ~OperatorState() = default;
 };
 
 /// The states of all operators of one worker, so that an attempt takes no memory from the heap.
-class OperatorStates {
+class TETMEND_API OperatorStates {
  public:
   /// That of an operator, made when it is first asked for. Operators of one class share it.
   OperatorState& of(const Operator& op);
@@ -77,7 +79,7 @@ class OperatorStates {
 };
 
 /// All that an attempt may use. One for each worker.
-struct OperatorContext {
+struct TETMEND_API OperatorContext {
   TetMesh& mesh;
   Workspace& workspace;
   OperatorStates& states;
@@ -87,7 +89,7 @@ struct OperatorContext {
 };
 
 /// How the registry knows an operator.
-struct OperatorInfo {
+struct TETMEND_API OperatorInfo {
   std::string_view name;
   TargetKind target;
   std::string_view help;  ///< one line
@@ -97,7 +99,7 @@ struct OperatorInfo {
 
 /// Base of all operators. Instances are immutable and may be shared by workers; what they need to
 /// write lies in their state. Derive from OperatorOf.
-class Operator {
+class TETMEND_API Operator {
  public:
   virtual ~Operator() = default;
   Operator(const Operator&) = delete;
@@ -150,7 +152,7 @@ class Operator {
 /// belongs to one worker and outlives the attempt; a stage may rely only on what an earlier stage of
 /// the same attempt wrote. State: default-constructible.
 template <class State>
-class OperatorOf : public Operator {
+class TETMEND_API OperatorOf : public Operator {
  protected:
   /// @param judge decides whether what apply() made stays
   explicit OperatorOf(const OperatorInfo& info, const Judge& judge = Judge::strict())
@@ -218,7 +220,7 @@ constexpr Verdict to_verdict(EditResult result) {
 }
 
 /// A proposal: tets to replace, and by what.
-struct Replacement {
+struct TETMEND_API Replacement {
   std::vector<TetHandle> old_tets;
   std::vector<TetVertices> new_tets;
 
@@ -229,6 +231,6 @@ struct Replacement {
 
 /// Tells the trace, which must not be null, how an attempt ended; with the vectors of the last
 /// comparison if that decided: it is empty when none was made.
-void report_end(OperatorContext& context, Verdict verdict);
+TETMEND_API void report_end(OperatorContext& context, Verdict verdict);
 
 }  // namespace tetmend

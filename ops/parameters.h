@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include <tetmend/api.h>
+
 namespace tetmend {
 
-struct ParameterSpec {
+struct TETMEND_API ParameterSpec {
   enum class Kind { integer, real, flag };
   std::string_view name;
   Kind kind;
@@ -24,7 +26,7 @@ struct ParameterSpec {
 using ParameterSettings = std::vector<std::pair<std::string, double>>;
 
 /// The values of all declared parameters: defaults, overridden by settings.
-class ParameterValues {
+class TETMEND_API ParameterValues {
  public:
   /// @throws Error for an unknown name (with the valid ones), a value out of range, or a fraction
   /// where an integer is wanted.

@@ -15,6 +15,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "kernel/shell.h"
 #include "ops/registry.h"
 
@@ -22,7 +24,7 @@ namespace tetmend {
 
 /// What a plugin was built against. Read before any code of the plugin is called, so its form never
 /// changes.
-struct PluginAbi {
+struct TETMEND_API PluginAbi {
   std::uint32_t version;
   std::uint32_t layout;
   friend bool operator==(const PluginAbi&, const PluginAbi&) = default;
@@ -71,7 +73,7 @@ constexpr std::uint32_t plugin_layout() {
 inline constexpr PluginAbi kPluginAbi = {kPluginAbiVersion, plugin_layout()};
 
 /// A plugin that was loaded.
-struct Plugin {
+struct TETMEND_API Plugin {
   std::filesystem::path file;
   std::vector<const OperatorInfo*> operators;  ///< what it added, in its order; at least one
 };
@@ -83,7 +85,7 @@ struct Plugin {
 /// @throws Error when the file is no shared library or no plugin, was built for another ABI, or
 /// needs what this program does not have. Also when it throws, adds nothing, or adds a name that is
 /// taken.
-Plugin load_plugin(const std::filesystem::path& file, Registry& registry);
+TETMEND_API Plugin load_plugin(const std::filesystem::path& file, Registry& registry);
 
 }  // namespace tetmend
 

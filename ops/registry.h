@@ -8,11 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include <tetmend/api.h>
+
 #include "ops/operator.h"
 
 namespace tetmend {
 
-class Registry {
+class TETMEND_API Registry {
  public:
   /// The operators of tetmend itself.
   static Registry builtin();

@@ -6,6 +6,8 @@
 #include <span>
 #include <string_view>
 
+#include <tetmend/api.h>
+
 #include "kernel/edit.h"
 #include "kernel/handles.h"
 #include "kernel/quality.h"
@@ -20,7 +22,7 @@ inline constexpr std::string_view kSequenceName = "sequence";
 
 /// One attempt of an operator, or of a sequence, as the trace sees it. Vertices name the target in a
 /// way that outlives tet handles.
-struct AttemptEvent {
+struct TETMEND_API AttemptEvent {
   std::string_view operator_name;
   std::span<const VertexHandle> target;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   unsigned level = 0;                    ///< recursion level, 0 for a call by the scheduler
@@ -32,7 +34,7 @@ struct AttemptEvent {
 /// Receives events in the order in which they happen: passes, in them visits of tets, in them
 /// attempts, which nest. Views are valid during the call only. What a sink does not care about it
 /// need not override.
-class TraceSink : public EditListener {
+class TETMEND_API TraceSink : public EditListener {
  public:
   virtual void attempt_begins(const AttemptEvent& event) = 0;
   /// The quality vectors (ascending) are those of what changed, or would have: empty when nothing

@@ -6,9 +6,7 @@
 #include <string>
 #include <utility>
 
-/// What a program sees of the library. The type of an exception must be one and the same on both
-/// sides, also where a program hides its symbols.
-#define TETMEND_API __attribute__((visibility("default")))
+#include <tetmend/api.h>
 
 namespace tetmend {
 

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// The mark of what a program or a plugin sees of the library. All else is hidden when it is built.
+#pragma once
+
+/// Stands at classes and functions that other programs call. It also makes the type of an exception
+/// one and the same on both sides where a program hides its own symbols.
+#define TETMEND_API __attribute__((visibility("default")))
