@@ -41,7 +41,7 @@ std::vector<path> list_plugins(const path& place) {
 
 std::vector<path> plugins_of_environment() {
   std::vector<path> files;
-  const char* variable = std::getenv(kVariable);
+  const char* variable = ::secure_getenv(kVariable);
   std::string_view rest = variable == nullptr ? "" : variable;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(':'), rest.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-//   open -> compare the ABI -> make it stay -> let it register into a registry of its own -> add
+//   compare the ABI in the file -> open -> compare it again -> make it stay -> let it register into a registry of its own -> add
 //   that to the host's
 #include "ops/plugin.h"
 
@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "ops/plugin_abi.h"
 
 namespace tetmend {
 
@@ -40,8 +41,7 @@ void* find(const Library& library, const std::string& file, const char* symbol) 
   return found;
 }
 
-void check_abi(const Library& library, const std::string& file) {
-  const auto& abi = *static_cast<const PluginAbi*>(find(library, file, "tetmend_plugin_abi"));
+void check_abi(const PluginAbi& abi, const std::string& file) {
   if (abi == kPluginAbi) return;
   throw Error(
       fmt::format("{}: built for plugin ABI {}, layout {:08x}; this is ABI {}, layout "
@@ -49,16 +49,16 @@ void check_abi(const Library& library, const std::string& file) {
                   file, abi.version, abi.layout, kPluginAbi.version, kPluginAbi.layout));
 }
 
-/// Opens the library with everything bound, so that nothing is found missing later.
+/// Opens the library with everything bound, so that nothing is found missing later. Its initialisers
+/// run then, so what the file says of its ABI is looked at before.
 Library open(const std::string& file) {
+  if (const auto abi = read_plugin_abi(file)) check_abi(*abi, file);
   Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
-  if (library) return library;
-  const std::string reason = linker_message(file);
-  // If it was built for another version, that is the reason why it needs what is not here.
-  if (const Library unbound{::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL)}) {
-    check_abi(unbound, file);
+  if (!library) {
+    throw Error(fmt::format("{}: cannot be loaded as a plugin: {}", file, linker_message(file)));
   }
-  throw Error(fmt::format("{}: cannot be loaded as a plugin: {}", file, reason));
+  check_abi(*static_cast<const PluginAbi*>(find(library, file, "tetmend_plugin_abi")), file);
+  return library;
 }
 
 }  // namespace
@@ -67,7 +67,6 @@ Plugin load_plugin(const std::filesystem::path& path, Registry& registry) {
   // Absolute, for a bare name would be searched for in the folders of the system.
   const std::string file = std::filesystem::absolute(path).string();
   const Library library = open(file);
-  check_abi(library, file);
   const auto enter =
       reinterpret_cast<void (*)(Registry&)>(find(library, file, "tetmend_plugin_register"));
   const Library pinned(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE));
