@@ -89,8 +89,8 @@ TETMEND_WIDE void compute_angles(const PointRows<4>& rows, const KeyLimits& limi
     add_to(tally.sine, in_use ? sine : zero);
     add_to(tally.bad_sine, in_use & is_bad ? sine : zero);
     tally.bad += in_use & is_bad ? one : zero;
-    tally.positive += in_use & (v6 > error) ? one : zero;
-    tally.inverted += in_use & (-v6 > error) ? one : zero;
+    tally.positive += (in_use & (v6 > error)) ? one : zero;
+    tally.inverted += (in_use & (-v6 > error)) ? one : zero;
   }
 }
 

@@ -12,15 +12,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "kernel/integrity.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/forged_trace.h"
+#include "tests/support/trace_use.h"
 #include "tests/support/traced_run.h"
-#include "trace/call_extract.h"
-#include "trace/call_tree.h"
-#include "trace/replay.h"
-#include "trace/trace_file.h"
-#include "trace/trace_summary.h"
 #include "trace/traced_standard.h"
 
 using namespace tetmend;
@@ -38,22 +33,9 @@ std::vector<FrameContent> sound_beginning(const TempFolder& folder) {
   return frames;
 }
 
-/// All that a user does with a trace.
-void use(const std::filesystem::path& path) {
-  const TraceFile file(path);
-  Replay replay(file);
-  replay.seek(file.event_count());
-  format_summary(file, summarize(file));
-  write_slices(file, [](std::string_view) {});
-  for (std::uint32_t c = 0; c < file.calls().size(); ++c) {
-    call_tree_text(file, c);
-    extract_call(file, replay, c);
-  }
-}
-
 std::string complaint(const std::filesystem::path& path) {
   try {
-    use(path);
+    use_trace(path);
   } catch (const Error& error) {
     return error.what();
   }
@@ -77,7 +59,7 @@ int use_within_bounds(const std::filesystem::path& path) {
     const rlimit seconds{2, 2};
     ::setrlimit(RLIMIT_CPU, &seconds);
     try {
-      use(path);
+      use_trace(path);
     } catch (const Error&) {
       ::_exit(0);
     } catch (...) {
@@ -238,19 +220,9 @@ void write_forged(const TempFolder& folder, const std::vector<FrameContent>& beg
 /// Errors are allowed; a mesh that is none is not. True if the trace opened.
 bool is_error_or_sound(const std::filesystem::path& path) {
   try {
-    const TraceFile file(path);
-    Replay replay(file);
-    for (std::uint64_t k = 0; k <= file.event_count(); ++k) {
-      replay.seek(k);
-      const Cavity cavity = replay.cavity();
-      if (k > 0 && cavity.created.empty() && cavity.vertices.empty()) continue;
-      const TetMesh mesh(replay.mesh().to_data());
-      REQUIRE(mesh.tet_count() == replay.mesh().tet_count());
-      const auto findings = check_integrity(mesh);
-      REQUIRE_MESSAGE(findings.empty(), to_string(findings));
-    }
-    replay.seek(0);
-    use(path);
+    const std::string findings = findings_in_trace(path);
+    REQUIRE_MESSAGE(findings.empty(), findings);
+    use_trace(path);
     return true;
   } catch (const ByteReader::Damage& damage) {
     FAIL("replay found what opening did not: " << damage.what());

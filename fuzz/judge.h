@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The promises of a run, from plain arrays by formulas of its own: shares nothing with the kernel.
+#pragma once
+
+#include <tetmend/improve.h>
+#include <tetmend/mesh.h>
+
+namespace tetmend::fuzz {
+
+/// Ends the program when a run broke a promise: the surface and the faces between labels have the
+/// same triangles with the same coordinates, bit for bit; every label has its volume; no more tets
+/// without positive volume; the smallest angle is no smaller, no more tets miss the goal.
+void require_promises(const MeshArrays& before, const MeshArrays& after, const Goal& goal);
+
+/// A tetrahedral grid of 2 x 2 x 2 cubes with 27 vertices, of two labels.
+MeshArrays small_mesh();
+
+}  // namespace tetmend::fuzz

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""Fuzzes: bytes of strangers against every door, with address and undefined-behaviour sanitizers.
+
+What is found lies in build/checked/fuzz/found, and makes the exit status 1. The corpus grows in
+build/checked/fuzz/corpus from run to run.
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(SOURCE))
+sys.path.insert(0, str(SOURCE / "bench"))
+import documents  # noqa: E402
+from fuzz import seeds  # noqa: E402
+
+BUILD = SOURCE / "build" / "checked"
+TARGETS = {
+    "mesh": "MEDIT files", "meshb": "binary MEDIT files", "node": "sets of TetGen files", "vtk": "legacy VTK files",
+    "vtu": "VTK XML files", "msh": "Gmsh files", "inp": "Abaqus decks", "su2": "SU2 files", "vol": "Netgen files",
+    "bdf": "Nastran files", "header": "folders of Elmer", "trace": "traces, byte for byte",
+    "trace_events": "traces with sound checksums", "lesson": "lessons", "schedule": "Lua scripts",
+    "options": "options and regions", "parameters": "settings of operators", "plugin": "descriptions of plugins",
+    "improve": "the whole improver, with a judge",
+}
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="script/fuzz", usage="script/fuzz [TARGET...] [SECONDS] [--jobs N] [--write FILE]",
+                                     description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     epilog="targets:\n" + "".join(f"  {k:14}{v}\n" for k, v in TARGETS.items()))
+    parser.add_argument("words", nargs="*", metavar="TARGET | SECONDS",
+                        help="targets (default: all), and the seconds for each (default: 60)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="targets at the same time (default: all cores)")
+    documents.add_option(parser)
+    options = parser.parse_args(arguments)
+    options.seconds = 60
+    options.targets = []
+    for word in options.words:
+        if word.isdigit():
+            options.seconds = int(word)
+        elif word in TARGETS:
+            options.targets.append(word)
+        else:
+            parser.error(f"no target is called '{word}'; valid: {', '.join(TARGETS)}")
+    return options
+
+
+def prepare(target):
+    corpus = BUILD / "fuzz" / "corpus" / target
+    corpus.mkdir(parents=True, exist_ok=True)
+    for number, content in enumerate(seeds.seeds(target, BUILD, SOURCE)):
+        (corpus / f"seed-{number}").write_bytes(content)
+    dictionary = BUILD / "fuzz" / f"{target}.dict"
+    dictionary.write_text(seeds.words(target))
+    return corpus, dictionary
+
+
+def fuzz(target, seconds):
+    """One run: what it did, as a row."""
+    corpus, dictionary = prepare(target)
+    found = BUILD / "fuzz" / "found"
+    found.mkdir(exist_ok=True)
+    log = BUILD / "fuzz" / f"{target}.log"
+    command = [BUILD / "fuzz" / f"fuzz_{target}", corpus, f"-max_total_time={seconds}", "-timeout=20",
+               "-rss_limit_mb=3000", "-malloc_limit_mb=2000", "-max_len=16384", "-print_final_stats=1", "-len_control=50", "-print_funcs=0",
+               f"-artifact_prefix={found}/{target}-"]
+    if dictionary.read_text():
+        command.append(f"-dict={dictionary}")
+    environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0:allocator_may_return_null=0",
+                       UBSAN_OPTIONS="print_stacktrace=1", LLVM_PROFILE_FILE="/dev/null")
+    with open(log, "wb") as out:
+        process = subprocess.Popen(list(map(str, command)), stdout=out, stderr=out, env=environment, cwd=BUILD / "fuzz")
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = status
+    text = log.read_text(errors="replace")
+    runs = re.search(r"stat::number_of_executed_units:\s*(\d+)", text)
+    covered = re.findall(r" cov: (\d+)", text)
+    return {"target": target, "processor_seconds": round(used.ru_utime + used.ru_stime), "found": int(status != 0),
+            "runs": int(runs[1]) if runs else 0, "edges": int(covered[-1]) if covered else 0,
+            "reason": "" if status == 0 else reason(text), "commit": documents.commit()}
+
+
+def reason(text):
+    for pattern in (r"^broken: .*", r"^SUMMARY: .*", r"^==\d+==ERROR: .*", r".*runtime error: .*"):
+        match = re.search(pattern, text, re.MULTILINE)
+        if match:
+            return match[0]
+    return "see the log"
+
+
+def page(rows):
+    """All runs so far as a document."""
+    table = [["Target", "Bytes of", "Processor hours", "Inputs", "Findings"]]
+    for target, what in [*TARGETS.items(), ("all", "")]:
+        mine = [row for row in rows if target in (row["target"], "all")]
+        hours, runs = sum(row["processor_seconds"] for row in mine) / 3600, sum(row["runs"] for row in mine)
+        table.append([f"`{target}`" if what else target, what, f"{hours:.2f}", f"{runs:,}", str(sum(row["found"] for row in mine))])
+    commits = ", ".join(dict.fromkeys(row["commit"] for row in rows))
+    return documents.document("Fuzzing", documents.stamp("script/fuzz --write docs/results/fuzzing.md"), [
+        "All runs so far, of the commits " + commits + ". libFuzzer of clang 14, with its address and undefined-behaviour "
+        "sanitizers. A finding is an input that ended the program or broke a promise that the target checks. Each "
+        "was repaired; what it was, [reliability.md](../reliability.md) says.",
+        documents.markdown_table(table)])
+
+
+def main():
+    options = parse(sys.argv[1:])
+    targets = options.targets or list(TARGETS)
+    rows = []
+    with ThreadPoolExecutor(options.jobs) as pool:
+        for row in pool.map(lambda target: fuzz(target, options.seconds), targets):
+            rows.append(row)
+            print(f"fuzz: {row['target']:13}{row['runs']:10,} inputs {row['edges']:6} edges  "
+                  + (f"FOUND {row['reason']}" if row["found"] else "nothing found"), flush=True)
+    if options.write:  # beside the document, all runs
+        history = options.write.with_suffix(".jsonl")
+        with open(history, "a") as out:
+            out.writelines(json.dumps(row) + "\n" for row in rows)
+        documents.write(options.write, page([json.loads(line) for line in history.read_text().splitlines()]))
+    return 1 if any(row["found"] for row in rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

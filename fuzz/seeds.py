@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: MIT
+"""Where fuzzing begins: small sound inputs for each target, made from what the repository has."""
+
+import random
+import re
+import struct
+import subprocess
+import tempfile
+from pathlib import Path
+
+# Two tets of two regions with named triangles, an edge, a required vertex.
+TINY = """MeshVersionFormatted 2
+Dimension 3
+Vertices 5
+0 0 0 1
+1 0 0 2
+0 1 0 0
+0 0 1 0
+1 1 1.25 7
+Tetrahedra 2
+1 2 3 4 3
+2 3 4 5 4
+Triangles 2
+2 3 4 9
+1 2 3 8
+Edges 1
+1 2 5
+RequiredVertices 1
+5
+End
+"""
+# The same with edges that have nodes in their middle.
+CURVED = """MeshVersionFormatted 2
+Dimension 3
+Vertices 10
+0 0 0 0
+1 0 0 0
+0 1 0 0
+0 0 1 0
+0.5 0 0 0
+0.5 0.55 0 0
+0 0.5 0 0
+0 0 0.5 0
+0.5 0 0.5 0
+0 0.5 0.5 0
+TetrahedraP2 1
+1 2 3 4 5 6 7 8 9 10 1
+End
+"""
+
+OPTIONS = [
+    "protect label:1\nonly label:2,3\n", "protect box:0,0,0,1,1,1\ntets 10%\n", "tets 500\nkeep_size\n",
+    "min 35\nmax 145\nmeasure sine\n", "schedule thorough\nset cycles=2\nthreads 2\n", "schedule polish\nignore_interior\n",
+    "trace_around 3,2\ntrace_operator smoothing\ntrace_depth 2\ntrace_limit 5000\n", "trace_around 0.5,0.5,1,2\nconserve T\n",
+]
+
+PLUGIN = b"\0\1my_operator\nwhat it does\nsteps 0 1 100 8 number of steps\nflag 2 0 1 0 on or off\nshare 1 0 1 0.5 of it\n"
+
+SCRIPTS = [
+    "smooth{}\n", "local rounds = parameter{'rounds', default = 3, low = 1, high = 9, help = 'so many'}\n"
+    "for i = 1, rounds do begin_round(i); local_reconnection{} if not is_progress() then break end end\n",
+    "apply{'edge_split', on = {below = 0.4}}\nlog(quality().bad)\n", "insert_points{} suppress_points{} polish{}\n",
+    "local t = {3, 1, 2} table.sort(t) log(string.format('%d %s', t[1], 'x'))\n",
+    "compose = first{'smoothing', sequence{'edge_split', 'smoothing'}}\napply(compose)\n",
+    "run_schedule('shell')\n", "while true do end\n", "local s = 'x' while true do s = s .. s end\n",
+]
+
+
+def formats(program, extension, folder):
+    """Files of an extension, one for each variant."""
+    help_text = subprocess.run([program, "convert", "--help"], capture_output=True, text=True).stdout
+    meshes = []
+    for name, text in (("tiny", TINY), ("curved", CURVED)):
+        (folder / f"{name}.mesh").write_text(text)
+        out = folder / f"{name}_out.{extension}"
+        variants = [None]
+        if extension == "msh":
+            variants = re.findall(r"'([24]\.[12] \w+)'", help_text)
+        for variant in variants:
+            command = [program, "convert", folder / f"{name}.mesh", out]
+            command += ["--variant", variant] if variant else []
+            if subprocess.run(command, capture_output=True).returncode == 0:
+                meshes.append(collect(out, name))
+    return meshes
+
+
+# What a format of several files is made of, by the ending of each.
+PARTS = {"node": ["node", "ele", "face", "edge"], "header": ["header", "nodes", "elements", "boundary", "names"]}
+
+
+def collect(out, name):
+    """One input of the files of a mesh: before each a line "==== NAME"."""
+    kinds = PARTS.get(out.suffix[1:])
+    if kinds is None:
+        return out.read_bytes()
+    whole = b""
+    for kind in kinds:
+        part = out.with_suffix("." + kind) if kind != "names" else out.with_suffix(".names")
+        if part.exists():
+            whole += f"==== in.{kind}\n".encode() + part.read_bytes()
+            part.unlink()
+    return whole
+
+
+def seeds(target, build, source):
+    """The contents of the first inputs of a target."""
+    program = build / "bin" / "tetmend"
+    lessons = source / "assets" / "lessons"
+    chance = random.Random(1)
+    if target == "trace":
+        return [file.read_bytes() for file in sorted(lessons.glob("*.trace"))]
+    if target == "trace_events":
+        return [subprocess.run([build / "fuzz" / "unpack_trace", file], capture_output=True, check=True).stdout
+                for file in sorted(lessons.glob("*.trace"))]
+    if target == "lesson":
+        return [file.read_bytes() for file in sorted(lessons.glob("*.json"))]
+    if target == "schedule":
+        shipped = [file.read_bytes() for file in sorted((source / "assets" / "schedules").glob("*.lua"))]
+        return shipped + [script.encode() for script in SCRIPTS]
+    if target == "options":
+        return [text.encode() for text in OPTIONS]
+    if target == "plugin":
+        return [PLUGIN]
+    if target == "parameters":
+        return [bytes([mesh, op, 0]) + struct.pack("<d", value)
+                for mesh in range(0, 40, 5) for op in range(12) for value in (0, 0.5, 3)]
+    if target == "improve":
+        return [bytes(chance.randrange(256) for _ in range(size)) for size in range(8, 200, 4)]
+    with tempfile.TemporaryDirectory() as folder:
+        return formats(program, target, Path(folder))
+
+
+WORDS = {
+    "schedule": "smooth local_reconnection insert_points suppress_points polish apply attempt first sequence quality measure goal "
+                "judge_by limit is_progress operators log parameter description begin_round run_schedule on below above "
+                "smoothing edge_split edge_contraction table.sort table.concat string.format string.rep pairs ipairs "
+                "math.huge while do end for function return local if then error tostring select",
+    "options": "protect only tets conserve measure schedule min max keep_size ignore_interior threads trace_around "
+               "trace_operator trace_depth trace_limit set label: box: shell thorough stellar grummp polish "
+               "conservative table2 nan inf 1e308 -1 18446744073709551616",
+    "lesson": "title mesh trace steps at text",
+    "mesh": "MeshVersionFormatted Dimension Vertices Tetrahedra Triangles Edges RequiredVertices Corners Ridges End Prisms "
+            "Hexahedra Pyramids Quadrilaterals TetrahedraP2 TrianglesP2 EdgesP2 Normals NormalAtVertices Tangents 4294967297",
+    "vtk": "DATASET UNSTRUCTURED_GRID POINTS CELLS CELL_TYPES POINT_DATA CELL_DATA SCALARS LOOKUP_TABLE FIELD VECTORS OFFSETS "
+           "CONNECTIVITY METADATA vtktypeint64 float double int ASCII BINARY",
+    "vtu": "VTKFile UnstructuredGrid Piece NumberOfPoints NumberOfCells DataArray Points Cells PointData CellData type format ascii "
+           "appended binary offset encoding base64 raw compressor vtkZLibDataCompressor UInt64 header_type Float64 Int64",
+    "msh": "$MeshFormat $EndMeshFormat $PhysicalNames $Entities $Nodes $Elements $Periodic $NodeData $ElementData "
+           "$PartitionedEntities 2.2 4.1",
+    "inp": "*NODE *ELEMENT *NSET *ELSET *SURFACE *INCLUDE *END *PART *ASSEMBLY *INSTANCE TYPE=C3D4 TYPE=C3D10 TYPE=C3D6 GENERATE "
+           "ELSET= NSET= NAME= TYPE=ELEMENT S1 S2",
+    "su2": "NDIME= NELEM= NPOIN= NMARK= MARKER_TAG= MARKER_ELEMS= NZONE= NCHUNK=",
+    "vol": "mesh3d dimension geomtype surfaceelements volumeelements points edgesegmentsgi2 pointelements materials bcnames "
+           "cd2names identifications endmesh",
+    "bdf": "GRID GRID* CTETRA CTETRA* CTRIA3 CPENTA CHEXA CPYRAM PSOLID SET BEGIN BULK ENDDATA CORD2R INCLUDE PLOAD4",
+}
+
+
+def words(target):
+    """The dictionary of a target, as libFuzzer wants it."""
+    return "".join(f'"{word}"\n' for word in WORDS.get(target, "").split())
