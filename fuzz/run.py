@@ -74,7 +74,7 @@ def fuzz(target, seconds):
     if dictionary.read_text():
         command.append(f"-dict={dictionary}")
     environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0:allocator_may_return_null=0",
-                       UBSAN_OPTIONS="print_stacktrace=1", LLVM_PROFILE_FILE="/dev/null")
+                       UBSAN_OPTIONS="print_stacktrace=1")
     with open(log, "wb") as out:
         process = subprocess.Popen(list(map(str, command)), stdout=out, stderr=out, env=environment, cwd=BUILD / "fuzz")
         _, status, used = os.wait4(process.pid, 0)
@@ -112,6 +112,7 @@ def page(rows):
 
 def main():
     options = parse(sys.argv[1:])
+    os.environ["LLVM_PROFILE_FILE"] = "/dev/null"  # programs with coverage write it at their end
     targets = options.targets or list(TARGETS)
     rows = []
     with ThreadPoolExecutor(options.jobs) as pool:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -84,6 +85,9 @@ class Reader {
     const auto number = static_cast<std::uint32_t>(result_.uses.size());
     const std::string_view name = block.value("NAME");
     use.name = name.size() > 1 && name.front() == '"' ? name.substr(1, name.size() - 2) : name;
+    if (!names_.insert(inp_key(use.name)).second) {
+      block.fail(fmt::format("there is a surface {} already", in_quotes(use.name)));
+    }
     const std::size_t before = result_.faces.size();
     InpFields fields(block);
     while (fields.next_line()) {
@@ -182,6 +186,7 @@ class Reader {
   InpSets& sets_;
   InpFaces result_;
   std::vector<std::uint32_t> one_;
+  std::set<std::string> names_;  // of surfaces
 };
 
 }  // namespace

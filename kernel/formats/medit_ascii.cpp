@@ -457,7 +457,7 @@ void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) 
     });
   });
   const bool is_second = mesh.data() != nullptr && has_second_order_tets(*mesh.data());
-  if (is_second) return end_file(out);
+  if (is_second && mesh.tet_count() == 0) return end_file(out);
   begin_section(out, "Tetrahedra", mesh.tet_count());
   put_tets(out, mesh, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
     write_row(buffer, tet);

@@ -135,10 +135,11 @@ class Reader {
         read_others<Integer>(section, *kind);
       }
     }
-    if (!has_second_order_tets(mesh_)) {
-      read_elements<Integer>(find(tetrahedra, "Tetrahedra"), mesh_.tets, "tetrahedra");
-    }
+    if (!has_second_order_tets(mesh_)) find(tetrahedra, "Tetrahedra");
     for (const Section& section : sections_) {
+      if (section.keyword == tetrahedra) {
+        read_elements<Integer>(section, mesh_.tets, "tetrahedra");
+      }
       if (section.keyword == edges) read_elements<Integer>(section, mesh_.edges, "edges");
       if (section.keyword == triangles) {
         read_elements<Integer>(section, mesh_.triangles, "triangles");

@@ -57,7 +57,7 @@ inline OtherElements medit_elements(const MeditElements& kind, std::size_t count
   return others;
 }
 
-/// True if the mesh has its tets in a section of second order, and so none of first.
+/// True if the mesh has tets in a section of second order, and so may lack one of first.
 inline bool has_second_order_tets(const MeshData& mesh) {
   return std::any_of(mesh.other_elements.begin(), mesh.other_elements.end(),
                      [](const OtherElements& others) { return others.vtk_type == 24; });

@@ -278,7 +278,7 @@ class Reader {
     }
     if (card_.name == "INCLUDE") {
       mesh_.notes.push_back(
-          fmt::format("what '{}' includes is not read", trimmed_field(card_.text)));
+          fmt::format("what {} includes is not read", in_quotes(trimmed_field(card_.text))));
     }
     mesh_.deck[1] += lines_of(card_.text);
     if (names_elements(card_.name) && element_cards_.insert(card_.name).second) {

@@ -206,11 +206,22 @@ class Writer {
     }
   }
 
-  /// Netgen's tets are turned round. One that is so already stays.
-  const std::uint8_t* tet_order(std::span<const std::uint32_t> v) const {
-    const double size =
-        volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
-    return size < 0 ? kNetgenTurnedTet.data() : kNetgenTet.data();
+  /// Netgen's tets are turned round. Those of a mesh that is so already stay. One tet may be inverted,
+  /// and has to stay what it is: most decide.
+  const std::uint8_t* tet_order() const {
+    std::size_t tets = 0;
+    std::size_t turned = 0;
+    for (const ElementList* list : lists_.of_dimension(3)) {
+      if (list->kind.corners != 4) continue;
+      tets += list->count;
+      for (std::size_t i = 0; i < list->count; ++i) {
+        const auto v = list->vertices(i);
+        const double size =
+            volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
+        turned += size < 0 ? 1 : 0;
+      }
+    }
+    return 2 * turned > tets ? kNetgenTurnedTet.data() : kNetgenTet.data();
   }
 
   void write_volumes() {
@@ -219,13 +230,14 @@ class Writer {
       count += netgen_width(list->kind) > 0 ? list->count : 0;
     }
     out_.put(fmt::format("\nvolumeelements\n{}\n", count));
+    const std::uint8_t* order = tet_order();
     for (const ElementList* list : lists_.of_dimension(3)) {
       if (netgen_width(list->kind) == 0) continue;
       put_rows(out_, list->count, [&](std::size_t i, OutputBuffer& buffer) {
         buffer.put_integer(list->label(i));
         buffer.put(' ');
         const bool is_tet = list->kind.corners == 4;
-        put_vertices(buffer, *list, i, is_tet ? tet_order(list->vertices(i)) : nullptr);
+        put_vertices(buffer, *list, i, is_tet ? order : nullptr);
         buffer.put('\n');
       });
     }

@@ -29,6 +29,7 @@ class OutputBuffer {
   std::string_view content() const { return {bytes_.get(), used_}; }
 
   void put(std::string_view text) {
+    if (text.empty()) return;
     std::memcpy(room_for(text.size()), text.data(), text.size());
     used_ += text.size();
   }

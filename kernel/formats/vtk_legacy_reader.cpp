@@ -354,8 +354,7 @@ class Reader {
     for (std::size_t i = 0; i < name.size(); ++i) {
       unsigned code = 0;
       if (name[i] == '%' && i + 2 < name.size() &&
-          std::from_chars(&name[i + 1], &name[i + 1] + 2, code, 16).ptr == &name[i + 1] + 2 &&
-          code >= ' ') {
+          std::from_chars(&name[i + 1], &name[i + 1] + 2, code, 16).ptr == &name[i + 1] + 2) {
         text += static_cast<char>(code);
         i += 2;
       } else {

@@ -476,6 +476,8 @@ TEST_CASE("bad decks are refused with line, word and what was expected") {
       {"range without step", with("*NSET, NSET=A, GENERATE\n1, 4, 0\n"), ":9", "'0' is no step"},
       {"range too long", with("*ELSET, ELSET=A, GENERATE\n1, 1000000000, 1\n"), ":9",
        "'1000000000' is not the last number of a range"},
+      {"surface twice", with("*SURFACE, NAME=A\n1, S1\n*SURFACE, NAME=a\n1, S2\n"), ":10",
+       "there is a surface 'a' already"},
       {"include without file", with("*INCLUDE\n"), ":8", "*INCLUDE names no file"},
       {"include missing", with("*INCLUDE, INPUT=no.inc\n"), ":8", "No such file"},
   };

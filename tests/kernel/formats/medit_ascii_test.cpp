@@ -89,6 +89,24 @@ TEST_CASE("corners, ridges and what is required survive in MEDIT files of both k
         std::string::npos);
 }
 
+TEST_CASE("tets of first order beside those of second survive in MEDIT files of both kinds") {
+  const TempFolder folder;
+  write_text(folder / "a.mesh",
+             "MeshVersionFormatted 2 Dimension 3 Vertices 11\n"
+             "0 0 0 0  1 0 0 0  0 1 0 0  0 0 1 0  .5 0 0 0  .5 .5 0 0  0 .5 0 0  0 0 .5 0\n"
+             ".5 0 .5 0  0 .5 .5 0  2 2 2 0\n"
+             "TetrahedraP2 1\n1 2 3 4 5 6 7 8 9 10 1\nTetrahedra 1\n2 3 4 11 3\nEnd\n");
+  const MeshData mesh = read_mesh(folder / "a.mesh");
+  CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.other_elements.size() == 1);
+  for (const char* name : {"b.mesh", "c.meshb"}) {
+    write_mesh(folder / name, mesh);
+    const MeshData again = read_mesh(folder / name);
+    CHECK(again.tets == mesh.tets);
+    CHECK(again.other_elements == mesh.other_elements);
+  }
+}
+
 TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
   const std::string good = kHead + kPoints + kTets + "End\n";
   const std::vector<BadFile> files = {

@@ -126,14 +126,14 @@ TEST_CASE("a VTK file keeps arrays, their names and cells of other kinds when it
       kHead + kPoints +
       "CELLS 4 18\n4 0 1 2 3\n3 0 1 2\n4 0 1 2 3\n3 1 2 3\nCELL_TYPES 4\n9\n5\n10\n5\n"
       "CELL_DATA 4\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6 7 8\n"
-      "FIELD FieldData 3\nwith%20blank 2 4 double\n1 2 3 4 5 6 7 8\nids 1 4 vtktypeint64\n1 2 3 "
+      "FIELD FieldData 3\nwith%20blank%01 2 4 double\n1 2 3 4 5 6 7 8\nids 1 4 vtktypeint64\n1 2 3 "
       "4000000000\nx 1 4 float\n1 2 3 nan\n"
       "POINT_DATA 4\nVECTORS u double\n1 2 3 4 5 6 7 8 9 10 11 12\n";
   write_text(folder / "a.vtk", text);
   const MeshData first = read_mesh(folder / "a.vtk");
   CHECK(first.notes.empty());
   CHECK(first.tets[0].label == 7);
-  CHECK(first.tet_data[0].name == "with blank");
+  CHECK(first.tet_data[0].name == "with blank\x01");
   CHECK(first.tet_data[0].values == DataArray::Values(std::vector<double>{5, 6}));
   REQUIRE(first.other_elements.size() == 1);
   CHECK(first.other_elements[0].vtk_type == 9);
