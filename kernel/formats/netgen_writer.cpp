@@ -14,12 +14,12 @@
 
 #include <fmt/format.h>
 
+#include "kernel/exact_orientation.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/face_sides.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/output_rows.h"
-#include "kernel/geometry.h"
 
 namespace tetmend::formats {
 namespace {
@@ -208,9 +208,9 @@ class Writer {
 
   /// Netgen's tets are turned round. One that is so already stays.
   const std::uint8_t* tet_order(std::span<const std::uint32_t> v) const {
-    const double size =
-        volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
-    return size < 0 ? kNetgenTurnedTet.data() : kNetgenTet.data();
+    const bool is_turned =
+        is_turned_over(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
+    return is_turned ? kNetgenTurnedTet.data() : kNetgenTet.data();
   }
 
   void write_volumes() {
