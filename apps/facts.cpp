@@ -19,6 +19,7 @@
 #include "kernel/exact_orientation.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/geometry.h"
+#include "kernel/statistics.h"
 #include "kernel/tet_faces.h"
 
 namespace tetmend::apps {
@@ -35,11 +36,12 @@ Fact at_most(std::string name, std::string_view what, double value, double wante
 }
 
 Fact no_inverted(const MeshData& mesh, std::size_t allowed) {
+  const Scale scale = Scale::of(mesh.points);
   std::size_t count = 0;
   std::optional<std::size_t> first;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& v = mesh.tets[t].vertices;
-    const auto point = [&](std::size_t k) { return mesh.points[v[k]]; };
+    const auto point = [&](std::size_t k) { return scale.to_work(mesh.points[v[k]]); };
     if (exact_orientation(point(0), point(1), point(2), point(3)) > 0) continue;
     if (count++ == 0) first = t;
   }
@@ -121,33 +123,39 @@ Fact same(std::string name, std::string_view what, const std::vector<T>& before,
   return {std::move(name), differing == 0, text, differing, 0};
 }
 
-std::map<Label, double> volumes_of(const MeshData& mesh) {
+/// In lengths that can be worked with.
+double volume_of(const MeshData& mesh, const MeshData::Tet& tet, const Scale& scale) {
+  const auto point = [&](std::size_t k) { return scale.to_work(mesh.points[tet.vertices[k]]); };
+  return volume6(point(0), point(1), point(2), point(3)) / 6;
+}
+
+std::map<Label, double> volumes_of(const MeshData& mesh, const Scale& scale) {
   std::map<Label, double> volumes;
-  for (const MeshData::Tet& tet : mesh.tets) {
-    const auto& v = tet.vertices;
-    volumes[tet.label] +=
-        volume6(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) / 6;
-  }
+  for (const MeshData::Tet& tet : mesh.tets) volumes[tet.label] += volume_of(mesh, tet, scale);
   return volumes;
 }
 
 /// Volumes of inverted tets count as they are, so the sum over a region depends on its walls alone.
-std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after) {
+std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after, const Scale& scale) {
   constexpr double kRounding = 1e-9;
-  const std::map<Label, double> then = volumes_of(before);
-  const std::map<Label, double> now = volumes_of(after);
+  const std::map<Label, double> then = volumes_of(before, scale);
+  const std::map<Label, double> now = volumes_of(after, scale);
+  const auto in_file = [&](double volume) { return std::ldexp(volume, 3 * scale.exponent()); };
+  const auto text = [&](double volume) { return volume_text(volume, scale.exponent(), 9); };
   std::vector<Fact> facts;
   for (const auto& [label, volume] : then) {
     const auto found = now.find(label);
     const double other = found == now.end() ? 0 : found->second;
     const double change = std::abs(other - volume) / std::max(std::abs(volume), 1e-300);
-    facts.push_back({"volume", change <= kRounding,
-                     fmt::format("volume of label {}: {:.9g}, was {:.9g}", label, other, volume),
-                     other, volume});
+    facts.push_back(
+        {"volume", change <= kRounding,
+         fmt::format("volume of label {}: {}, was {}", label, text(other), text(volume)),
+         in_file(other), in_file(volume)});
   }
   for (const auto& [label, volume] : now) {
     if (then.contains(label)) continue;
-    facts.push_back({"volume", false, fmt::format("label {} is new", label), volume, nullptr});
+    facts.push_back(
+        {"volume", false, fmt::format("label {} is new", label), in_file(volume), nullptr});
   }
   return facts;
 }
@@ -204,7 +212,7 @@ struct GroupContent {
   std::vector<std::vector<Bits>> elements;
   double volume = 0;
 };
-std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh) {
+std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh, const Scale& scale) {
   std::map<std::string, GroupContent> contents;
   for (const Group& group : mesh.groups) {
     if (group.name.empty() || group.dimension == 0) continue;
@@ -222,9 +230,7 @@ std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh) {
       }
     } else {
       for (const std::size_t i : members_of(group, mesh.tets, mesh.tet_parts)) {
-        const auto& v = mesh.tets[i].vertices;
-        content.volume +=
-            volume6(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) / 6;
+        content.volume += volume_of(mesh, mesh.tets[i], scale);
       }
     }
     std::sort(content.elements.begin(), content.elements.end());
@@ -233,10 +239,10 @@ std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh) {
 }
 
 /// One fact for all groups, which names the first that differs.
-Fact same_groups(const MeshData& before, const MeshData& after) {
+Fact same_groups(const MeshData& before, const MeshData& after, const Scale& scale) {
   constexpr double kRounding = 1e-9;
-  const auto then = contents_of_groups(before);
-  const auto now = contents_of_groups(after);
+  const auto then = contents_of_groups(before, scale);
+  const auto now = contents_of_groups(after, scale);
   std::string first;
   std::size_t differing = 0;
   for (const auto& [name, content] : then) {
@@ -256,6 +262,15 @@ Fact same_groups(const MeshData& before, const MeshData& after) {
           : fmt::format("{} groups have other triangles, edges or volumes, the first is {}",
                         grouped(differing), first);
   return {"group_contents", differing == 0, text, differing, 0};
+}
+
+/// @throws Error, with the file, as Scale::of()
+Scale scale_of(const std::filesystem::path& file, const MeshData& mesh) {
+  try {
+    return Scale::of(mesh.points);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+  }
 }
 
 }  // namespace
@@ -283,6 +298,8 @@ std::vector<Fact> compare_meshes(const std::filesystem::path& file,
                                  const std::filesystem::path& improved, int threads) {
   const MeshData before = read_mesh(file);
   const MeshData after = read_mesh(improved);
+  const Scale scale = scale_of(file, before);
+  scale_of(improved, after);  // or an error
   std::vector<Wall> then = walls_of(before);
   std::vector<Wall> now = walls_of(after);
   const auto split = [](std::vector<Wall>& walls) {
@@ -300,8 +317,8 @@ std::vector<Fact> compare_meshes(const std::filesystem::path& file,
   facts.push_back(same("triangles", "named triangles with labels", named_triangles(before),
                        named_triangles(after)));
   facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
-  facts.push_back(same_groups(before, after));
-  for (Fact& fact : same_volumes(before, after)) facts.push_back(std::move(fact));
+  facts.push_back(same_groups(before, after, scale));
+  for (Fact& fact : same_volumes(before, after, scale)) facts.push_back(std::move(fact));
   facts.push_back(no_inverted(after, no_inverted(before).value.get<std::size_t>()));
   if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
     facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),

@@ -11,6 +11,7 @@
 
 #include "apps/files.h"
 #include "apps/report.h"
+#include "kernel/statistics.h"
 
 namespace tetmend::apps {
 namespace {
@@ -117,8 +118,8 @@ std::string format_checks(const ImproveReport& report) {
   line("tets added", format_growth(result));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
-  line("volume",
-       fmt::format("{:.10g}, relative change {:.2g}", result.after.volume, result.volume_change()));
+  line("volume", fmt::format("{}, relative change {:.2g}", volume_text(result.after, 10),
+                             result.volume_change()));
   if (has_regions(report.options.run)) {
     line("tets protected", fmt::format("{}, {} of them bad", grouped(result.protected_tets),
                                        grouped(result.protected_bad_tets)));

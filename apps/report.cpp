@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/files.h"
+#include "kernel/statistics.h"
 
 namespace tetmend {
 
@@ -114,7 +115,7 @@ void add_rows(Table& table) {
   table.add("q_worst  (min sine)", [](const S& s) { return decimal(s.q_worst, 5); });
   table.add("q_aver  (bad tets)", [](const S& s) { return decimal(s.q_aver, 5); });
   table.add("q_mean  (all tets)", [](const S& s) { return decimal(s.q_mean, 5); });
-  table.add("volume", [](const S& s) { return fmt::format("{:.12g}", s.volume); });
+  table.add("volume", [](const S& s) { return volume_text(s, 12); });
 }
 
 using Bins = std::array<std::size_t, 18>;
@@ -331,7 +332,7 @@ nlohmann::json to_json(const SurfaceLimit& limit) {
 nlohmann::json to_json(const MeshStatistics& s) {
   nlohmann::json bands = nlohmann::json::array();
   for (const double share : s.lambda_bands) bands.push_back(number(share));
-  return {
+  nlohmann::json result = {
       {"tets", s.tets},
       {"vertices", s.vertices},
       {"boundary_triangles", s.boundary_triangles},
@@ -348,6 +349,11 @@ nlohmann::json to_json(const MeshStatistics& s) {
       {"q_aver", number(s.q_aver)},
       {"histogram", s.histogram},
   };
+  if (s.scaled_volume != 0 && !std::isnormal(s.volume)) {  // no double holds it
+    result["volume"] = nullptr;
+    result["volume_text"] = volume_text(s, 17);
+  }
+  return result;
 }
 
 }  // namespace tetmend

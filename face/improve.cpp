@@ -190,6 +190,7 @@ class Improvement {
     if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
     MeshData data = std::move(mesh_).to_data();
     if (carries_) {
+      scale_.to_work(data.points);
       face::renew_mid_nodes(input_, result_.vertex_map, data);
       if (!input_.mid_nodes.empty()) {
         result_.after.vertices = data.points.size();
@@ -197,6 +198,7 @@ class Improvement {
       }
       result_.carried =
           face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
+      scale_.to_file(data.points);
     }
     input_ = {};
     user_mesh_ = MeshAccess::make(std::move(data));
@@ -207,9 +209,10 @@ class Improvement {
   Plan& plan_;
   face::Watcher watcher_;
   const std::filesystem::path file_;
-  MeshData input_;        // to go back to
+  MeshData input_;        // to go back to; lengths as mesh_ has them
   bool carries_ = false;  // it holds more than mesh_ knows
   TetMesh mesh_;
+  Scale scale_;  // of mesh_
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
   QualityIndicators first_;
@@ -251,6 +254,10 @@ void Improvement::build_mesh(MeshData& data) {
                                                                     : InteriorConstraints::kept,
                                .report = &result_.build,
                                .tet_numbers = options_.maps || carries_ ? &tet_numbers_ : nullptr});
+  if (scale_ != mesh_.scale()) {  // not when going back
+    scale_ = mesh_.scale();
+    scale_.to_work(input_.points);
+  }
   mesh_.set_standard(plan_.standard);
   const face::ProtectedPart part = face::protect(mesh_, options_);
   result_.protected_tets = part.tets;
@@ -361,6 +368,7 @@ void Improvement::go_back() {
   const std::size_t all = result_.passes.size();
   for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
     MeshData data = input_;
+    scale_.to_file(data.points);
     result_.notes.resize(notes_before_);
     build_mesh(data);
     if (passes > 0) {
@@ -404,8 +412,8 @@ void Improvement::check_promises() const {
 }  // namespace
 
 double Result::volume_change() const {
-  const double difference = std::abs(after.volume - before.volume);
-  return difference == 0 ? 0 : difference / std::abs(before.volume);
+  const double difference = std::abs(after.scaled_volume - before.scaled_volume);
+  return difference == 0 ? 0 : difference / std::abs(before.scaled_volume);
 }
 
 std::vector<std::string> Result::worse() const {

@@ -33,7 +33,7 @@ BadTet describe(const TetMesh& mesh, TetHandle t, Hindrance hindrance) {
   BadTet tet{.label = mesh.label(t), .hindrance = hindrance};
   Point centre = Point::Zero();
   for (const VertexHandle w : v) {
-    centre += mesh.point(w) / 4;
+    centre += mesh.point_in_file(w) / 4;
     tet.free_vertices += !mesh.is_fixed(w);
   }
   tet.centre = {centre.x(), centre.y(), centre.z()};
@@ -78,14 +78,17 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
     const std::filesystem::path file = mesh.file();
     MeshData data = MeshAccess::take(mesh);
     const std::vector<std::int64_t> names = data.tet_numbers;
-    const MeshData second_order = data.mid_nodes.empty() ? MeshData() : data;
+    MeshData second_order = data.mid_nodes.empty() ? MeshData() : data;
     std::vector<std::uint32_t> numbers;
     const TetMesh built =
         face::build_located(file, data,
                             {.sorted = false,
                              .report = &result.build,
                              .tet_numbers = options.bad_tets ? &numbers : nullptr});
-    if (!second_order.mid_nodes.empty()) result.curved = curved_statistics(second_order, built);
+    if (!second_order.mid_nodes.empty()) {
+      built.scale().to_work(second_order.points);
+      result.curved = curved_statistics(second_order, built);
+    }
     result.statistics = compute_statistics(built);
     if (options.rulers) result.rulers = measure_rulers(built);
     for (const QualityMeasure* each : measures) result.measures.push_back(summarize(built, *each));

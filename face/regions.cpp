@@ -25,7 +25,7 @@ namespace {
 constexpr std::string_view kLabel = "label:";
 constexpr std::string_view kBox = "box:";
 
-using Corners = std::array<const Point*, 4>;
+using Corners = std::array<Point, 4>;
 
 /// Some labels, or a box.
 struct Region {
@@ -41,7 +41,7 @@ struct Region {
   bool contains(Label label, const Corners& corners) const {
     if (!is_box()) return std::find(labels.begin(), labels.end(), label) != labels.end();
     return std::all_of(corners.begin(), corners.end(),
-                       [&](const Point* p) { return box.contains(*p); });
+                       [&](const Point& p) { return box.contains(p); });
   }
 };
 
@@ -98,10 +98,10 @@ void check_not_empty(const MeshData& data, std::span<const Region> regions) {
   std::vector<char> found(regions.size(), 0);
   for (const MeshData::Tet& tet : data.tets) {
     const auto& v = tet.vertices;
-    const Corners corners = {&data.points[v[0]], &data.points[v[1]], &data.points[v[2]],
-                             &data.points[v[3]]};
+    const Corners corners = {data.points[v[0]], data.points[v[1]], data.points[v[2]],
+                             data.points[v[3]]};
     labels.insert(tet.label);
-    for (const Point* p : corners) bounds.extend(*p);
+    for (const Point& p : corners) bounds.extend(p);
     for (std::size_t i = 0; i < regions.size(); ++i) {
       if (regions[i].is_box() && !found[i]) found[i] = regions[i].contains(tet.label, corners);
     }
@@ -127,8 +127,8 @@ void check_not_empty(const MeshData& data, std::span<const Region> regions) {
 
 bool contain(std::span<const Region> regions, const TetMesh& mesh, TetHandle t) {
   const TetVertices& v = mesh.vertices(t);
-  const Corners corners = {&mesh.point(v[0]), &mesh.point(v[1]), &mesh.point(v[2]),
-                           &mesh.point(v[3])};
+  const Corners corners = {mesh.point_in_file(v[0]), mesh.point_in_file(v[1]),
+                           mesh.point_in_file(v[2]), mesh.point_in_file(v[3])};
   return std::any_of(regions.begin(), regions.end(),
                      [&](const Region& region) { return region.contains(mesh.label(t), corners); });
 }

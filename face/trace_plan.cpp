@@ -87,17 +87,18 @@ void TracePlan::locate(const MeshData& data) {
     throw around_error(fmt::format("there is no tet {}; the mesh has {}, counted from 0", *tet_,
                                    data.tets.size()));
   }
+  const Scale scale = Scale::of(data.points);
+  const auto corner = [&](std::uint32_t v) { return scale.to_work(data.points[v]); };
   const auto& corners = data.tets[*tet_].vertices;
   Point centre = Point::Zero();
   double longest = 0;
   for (const std::uint32_t v : corners) {
-    centre += data.points[v] / 4;
-    for (const std::uint32_t w : corners) {
-      longest = std::max(longest, (data.points[v] - data.points[w]).norm());
-    }
+    centre += corner(v) / 4;
+    for (const std::uint32_t w : corners)
+      longest = std::max(longest, (corner(v) - corner(w)).norm());
   }
-  filter_.around->centre = centre;
-  if (filter_.around->radius == 0) filter_.around->radius = longest;
+  filter_.around->centre = scale.to_file(centre);
+  if (filter_.around->radius == 0) filter_.around->radius = scale.to_file(longest);
 }
 
 std::unique_ptr<TraceRecorder> TracePlan::start(const TetMesh& mesh,

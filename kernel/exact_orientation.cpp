@@ -2,6 +2,8 @@
 // The only file of the kernel that includes CGAL: its headers are slow to compile.
 #include "kernel/exact_orientation.h"
 
+#include <cmath>
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include "kernel/chunks.h"
@@ -12,6 +14,11 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto convert = [](const Point& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
   return static_cast<int>(CGAL::orientation(convert(a), convert(b), convert(c), convert(d)));
+}
+
+bool is_turned_over(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const double v6 = volume6(a, b, c, d);
+  return std::isnormal(v6) ? v6 < 0 : exact_orientation(a, b, c, d) < 0;
 }
 
 ExactOrientation count_orientations(const TetMesh& mesh) {

@@ -21,6 +21,9 @@ struct ExactOrientation {
 /// kernel).
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
+/// True if volume6() of the tet is negative; the exact one where the products leave the doubles.
+bool is_turned_over(const Point& a, const Point& b, const Point& c, const Point& d);
+
 /// Exact signs of all live tets. Cost: linear.
 ExactOrientation count_orientations(const TetMesh& mesh);
 

@@ -2,6 +2,7 @@
 // Builds a TetMesh from plain arrays: orientation, adjacency, constraints, qualities.
 //
 //   check indices
+//   bring the coordinates to a scale that can be worked with
 //   slots: as the file has vertices and tets, or along a curve, so that all that follows works on
 //          neighbours in memory; the arrays of the file are released on the way
 //   orient: swap two vertices of every tet if most are negative
@@ -59,8 +60,11 @@ class MeshBuilder {
 
   void build(bool sorted) {
     check_indices();
+    mesh_.scale_ = Scale::of(data_.points);
+    mesh_.scale_.to_work(data_.points);
     place_vertices(sorted);
     const FaceBuckets buckets(mesh_, place_tets(sorted));
+    check_lengths();
     orient();
     match_faces(buckets);
     if (drops_interior_) find_border();
@@ -86,6 +90,7 @@ class MeshBuilder {
   void check_indices() const;
   void place_vertices(bool sorted);
   Grouping place_tets(bool sorted);
+  void check_lengths() const;
   Signs evaluate();
   Signs evaluate(std::size_t begin, std::size_t end);
   void add_sign(std::size_t t, bool certified, Signs& signs) const;
@@ -245,6 +250,29 @@ Grouping MeshBuilder::place_tets(bool sorted) {
   mesh_.tet_count_ = n;
   mesh_.tet_properties_.resize(n);
   return groups;
+}
+
+void MeshBuilder::check_lengths() const {
+  const auto is_wrong = [this](std::size_t t) {
+    const TetVertices& v = mesh_.cells_[t].vertices;
+    return is_lost(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
+  };
+  const std::size_t n = mesh_.cells_.size();
+  const auto wrong = map_chunks<std::size_t>(n, [&](std::size_t begin, std::size_t end) {
+    std::size_t first = n;  // as the file counts
+    for (std::size_t t = begin; t < end; ++t) {
+      if (is_wrong(t)) first = std::min<std::size_t>(first, file_tet(t));
+    }
+    return first;
+  });
+  const std::size_t first = *std::min_element(wrong.begin(), wrong.end());
+  if (first == n) return;
+  std::size_t slot = 0;
+  while (file_tet(slot) != first) ++slot;
+  throw BuildError(
+      fmt::format("{}: shorter than {:.1g}, too short to be worked with in a mesh of this width",
+                  describe(slot), mesh_.scale_.to_file(Scale::kShortestTet)),
+      first);
 }
 
 void MeshBuilder::add_sign(std::size_t t, bool certified, Signs& signs) const {
@@ -656,6 +684,7 @@ MeshData MeshBuilder::give_back() {
       data_.points[mesh_.vertex_origin_[v]] = mesh_.points_[v];
     }
   }
+  mesh_.scale_.to_file(data_.points);
   data_.point_labels = std::move(mesh_.point_labels_);
   data_.tets.resize(mesh_.cells_.size());
   for (std::size_t t = 0; t < mesh_.cells_.size(); ++t) {

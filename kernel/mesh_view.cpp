@@ -33,7 +33,7 @@ MeshView::MeshView(const MeshData& data)
 }
 
 MeshView::MeshView(const TetMesh& mesh)
-    : mesh_(&mesh), point_count_(mesh.vertex_count()), points_(mesh.points_) {
+    : mesh_(&mesh), point_count_(mesh.vertex_count()), points_(mesh.points_), scale_(mesh.scale()) {
   order_vertices();
   number_tets();
   collect_named();

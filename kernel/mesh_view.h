@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/mesh_data.h"
+#include "kernel/scale.h"
 
 namespace tetmend {
 
@@ -35,7 +36,9 @@ class MeshView {
   void set_variant(std::string_view variant) { variant_ = variant; }
 
   std::size_t point_count() const { return point_count_; }
-  const Point& point(std::size_t i) const { return points_[order_.empty() ? i : order_[i]]; }
+  Point point(std::size_t i) const {
+    return scale_.to_file(points_[order_.empty() ? i : order_[i]]);
+  }
   /// Of a TetMesh: the slots of its vertices in the order of this list.
   std::span<const std::uint32_t> vertex_slots() const { return order_; }
   bool has_point_labels() const { return !point_labels_.empty(); }
@@ -62,6 +65,7 @@ class MeshView {
   const TetMesh* mesh_ = nullptr;
   std::size_t point_count_ = 0;
   std::span<const Point> points_;
+  Scale scale_;
   std::span<const Label> point_labels_;
   std::span<const MeshData::Triangle> triangles_;
   std::span<const MeshData::Edge> edges_;

@@ -438,6 +438,12 @@ MeshRulers measure_rulers(const TetMesh& mesh) {
     }
     result.figures[r] = *figures;
   }
+  const Scale& scale = mesh.scale();
+  result.shortest_edge = scale.to_file(result.shortest_edge);
+  RulerFigures& altitude = result.figures[at(Ruler::least_altitude)];
+  for (double* length : {&altitude.worst, &altitude.one_percent, &altitude.mean}) {
+    *length = scale.to_file(*length);
+  }
   return result;
 }
 

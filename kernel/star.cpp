@@ -2,6 +2,8 @@
 // Breadth-first walks over the star of a vertex.
 #include "kernel/star.h"
 
+#include <limits>
+
 #include "kernel/shell.h"
 #include "kernel/workspace.h"
 
@@ -16,40 +18,52 @@ void prefetch_neighbours(const TetMesh& mesh, TetHandle t) {
   }
 }
 
-/// Calls visit(half-face opposite v) for each tet of the star until it returns true. False if the
-/// walk ends at the border of the territory.
+constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
+
+/// Calls visit(half-face opposite v) for each tet of the star until it returns true, or `most` tets
+/// are not all.
 template <class Visit>
-bool walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
-               std::vector<HalfFace>& queue, Visit&& visit) {
+StarKind walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::size_t most,
+                   std::vector<HalfFace>& queue, Visit&& visit) {
   queue.clear();
   const TetHandle first = mesh.tet_of(v);
-  if (!first.is_valid()) return true;
-  if (!workspace.holds(mesh.vertices(first))) return false;
+  if (!first.is_valid()) return StarKind::whole;
+  if (!workspace.holds(mesh.vertices(first))) return StarKind::border;
   IndexSet& seen = workspace.star_set;
   seen.clear();
   seen.insert(first.index());
   queue.push_back(HalfFace(first, mesh.local_index(first, v)));
-  if (visit(queue.back())) return true;
+  if (visit(queue.back())) return StarKind::whole;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const HalfFace opposite = queue[i];
     const auto& neighbours = mesh.neighbours(opposite.tet());
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace twin = neighbours[f];
       if (f == opposite.face() || twin.is_outside() || !seen.insert(twin.tet().index())) continue;
-      if (!workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return false;
+      if (!workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return StarKind::border;
+      if (queue.size() == most) return StarKind::too_large;
       queue.push_back(HalfFace(twin.tet(), mesh.local_index(twin.tet(), v)));
       prefetch_neighbours(mesh, twin.tet());
-      if (visit(queue.back())) return true;
+      if (visit(queue.back())) return StarKind::whole;
     }
   }
-  return true;
+  return StarKind::whole;
+}
+
+bool visit_nothing(HalfFace) {
+  return false;
 }
 
 }  // namespace
 
+StarKind find_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+                   std::vector<HalfFace>& out) {
+  return walk_star(mesh, v, workspace, kMaxStar, out, visit_nothing);
+}
+
 bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
                   std::vector<HalfFace>& out) {
-  return walk_star(mesh, v, workspace, out, [](HalfFace) { return false; });
+  return walk_star(mesh, v, workspace, kAnySize, out, visit_nothing) == StarKind::whole;
 }
 
 std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
@@ -79,10 +93,15 @@ std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Work
 std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
                                     Workspace& workspace) {
   std::optional<TetEdge> found;
-  walk_star(mesh, a, workspace, workspace.search_buffer, [&](HalfFace opposite) {
-    found = edge_in(mesh, opposite.tet(), a, b);
-    return found.has_value();
-  });
+  const auto search = [&](VertexHandle v, std::size_t most) {
+    return walk_star(mesh, v, workspace, most, workspace.search_buffer, [&](HalfFace opposite) {
+      found = edge_in(mesh, opposite.tet(), a, b);
+      return found.has_value();
+    });
+  };
+  if (search(a, kMaxStar) != StarKind::too_large) return found;
+  if (mesh.is_deleted(b) || !mesh.tet_of(b).is_valid()) return std::nullopt;
+  if (search(b, kMaxStar) == StarKind::too_large) search(a, kAnySize);
   return found;
 }
 

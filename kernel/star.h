@@ -2,6 +2,8 @@
 // The neighbourhood of a vertex: star (ball), link and one-ring.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +15,22 @@
 namespace tetmend {
 
 class Workspace;
+
+/// Largest star, in tets, that the operators look at; a vertex of a larger one stays where it is. An
+/// attempt may look at each tet once for each neighbour of the vertex, which takes some milliseconds
+/// here. Stars of real parts have less than a hundred tets.
+inline constexpr std::size_t kMaxStar = 1000;
+
+enum class StarKind : std::uint8_t {
+  whole,
+  too_large,  ///< more than kMaxStar tets
+  border      ///< leaves the territory
+};
+
+/// As collect_link(), but gives up at a star that is too large. Fills `out` completely only for
+/// StarKind::whole. Cost: linear in the star, at most kMaxStar steps.
+TETMEND_API StarKind find_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
+                               std::vector<HalfFace>& out);
 
 /// Link of a vertex as half-faces: for each tet of the star, the half-face opposite v. Spreads
 /// through faces from the stored tet; the order follows from the connectivity alone. `out` is
@@ -31,8 +49,9 @@ TETMEND_API std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v,
 TETMEND_API std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v,
                                                    Workspace& workspace);
 
-/// Edge (a, b) in the star of a; nothing if there is none in the territory of the workspace.
-/// Precondition: a is a live vertex with a tet.
+/// Edge (a, b) in the star of a, or in that of b if a's is larger than kMaxStar; nothing if there is
+/// none in the territory of the workspace. Precondition: a is a live vertex with a tet. Cost: linear
+/// in the star of a, or in the smaller one and kMaxStar.
 TETMEND_API std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
                                                 Workspace& workspace);
 

@@ -14,6 +14,8 @@
 #include <numbers>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "kernel/angle_rows.h"
 #include "kernel/chunks.h"
 #include "kernel/compensated_sum.h"
@@ -306,7 +308,9 @@ MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
   result.boundary_triangles = sum.boundary_triangles;
   result.inverted = sum.inverted;
   result.flat = sum.flat;
-  result.volume = sum.v6.value() / 6;
+  result.scaled_volume = sum.v6.value() / 6;
+  result.scale = mesh.scale().exponent();
+  result.volume = std::ldexp(result.scaled_volume, 3 * result.scale);
   result.q_worst = sum.q_worst;
   result.q_mean = share(sum.quality.value(), result.tets);
   result.n_bad = sum.n_bad;
@@ -317,6 +321,19 @@ MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
   result.theta_max = *std::max_element(blunt_angles.begin(), blunt_angles.end());
   classes.write(sum.angles, result);
   return result;
+}
+
+std::string volume_text(double scaled_volume, int scale, int digits) {
+  const double volume = std::ldexp(scaled_volume, 3 * scale);
+  if (scaled_volume == 0 || std::isnormal(volume)) return fmt::format("{:.{}g}", volume, digits);
+  const long double wide = std::ldexp(static_cast<long double>(scaled_volume), 3 * scale);
+  return fmt::format("{:.{}g}", wide, digits);
+}
+
+std::string volume_text(const MeshStatistics& statistics, int digits) {
+  const double scaled = statistics.scaled_volume;
+  if (scaled == 0) return fmt::format("{:.{}g}", statistics.volume, digits);
+  return volume_text(scaled, statistics.scale, digits);
 }
 
 QualityIndicators quality_indicators(const TetMesh& mesh) {

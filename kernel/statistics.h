@@ -2,6 +2,8 @@
 // The figures by which a mesh is judged, computed.
 #pragma once
 
+#include <string>
+
 #include <tetmend/api.h>
 #include <tetmend/goal.h>
 #include <tetmend/statistics.h>
@@ -20,6 +22,11 @@ inline constexpr double kAngleTolerance = 1e-9;
 /// @param goal  a tet with an angle outside is bad; lambda counts angles at its ends and outside
 /// Cost: one pass over the tets, about 0.03 s for a million on one thread.
 TETMEND_API MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal = {});
+
+/// A volume, given as a multiple of 8^scale, as a decimal number of so many digits. That may be one
+/// which no double holds.
+TETMEND_API std::string volume_text(double scaled_volume, int scale, int digits);
+TETMEND_API std::string volume_text(const MeshStatistics& statistics, int digits);
 
 /// From the cached qualities of the tets that are not frozen.
 /// Cost: one pass over the cached qualities.

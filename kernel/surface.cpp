@@ -10,12 +10,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
@@ -91,7 +95,7 @@ class SurfaceBuilder {
 
  private:
   OpenMesh::VertexHandle new_vertex(SurfaceMesh& surface, VertexHandle v) const {
-    const Point& p = mesh_.point(v);
+    const Point p = mesh_.point_in_file(v);
     surface.vertices.push_back(v);
     return surface.mesh.add_vertex({p.x(), p.y(), p.z()});
   }
@@ -245,8 +249,27 @@ void check_surface_extension(const std::filesystem::path& file) {
               "'; valid: " + valid);
 }
 
+namespace {
+
+/// OpenMesh writes single precision.
+void check_size(const std::filesystem::path& file, const SurfaceMesh& surface) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kLeast =
+      std::numeric_limits<float>::min() / std::numeric_limits<float>::epsilon();
+  double size = 0;
+  for (const auto v : surface.mesh.vertices()) {
+    for (const double x : surface.mesh.point(v)) size = std::max(size, std::abs(x));
+  }
+  if (size == 0 || (size >= kLeast && size <= kMost)) return;
+  throw Error(fmt::format("{}: coordinates of {:.3g} are beyond the single precision of such files",
+                          file.string(), size));
+}
+
+}  // namespace
+
 void write_surface(const std::filesystem::path& file, const SurfaceMesh& surface) {
   check_surface_extension(file);
+  check_size(file, surface);
   const std::string extension = lower_extension(file);
   const SilentOpenMesh silent;
   const auto options = extension == ".stl" ? OpenMesh::IO::Options(OpenMesh::IO::Options::Binary)

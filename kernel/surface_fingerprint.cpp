@@ -24,7 +24,7 @@ std::uint64_t mix(std::uint64_t h) {
 std::uint64_t surface_fingerprint(const TetMesh& mesh) {
   const auto hash = [&](VertexHandle v) {
     std::uint64_t h = 1;
-    for (const double x : mesh.point(v)) h = mix(h * 31 + std::bit_cast<std::uint64_t>(x));
+    for (const double x : mesh.point_in_file(v)) h = mix(h * 31 + std::bit_cast<std::uint64_t>(x));
     return h;
   };
   const auto of_face = [&](HalfFace f) -> std::uint64_t {

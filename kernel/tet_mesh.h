@@ -23,6 +23,7 @@
 #include "kernel/mesh_data.h"
 #include "kernel/properties.h"
 #include "kernel/quality.h"
+#include "kernel/scale.h"
 
 namespace tetmend {
 
@@ -67,7 +68,8 @@ class TETMEND_API TetMesh {
   /// Builds adjacency, constraints and qualities. A mesh that is merely mirrored is corrected; tets
   /// that are inverted or flat are kept and counted in `report`.
   /// @throws Error when a face has more than two tets, when two tets lie on the same side of a
-  ///   face, or when an index is out of range. BuildError names the tet.
+  ///   face, when an index is out of range, or when lengths differ too much to be worked with (see
+  ///   Scale). BuildError names the tet.
   /// Cost: linear. `data` is taken apart on the way: move it in where it is no longer needed.
   explicit TetMesh(MeshData data, BuildReport* report = nullptr,
                    InteriorConstraints interior = InteriorConstraints::kept);
@@ -182,7 +184,12 @@ class TETMEND_API TetMesh {
   }
 
   // --- vertices ----------------------------------------------------------------------------------
+  /// In lengths that are worked with: see scale().
   const Point& point(VertexHandle v) const { return points_[v.index()]; }
+  /// As the file has it, or will have it.
+  Point point_in_file(VertexHandle v) const { return scale_.to_file(point(v)); }
+  /// Between lengths here and in the file; 1 for a mesh of ordinary size.
+  const Scale& scale() const { return scale_; }
   /// A tet that contains v; invalid for a vertex of no tet.
   TetHandle tet_of(VertexHandle v) const { return vertex_tet_[v.index()]; }
   bool is_boundary(VertexHandle v) const {
@@ -294,6 +301,7 @@ class TETMEND_API TetMesh {
   std::vector<TetFlags> tet_flags_;
   std::size_t tet_count_ = 0;
 
+  Scale scale_;
   std::vector<Point> points_;
   std::vector<TetHandle> vertex_tet_;
   std::vector<VertexFlags> vertex_flags_;

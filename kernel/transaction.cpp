@@ -179,10 +179,15 @@ EditResult Transaction::glue(std::span<const TetHandle> old, std::span<const Tet
 bool Transaction::repeats_a_face(std::span<const TetVertices> created) {
   const auto exists_outside = [&](const TetVertices& tet, unsigned f) {
     const auto& local = kFaceVertices[f];
-    const VertexHandle y = tet[local[1]];
-    const VertexHandle z = tet[local[2]];
     auto& around = workspace_.search_buffer;
-    if (!collect_link(mesh_, tet[local[0]], workspace_, around)) return true;  // cannot tell
+    unsigned i = 0;  // any corner will do
+    StarKind kind{};
+    do {
+      kind = find_star(mesh_, tet[local[i]], workspace_, around);
+    } while (kind == StarKind::too_large && ++i < 3);
+    if (kind != StarKind::whole) return true;  // cannot tell
+    const VertexHandle y = tet[local[(i + 1) % 3]];
+    const VertexHandle z = tet[local[(i + 2) % 3]];
     return std::any_of(around.begin(), around.end(), [&](HalfFace opposite) {
       const TetHandle t = opposite.tet();
       return mesh_.local_index(t, y) < 4 && mesh_.local_index(t, z) < 4 &&

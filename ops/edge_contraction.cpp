@@ -47,7 +47,8 @@ class EdgeContraction final : public OperatorOf<State> {
   Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
-    if (!collect_link(mesh, v, context.workspace, state.ball.link)) return Verdict::deferred;
+    const StarKind kind = find_star(mesh, v, context.workspace, state.ball.link);
+    if (kind != StarKind::whole) return to_verdict(kind);
     load_ball(mesh, state.ball.link, state.ball.ball);
     Quality worst_old = mesh.quality(state.ball.link[0].tet());
     for (const HalfFace f : state.ball.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
@@ -81,7 +82,8 @@ class EdgeContraction final : public OperatorOf<State> {
     }
     const Verdict verdict = state.replacement.make(transaction);
     if (verdict != Verdict::accepted || mesh.is_fixed(w)) return verdict;
-    if (!collect_link(mesh, w, context.workspace, state.ball.link)) return Verdict::deferred;
+    const StarKind kind = find_star(mesh, w, context.workspace, state.ball.link);
+    if (kind == StarKind::border) return Verdict::deferred;
     // A refused move leaves the contraction as it is; the judge decides.
     climb(context, transaction, w, limits_, state.ball);
     return Verdict::accepted;

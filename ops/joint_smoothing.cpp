@@ -11,9 +11,6 @@ namespace tetmend {
 
 namespace {
 
-/// Vertices of enormous balls are not worth the time.
-constexpr std::size_t kMaxTets = 1000;
-
 struct State {
   PatchOptimiser patch;
   std::vector<VertexMove> moves;
@@ -100,7 +97,8 @@ class JointSmoothing final : public OperatorOf<State> {
       const std::size_t last = free.size();
       for (; first < last; ++first) {
         const VertexHandle v = free[first];
-        if (!collect_link(mesh, v, context.workspace, state.link)) return Verdict::deferred;
+        const StarKind kind = find_star(mesh, v, context.workspace, state.link);
+        if (kind != StarKind::whole) return to_verdict(kind);
         for (const HalfFace f : state.link) {
           for (const VertexHandle w : mesh.vertices(f)) take(w);
         }
@@ -122,12 +120,13 @@ class JointSmoothing final : public OperatorOf<State> {
     state.moves.clear();
     state.set.clear();
     for (const VertexHandle v : free) {
-      if (!collect_link(mesh, v, context.workspace, state.link)) return Verdict::deferred;
+      const StarKind kind = find_star(mesh, v, context.workspace, state.link);
+      if (kind != StarKind::whole) return to_verdict(kind);
       state.links.insert(state.links.end(), state.link.begin(), state.link.end());
       state.moves.push_back({v, mesh.point(v), {}});
       for (const HalfFace f : state.link) {
         if (!state.set.insert(f.tet().index())) continue;
-        if (state.patch.tet_count() == kMaxTets) return Verdict::not_applicable;
+        if (state.patch.tet_count() == kMaxStar) return Verdict::not_applicable;
         if (f.tet() == t) t_number = state.patch.tet_count();
         const TetVertices& tv = mesh.vertices(f.tet());
         state.patch.add_tet(

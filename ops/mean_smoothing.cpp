@@ -33,7 +33,8 @@ class MeanSmoothing final : public OperatorOf<State> {
   Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
-    if (!collect_link(mesh, v, context.workspace, state.link)) return Verdict::deferred;
+    const StarKind kind = find_star(mesh, v, context.workspace, state.link);
+    if (kind != StarKind::whole) return to_verdict(kind);
     const Point start = mesh.point(v);
     state.ball.clear(start);
     for (const HalfFace f : state.link) {

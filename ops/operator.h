@@ -16,6 +16,7 @@
 
 #include "kernel/error.h"
 #include "kernel/judge.h"
+#include "kernel/star.h"
 #include "kernel/transaction.h"
 #include "ops/parameters.h"
 #include "trace/trace_sink.h"
@@ -214,6 +215,19 @@ constexpr Verdict to_verdict(EditResult result) {
     case EditResult::not_closed:
       return Verdict::not_applicable;
     case EditResult::no_room:
+      return Verdict::deferred;
+  }
+  return Verdict::not_applicable;
+}
+
+/// The verdict for a vertex whose star an operator needs; `accepted` for a whole one.
+constexpr Verdict to_verdict(StarKind kind) {
+  switch (kind) {
+    case StarKind::whole:
+      return Verdict::accepted;
+    case StarKind::too_large:
+      return Verdict::not_applicable;
+    case StarKind::border:
       return Verdict::deferred;
   }
   return Verdict::not_applicable;

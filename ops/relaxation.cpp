@@ -14,7 +14,7 @@ void reconnect(OperatorContext& context, VertexHandle v, RelaxationState& state)
   const TetMesh& mesh = context.mesh;
   const Judge judge = Judge::strict();
   Shell& shell = state.shell.shell;
-  if (!collect_link(mesh, v, context.workspace, state.ball.link)) return;
+  if (find_star(mesh, v, context.workspace, state.ball.link) != StarKind::whole) return;
   for (const HalfFace opposite : state.ball.link) {
     const TetHandle t = opposite.tet();
     for (unsigned e = 0; e < 6; ++e) {

@@ -38,7 +38,8 @@ class Smoothing final : public OperatorOf<State> {
     const TetMesh& mesh = context.mesh;
     auto& [ball, link, point] = state.ball;
     const VertexHandle v = target.vertex();
-    if (!collect_link(mesh, v, context.workspace, link)) return Verdict::deferred;
+    const StarKind kind = find_star(mesh, v, context.workspace, link);
+    if (kind != StarKind::whole) return to_verdict(kind);
     load_ball(mesh, link, ball);
     point = mesh.point(v);
     const double start = ball.worst(point);
@@ -109,7 +110,7 @@ void climb(OperatorContext& context, Transaction& transaction, VertexHandle v,
   const TetMesh& mesh = context.mesh;
   if (mesh.is_fixed(v)) return;
   auto& [ball, link, point] = state;
-  if (!collect_link(mesh, v, context.workspace, link)) return;
+  if (find_star(mesh, v, context.workspace, link) != StarKind::whole) return;
   load_ball(mesh, link, ball);
   point = mesh.point(v);
   const double start = ball.worst(point);

@@ -43,9 +43,8 @@ class VertexRemoval final : public OperatorOf<State> {
   Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& [polyhedron, search, replacement] = state.refilling;
-    if (!collect_link(mesh, target.vertex(), context.workspace, state.link)) {
-      return Verdict::deferred;
-    }
+    const StarKind kind = find_star(mesh, target.vertex(), context.workspace, state.link);
+    if (kind != StarKind::whole) return to_verdict(kind);
     if (!polyhedron.start_at_ball(mesh, state.link)) return Verdict::not_applicable;
     search.clear(mesh.standard());
     for (const VertexHandle v : polyhedron.vertices()) search.add(mesh.point(v));

@@ -52,9 +52,8 @@ class OdtSmoothing final : public OperatorOf<State> {
     const Point start = mesh.point(target.vertex());
     // The walk stops at the border of the part of the mesh that this thread may touch. Then another
     // thread's work would be in the way: try again later.
-    if (!collect_link(mesh, target.vertex(), context.workspace, state.link)) {
-      return Verdict::deferred;
-    }
+    const StarKind kind = find_star(mesh, target.vertex(), context.workspace, state.link);
+    if (kind != StarKind::whole) return to_verdict(kind);
     // What the judge will ask for, and the gain that this operator asks for itself.
     const double worst = worst_in_ball(mesh, state.link, start);
     const double least = context.judge->floor(worst, least_gain_);

@@ -47,7 +47,7 @@ bool SelectionTest::admits(TetHandle t) const {
     return false;
   if (selection_.box) {
     for (const VertexHandle v : mesh_.vertices(t)) {
-      if (!selection_.box->contains(mesh_.point(v))) return false;
+      if (!selection_.box->contains(mesh_.point_in_file(v))) return false;
     }
   }
   if (!selection_.value) return true;

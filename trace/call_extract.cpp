@@ -90,7 +90,7 @@ void add_bounds(const SlotMesh& mesh, MeshData& data) {
     const auto points = corners(mesh, t);
     for (std::size_t i = 0; i < points.size(); ++i) {
       tet.vertices[i] = static_cast<std::uint32_t>(data.points.size());
-      data.points.push_back(points[i]);
+      data.points.push_back(mesh.scale().to_file(points[i]));
     }
     tet.label = mesh.label(t);
   }

@@ -63,6 +63,10 @@ TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TetMesh& m
                              TraceHeader header, TraceFilter filter, TraceClock clock)
     : mesh_(mesh), filter_(std::move(filter)), clock_(clock), file_(file) {
   header.filter = filter_.describe();
+  if (filter_.around) {
+    filter_.around->centre = mesh.scale().to_work(filter_.around->centre);
+    filter_.around->radius = mesh.scale().to_work(filter_.around->radius);
+  }
   ByteWriter content;
   header.encode(content);
   write_frame('H', content.bytes());

@@ -56,6 +56,15 @@ Label decode_label(ByteReader& in, Label from) {
   return static_cast<Label>(from + step);
 }
 
+/// Of a mesh of ordinary size nothing is written.
+Scale decode_scale(ByteReader& in) {
+  const std::int64_t exponent = in.get_signed();
+  if (exponent < -Scale::kLargest || exponent > Scale::kLargest + 1) {
+    throw ByteReader::Damage(fmt::format("a scale of 2^{}", exponent));
+  }
+  return Scale(static_cast<int>(exponent));
+}
+
 template <class Element>
 void encode_named(ByteWriter& out, std::span<const Element> elements) {
   out.put(elements.size());
@@ -88,7 +97,7 @@ void decode_named(ByteReader& in, const SlotMesh& mesh, std::vector<Element>& el
 
 }  // namespace
 
-SlotMesh::SlotMesh(const TetMesh& mesh) : standard_(mesh.standard()) {
+SlotMesh::SlotMesh(const TetMesh& mesh) : standard_(mesh.standard()), scale_(mesh.scale()) {
   for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
     const VertexHandle v(i);
     points_.push_back(mesh.point(v));
@@ -151,7 +160,7 @@ MeshData SlotMesh::extract(std::span<const TetHandle> tets,
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
     if (number[i] == kNowhere && !(all && live_[i])) continue;
     number[i] = static_cast<std::uint32_t>(data.points.size());
-    data.points.push_back(points_[i]);
+    data.points.push_back(scale_.to_file(points_[i]));
     if (vertex_slots != nullptr) vertex_slots->push_back(i);
   }
   for (const TetHandle t : tets) {
@@ -217,6 +226,7 @@ void SlotMesh::encode(ByteWriter& out) const {
   encode_named<MeshData::Edge>(out, edges_);
   encode_slots(out, required_vertices_);
   encode_slots(out, frozen_tets_);
+  if (!scale_.is_one()) out.put_signed(scale_.exponent());
 }
 
 void SlotMesh::decode_vertices(ByteReader& in) {
@@ -278,6 +288,7 @@ SlotMesh SlotMesh::decode(ByteReader& in) {
   if (!std::ranges::is_sorted(mesh.frozen_tets_)) {
     throw ByteReader::Damage("frozen tets are not in order");
   }
+  if (!in.at_end()) mesh.scale_ = decode_scale(in);
   if (!in.at_end()) throw ByteReader::Damage("bytes behind the mesh");
   return mesh;
 }

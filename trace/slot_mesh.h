@@ -29,7 +29,10 @@ class SlotMesh {
   }
   bool is_deleted(VertexHandle v) const { return v.index() >= points_.size() || !live_[v.index()]; }
   const TetVertices& vertices(TetHandle t) const { return tets_[t.index()]; }
+  /// In lengths that are worked with: see scale().
   const Point& point(VertexHandle v) const { return points_[v.index()]; }
+  /// As of the TetMesh.
+  const Scale& scale() const { return scale_; }
   Label label(TetHandle t) const { return labels_[t.index()]; }
   /// By which tets are judged.
   const Standard& standard() const { return standard_; }
@@ -44,7 +47,8 @@ class SlotMesh {
   /// Tets that the user wants to stay as they are, by slot, ascending: these never change, either.
   std::span<const std::uint32_t> frozen_tets() const { return frozen_tets_; }
 
-  /// Live vertices and tets in the order of their slots, with what the file named.
+  /// Live vertices and tets in the order of their slots, with what the file named; points as a file
+  /// has them.
   MeshData to_data() const;
   /// The tets listed and what they need; of what the file named, the part all of whose vertices
   /// are there. `vertex_slots` gets the slot of each point.
@@ -74,6 +78,7 @@ class SlotMesh {
   Standard standard_ = Standard(Goal{});
   std::vector<TetVertices> tets_;
   std::vector<Label> labels_;
+  Scale scale_;
   std::vector<Point> points_;
   std::vector<std::uint8_t> live_;
   std::size_t tet_count_ = 0;

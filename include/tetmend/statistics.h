@@ -19,7 +19,9 @@ struct MeshStatistics {
   std::size_t boundary_triangles = 0;
   std::size_t inverted = 0;  ///< tets of negative volume
   std::size_t flat = 0;      ///< tets whose volume is zero or too close to tell
-  double volume = 0;         ///< sum of the signed volumes
+  double volume = 0;  ///< sum of the signed volumes; infinite or 0 where that is beyond a double
+  double scaled_volume = 0;  ///< the same as a multiple of 8^scale: within a double for any mesh
+  int scale = 0;             ///< 0 for a mesh of ordinary size
   double theta_min = 0;
   double theta_max = 0;
   Goal goal;          ///< what lambda and the bad tets refer to

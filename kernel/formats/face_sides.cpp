@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "kernel/geometry.h"
+#include "kernel/exact_orientation.h"
 
 namespace tetmend::formats {
 namespace {
@@ -107,8 +107,8 @@ class Finder {
   }
 
   bool is_positive(std::span<const std::uint32_t> v) const {
-    return !(volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3])) <
-             0);
+    return !is_turned_over(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
+                           mesh_.point(v[3]));
   }
 
   const MeshView& mesh_;

@@ -14,12 +14,12 @@
 
 #include <fmt/format.h>
 
+#include "kernel/exact_orientation.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/face_sides.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/output_rows.h"
-#include "kernel/geometry.h"
 
 namespace tetmend::formats {
 namespace {
@@ -216,9 +216,9 @@ class Writer {
       tets += list->count;
       for (std::size_t i = 0; i < list->count; ++i) {
         const auto v = list->vertices(i);
-        const double size =
-            volume6(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
-        turned += size < 0 ? 1 : 0;
+        const bool is_turned = is_turned_over(mesh_.point(v[0]), mesh_.point(v[1]),
+                                              mesh_.point(v[2]), mesh_.point(v[3]));
+        turned += is_turned ? 1 : 0;
       }
     }
     return 2 * turned > tets ? kNetgenTurnedTet.data() : kNetgenTet.data();

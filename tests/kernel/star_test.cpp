@@ -9,6 +9,7 @@
 
 #include "kernel/shell.h"
 #include "kernel/workspace.h"
+#include "tests/support/hub.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -93,4 +94,29 @@ TEST_CASE("an edge is found in the star of its first vertex exactly if it exists
       CHECK(std::minmax(a, b) == std::minmax(c, d));
     }
   }
+}
+
+TEST_CASE("a star is found whole up to a size, and given up there") {
+  for (const std::uint32_t n : {3u, 100u, std::uint32_t{kMaxStar / 2}, 2500u}) {
+    CAPTURE(n);
+    const TetMesh mesh = make_mesh(hub(n));
+    Workspace workspace(mesh);
+    std::vector<HalfFace> found;
+    const StarKind kind = find_star(mesh, VertexHandle(0), workspace, found);
+    CHECK(kind == (2 * n <= kMaxStar ? StarKind::whole : StarKind::too_large));
+    CHECK(found.size() == std::min<std::size_t>(2 * n, kMaxStar));
+    CHECK(link(mesh, VertexHandle(0), workspace).size() == 2 * n);
+  }
+}
+
+TEST_CASE("an edge at a vertex of 5,000 tets is found in the star of its other end") {
+  const TetMesh mesh = make_mesh(hub(2500));
+  Workspace workspace(mesh);
+  for (std::uint32_t i = 3; i < 2503; i += 100) {
+    REQUIRE(find_in_star(mesh, VertexHandle(0), VertexHandle(i), workspace));
+    CHECK(workspace.search_buffer.size() <= kMaxStar);
+  }
+  // Both ends have more than the walk looks at first.
+  CHECK(find_in_star(mesh, VertexHandle(0), VertexHandle(1), workspace));
+  CHECK_FALSE(find_in_star(mesh, VertexHandle(1), VertexHandle(2), workspace));
 }

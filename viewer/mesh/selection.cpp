@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "kernel/star.h"
+#include "kernel/statistics.h"
 #include "kernel/workspace.h"
 
 namespace tetmend::viewer {
@@ -152,7 +153,7 @@ class Teller {
     for (const QualityMeasure& m : quality_measures()) {
       row(std::string(m.name), fmt::format("{:.4f}", m.evaluate(p[0], p[1], p[2], p[3])));
     }
-    row("volume", fmt::format("{:.4g}", volume6(p[0], p[1], p[2], p[3]) / 6));
+    row("volume", volume_text(volume6(p[0], p[1], p[2], p[3]) / 6, mesh_.scale().exponent(), 4));
     const auto angles = dihedral_angles(p[0], p[1], p[2], p[3]);
     for (unsigned e = 0; e < 6; ++e) {
       const auto& ends = kEdgeVertices[e];
@@ -164,7 +165,8 @@ class Teller {
     Shell found;
     const ShellKind kind = find_shell(mesh_, edge, found);
     row("supporting edge", fmt::format("{} - {}", ends[0].index(), ends[1].index()));
-    row("length", fmt::format("{:.4g}", glm::distance(at(mesh_, ends[0]), at(mesh_, ends[1]))));
+    row("length", fmt::format("{:.4g}", mesh_.scale().to_file(glm::distance(at(mesh_, ends[0]),
+                                                                            at(mesh_, ends[1])))));
     row("shell", name_of_shell(kind));
     unsigned tets = 0;
     Quality worst = std::numeric_limits<Quality>::infinity();
@@ -188,7 +190,7 @@ class Teller {
     row("link faces", fmt::format("{}", 2 * found.degree));
   }
   void tell(VertexHandle v) {
-    const Point& p = mesh_.point(v);
+    const Point p = mesh_.point_in_file(v);
     row("vertex", fmt::format("{}", v.index()));
     row("point", fmt::format("{:.6g} {:.6g} {:.6g}", p.x(), p.y(), p.z()));
     row("kind", mesh_.is_boundary(v) ? "on the boundary" : mesh_.is_fixed(v) ? "fixed" : "free");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "kernel/statistics.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -25,7 +26,7 @@ constexpr Row kRows[] = {
     {"worst sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
     {"mean bad sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
     {"inverted", [](const MeshStatistics& s) { return fmt::format("{}", s.inverted); }},
-    {"volume", [](const MeshStatistics& s) { return fmt::format("{:.6g}", s.volume); }},
+    {"volume", [](const MeshStatistics& s) { return volume_text(s, 6); }},
 };
 
 }  // namespace

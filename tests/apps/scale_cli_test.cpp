@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Meshes of extreme size, from the command line.
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "contract/zoo.h"
+#include "tests/apps/program.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// A jittered cube as a file, its points multiplied.
+std::string write_cube(const std::filesystem::path& file, double factor) {
+  MeshData data = contract::kuhn_cube(3, 0.38, 3);
+  for (Point& p : data.points) p *= factor;
+  write_mesh(file, MeshView(data));
+  return file.string();
+}
+
+}  // namespace
+
+TEST_CASE("quality, check and improve tell the same figures at 1e-150 and at 1e150") {
+  const TempFolder folder;
+  const std::string plain = write_cube(folder / "plain.mesh", 1);
+  const auto figures = [&](const std::string& file) {
+    const Outcome outcome = run_program({"quality", file, "--json"});
+    REQUIRE(outcome.status == 0);
+    return nlohmann::json::parse(outcome.out);
+  };
+  const nlohmann::json expected = figures(plain);
+  for (const char* power : {"-150", "150"}) {
+    CAPTURE(power);
+    const double factor = std::stod(fmt::format("1e{}", power));
+    const std::string file = write_cube(folder / "scaled.mesh", factor);
+    const nlohmann::json found = figures(file);
+    CHECK(found.at("n_bad") == expected.at("n_bad"));
+    CHECK(found.at("flat") == 0);
+    CHECK(found.at("theta_min").get<double>() ==
+          doctest::Approx(expected.at("theta_min").get<double>()));
+    CHECK(found.at("q_mean").get<double>() == doctest::Approx(expected.at("q_mean").get<double>()));
+    CHECK(found.at("volume").is_null());
+    CHECK(found.at("volume_text")
+              .get<std::string>()
+              .find(fmt::format("e{}", factor > 1 ? "+450" : "-450")) != std::string::npos);
+
+    const std::string better = (folder / "better.mesh").string();
+    const Outcome outcome = run_program({"improve", file, "-o", better});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.find("nan") == std::string::npos);
+    CHECK(outcome.out.find("inf") == std::string::npos);
+    const Outcome checked = run_program({"check", file, better});
+    CHECK(checked.status == 0);
+    CHECK(checked.out.find("nan") == std::string::npos);
+    CHECK(checked.out.find("volume of label 0: 1") == std::string::npos);
+  }
+}
+
+TEST_CASE("what cannot be worked with is an error that names the file; convert takes it as it is") {
+  const TempFolder folder;
+  for (const double factor : {1e300, 1e-300, 1e-310}) {
+    CAPTURE(factor);
+    const std::string file = write_cube(folder / "extreme.mesh", factor);
+    const std::string text = read_text(file);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"improve", file, "-o", (folder / "out.mesh").string()},
+          std::vector<std::string>{"quality", file}}) {
+      const Outcome outcome = run_program(arguments);
+      CHECK(outcome.status == 1);
+      CHECK(outcome.err.starts_with("tetmend: " + file + ": the mesh is "));
+    }
+    const std::string copy = (folder / "copy.mesh").string();
+    CHECK(run_program({"convert", file, copy}).status == 0);
+    CHECK(read_text(copy) == text);
+  }
+}
+
+TEST_CASE("a surface that single precision cannot hold is not written") {
+  const TempFolder folder;
+  const std::string file = write_cube(folder / "large.mesh", 1e100);
+  const Outcome outcome = run_program({"surface", file, (folder / "large.stl").string()});
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("beyond the single precision") != std::string::npos);
+  CHECK(
+      run_program({"surface", write_cube(folder / "mid.mesh", 1e20), (folder / "mid.stl").string()})
+          .status == 0);
+}
