@@ -180,28 +180,13 @@ class Improvement {
   void go_back();
   std::size_t best_pass() const;
   void map_entities();
+  void give_back();
+  void give_back_improved();
+  void give_back_input() noexcept;
   void check_promises() const;
   void note(const std::vector<std::string>& texts) {
     for (const std::string& text : texts) watcher_.noted(text);
     result_.notes.insert(result_.notes.end(), texts.begin(), texts.end());
-  }
-  void give_back() {
-    trim_heap();
-    if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
-    MeshData data = std::move(mesh_).to_data();
-    if (carries_) {
-      scale_.to_work(data.points);
-      face::renew_mid_nodes(input_, result_.vertex_map, data);
-      if (!input_.mid_nodes.empty()) {
-        result_.after.vertices = data.points.size();
-        if (result_.curved_after) result_.curved_after->mid_nodes = data.mid_nodes.size();
-      }
-      result_.carried =
-          face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
-      scale_.to_file(data.points);
-    }
-    input_ = {};
-    user_mesh_ = MeshAccess::make(std::move(data));
   }
 
   Mesh& user_mesh_;
@@ -209,7 +194,9 @@ class Improvement {
   Plan& plan_;
   face::Watcher watcher_;
   const std::filesystem::path file_;
-  MeshData input_;        // to go back to; lengths as mesh_ has them
+  MeshData input_;  // to go back to, also when memory runs out; lengths as mesh_ has them
+  Mesh unfilled_;   // takes it then, without asking for memory
+  bool goes_back_ = false;
   bool carries_ = false;  // it holds more than mesh_ knows
   TetMesh mesh_;
   Scale scale_;  // of mesh_
@@ -228,17 +215,18 @@ class Improvement {
 void Improvement::build() {
   watcher_.begin(Stage::building);
   const Stopwatch watch(result_.building);
-  MeshData data = MeshAccess::take(user_mesh_);
-  vertices_before_ = data.points.size();
+  unfilled_ = MeshAccess::make({}, file_);
+  input_ = MeshAccess::take(user_mesh_);
+  vertices_before_ = input_.points.size();
   try {
-    plan_.trace.locate(data);
-    face::find_regions(data, options_);
-    face::check_conserve(data, options_.conserve);
-    input_ = data;
+    plan_.trace.locate(input_);
+    face::find_regions(input_, options_);
+    face::check_conserve(input_, options_.conserve);
+    MeshData data = input_;
     carries_ = face::holds_more(data);
     build_mesh(data);
   } catch (...) {
-    user_mesh_ = MeshAccess::make(std::move(data), file_);
+    give_back_input();
     throw;
   }
 }
@@ -364,6 +352,7 @@ std::size_t Improvement::best_pass() const {
 /// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
 /// back. The same passes do the same, so no state needs to be kept in memory.
 void Improvement::go_back() {
+  goes_back_ = true;
   const std::string reason = fmt::format("{}", fmt::join(result_.worse(), "; "));
   const std::size_t all = result_.passes.size();
   for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
@@ -381,15 +370,52 @@ void Improvement::go_back() {
     const std::string text = fmt::format(
         "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
     note({text});
+    goes_back_ = false;
     return;
   }
 }
 
 void Improvement::map_entities() {
-  if (!carries_) input_ = {};
   if (!options_.maps && !carries_) return;
-  result_.vertex_map = face::map_vertices(mesh_, vertices_before_);
+  auto vertices = face::map_vertices(mesh_, vertices_before_);
   result_.tet_map = face::map_tets(mesh_, tet_numbers_);
+  result_.vertex_map = std::move(vertices);
+}
+
+/// The mesh as it is by now. As it was before if there is too little memory for that, or if it is
+/// known to be worse.
+void Improvement::give_back() {
+  if (goes_back_) return give_back_input();
+  try {
+    give_back_improved();
+  } catch (...) {
+    give_back_input();
+    throw;
+  }
+}
+
+void Improvement::give_back_improved() {
+  trim_heap();
+  if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
+  MeshData data = std::move(mesh_).to_data();
+  if (carries_) {
+    scale_.to_work(data.points);
+    face::renew_mid_nodes(input_, result_.vertex_map, data);
+    if (!input_.mid_nodes.empty()) {
+      result_.after.vertices = data.points.size();
+      if (result_.curved_after) result_.curved_after->mid_nodes = data.mid_nodes.size();
+    }
+    result_.carried =
+        face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
+    scale_.to_file(data.points);
+  }
+  user_mesh_ = MeshAccess::make(std::move(data));
+}
+
+void Improvement::give_back_input() noexcept {
+  scale_.to_file(input_.points);
+  MeshAccess::fill(unfilled_, std::move(input_));
+  user_mesh_ = std::move(unfilled_);
 }
 
 /// A broken promise would be a bug of tetmend. Nobody is to work on with such a mesh.

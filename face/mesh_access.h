@@ -29,6 +29,8 @@ struct Mesh::Content {
 struct MeshAccess {
   static const MeshData& data(const Mesh& mesh) { return mesh.content().data; }
   static Mesh make(MeshData data, std::filesystem::path file = {});
+  /// Into a mesh that was made and not looked at.
+  static void fill(Mesh& mesh, MeshData&& data) noexcept { mesh.content_->data = std::move(data); }
   /// Leaves an empty mesh.
   static MeshData take(Mesh& mesh);
 };

@@ -12,6 +12,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "kernel/first_failure.h"
+
 namespace tetmend {
 
 /// Large enough that starting a task costs little, small enough to keep many cores busy.
@@ -21,7 +23,8 @@ inline std::size_t chunk_count(std::size_t size, std::size_t chunk_size = kChunk
   return (size + chunk_size - 1) / chunk_size;
 }
 
-/// body(begin, end) for each chunk of 0..size, in any order and possibly at once.
+/// body(begin, end) for each chunk of 0..size, in any order and possibly at once. An exception comes
+/// out when all that have begun have ended; no other begins then.
 template <class Body>
 void for_chunks(std::size_t size, const Body& body, std::size_t chunk_size = kChunkSize) {
   const std::size_t chunks = chunk_count(size, chunk_size);
@@ -30,7 +33,11 @@ void for_chunks(std::size_t size, const Body& body, std::size_t chunk_size = kCh
     body(begin, std::min(size, begin + chunk_size));
   };
   if (chunks == 1) return run(0);
-  tbb::parallel_for(std::size_t{0}, chunks, run);
+  FirstFailure failure;
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+    if (!failure.failed()) failure.guard([&] { run(chunk); });
+  });
+  failure.rethrow();
 }
 
 /// What body(begin, end) gives for each chunk, in the order of the chunks.

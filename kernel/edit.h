@@ -75,15 +75,16 @@ struct TETMEND_API Journal {
 };
 
 /// Told of every edit and of every undo, in the order in which they happen; also of edits in
-/// attempts that are refused later.
+/// attempts that are refused later. Must not throw: an edit is made, and undone, whatever becomes
+/// of who listens.
 class TETMEND_API EditListener {
  public:
   virtual ~EditListener() = default;
   /// The last edit of the journal was just made: the mesh holds what it created. A vertex that lost
   /// its last tet is removed right after, by an edit of its own.
-  virtual void edit_made(const TetMesh& mesh, const Journal& journal) = 0;
+  virtual void edit_made(const TetMesh& mesh, const Journal& journal) noexcept = 0;
   /// The last edit that was made and not undone yet was just undone.
-  virtual void edit_undone() = 0;
+  virtual void edit_undone() noexcept = 0;
 };
 
 }  // namespace tetmend

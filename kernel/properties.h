@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,7 @@ class TETMEND_API PropertyTable {
   /// @throws Error if a property of that name exists.
   template <class T>
   PropertyHandle<HandleType, T> add(std::string_view name, T initial) {
+    static_assert(std::is_nothrow_move_assignable_v<T>, "undo must not fail");
     for (const auto& array : arrays_) {
       if (array && array->name == name) {
         throw Error("property '" + std::string(name) + "' exists already");
@@ -94,16 +96,24 @@ class TETMEND_API PropertyTable {
 
   // The rest is for the mesh and its transactions.
   bool empty() const { return arrays_.empty(); }
+  /// When memory runs out, the size is what it was.
   void resize(std::size_t size) {
+    try {
+      for (auto& array : arrays_) {
+        if (array) array->resize(size);
+      }
+    } catch (...) {
+      shrink(size_);
+      throw;
+    }
     size_ = size;
-    for (auto& array : arrays_) {
-      if (array) array->resize(size);
-    }
   }
-  void reset(HandleType entity) {
+  /// Precondition: not larger than it is.
+  void shrink(std::size_t size) noexcept {
     for (auto& array : arrays_) {
-      if (array) array->reset(entity.index());
+      if (array) array->shrink(size);
     }
+    size_ = size;
   }
   std::vector<std::any> save(HandleType entity) const {
     std::vector<std::any> values;
@@ -111,9 +121,16 @@ class TETMEND_API PropertyTable {
       values.push_back(array ? array->get(entity.index()) : std::any());
     return values;
   }
-  void restore(HandleType entity, const std::vector<std::any>& values) {
+  /// What a new entity has.
+  std::vector<std::any> initial() const {
+    std::vector<std::any> values;
+    for (const auto& array : arrays_) values.push_back(array ? array->get_initial() : std::any());
+    return values;
+  }
+  /// Gives an entity what save() or initial() returned.
+  void restore(HandleType entity, std::vector<std::any>&& values) noexcept {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (arrays_[i] && values[i].has_value()) arrays_[i]->set(entity.index(), values[i]);
+      if (arrays_[i] && values[i].has_value()) arrays_[i]->take(entity.index(), values[i]);
     }
   }
   /// Keeps the entities listed, in that order.
@@ -129,9 +146,10 @@ class TETMEND_API PropertyTable {
     std::string name;
     virtual ~ArrayBase() = default;
     virtual void resize(std::size_t size) = 0;
-    virtual void reset(std::size_t i) = 0;
+    virtual void shrink(std::size_t size) noexcept = 0;
     virtual std::any get(std::size_t i) const = 0;
-    virtual void set(std::size_t i, const std::any& value) = 0;
+    virtual std::any get_initial() const = 0;
+    virtual void take(std::size_t i, std::any& value) noexcept = 0;
     virtual void gather(std::span<const std::uint32_t> kept) = 0;
     virtual std::unique_ptr<ArrayBase> clone() const = 0;
   };
@@ -144,10 +162,13 @@ class TETMEND_API PropertyTable {
     std::vector<Cell> values;
 
     void resize(std::size_t size) override { values.resize(size, Cell{initial}); }
-    void reset(std::size_t i) override { values[i].value = initial; }
+    void shrink(std::size_t size) noexcept override {
+      while (values.size() > size) values.pop_back();
+    }
     std::any get(std::size_t i) const override { return values[i].value; }
-    void set(std::size_t i, const std::any& value) override {
-      values[i].value = std::any_cast<const T&>(value);
+    std::any get_initial() const override { return initial; }
+    void take(std::size_t i, std::any& value) noexcept override {
+      values[i].value = std::move(*std::any_cast<T>(&value));
     }
     void gather(std::span<const std::uint32_t> kept) override {
       std::vector<Cell> next;

@@ -17,6 +17,11 @@ namespace tetmend {
 class TETMEND_API TetBatch {
  public:
   void clear() { size_ = 0; }
+  /// Until so many tets are there, add() takes no memory.
+  void reserve(std::size_t tets) {
+    const std::size_t groups = (tets + kWideLanes - 1) / kWideLanes;
+    if (groups > groups_.size()) groups_.resize(groups);
+  }
   void add(const Point& a, const Point& b, const Point& c, const Point& d);
   /// To be called when all tets are added, before the answers are read.
   void evaluate(const Standard& standard);

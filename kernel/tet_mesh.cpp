@@ -195,31 +195,53 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
 
 namespace {
 
-/// Like resize(), but with little room to spare: the arrays are the memory of a run.
-template <class T>
-void grow(std::vector<T>& values, std::size_t count, const T& value) {
-  const std::size_t size = values.size() + count;
-  if (size > values.capacity()) values.reserve(size + size / 16);
-  values.resize(size, value);
+/// With little room to spare: the arrays are the memory of a run.
+template <class... T>
+void make_room(std::size_t size, std::vector<T>&... values) {
+  const auto reserve = [size](auto& array) {
+    if (size > array.capacity()) array.reserve(size + size / 16);
+  };
+  (reserve(values), ...);
 }
 
 }  // namespace
 
 void TetMesh::grow_tets(std::size_t count) {
-  grow(cells_, count, {});
-  grow(quality_, count, kDeletedQuality);
-  grow(label_, count, Label{0});
-  grow(tet_flags_, count, TetFlags{0});
-  tet_properties_.resize(cells_.size());
+  const std::size_t size = cells_.size() + count;
+  make_room(size, cells_, quality_, label_, tet_flags_);
+  tet_properties_.resize(size);
+  cells_.resize(size);
+  quality_.resize(size, kDeletedQuality);
+  label_.resize(size, Label{0});
+  tet_flags_.resize(size, TetFlags{0});
 }
 
 void TetMesh::grow_vertices(std::size_t count) {
-  grow(points_, count, Point(Point::Zero()));
-  grow(vertex_tet_, count, {});
-  grow(vertex_flags_, count, kVertexDeleted);
-  grow(vertex_dates_, count, {});
-  grow(vertex_origin_, count, kNotFromFile);
-  vertex_properties_.resize(points_.size());
+  const std::size_t size = points_.size() + count;
+  make_room(size, points_, vertex_tet_, vertex_flags_, vertex_dates_, vertex_origin_);
+  vertex_properties_.resize(size);
+  points_.resize(size, Point::Zero());
+  vertex_tet_.resize(size);
+  vertex_flags_.resize(size, kVertexDeleted);
+  vertex_dates_.resize(size);
+  vertex_origin_.resize(size, kNotFromFile);
+}
+
+void TetMesh::drop_tet_slot() noexcept {
+  cells_.pop_back();
+  quality_.pop_back();
+  label_.pop_back();
+  tet_flags_.pop_back();
+  tet_properties_.shrink(cells_.size());
+}
+
+void TetMesh::drop_vertex_slot() noexcept {
+  points_.pop_back();
+  vertex_tet_.pop_back();
+  vertex_flags_.pop_back();
+  vertex_dates_.pop_back();
+  vertex_origin_.pop_back();
+  vertex_properties_.shrink(points_.size());
 }
 
 namespace {

@@ -285,9 +285,12 @@ class TETMEND_API TetMesh {
   static constexpr VertexFlags kVertexFrozen = 16;
   static constexpr VertexFlags kVertexFixed = kVertexBoundary | kVertexConstrained | kVertexFrozen;
 
-  /// Adds deleted slots.
+  /// Adds deleted slots. When memory runs out, none.
   void grow_tets(std::size_t count);
   void grow_vertices(std::size_t count);
+  /// Takes back the slot that was added last.
+  void drop_tet_slot() noexcept;
+  void drop_vertex_slot() noexcept;
   void reorder(std::span<const std::uint32_t> vertex_order,
                std::span<const std::uint32_t> tet_order);
 

@@ -2,13 +2,16 @@
 // Edits with their checks, and the way back.
 //
 //   replace_cavity: check old tets, vertices and constraints -> evaluate new tets -> glue faces
-//                   -> save -> take slots -> fill -> link
+//                   -> make room -> save -> take slots -> fill -> link
+//                   up to here memory may run out; from the first write on nothing can fail
 //   undo: the edits in reverse; slots go back to where they came from, in reverse too, so that the
 //         free lists are what they were
 #include "kernel/transaction.h"
 
 #include <algorithm>
+#include <any>
 #include <cassert>
+#include <utility>
 
 #include "kernel/star.h"
 
@@ -19,6 +22,13 @@ namespace {
 template <class T>
 std::uint32_t size32(const std::vector<T>& values) {
   return static_cast<std::uint32_t>(values.size());
+}
+
+/// Makes room for so many more values, in steps that grow with the size.
+template <class T>
+void make_room_for(std::size_t count, std::vector<T>& values) {
+  const std::size_t size = values.size() + count;
+  if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
 }
 
 void add_to_batch(const TetMesh& mesh, const TetVertices& tet, TetBatch& batch) {
@@ -44,7 +54,7 @@ bool Transaction::empty() const {
   return workspace_.journal_.edits.size() == first_edit_;
 }
 
-void Transaction::keep() {
+void Transaction::keep() noexcept {
   kept_ = true;
   if (workspace_.depth_ == 1) commit();
 }
@@ -98,7 +108,8 @@ EditResult Transaction::check_old(std::span<const TetHandle> old) {
   return EditResult::made;
 }
 
-/// A vertex that vanishes must not be fixed; one that appears must not have tets elsewhere.
+/// A vertex that vanishes must not be fixed; one that appears must not have tets elsewhere. Leaves
+/// all vertices in vertex_set_.
 EditResult Transaction::check_vertices(std::span<const TetHandle> old,
                                        std::span<const TetVertices> created) {
   IndexSet& set = workspace_.vertex_set_;
@@ -117,7 +128,7 @@ EditResult Transaction::check_vertices(std::span<const TetHandle> old,
   }
   for (const TetVertices& tet : created) {
     for (const VertexHandle v : tet) {
-      if (!set.contains(v.index()) && mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
+      if (set.insert(v.index()) && mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
     }
   }
   return EditResult::made;
@@ -225,6 +236,14 @@ bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
   return true;
 }
 
+/// Values of properties, copied before the first write: copies may need memory.
+struct Transaction::PropertyValues {
+  using Values = std::vector<std::any>;
+  std::vector<Values> removed;                            // of the old tets
+  std::vector<Values> created;                            // what new tets begin with
+  std::vector<std::pair<VertexHandle, Values>> vertices;  // of the old tets: they may vanish
+};
+
 EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
                                        std::span<const TetVertices> created) {
   assert(!kept_ && !old.empty() && !created.empty());
@@ -237,22 +256,71 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
   if (workspace_.may_overlap_ && repeats_a_face(created)) return EditResult::inverted;
   if (!mark_constrained_edges(created)) return EditResult::constrained;
 
+  PropertyValues properties = copy_properties(old, created);
+  const std::size_t appended = make_room(old.size(), created.size());
+  write_cavity(old, created, appended, properties);
+  return EditResult::made;
+}
+
+Transaction::PropertyValues Transaction::copy_properties(
+    std::span<const TetHandle> old, std::span<const TetVertices> created) const {
+  PropertyValues values;
+  if (const auto& table = mesh_.tet_properties_; !table.empty()) {
+    for (const TetHandle t : old) values.removed.push_back(table.save(t));
+    for (std::size_t k = 0; k < created.size(); ++k) values.created.push_back(table.initial());
+  }
+  if (const auto& table = mesh_.vertex_properties_; !table.empty()) {
+    IndexSet seen;
+    for (const TetHandle t : old) {
+      for (const VertexHandle v : mesh_.vertices(t)) {
+        if (seen.insert(v.index())) values.vertices.emplace_back(v, table.save(v));
+      }
+    }
+  }
+  return values;
+}
+
+/// For all that replacing a cavity and undoing it write. Returns how many slots the mesh grew by.
+/// Precondition: vertex_set_ holds the vertices of old and new tets.
+std::size_t Transaction::make_room(std::size_t old, std::size_t created) {
+  Journal& journal = workspace_.journal_;
+  auto& [free_tets, free_vertices] = workspace_.free_;
+  const std::size_t vertices = workspace_.vertex_set_.size();
+  make_room_for(1 + vertices, journal.edits);
+  make_room_for(old, journal.removed);
+  make_room_for(created, journal.created);
+  make_room_for(vertices, journal.links);
+  make_room_for(vertices, journal.removed_vertices);
+  make_room_for(vertices, free_vertices);
+  if (old > created) make_room_for(old - created, free_tets);
+  if (!mesh_.tet_properties_.empty() || !mesh_.vertex_properties_.empty()) {
+    make_room_for(old + vertices, journal.property_values);
+  }
+  const std::size_t slots = old + free_tets.size();
+  if (created <= slots) return 0;
+  mesh_.grow_tets(created - slots);  // last: nothing that may fail follows
+  return created - slots;
+}
+
+void Transaction::write_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created,
+                               std::size_t appended, PropertyValues& properties) noexcept {
   Edit edit;
   edit.kind = Edit::Kind::replace_cavity;
+  edit.appended = static_cast<std::uint32_t>(appended);
   const Label label = mesh_.label(old[0]);
-  save_removed(old, edit);
+  save_removed(old, edit, properties);
   take_slots(old, created.size(), edit);
-  fill_slots(created, label, edit);
+  fill_slots(created, label, edit, properties);
   link_vertices(created, edit);
   workspace_.tet_count(mesh_) += created.size();
   workspace_.tet_count(mesh_) -= old.size();
   note(edit);
-  remove_isolated(edit);
-  return EditResult::made;
+  remove_isolated(edit, properties);
 }
 
 /// Copies the old tets into the journal and unlinks their vertices.
-void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
+void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit,
+                               PropertyValues& properties) {
   Journal& journal = workspace_.journal_;
   edit.removed_begin = size32(journal.removed);
   edit.links_begin = size32(journal.links);
@@ -261,8 +329,6 @@ void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
     const TetMesh::Cell& cell = mesh_.cells_[i];
     journal.removed.push_back({t, cell.vertices, cell.neighbours, mesh_.quality_[i],
                                mesh_.label_[i], mesh_.tet_flags_[i]});
-    if (!mesh_.tet_properties_.empty())
-      journal.property_values.push_back(mesh_.tet_properties_.save(t));
     for (const VertexHandle v : cell.vertices) {
       if (mesh_.vertex_tet_[v.index()] != t) continue;
       journal.links.push_back({v, t});
@@ -271,22 +337,17 @@ void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
   }
   edit.removed_end = size32(journal.removed);
   edit.links_end = size32(journal.links);
+  for (auto& values : properties.removed) journal.property_values.push_back(std::move(values));
 }
 
-TetHandle Transaction::append_tet() {
-  const TetHandle t(static_cast<std::uint32_t>(mesh_.cells_.size()));
-  mesh_.grow_tets(1);
-  return t;
-}
-
-/// Deleted slots all look the same, so that undo can bring them back.
+/// Deleted slots all look the same, so that undo can bring them back. Their properties are nobody's
+/// until they are used again.
 void Transaction::clear_slot(TetHandle t) {
   const std::uint32_t i = t.index();
   mesh_.cells_[i] = TetMesh::Cell();
   mesh_.quality_[i] = TetMesh::kDeletedQuality;
   mesh_.label_[i] = 0;
   mesh_.tet_flags_[i] = 0;
-  mesh_.tet_properties_.reset(t);
 }
 
 void Transaction::clear_slot(VertexHandle v) {
@@ -296,14 +357,14 @@ void Transaction::clear_slot(VertexHandle v) {
   mesh_.vertex_flags_[i] = TetMesh::kVertexDeleted;
   mesh_.vertex_dates_[i] = {};
   mesh_.vertex_origin_[i] = TetMesh::kNotFromFile;
-  mesh_.vertex_properties_.reset(v);
 }
 
-/// New tets first take the slots of the old, then free ones, then the mesh grows. Slots left over
-/// become free.
+/// New tets first take the slots of the old, then free ones, then those that the mesh grew by. Slots
+/// left over become free.
 void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit) {
   Journal& journal = workspace_.journal_;
   edit.created_begin = size32(journal.created);
+  auto next = static_cast<std::uint32_t>(mesh_.cells_.size() - edit.appended);
   for (std::size_t k = 0; k < count; ++k) {
     if (k < old.size()) {
       journal.created.push_back(old[k]);
@@ -311,8 +372,7 @@ void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, 
       journal.created.push_back(workspace_.free_.tets.back());
       workspace_.free_.tets.pop_back();
     } else {
-      journal.created.push_back(append_tet());
-      ++edit.appended;
+      journal.created.push_back(TetHandle(next++));
     }
   }
   edit.created_end = size32(journal.created);
@@ -322,7 +382,8 @@ void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, 
   }
 }
 
-void Transaction::fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit) {
+void Transaction::fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit,
+                             PropertyValues& properties) {
   const TetHandle* slots = workspace_.journal_.created.data() + edit.created_begin;
   for (std::size_t k = 0; k < created.size(); ++k) {
     const std::uint32_t i = slots[k].index();
@@ -331,7 +392,9 @@ void Transaction::fill_slots(std::span<const TetVertices> created, Label label, 
     mesh_.quality_[i] = workspace_.batch_.quality(k);
     mesh_.label_[i] = label;
     mesh_.tet_flags_[i] = workspace_.created_flags_[k];
-    mesh_.tet_properties_.reset(slots[k]);
+    if (!properties.created.empty()) {
+      mesh_.tet_properties_.restore(slots[k], std::move(properties.created[k]));
+    }
     for (unsigned f = 0; f < 4; ++f) {
       const Workspace::Gluing& glued = workspace_.gluing_[4 * k + f];
       if (glued.local) {
@@ -366,7 +429,7 @@ void Transaction::link_vertices(std::span<const TetVertices> created, Edit& edit
 }
 
 /// Deletes the vertices that lost their last tet.
-void Transaction::remove_isolated(const Edit& replaced) {
+void Transaction::remove_isolated(const Edit& replaced, PropertyValues& properties) {
   Journal& journal = workspace_.journal_;
   for (std::uint32_t i = replaced.links_begin; i < replaced.links_end; ++i) {
     const VertexHandle v = journal.links[i].vertex;
@@ -378,8 +441,10 @@ void Transaction::remove_isolated(const Edit& replaced) {
     journal.removed_vertices.push_back({mesh_.changed(v), mesh_.moved(v),
                                         mesh_.vertex_origin_[v.index()],
                                         mesh_.vertex_flags_[v.index()]});
-    if (!mesh_.vertex_properties_.empty()) {
-      journal.property_values.push_back(mesh_.vertex_properties_.save(v));
+    const auto values = std::find_if(properties.vertices.begin(), properties.vertices.end(),
+                                     [v](const auto& entry) { return entry.first == v; });
+    if (values != properties.vertices.end()) {
+      journal.property_values.push_back(std::move(values->second));
     }
     clear_slot(v);
     workspace_.free_.vertices.push_back(v);
@@ -392,6 +457,9 @@ void Transaction::remove_isolated(const Edit& replaced) {
 
 VertexHandle Transaction::add_vertex(const Point& point) {
   assert(!kept_);
+  make_room_for(1, workspace_.journal_.edits);
+  make_room_for(1, workspace_.added_vertices_);
+  std::vector<std::any> properties = mesh_.vertex_properties_.initial();
   Edit edit;
   edit.kind = Edit::Kind::add_vertex;
   if (!workspace_.free_.vertices.empty()) {
@@ -405,7 +473,10 @@ VertexHandle Transaction::add_vertex(const Point& point) {
     edit.appended = 1;
     mesh_.grow_vertices(1);
   }
+  // From here on nothing can fail.
   workspace_.territory_.claim(edit.vertex);
+  workspace_.added_vertices_.push_back(edit.vertex);
+  mesh_.vertex_properties_.restore(edit.vertex, std::move(properties));
   mesh_.points_[edit.vertex.index()] = point;
   mesh_.vertex_flags_[edit.vertex.index()] = 0;
   ++workspace_.vertex_count(mesh_);
@@ -424,6 +495,7 @@ EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
   for (const VertexMove& move : moves) {
     if (mesh_.is_fixed(move.vertex)) return EditResult::constrained;
   }
+  make_room(moves);
   auto& before = workspace_.moved_points_;
   before.clear();
   for (const VertexMove& move : moves) {
@@ -444,6 +516,16 @@ EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
     evaluated += moves[i].link.size();
   }
   return EditResult::made;
+}
+
+/// For all that moving the vertices and undoing it write.
+void Transaction::make_room(std::span<const VertexMove> moves) {
+  std::size_t tets = 0;
+  for (const VertexMove& move : moves) tets += move.link.size();
+  workspace_.moved_points_.reserve(moves.size());
+  workspace_.batch_.reserve(tets);
+  make_room_for(moves.size(), workspace_.journal_.edits);
+  make_room_for(tets, workspace_.journal_.qualities);
 }
 
 /// The tets of each link in turn, with the vertices in their new places.
@@ -489,7 +571,7 @@ void Transaction::note_move(const VertexMove& move, const Point& before,
 
 // --- the way back --------------------------------------------------------------------------------
 
-void Transaction::undo() {
+void Transaction::undo() noexcept {
   auto& edits = workspace_.journal_.edits;
   while (edits.size() > first_edit_) {
     const Edit edit = edits.back();
@@ -520,11 +602,7 @@ void Transaction::undo_replace(const Edit& edit) {
     const TetHandle t = journal.created[edit.created_begin + k];
     if (k >= created - edit.appended) {
       assert(t.index() + 1 == mesh_.cells_.size());
-      mesh_.cells_.pop_back();
-      mesh_.quality_.pop_back();
-      mesh_.label_.pop_back();
-      mesh_.tet_flags_.pop_back();
-      mesh_.tet_properties_.resize(mesh_.cells_.size());
+      mesh_.drop_tet_slot();
     } else {
       clear_slot(t);
       workspace_.free_.tets.push_back(t);
@@ -541,7 +619,7 @@ void Transaction::undo_replace(const Edit& edit) {
     mesh_.label_[i] = saved.label;
     mesh_.tet_flags_[i] = saved.flags;
     if (!mesh_.tet_properties_.empty()) {
-      mesh_.tet_properties_.restore(saved.tet, journal.property_values.back());
+      mesh_.tet_properties_.restore(saved.tet, std::move(journal.property_values.back()));
       journal.property_values.pop_back();
     }
   }
@@ -575,17 +653,10 @@ void Transaction::undo_move(const Edit& edit) {
 
 void Transaction::undo_add(const Edit& edit) {
   --workspace_.vertex_count(mesh_);
-  if (edit.appended == 0) {
-    clear_slot(edit.vertex);
-    workspace_.free_.vertices.push_back(edit.vertex);
-    return;
-  }
-  mesh_.points_.pop_back();
-  mesh_.vertex_tet_.pop_back();
-  mesh_.vertex_flags_.pop_back();
-  mesh_.vertex_dates_.pop_back();
-  mesh_.vertex_origin_.pop_back();
-  mesh_.vertex_properties_.resize(mesh_.points_.size());
+  workspace_.added_vertices_.pop_back();
+  if (edit.appended != 0) return mesh_.drop_vertex_slot();
+  clear_slot(edit.vertex);
+  workspace_.free_.vertices.push_back(edit.vertex);
 }
 
 void Transaction::undo_remove(const Edit& edit) {
@@ -598,7 +669,7 @@ void Transaction::undo_remove(const Edit& edit) {
   mesh_.vertex_origin_[i] = saved.origin;
   mesh_.vertex_flags_[i] = saved.flags;
   if (!mesh_.vertex_properties_.empty()) {
-    mesh_.vertex_properties_.restore(edit.vertex, journal.property_values.back());
+    mesh_.vertex_properties_.restore(edit.vertex, std::move(journal.property_values.back()));
     journal.property_values.pop_back();
   }
   workspace_.free_.vertices.pop_back();
@@ -748,7 +819,6 @@ void Transaction::commit() {
       for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_dates_[v.index()].changed = date;
     }
     if (edit.kind == Edit::Kind::move_vertex) mesh_.vertex_dates_[edit.vertex.index()].moved = date;
-    if (edit.kind == Edit::Kind::add_vertex) workspace_.added_vertices_.push_back(edit.vertex);
     // The star of the moved vertex did not change but for the move: it keeps its date.
     for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
       const TetHandle t = journal.qualities[k].tet;

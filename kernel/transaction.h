@@ -37,6 +37,9 @@ struct TETMEND_API VertexMove {
 /// its child. Undo restores every slot of the mesh bit for bit, handle numbers included. The
 /// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
 /// journal. Tets and vertices given to a transaction must lie in the territory of the workspace.
+///
+/// An edit takes all memory that it and its undo need before its first write. So one that throws,
+/// which is std::bad_alloc, has changed nothing, and neither keep() nor undo() can fail.
 class TETMEND_API Transaction {
  public:
   Transaction(TetMesh& mesh, Workspace& workspace);
@@ -93,9 +96,9 @@ class TETMEND_API Transaction {
 
   /// Makes the edits part of the enclosing transaction, or of the mesh if there is none. No edit
   /// may follow.
-  void keep();
+  void keep() noexcept;
   /// Undoes all edits of this scope now. More may follow.
-  void undo();
+  void undo() noexcept;
 
  private:
   Workspace::Past& past() const;
@@ -105,16 +108,23 @@ class TETMEND_API Transaction {
   EditResult glue(std::span<const TetHandle> old, std::span<const TetVertices> created);
   bool repeats_a_face(std::span<const TetVertices> created);
   bool mark_constrained_edges(std::span<const TetVertices> created);
-  void save_removed(std::span<const TetHandle> old, Edit& edit);
+  struct PropertyValues;
+  PropertyValues copy_properties(std::span<const TetHandle> old,
+                                 std::span<const TetVertices> created) const;
+  std::size_t make_room(std::size_t old, std::size_t created);
+  void make_room(std::span<const VertexMove> moves);
+  void write_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created,
+                    std::size_t appended, PropertyValues& properties) noexcept;
+  void save_removed(std::span<const TetHandle> old, Edit& edit, PropertyValues& properties);
   void take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit);
-  void fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit);
+  void fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit,
+                  PropertyValues& properties);
   void link_vertices(std::span<const TetVertices> created, Edit& edit);
-  void remove_isolated(const Edit& edit);
+  void remove_isolated(const Edit& edit, PropertyValues& properties);
   void note(const Edit& edit);
   void evaluate(std::span<const VertexMove> moves);
   bool turns_over(std::span<const VertexMove> moves) const;
   void note_move(const VertexMove& move, const Point& before, std::size_t first_of_batch);
-  TetHandle append_tet();
   void clear_slot(TetHandle t);
   void clear_slot(VertexHandle v);
   void undo_replace(const Edit& edit);

@@ -51,11 +51,13 @@ void Workspace::provide(TetMesh& mesh, std::size_t tets, std::size_t vertices) {
   assert(depth_ == 0 && territory_.is_whole());
   if (free_.tets.size() < tets) {
     const auto first = static_cast<std::uint32_t>(mesh.tet_slots());
+    free_.tets.reserve(tets);
     mesh.grow_tets(tets - free_.tets.size());
     for (std::uint32_t t = first; t < mesh.tet_slots(); ++t) free_.tets.push_back(TetHandle(t));
   }
   if (free_.vertices.size() < vertices) {
     const auto first = static_cast<std::uint32_t>(mesh.vertex_slots());
+    free_.vertices.reserve(vertices);
     mesh.grow_vertices(vertices - free_.vertices.size());
     for (std::uint32_t v = first; v < mesh.vertex_slots(); ++v) {
       free_.vertices.push_back(VertexHandle(v));

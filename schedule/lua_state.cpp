@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <iterator>
+#include <new>
 #include <set>
 #include <utility>
 
@@ -63,7 +64,7 @@ LuaBox& box_of(lua_State* lua) {
 }
 
 /// An error of the line that runs at `level`. Does not return.
-int fail(lua_State* lua, const std::string& message, int level = 1) {
+int fail(lua_State* lua, std::string_view message, int level = 1) {
   luaL_where(lua, level);
   lua_pushlstring(lua, message.data(), message.size());
   lua_concat(lua, 2);
@@ -126,17 +127,16 @@ namespace {
 /// Runs what may throw in a frame that Lua called.
 template <class Work>
 int guarded(lua_State* lua, int level, const Work& work) {
-  std::string message;
   try {
     return work();
   } catch (const Error& error) {
-    message = error.what();
+    return fail(lua, error.what(), level);
   } catch (const ScriptStop&) {
     box_of(lua).pending = std::current_exception();
   } catch (const std::exception&) {
     box_of(lua).pending = std::current_exception();
   }
-  return fail(lua, message, level);
+  return fail(lua, "", level);
 }
 
 /// Asks whether the script may go on.
@@ -304,50 +304,59 @@ void hold_for_good(lua_State* lua, std::size_t bytes) {
 LuaState::LuaState(Limits limits, Watch watch) : box_(std::make_unique<LuaBox>()) {
   box_->limits = limits;
   box_->watch = std::move(watch);
-  lua_ = lua_newstate(allocate, box_.get());
+  lua_.reset(lua_newstate(allocate, box_.get()));
   if (lua_ == nullptr) throw std::bad_alloc();
-  *static_cast<LuaBox**>(lua_getextraspace(lua_)) = box_.get();
-  push_library(lua_);
-  lua_setfield(lua_, LUA_REGISTRYINDEX, kWords);
-  make_globals(lua_);
+  // Outside of run() only memory can be missing. Lua would end the process.
+  lua_atpanic(get(), [](lua_State*) -> int { throw std::bad_alloc(); });
+  *static_cast<LuaBox**>(lua_getextraspace(get())) = box_.get();
+  push_library(get());
+  lua_setfield(get(), LUA_REGISTRYINDEX, kWords);
+  make_globals(get());
 }
 
-LuaState::~LuaState() {
-  lua_close(lua_);
+LuaState::~LuaState() = default;
+
+void LuaState::Close::operator()(lua_State* lua) const {
+  lua_close(lua);
 }
 
 void LuaState::push_function(Function function) {
-  lua_pushlightuserdata(lua_, &box_->words.emplace_back(std::move(function)));
-  lua_pushcclosure(lua_, call_word, 1);
+  lua_pushlightuserdata(get(), &box_->words.emplace_back(std::move(function)));
+  lua_pushcclosure(get(), call_word, 1);
 }
 
 void LuaState::add_word(const std::string& name, Function function) {
-  lua_getfield(lua_, LUA_REGISTRYINDEX, kWords);
+  lua_getfield(get(), LUA_REGISTRYINDEX, kWords);
   push_function(std::move(function));
-  lua_setfield(lua_, -2, name.c_str());
-  lua_pop(lua_, 1);
+  lua_setfield(get(), -2, name.c_str());
+  lua_pop(get(), 1);
 }
 
 void LuaState::run(std::string_view text, const std::string& name) {
+  lua_State* lua = get();
   box_->pending = nullptr;
   box_->start_of_messages = name_in_messages(name) + ":";
-  lua_pushcfunction(lua_, add_place);
+  lua_pushcfunction(lua, add_place);
   const std::string chunk = "@" + name;
-  int status = luaL_loadbufferx(lua_, text.data(), text.size(), chunk.c_str(), "t");
+  int status = luaL_loadbufferx(lua, text.data(), text.size(), chunk.c_str(), "t");
   if (status == LUA_OK) {
-    const Watching watching(lua_, *box_);
-    status = lua_pcall(lua_, 0, 0, -2);
+    const Watching watching(lua, *box_);
+    status = lua_pcall(lua, 0, 0, -2);
   }
   if (box_->pending) {
-    lua_settop(lua_, 0);
+    lua_settop(lua, 0);
     std::rethrow_exception(std::exchange(box_->pending, nullptr));
   }
-  if (status == LUA_OK) return lua_settop(lua_, 0);
+  if (status == LUA_OK) return lua_settop(lua, 0);
+  if (status < LUA_OK) {  // an exception that is none of Lua's, from where nobody caught it
+    lua_settop(lua, 0);
+    throw std::bad_alloc();
+  }
   const std::string message =
       status == LUA_ERRMEM
           ? fmt::format("{}: the script needs more than {} MB", name, box_->limits.memory >> 20)
-          : message_of(lua_, name);
-  lua_settop(lua_, 0);
+          : message_of(lua, name);
+  lua_settop(lua, 0);
   throw Error(message);
 }
 

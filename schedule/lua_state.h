@@ -55,14 +55,18 @@ class LuaState {
 
   /// Runs the text of a script. `name` is what errors call it.
   /// @throws Error "NAME:LINE: reason" for a mistake in the script or its run, without control
-  /// characters; whatever the watch or a word throws to stop.
+  /// characters; whatever the watch or a word throws to stop; std::bad_alloc.
   void run(std::string_view text, const std::string& name);
 
-  lua_State* get() const { return lua_; }
+  lua_State* get() const { return lua_.get(); }
 
  private:
+  struct Close {
+    void operator()(lua_State* lua) const;
+  };
+
   std::unique_ptr<LuaBox> box_;
-  lua_State* lua_ = nullptr;
+  std::unique_ptr<lua_State, Close> lua_;
 };
 
 // For functions that a script calls. Each takes the state of a LuaState and may raise an error of

@@ -59,100 +59,107 @@ void sweep_vertices(Run& run, PassScope& scope, const Operator& op, const Select
 }  // namespace
 
 void local_reconnection(Run& run, const LocalReconnectionOptions& options) {
-  PassScope scope(run, "local_reconnection");
-  Composition what{.kind = Composition::Kind::all_of};
-  if (!options.edge_operator.empty()) {
-    what.parts.push_back(one(options.edge_operator, options.edge_settings, options.edge_order));
-    what.parts.back().most_edges = options.most_edges;
-  }
-  if (!options.face_operator.empty()) {
-    what.parts.push_back(one(options.face_operator, options.face_settings));
-  }
-  const TetAttempts attempts(run.registry(), what);
-  const std::string dates = calendar("local_reconnection", what, options.on);
-  for (unsigned sweep = 0; sweep < options.sweeps && !run.cancelled(); ++sweep) {
-    if (!sweep_tets(run, scope, attempts, options.on, run.begin_sweep(dates), 0)) return;
-  }
+  make_pass(run, "local_reconnection", [&](PassScope& scope) {
+    Composition what{.kind = Composition::Kind::all_of};
+    if (!options.edge_operator.empty()) {
+      what.parts.push_back(one(options.edge_operator, options.edge_settings, options.edge_order));
+      what.parts.back().most_edges = options.most_edges;
+    }
+    if (!options.face_operator.empty()) {
+      what.parts.push_back(one(options.face_operator, options.face_settings));
+    }
+    const TetAttempts attempts(run.registry(), what);
+    const std::string dates = calendar("local_reconnection", what, options.on);
+    for (unsigned sweep = 0; sweep < options.sweeps && !run.cancelled(); ++sweep) {
+      if (!sweep_tets(run, scope, attempts, options.on, run.begin_sweep(dates), 0)) return;
+    }
+  });
 }
 
 void smooth(Run& run, const SmoothOptions& options) {
-  PassScope scope(run, "smooth");
-  const auto smoothing = run.registry().make("smoothing", options.settings);
-  const std::string dates = calendar("smooth", one("smoothing", options.settings), options.on);
-  QualityIndicators before = scope.indicators();
-  for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
-    sweep_vertices(run, scope, *smoothing, options.on, run.begin_sweep(dates));
-    const QualityIndicators now = scope.indicators();
-    if (!is_progress(before, now)) return;
-    before = now;
-  }
+  make_pass(run, "smooth", [&](PassScope& scope) {
+    const auto smoothing = run.registry().make("smoothing", options.settings);
+    const std::string dates = calendar("smooth", one("smoothing", options.settings), options.on);
+    QualityIndicators before = scope.indicators();
+    for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
+      sweep_vertices(run, scope, *smoothing, options.on, run.begin_sweep(dates));
+      const QualityIndicators now = scope.indicators();
+      if (!is_progress(before, now)) return;
+      before = now;
+    }
+  });
 }
 
 void suppress_points(Run& run, const SuppressPointsOptions& options) {
-  PassScope scope(run, "suppress_points");
-  const auto contraction = run.registry().make("edge_contraction", options.settings);
-  const Date since = run.begin_sweep(
-      calendar("suppress_points", one("edge_contraction", options.settings), options.on));
-  sweep_vertices(run, scope, *contraction, options.on, since);
+  make_pass(run, "suppress_points", [&](PassScope& scope) {
+    const auto contraction = run.registry().make("edge_contraction", options.settings);
+    const Date since = run.begin_sweep(
+        calendar("suppress_points", one("edge_contraction", options.settings), options.on));
+    sweep_vertices(run, scope, *contraction, options.on, since);
+  });
 }
 
 void insert_points(Run& run, const InsertPointsOptions& options) {
-  PassScope scope(run, "insert_points");
-  const Composition what = one("edge_split", options.settings, EdgeOrder::longest);
-  const TetAttempts attempts(run.registry(), what);
-  const Date since = run.begin_sweep(calendar("insert_points", what, options.on));
-  sweep_tets(run, scope, attempts, options.on, since, kNewVerticesPerTet);
+  make_pass(run, "insert_points", [&](PassScope& scope) {
+    const Composition what = one("edge_split", options.settings, EdgeOrder::longest);
+    const TetAttempts attempts(run.registry(), what);
+    const Date since = run.begin_sweep(calendar("insert_points", what, options.on));
+    sweep_tets(run, scope, attempts, options.on, since, kNewVerticesPerTet);
+  });
 }
 
 void apply(Run& run, const ApplyOptions& options) {
-  PassScope scope(run, options.what.name());
-  const TetAttempts attempts(run.registry(), options.what);
-  const bool by_vertex =
-      options.what.kind == Composition::Kind::one &&
-      run.registry().find(options.what.operator_name).target == TargetKind::vertex;
-  const auto op =
-      by_vertex ? run.registry().make(options.what.operator_name, options.what.settings) : nullptr;
-  const std::string dates = calendar("apply", options.what, options.on);
-  for (unsigned sweep = 0; sweep < options.sweeps && !run.cancelled(); ++sweep) {
-    const std::size_t accepted = scope.accepted();
-    const Date last = run.begin_sweep(dates);
-    const Date since = options.again && sweep == 0 ? 0 : last;
-    if (by_vertex) {
-      sweep_vertices(run, scope, *op, options.on, since);
-    } else {
-      sweep_tets(run, scope, attempts, options.on, since, kNewVerticesPerTet);
+  make_pass(run, options.what.name(), [&](PassScope& scope) {
+    const TetAttempts attempts(run.registry(), options.what);
+    const bool by_vertex =
+        options.what.kind == Composition::Kind::one &&
+        run.registry().find(options.what.operator_name).target == TargetKind::vertex;
+    const auto op = by_vertex
+                        ? run.registry().make(options.what.operator_name, options.what.settings)
+                        : nullptr;
+    const std::string dates = calendar("apply", options.what, options.on);
+    for (unsigned sweep = 0; sweep < options.sweeps && !run.cancelled(); ++sweep) {
+      const std::size_t accepted = scope.accepted();
+      const Date last = run.begin_sweep(dates);
+      const Date since = options.again && sweep == 0 ? 0 : last;
+      if (by_vertex) {
+        sweep_vertices(run, scope, *op, options.on, since);
+      } else {
+        sweep_tets(run, scope, attempts, options.on, since, kNewVerticesPerTet);
+      }
+      if (scope.accepted() == accepted) return;
     }
-    if (scope.accepted() == accepted) return;
-  }
+  });
 }
 
 void polish(Run& run, const PolishOptions& options) {
-  PassScope scope(run, "polish");
-  const Selection all = {.below = Selection::kAll};
-  Selection flipped = all;
-  if (options.below < 1) flipped.value = ValueRange{.name = "mean_ratio", .high = options.below};
-  const auto smoothing = run.registry().make("mean_smoothing", {});
-  const Composition flips = {.kind = Composition::Kind::all_of,
-                             .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
-  const TetAttempts attempts(run.registry(), flips);
-  const std::string dates = calendar("polish", flips, flipped);
-  for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
-    const std::size_t accepted = scope.accepted();
-    const Judge judge =
-        Judge::raises_mean(summarize(run.mesh(), find_quality_measure("mean_ratio")).mean);
-    const Date since = run.begin_sweep(dates);
-    work_off(run, scope, queue_vertices(scope, run.mesh(), all, since), 0,
-             [&](Worker& worker, QueuedVertex entry) {
-               const JudgedBy judged(worker, judge);
-               return worker.attempt(*smoothing, Target::of(entry.vertex)) != Verdict::deferred;
-             });
-    work_off(run, scope, queue_tets(scope, run.mesh(), flipped, since), 0,
-             [&](Worker& worker, QueuedTet& entry) {
-               const JudgedBy judged(worker, judge);
-               return attempts.work_off(worker, entry, since);
-             });
-    if (scope.accepted() == accepted) return;
-  }
+  make_pass(run, "polish", [&](PassScope& scope) {
+    const Selection all = {.below = Selection::kAll};
+    Selection flipped = all;
+    if (options.below < 1) flipped.value = ValueRange{.name = "mean_ratio", .high = options.below};
+    const auto smoothing = run.registry().make("mean_smoothing", {});
+    const Composition flips = {.kind = Composition::Kind::all_of,
+                               .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
+    const TetAttempts attempts(run.registry(), flips);
+    const std::string dates = calendar("polish", flips, flipped);
+    for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
+      const std::size_t accepted = scope.accepted();
+      const Judge judge =
+          Judge::raises_mean(summarize(run.mesh(), find_quality_measure("mean_ratio")).mean);
+      const Date since = run.begin_sweep(dates);
+      work_off(run, scope, queue_vertices(scope, run.mesh(), all, since), 0,
+               [&](Worker& worker, QueuedVertex entry) {
+                 const JudgedBy judged(worker, judge);
+                 return worker.attempt(*smoothing, Target::of(entry.vertex)) != Verdict::deferred;
+               });
+      work_off(run, scope, queue_tets(scope, run.mesh(), flipped, since), 0,
+               [&](Worker& worker, QueuedTet& entry) {
+                 const JudgedBy judged(worker, judge);
+                 return attempts.work_off(worker, entry, since);
+               });
+      if (scope.accepted() == accepted) return;
+    }
+  });
 }
 
 bool is_progress(const QualityIndicators& before, const QualityIndicators& now) {

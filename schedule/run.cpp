@@ -7,6 +7,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "kernel/first_failure.h"
+
 namespace tetmend {
 
 namespace {
@@ -113,8 +115,10 @@ void Run::on_all_threads(const std::function<void(Worker&)>& work) {
   };
   if (trace_ != nullptr) return work_here();
   const int threads = tbb::this_task_arena::max_concurrency();
+  FirstFailure failure;
   tbb::parallel_for(
-      0, threads, [&](int) { work_here(); }, tbb::simple_partitioner());
+      0, threads, [&](int) { failure.guard(work_here); }, tbb::simple_partitioner());
+  failure.rethrow();
 }
 
 void Run::collect_from_workers(PassScope& scope) {
@@ -122,12 +126,15 @@ void Run::collect_from_workers(PassScope& scope) {
     if (!worker) continue;
     worker->workspace().settle(mesh_);
     scope.take_verdicts(*worker);
-    note_added_vertices(*worker);
+  }
+  for (std::unique_ptr<Worker>& worker : workers_) {
+    if (worker) note_added_vertices(*worker);
   }
 }
 
 void Run::note_added_vertices(Worker& worker) {
   std::vector<VertexHandle>& added = worker.workspace().added_vertices();
+  // Whoever is noted twice does no harm.
   for (ShiftedBlocks& blocks : partitions_) {
     if (blocks.partition) blocks.added.insert(blocks.added.end(), added.begin(), added.end());
   }
@@ -160,13 +167,20 @@ PassScope::PassScope(Run& run, std::string_view name)
 }
 
 PassScope::~PassScope() {
+  if (finished_) return;
+  run_.is_measured_ = false;
+  run_.worker_.verdicts = {};
+}
+
+void PassScope::finish() {
   indicators();
   record_.seconds = seconds_since(start_);
-  if (run_.trace() != nullptr) run_.trace()->pass_ends(record_.after);
-  run_.report_done(record_);
-  run_.records.push_back(std::move(record_));
+  const PassRecord& record = run_.records.emplace_back(std::move(record_));
+  finished_ = true;
   run_.is_measured_ = true;
   if (run_.records.size() >= run_.most_passes_) run_.stop();
+  if (run_.trace() != nullptr) run_.trace()->pass_ends(record.after);
+  run_.report_done(record);
 }
 
 PassScope::Scan::~Scan() {

@@ -116,11 +116,14 @@ class Run {
   /// How many partitions there are, with shifted blocks each; 0 for a mesh that is not divided.
   unsigned partition_count() const { return block_count_ > 1 ? kPartitions : 0; }
   Partition& partition(PassScope& scope, unsigned shift);
-  /// Calls `work` on every thread of the arena, with a worker of its own.
+  /// Calls `work` on every thread of the arena, with a worker of its own. The first exception comes
+  /// out when all calls have ended.
   void on_all_threads(const std::function<void(Worker&)>& work);
-  /// Takes over what workers did in their territories. Precondition: none is active.
+  /// Takes over what workers did in their territories. Precondition: none is active. When memory
+  /// runs out, the mesh and the counts are right all the same.
   void collect_from_workers(PassScope& scope);
-  /// New vertices of a worker get a block in every partition before it is used next.
+  /// New vertices of a worker get a block in every partition before it is used next; where memory
+  /// runs out, when the worker is asked again.
   void note_added_vertices(Worker& worker);
   /// Tells the listener, unless another thread is just doing so.
   void report_progress(std::string_view phase, double share);
@@ -160,13 +163,17 @@ class Run {
   friend class PassScope;
 };
 
-/// Times one pass, counts its verdicts, reports progress; adds the record to the run when it ends.
+/// Times one pass, counts its verdicts, reports progress. finish() adds the record to the run; a pass
+/// that an exception ends has none, and its counts are forgotten.
 class PassScope {
  public:
   PassScope(Run& run, std::string_view name);
   ~PassScope();
   PassScope(const PassScope&) = delete;
   PassScope& operator=(const PassScope&) = delete;
+
+  /// Measures the mesh, records the pass and tells the trace and the listener. Nothing may follow.
+  void finish();
 
   /// Times a scan of the whole mesh.
   class Scan {
@@ -203,6 +210,15 @@ class PassScope {
   std::atomic<std::size_t> ticks_ = 0;
   std::size_t expected_ = 0;
   bool measured_ = false;  // record_.after is right
+  bool finished_ = false;
 };
+
+/// Makes a pass of `work(scope)`.
+template <class Work>
+void make_pass(Run& run, std::string_view name, const Work& work) {
+  PassScope scope(run, name);
+  work(scope);
+  scope.finish();
+}
 
 }  // namespace tetmend

@@ -74,22 +74,23 @@ std::vector<VertexHandle> to_handles(const MeshView& view, std::span<const std::
 }  // namespace
 
 void attempt_once(Run& run, const SingleAttempt& options) {
-  PassScope scope(run, "attempt");
-  const TetAttempts attempts(run.registry(), options.what);
-  const MeshView view(run.mesh());
-  const TargetKind kind = attempts.target_kind();
-  const auto place = find_target(run.mesh(), kind, to_handles(view, options.vertices),
-                                 to_handles(view, options.tet));
-  if (!place) {
-    throw Error(fmt::format("attempt: {}: no {} has the vertices {}{}{}", options.what.name(),
-                            to_string(kind), fmt::join(options.vertices, ", "),
-                            options.tet.empty() ? "" : " in a tet of ",
-                            fmt::join(options.tet, ", ")));
-  }
-  scope.expect(1);
-  attempts.attempt_once(run.worker(), place->target, place->tet);
-  scope.take_verdicts(run.worker());
-  run.note_added_vertices(run.worker());
+  make_pass(run, "attempt", [&](PassScope& scope) {
+    const TetAttempts attempts(run.registry(), options.what);
+    const MeshView view(run.mesh());
+    const TargetKind kind = attempts.target_kind();
+    const auto place = find_target(run.mesh(), kind, to_handles(view, options.vertices),
+                                   to_handles(view, options.tet));
+    if (!place) {
+      throw Error(fmt::format("attempt: {}: no {} has the vertices {}{}{}", options.what.name(),
+                              to_string(kind), fmt::join(options.vertices, ", "),
+                              options.tet.empty() ? "" : " in a tet of ",
+                              fmt::join(options.tet, ", ")));
+    }
+    scope.expect(1);
+    attempts.attempt_once(run.worker(), place->target, place->tet);
+    scope.take_verdicts(run.worker());
+    run.note_added_vertices(run.worker());
+  });
 }
 
 }  // namespace tetmend

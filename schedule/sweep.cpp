@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "schedule/sweep.h"
 
-#include <exception>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <numeric>
+
+#include "kernel/first_failure.h"
 
 namespace tetmend {
 
@@ -58,6 +63,24 @@ std::vector<Workspace::FreeSlots> deal_slots(Run& run, std::span<const BlockLoad
   return dealt;
 }
 
+/// What is left of them. When memory runs out, the run does without the rest.
+void take_back(Run& run, std::span<const Workspace::FreeSlots> slots) {
+  Workspace::FreeSlots& all = run.worker().workspace().free_slots();
+  for (const Workspace::FreeSlots& part : slots) {
+    all.tets.insert(all.tets.end(), part.tets.begin(), part.tets.end());
+    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+  }
+}
+
+std::vector<std::size_t> largest_first(std::span<const BlockLoad> loads) {
+  std::vector<std::size_t> order(loads.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+    return loads[x].end - loads[x].begin > loads[y].end - loads[y].begin;
+  });
+  return order;
+}
+
 /// How many tets each load may add, by its share of the items.
 std::vector<std::size_t> share_growth(Run& run, std::span<const BlockLoad> loads) {
   const std::size_t most = run.worker().workspace().most_tets();
@@ -95,19 +118,14 @@ class Stay {
 void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<const BlockLoad> loads,
                 double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work) {
   if (loads.empty()) return;
-  std::vector<Workspace::FreeSlots> slots = deal_slots(run, loads, new_vertices);
   const std::vector<std::size_t> growth = share_growth(run, loads);
-  partition.include(run.mesh(), {});  // slots that were just made have a block, too
+  const std::vector<std::size_t> order = largest_first(loads);
   std::vector<double> seconds(loads.size(), 0);
-  std::vector<std::size_t> largest_first(loads.size());
-  for (std::size_t n = 0; n < loads.size(); ++n) largest_first[n] = n;
-  std::stable_sort(largest_first.begin(), largest_first.end(), [&](std::size_t x, std::size_t y) {
-    return loads[x].end - loads[x].begin > loads[y].end - loads[y].begin;
-  });
+  std::vector<Workspace::FreeSlots> slots = deal_slots(run, loads, new_vertices);
   std::atomic<std::size_t> next = 0;
   const auto work_here = [&](Worker& worker) {
     for (std::size_t k = next++; k < loads.size(); k = next++) {
-      const std::size_t n = largest_first[k];
+      const std::size_t n = order[k];
       const auto start = std::chrono::steady_clock::now();
       {
         const Stay stay(worker, Territory(partition.blocks(), loads[n].block), slots[n], growth[n]);
@@ -116,20 +134,22 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
       seconds[n] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
   };
-  std::exception_ptr failure;  // the mesh is put in order before it goes on
-  try {
-    run.on_all_threads(work_here);
-  } catch (...) {
-    failure = std::current_exception();
-  }
-  Workspace::FreeSlots& all = run.worker().workspace().free_slots();
-  for (const Workspace::FreeSlots& part : slots) {
-    all.tets.insert(all.tets.end(), part.tets.begin(), part.tets.end());
-    all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
-  }
-  run.collect_from_workers(scope);
+  FirstFailure failure;  // the mesh is put in order before it goes on
+  failure.guard([&] {
+    partition.include(run.mesh(), {});  // slots that were just made have a block, too
+    run.on_all_threads([&](Worker& worker) {
+      try {
+        work_here(worker);
+      } catch (...) {
+        next = loads.size();  // for the others to stop
+        throw;
+      }
+    });
+  });
+  failure.guard([&] { run.collect_from_workers(scope); });
+  failure.guard([&] { take_back(run, slots); });
+  failure.rethrow();
   scope.note_blocks(seconds);
-  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace tetmend

@@ -22,8 +22,8 @@ struct BlockLoad {
 
 /// Runs `work` for each load in the territory of its block, the largest first, on the threads of
 /// the current arena. Free slots are dealt out by the size of the loads, `new_vertices` for each
-/// item. Nothing depends on the number of threads. If `work` throws, the mesh is in order before
-/// the first exception goes on.
+/// item. Nothing depends on the number of threads. If `work` throws, or memory runs out, the mesh is
+/// in order before the first exception goes on.
 void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<const BlockLoad> loads,
                 double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work);
 

@@ -134,6 +134,18 @@ void TraceRecorder::finish() {
   file_.finish();
 }
 
+/// What is half written when memory runs out is never read.
+template <class Write>
+void TraceRecorder::record(const Write& write) noexcept {
+  if (!active_) return;
+  try {
+    write();
+  } catch (...) {
+    active_ = false;
+    trouble_ = "out of memory";  // short enough to need none
+  }
+}
+
 /// An event that stays, other than an edit.
 void TraceRecorder::wrote_event() {
   ++events_;
@@ -141,15 +153,17 @@ void TraceRecorder::wrote_event() {
 }
 
 void TraceRecorder::pass_begins(std::string_view name, unsigned round) {
-  if (!active_) return;
-  encoder_.pass_begins(name, round, ticks());
-  wrote_event();
+  record([&] {
+    encoder_.pass_begins(name, round, ticks());
+    wrote_event();
+  });
 }
 
 void TraceRecorder::pass_ends(const QualityIndicators& now) {
-  if (!active_) return;
-  encoder_.pass_ends(now, ticks());
-  wrote_event();
+  record([&] {
+    encoder_.pass_ends(now, ticks());
+    wrote_event();
+  });
 }
 
 /// Written when the first attempt in it is.
@@ -158,17 +172,19 @@ void TraceRecorder::visit_begins(const TetVertices& tet, Quality quality) {
 }
 
 void TraceRecorder::visit_ends() {
-  if (active_ && visit_ && visit_->written) {
+  record([&] {
+    if (!visit_ || !visit_->written) return;
     encoder_.visit_ends(ticks());
     wrote_event();
-  }
+  });
   visit_.reset();
 }
 
 void TraceRecorder::standard_changed(const Standard& standard) {
-  if (!active_) return;
-  encoder_.standard_changes(standard, ticks());
-  wrote_event();
+  record([&] {
+    encoder_.standard_changes(standard, ticks());
+    wrote_event();
+  });
 }
 
 bool TraceRecorder::is_near(const AttemptEvent& event) const {
@@ -185,7 +201,10 @@ bool TraceRecorder::is_wanted(std::string_view operator_name) const {
 }
 
 void TraceRecorder::attempt_begins(const AttemptEvent& event) {
-  if (!active_) return;
+  record([&] { begin_attempt(event); });
+}
+
+void TraceRecorder::begin_attempt(const AttemptEvent& event) {
   const bool near = is_near(event);
   const bool inside =
       (!open_.empty() && open_.back().inside) || (near && is_wanted(event.operator_name));
@@ -204,34 +223,41 @@ void TraceRecorder::attempt_begins(const AttemptEvent& event) {
 }
 
 void TraceRecorder::candidate_found() {
-  if (!active_ || !is_written()) return;
-  encoder_.candidate_found();
-  wrote_event();
+  record([&] {
+    if (!is_written()) return;
+    encoder_.candidate_found();
+    wrote_event();
+  });
 }
 
 void TraceRecorder::attempt_ends(Verdict verdict, std::span<const Quality> before,
                                  std::span<const Quality> now) {
-  if (!active_) return;
-  if (is_written()) {
-    encoder_.attempt_ends(verdict, before, now, ticks());
-    wrote_event();
-  }
-  open_.pop_back();
-  if (!open_.empty()) return;
-  edits_.clear();
-  if (encoder_.size() >= kChunkBytes) write_chunk();
+  record([&] {
+    if (is_written()) {
+      encoder_.attempt_ends(verdict, before, now, ticks());
+      wrote_event();
+    }
+    open_.pop_back();
+    if (!open_.empty()) return;
+    edits_.clear();
+    if (encoder_.size() >= kChunkBytes) write_chunk();
+  });
 }
 
-void TraceRecorder::edit_made(const TetMesh& mesh, const Journal& journal) {
-  if (!active_) return;
-  edits_.push_back(encoder_.size());
-  encoder_.edit(mesh, journal);
-  ++events_;
+void TraceRecorder::edit_made(const TetMesh& mesh, const Journal& journal) noexcept {
+  record([&] {
+    edits_.push_back(encoder_.size());
+    encoder_.edit(mesh, journal);
+    ++events_;
+  });
+}
+
+void TraceRecorder::edit_undone() noexcept {
+  record([&] { take_back_edit(); });
 }
 
 /// In an attempt that is not written nothing is known of edits that were undone.
-void TraceRecorder::edit_undone() {
-  if (!active_) return;
+void TraceRecorder::take_back_edit() {
   assert(!edits_.empty());  // an edit is undone in the outermost attempt that it was made in
   const std::size_t begin = edits_.back();
   edits_.pop_back();

@@ -63,7 +63,8 @@ enum class TraceEnd : std::uint8_t { complete, limit_reached };
 
 /// A file that is being written is FILE.part, and can be read up to the last chunk; finish() gives
 /// it its name, and a crash leaves it. Cost: linear in the mesh at the beginning, about 100 bytes in memory and 10 in the
-/// file for each attempt. Trouble with the file ends the trace, not the run: finish() reports it.
+/// file for each attempt. Trouble with the file, or too little memory, ends the trace, not the run:
+/// finish() reports it.
 class TraceRecorder final : public TraceSink {
  public:
   /// @throws Error when the file cannot be written.
@@ -92,8 +93,8 @@ class TraceRecorder final : public TraceSink {
   void candidate_found() override;
   void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override;
-  void edit_made(const TetMesh& mesh, const Journal& journal) override;
-  void edit_undone() override;
+  void edit_made(const TetMesh& mesh, const Journal& journal) noexcept override;
+  void edit_undone() noexcept override;
 
  private:
   struct Open {
@@ -107,11 +108,15 @@ class TraceRecorder final : public TraceSink {
     bool written;
   };
 
+  template <class Write>
+  void record(const Write& write) noexcept;
   std::uint64_t ticks() const;
   bool is_near(const AttemptEvent& event) const;
   bool is_wanted(std::string_view operator_name) const;
   bool is_written() const { return !open_.empty() && open_.back().written; }
   void wrote_event();
+  void begin_attempt(const AttemptEvent& event);
+  void take_back_edit();
   void write_chunk();
   void write_frame(char kind, std::span<const std::byte> content);
   void write_end(TraceEnd end);

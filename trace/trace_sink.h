@@ -53,8 +53,8 @@ class TETMEND_API TraceSink : public EditListener {
   /// Between two passes: from now on tets are judged by another standard.
   virtual void standard_changed(const Standard& /*standard*/) {}
 
-  void edit_made(const TetMesh& /*mesh*/, const Journal& /*journal*/) override {}
-  void edit_undone() override {}
+  void edit_made(const TetMesh& /*mesh*/, const Journal& /*journal*/) noexcept override {}
+  void edit_undone() noexcept override {}
 };
 
 }  // namespace tetmend

@@ -356,6 +356,7 @@ void attempt_without(Run& run, std::uint32_t foreign) {
   worker.workspace().leave(slots);
   worker.workspace().settle(run.mesh());
   scope.take_verdicts(worker);
+  scope.finish();
 }
 
 std::vector<Recipe> recipes() {

@@ -207,10 +207,11 @@ struct Result {
 ///
 /// When the schedule fails half-way (a mistake in a script, an exception of a plugin or of
 /// Options::progress), the mesh is sound and improved so far. When the mesh or an option is wrong,
-/// the mesh is as before. When memory runs out, the mesh may be empty.
+/// the mesh is as before. When memory runs out, the mesh is one or the other.
 /// @throws OptionError for an option without sense; Error for a file that cannot be read, a script
 /// or a plugin with a mistake, and a mesh as measure() says. The message has the place: the line of
 /// the script, the line or byte of the mesh file, the number of the tet (from 0) in the arrays.
+/// std::bad_alloc when memory runs out.
 TETMEND_API Result improve(Mesh& mesh, const Options& options = {});
 
 /// Finds what is wrong with the options as far as can be told without a mesh. Loads the plugins.

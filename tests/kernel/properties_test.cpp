@@ -51,18 +51,18 @@ TEST_CASE("a flag property hands out references like any other") {
   CHECK(table.at(flag, TetHandle(2)));
 }
 
-TEST_CASE("saved values come back after a reset") {
+TEST_CASE("an entity begins anew with the default values, and saved ones come back") {
   PropertyTable<TetHandle> table;
   table.resize(2);
   const auto number = table.add<int>("number", 7);
   const auto name = table.add<std::string>("name", "none");
   table.at(number, TetHandle(0)) = 8;
   table.at(name, TetHandle(0)) = "eight";
-  const auto saved = table.save(TetHandle(0));
-  table.reset(TetHandle(0));
+  auto saved = table.save(TetHandle(0));
+  table.restore(TetHandle(0), table.initial());
   CHECK(table.at(number, TetHandle(0)) == 7);
   CHECK(table.at(name, TetHandle(0)) == "none");
-  table.restore(TetHandle(0), saved);
+  table.restore(TetHandle(0), std::move(saved));
   CHECK(table.at(number, TetHandle(0)) == 8);
   CHECK(table.at(name, TetHandle(0)) == "eight");
 }

@@ -82,6 +82,7 @@ TEST_CASE("each item is tried once, in ascending order inside a block, and again
           }
           return item.vertex.index() % 10 != 0 || !first;  // every tenth is deferred once
         });
+        scope.finish();
       }
       CHECK(ordered);
       CHECK(tries.size() == mesh.vertex_count());

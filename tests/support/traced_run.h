@@ -62,7 +62,7 @@ class Witness final : public TraceSink {
     recorder_.attempt_ends(verdict, before, now);
     look();
   }
-  void edit_made(const TetMesh& mesh, const Journal& journal) override {
+  void edit_made(const TetMesh& mesh, const Journal& journal) noexcept override {
     // Vertices that move together are all in place when the first of them is told of: the states
     // between were never there.
     const bool is_move = journal.edits.back().kind == Edit::Kind::move_vertex;
@@ -71,7 +71,7 @@ class Witness final : public TraceSink {
     look();
     if (is_move) last_move_ = last_;
   }
-  void edit_undone() override {
+  void edit_undone() noexcept override {
     recorder_.edit_undone();
     look();
   }

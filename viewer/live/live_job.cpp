@@ -241,11 +241,11 @@ void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
   come_to(Event::accepted_call);
 }
 
-void LiveJob::edit_made(const TetMesh& mesh, const Journal& journal) {
+void LiveJob::edit_made(const TetMesh& mesh, const Journal& journal) noexcept {
   if (recorder_) recorder_->edit_made(mesh, journal);
 }
 
-void LiveJob::edit_undone() {
+void LiveJob::edit_undone() noexcept {
   if (recorder_) recorder_->edit_undone();
 }
 

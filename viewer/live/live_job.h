@@ -86,8 +86,8 @@ class LiveJob final : private TraceSink, private ProgressListener {
   void candidate_found() override;
   void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override;
-  void edit_made(const TetMesh& mesh, const Journal& journal) override;
-  void edit_undone() override;
+  void edit_made(const TetMesh& mesh, const Journal& journal) noexcept override;
+  void edit_undone() noexcept override;
   void progress(std::string_view phase, unsigned round, double share) override;
   void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) override;
   void noted(std::string_view text) override;
