@@ -2,15 +2,20 @@
 #include "tests/faults/fault_trial.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <new>
 #include <optional>
+#include <thread>
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <tetmend/improve.h>
 
 #include "contract/zoo.h"
@@ -90,6 +95,37 @@ bool equal(const PassRecord& x, const PassRecord& y) {
          x.after.q_aver == y.after.q_aver;
 }
 
+/// The threads of the arena are awake when it returns, so that short runs have them.
+void wake_threads() {
+  constexpr std::chrono::milliseconds kPatience(20);
+  std::atomic<int> awake = 0;
+  tbb::parallel_for(
+      0, tbb::this_task_arena::max_concurrency(),
+      [&](int) {
+        const auto start = std::chrono::steady_clock::now();
+        ++awake;
+        while (awake < tbb::this_task_arena::max_concurrency() &&
+               std::chrono::steady_clock::now() - start < kPatience) {
+          std::this_thread::yield();
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+/// Sees whether more than one thread works.
+class Threads final : public ProgressListener {
+ public:
+  bool more_than_one() const { return more_; }
+  void progress(std::string_view, unsigned, double) override {
+    if (std::this_thread::get_id() != first_) more_ = true;
+  }
+  void pass_done(std::string_view, unsigned, const QualityIndicators&) override {}
+
+ private:
+  std::thread::id first_ = std::this_thread::get_id();
+  bool more_ = false;
+};
+
 /// What a call throws but std::bad_alloc is a finding.
 template <class Call>
 bool returns(const Call& call, FaultOutcome& outcome) {
@@ -108,6 +144,8 @@ bool returns(const Call& call, FaultOutcome& outcome) {
 MeshData fault_mesh(const std::string& name) {
   if (name == "tangled") return contract::kuhn_cube(5, 0.6, 10);
   if (name == "lattice") return contract::kuhn_cube(5, 0.33, 3);
+  if (name == "large_tangled") return contract::kuhn_cube(9, 0.6, 10);
+  if (name == "large_lattice") return contract::kuhn_cube(9, 0.33, 3);
   return read_mesh(name);
 }
 
@@ -231,18 +269,22 @@ FaultOutcome FaultTrial::run_schedule(long n) {
   bool complete = false;
   on_threads(form_ == Form::threads ? 2 : 1, [&] {
     std::optional<Run> run;
+    Threads threads;
+    wake_threads();
     {
       const FailingMemory memory(n);
       complete = returns(
           [&] {
             run.emplace(mesh, registry_);
             set_up(*run);
+            run->set_listener(&threads);
             if (recorder) run->set_trace(&witness);
             improve(*run, schedule_);
           },
           outcome);
       outcome.failed = memory.has_failed();
     }
+    outcome.on_two_threads = threads.more_than_one();
     if (run) check_passes(*run, outcome);
   });
   check_mesh(mesh, outcome);

@@ -31,12 +31,14 @@ enum class Form : std::uint8_t {
 inline constexpr std::array<std::string_view, 5> kFormNames = {"plain", "divided", "threads",
                                                                "recorded", "face"};
 
-/// "tangled" or "lattice", small cubes; else the name of a file.
+/// "tangled" or "lattice", small cubes, or "large_tangled" or "large_lattice", on which two threads
+/// find work; else the name of a file.
 MeshData fault_mesh(const std::string& name);
 
 /// What came of a run.
 struct FaultOutcome {
   bool failed = false;                ///< there were as many allocations
+  bool on_two_threads = false;        ///< a second one came in time
   std::vector<std::string> findings;  ///< what is wrong
 };
 

@@ -36,11 +36,13 @@ bool try_all(long first, long last, long step, const std::string& schedule, cons
   FaultTrial trial(fault_mesh(mesh), schedule, form);
   long tried = 0;
   long reached = 0;
+  long on_two_threads = 0;
   std::size_t found = 0;
   for (long n = first; n <= last; n += step) {
     number_at_work = n;
     const FaultOutcome outcome = trial.run(n);
     ++tried;
+    on_two_threads += outcome.on_two_threads ? 1 : 0;
     for (const std::string& finding : outcome.findings) {
       if (++found <= kMostShown) fmt::print("{}: n = {}: {}\n", at_work, n, finding);
     }
@@ -48,9 +50,9 @@ bool try_all(long first, long last, long step, const std::string& schedule, cons
     reached = n;
   }
   fmt::print(
-      "{}: {} runs, {} attempts kept in a whole one; the last allocation that failed was "
-      "number {}; {} findings\n",
-      at_work, tried, trial.kept(), reached, found);
+      "{}: {} runs, {} with two threads; {} attempts kept in a whole one; the last allocation that "
+      "failed was number {}; {} findings\n",
+      at_work, tried, on_two_threads, trial.kept(), reached, found);
   std::fflush(stdout);
   return found == 0;
 }

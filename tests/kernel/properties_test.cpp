@@ -5,8 +5,26 @@
 #include <doctest/doctest.h>
 
 #include "kernel/handles.h"
+#include "tests/support/costly.h"
 
 using namespace tetmend;
+using tetmend::test::Costly;
+
+TEST_CASE("a table that cannot grow for lack of memory keeps its size") {
+  PropertyTable<TetHandle> table;
+  table.resize(2);
+  const auto number = table.add<int>("number", 7);
+  table.add<Costly>("costly", Costly());
+  for (const int copies : {0, 1, 3}) {
+    Costly::copies_left = copies;
+    CHECK_THROWS_AS(table.resize(6), std::bad_alloc);
+  }
+  Costly::copies_left = Costly::kPlenty;
+  table.at(number, TetHandle(1)) = 8;
+  table.resize(3);
+  CHECK(table.at(number, TetHandle(1)) == 8);
+  CHECK(table.at(number, TetHandle(2)) == 7);
+}
 
 TEST_CASE("a new property has its default value everywhere, also in slots that come later") {
   PropertyTable<TetHandle> table;

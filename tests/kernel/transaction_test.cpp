@@ -15,6 +15,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "kernel/surface.h"
+#include "tests/support/costly.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -850,4 +851,41 @@ TEST_CASE("new tets and vertices start with default properties, and undo brings 
   CHECK(mesh.vertex_properties().at(weight, m) == 3);
   tx.undo();
   CHECK(mesh.tet_properties().at(colour, t) == "from the file 7");
+}
+
+TEST_CASE("an edit for whose properties memory runs out has changed nothing") {
+  TetMesh mesh(zoo_data("ball_20"));
+  add_properties(mesh);
+  const auto colour = mesh.tet_properties().find<std::string>("colour");
+  const auto tets = mesh.tet_properties().add<Costly>("costly", Costly(1));
+  const auto vertices = mesh.vertex_properties().add<Costly>("costly", Costly(2));
+  mesh.tet_properties().at(tets, TetHandle(7)) = Costly(7);
+  const TetMesh before = mesh;
+  Workspace workspace(mesh);
+  const TetHandle t(7);
+  const TetVertices whole = mesh.vertices(t);
+  int copies = 0;
+  for (bool made = false; !made; ++copies) {
+    {
+      Transaction tx(mesh, workspace);
+      Costly::copies_left = copies;
+      try {
+        const VertexHandle m = tx.add_vertex(middle(mesh, whole));
+        REQUIRE(replace(tx, split_tet(mesh, t, m)) == EditResult::made);
+        const std::vector<TetHandle> four(tx.created().begin(), tx.created().end());
+        made = tx.replace_cavity(four, {&whole, 1}) == EditResult::made;
+      } catch (const std::bad_alloc&) {
+      }
+      Costly::copies_left = Costly::kPlenty;
+    }
+    CHECK(mesh == before);
+    for (const TetHandle u : live_tets(mesh)) {
+      CHECK(mesh.tet_properties().at(tets, u).value == (u == t ? 7 : 1));
+      CHECK(mesh.tet_properties().at(colour, u) == before.tet_properties().at(colour, u));
+    }
+    for (const VertexHandle v : live_vertices(mesh)) {
+      CHECK(mesh.vertex_properties().at(vertices, v).value == 2);
+    }
+  }
+  CHECK(copies > 15);
 }

@@ -2,6 +2,7 @@
 // The box around the interpreter: what scripts cannot reach, and how they are stopped.
 #include "schedule/lua_state.h"
 
+#include <new>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,26 @@ Spoken run(const std::string& text, LuaState::Limits limits = {}) {
 }
 
 }  // namespace
+
+TEST_CASE("an interpreter that lacks memory throws, wherever it runs out") {
+  bool made = false;
+  std::size_t tries = 0;
+  for (std::size_t memory = 0; !made; memory += 256, ++tries) {
+    try {
+      LuaState lua({.memory = memory});
+      lua.add_word("word", [](lua_State*) { return 0; });
+      made = true;
+    } catch (const std::bad_alloc&) {
+    }
+  }
+  CHECK(tries > 20);
+}
+
+TEST_CASE("a word that lacks memory ends the script") {
+  LuaState lua;
+  lua.add_word("fill", [](lua_State*) -> int { throw std::bad_alloc(); });
+  CHECK_THROWS_AS(lua.run("fill()", "test.lua"), std::bad_alloc);
+}
 
 TEST_CASE("a script computes, loops and calls words") {
   CHECK(run("local s = 0 for i = 1, 4 do s = s + i end say(s, math.max(3, 7))").said == "10 7 ");

@@ -149,6 +149,7 @@ TEST_CASE("when work on a block throws, the mesh is in order and the run can go 
                                  }),
                         Error);
       }
+      CHECK(run.records.empty());
       CHECK(accepted >= 10);
       CHECK(mesh.vertex_count() == live_vertices(mesh).size());
       CHECK(mesh.tet_count() == live_tets(mesh).size());
