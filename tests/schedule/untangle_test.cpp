@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The pass that untangles: what it repairs, and what it must not touch.
+#include <algorithm>
 #include <atomic>
-#include <set>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,11 @@
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
 #include "schedule/passes.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/support/threads.h"
-#include "tests/support/zoo.h"
+#include "tests/support/traced_run.h"
+#include "trace/replay.h"
+#include "trace/trace_file.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -181,4 +185,52 @@ TEST_CASE("a tangle that nothing helps is left as it was") {
   CHECK(count_not_positive(mesh) <= count_not_positive(before));
   check_kept(before, mesh);
   if (run.records.at(0).accepted() == 0) CHECK(mesh == before);
+}
+
+TEST_CASE("a trace has each tangle as one call, and its replay is exact") {
+  const TempFolder folder;
+  TetMesh mesh(kuhn_cube(7, 1.8, 1));
+  const TetMesh before = mesh;
+  record(mesh, folder / "trace", {}, {}, Schedule("untangle", "untangle{}"));
+  REQUIRE(count_not_positive(mesh) == 0);
+  const TraceFile file(folder / "trace");
+  CHECK(file.damage().empty());
+  REQUIRE(file.calls().size() == 1);
+  const Call& call = file.calls()[0];
+  CHECK(file.name(call.operator_name) == kUntanglingName);
+  CHECK(call.verdict == Verdict::accepted);
+  CHECK(call.worst_before < 0);
+  CHECK(call.worst_after > 0);
+  Replay replay(file, 0);
+  CHECK(replay.mesh().fingerprint() == SlotMesh(before).fingerprint());
+  replay.seek(file.event_count());
+  CHECK(replay.mesh().fingerprint() == SlotMesh(mesh).fingerprint());
+  replay.seek(0);
+  CHECK(replay.mesh().fingerprint() == SlotMesh(before).fingerprint());
+}
+
+TEST_CASE("a script reads what untangling did, and bounds where it is done") {
+  const auto notes = [](const MeshData& data, const std::string& script) {
+    TetMesh mesh(data);
+    Run run(mesh, kRegistry);
+    improve(run, Schedule("test", script));
+    return run.notes.back();
+  };
+  const MeshData cube = kuhn_cube(7, 1.8, 1);
+  CHECK(notes(cube, "log(untangle{})") == "1 1");
+  CHECK(notes(cube, "log(untangle{share = 0.9})") == "0 0");
+  CHECK(notes(cube, "log(untangle{at_least = 10000})") == "0 0");
+  CHECK(notes(cube, "smooth{} log(untangle{share = 0.9})") == "0 0");
+}
+
+TEST_CASE("every schedule but that of a table of the paper mends a tangled mesh") {
+  for (const std::string name : {"shell", "conservative", "stellar", "grummp", "polish"}) {
+    CAPTURE(name);
+    TetMesh mesh(kuhn_cube(7, 1.8, 1));
+    Run run(mesh, kRegistry);
+    improve(run, Schedule::builtin(name));
+    CHECK(count_not_positive(mesh) == 0);
+    CHECK(run.records.at(0).name == "untangle");
+    CHECK(static_cast<double>(mesh.tet_count()) < 1.1 * 6 * 343);
+  }
 }
