@@ -102,7 +102,6 @@ void Untangler::State::include(const State& other) {
   cost += other.cost;
   least = std::min(least, other.least);
   inverted += other.inverted;
-  all_inverted += other.all_inverted;
 }
 
 Untangler::Untangler(TangledPatch patch)
@@ -192,13 +191,7 @@ void Untangler::look() {
       const Tet& tet = tets_[t];
       const std::array<Point, 4> p = corners(tet);
       const TangledTet tangled(p, tet.size);
-      const bool is_inverted = !(tangled.volume() > 0);
-      sum.all_inverted += is_inverted ? 1 : 0;
-      if (!tet.counts) {
-        parts_[t].fill(Point::Zero());
-        continue;
-      }
-      sum.inverted += is_inverted ? 1 : 0;
+      sum.inverted += tangled.volume() > 0 ? 0 : 1;
       sum.least = std::min(sum.least, tangled.volume());
       sum.cost += tangled.cost(softness_);
       tangled.gradient(softness_, parts_[t]);
@@ -285,8 +278,8 @@ void Untangler::remember() {
 }
 
 void Untangler::keep_best() {
-  if (state_.all_inverted > best_inverted_) return;
-  best_inverted_ = state_.all_inverted;
+  if (state_.inverted > best_inverted_) return;
+  best_inverted_ = state_.inverted;
   best_.assign(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(free_count_));
 }
 
@@ -320,7 +313,7 @@ std::size_t Untangler::untangle(const Limits& limits, const std::function<bool()
   constexpr double kHardening = 0.3;
   constexpr unsigned kPatience = 5;
   look();
-  best_inverted_ = state_.all_inverted;
+  best_inverted_ = state_.inverted;
   keep_best();
   softness_ = std::max(kHardest, -0.2 * state_.least);
   unsigned in_vain = 0;
@@ -332,11 +325,7 @@ std::size_t Untangler::untangle(const Limits& limits, const std::function<bool()
     keep_best();
     if (!goes_on || (state_.inverted == 0 && softness_ <= kHardest)) break;
     in_vain = best_inverted_ < fewest || state_.inverted == 0 ? 0 : in_vain + 1;
-    if (in_vain == kPatience) {
-      give_up();
-      in_vain = 0;
-      continue;
-    }
+    if (in_vain == kPatience) break;
     // Less than [garanzha] allows takes too long where one tet was turned over by far.
     const double fall = std::max(1 - state_.cost / before, 0.1);
     const double target = (1 - fall) * Softened(state_.least, softness_).value;
@@ -346,12 +335,6 @@ std::size_t Untangler::untangle(const Limits& limits, const std::function<bool()
   }
   std::copy(best_.begin(), best_.end(), points_.begin());
   return best_inverted_;
-}
-
-/// The tets that are inverted now cost nothing any more; what was given up before and is positive
-/// now counts again.
-void Untangler::give_up() {
-  for (Tet& tet : tets_) tet.counts = TangledTet(corners(tet), tet.size).volume() > 0;
 }
 
 }  // namespace tetmend

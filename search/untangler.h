@@ -59,10 +59,11 @@ class Untangler {
 
   explicit Untangler(TangledPatch patch);
 
-  /// Moves the free vertices; they end where fewest tets were inverted. Tets that resist are given
-  /// up after a while, so that they do not hold back the others. Uses the threads of the caller's
-  /// oneTBB arena; their number cannot show in the result. Cost: some hundred looks at all tets.
-  /// @param proceed asked at each look; false ends the search
+  /// Moves the free vertices; they end where fewest tets were inverted. Ends when all are positive
+  /// and hardly any softness is left, or when several values of it brought nothing. Uses the threads
+  /// of the caller's oneTBB arena; their number cannot show in the result. Cost: some dozen looks at
+  /// all tets, some hundred where not all can become positive.
+  /// @param proceed asked at each direction; false ends the search
   /// @returns the number of tets whose volume is not positive
   std::size_t untangle(const Limits& limits, const std::function<bool()>& proceed);
 
@@ -75,14 +76,12 @@ class Untangler {
   struct Tet {
     std::array<std::uint32_t, 4> corners;
     double size = 1;
-    bool counts = true;
   };
   /// What a patch costs and has.
   struct State {
     double cost = 0;
-    double least = 0;          // volume of a tet that counts
-    std::size_t inverted = 0;  // of these
-    std::size_t all_inverted = 0;
+    double least = 0;  // volume of a tet
+    std::size_t inverted = 0;
     void include(const State& other);
   };
   /// One step of the past: way and change of the gradient, and their product.
@@ -103,7 +102,6 @@ class Untangler {
   bool search_line(double slope);
   void remember();
   void keep_best();
-  void give_up();
 
   std::vector<Point> points_;
   std::size_t free_count_;
