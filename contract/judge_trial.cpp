@@ -150,6 +150,14 @@ std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
          return n.qualities.empty() ||
                 n.qualities[0] >= kShare * std::max(0.f, b.qualities[0]) - 2 * kQualityTolerance;
        }}};
+  all.push_back({"untangles", Judge::untangles(), [](const Side& b, const Side& n) {
+                   const auto count_not_positive = [](const Side& side) {
+                     return std::count_if(side.qualities.begin(), side.qualities.end(),
+                                          [](Quality q) { return q <= 0; });
+                   };
+                   return count_not_positive(n) < count_not_positive(b) &&
+                          count_bad(n) <= count_bad(b);
+                 }});
   all.push_back(lowers_angle(mesh, t));
   for (const double usual : {0.0, 0.7}) {
     all.push_back({fmt::format("raises_mean, usual {}", usual), Judge::raises_mean(usual),

@@ -11,10 +11,12 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "face/grouped.h"
 #include "kernel/chunks.h"
 #include "kernel/stretching.h"
+#include "schedule/limit/inverted_tets.h"
 
 namespace tetmend::face {
 
@@ -147,6 +149,22 @@ std::string advice_on_frozen(const Options& options, const Result& result, std::
                                        : "smaller regions");
 }
 
+/// How many tets are inverted or flat, and why. A tet with a free vertex that sees all of its link
+/// from somewhere could be mended alone, but for what it would do to others.
+std::string reasons_of_inverted(const InvertedTets& count) {
+  std::vector<std::string> reasons;
+  const auto add = [&](std::size_t number, std::string_view reason) {
+    if (number > 0) reasons.push_back(fmt::format("{} {}", grouped(number), reason));
+  };
+  add(count.frozen, "kept as wished");
+  add(count.fixed, "with fixed vertices only");
+  add(count.sealed, "whose free vertices, one by one, have no place that mends all tets there");
+  add(count.open, "that the search has not mended, though one vertex has a place");
+  return fmt::format("{} left: {}",
+                     counted(count.all(), "inverted or flat tet is", "inverted or flat tets are"),
+                     fmt::join(reasons, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result) {
@@ -172,6 +190,9 @@ std::vector<std::string> advice_after(const TetMesh& mesh, const Options& option
   const Held held = count_held(mesh, faces);
   const auto binds = [&](std::size_t count) { return count > 0 && 10 * count >= held.bad; };
   std::vector<std::string> texts;
+  if (const InvertedTets inverted = count_inverted(mesh); inverted.all() > 0) {
+    texts.push_back(reasons_of_inverted(inverted));
+  }
   if (binds(held.by_named)) {
     const bool only_faces = faces.named > 0;
     texts.push_back(fmt::format(

@@ -16,8 +16,8 @@ namespace tetmend::face {
 /// bad, else linear.
 std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result);
 
-/// Says which constraints hold a tenth or more of the bad tets that are left, and what would free
-/// them. A constraint holds a tet if a face or an edge of the tet is one, or if it alone fixes one
+/// Says how many tets are inverted or flat and why; which constraints hold a tenth or more of the
+/// bad tets that are left, and what would free them. A constraint holds a tet if a face or an edge of the tet is one, or if it alone fixes one
 /// of its vertices. Cost: linear, little where no constraints are inside.
 std::vector<std::string> advice_after(const TetMesh& mesh, const Options& options,
                                       const Result& result);

@@ -91,9 +91,11 @@ bool keeps_curved(const Transaction& transaction) {
 }
 
 /// Whatever the promise is.
-bool keeps_limits(const Transaction& transaction, const Comparison& qualities) {
+bool keeps_limits(const Transaction& transaction, const Comparison& qualities, Judge::Kind kind) {
+  // The edges of a tangled mesh are too long to be held to.
+  const bool may_have_any_length = kind == Judge::Kind::untangles;
   return keeps_bounds(transaction, qualities) && !transaction.has_too_many_tets() &&
-         keeps_lengths(transaction) && keeps_curved(transaction);
+         (may_have_any_length || keeps_lengths(transaction)) && keeps_curved(transaction);
 }
 
 double largest_angle_sine(const Transaction& transaction) {
@@ -203,6 +205,8 @@ std::string_view Judge::promise() const {
     case Kind::raises_mean:
       return "the mean ratios, each less a usual one, have a larger sum, and no bad tet is new or "
              "worse";
+    case Kind::untangles:
+      return "fewer tets are inverted or flat, and no more are bad";
     case Kind::opening:
       return "the worst tet keeps a share of the quality that the worst had";
   }
@@ -219,6 +223,7 @@ double Judge::floor(double worst, double least_gain) const {
     case Kind::raises_mean:
       return std::min(worst, static_cast<double>(kBadThreshold));
     case Kind::lowers_angle:
+    case Kind::untangles:
       return worst;
     case Kind::opening:
       return bound_ * std::max(worst, 0.0);
@@ -244,7 +249,7 @@ bool Judge::accepts(const Change& change) const {
   if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
   if (kind_ == Kind::raises_mean) aim.gain = gain_of_means(change.transaction, bound_);
   return holds_for(change.qualities, aim) &&
-         (kind_ == Kind::opening || keeps_limits(change.transaction, change.qualities));
+         (kind_ == Kind::opening || keeps_limits(change.transaction, change.qualities, kind_));
 }
 
 bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
@@ -260,6 +265,8 @@ bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
       return lowers_angle(qualities, aim.sine);
     case Kind::raises_mean:
       return aim.gain > kQualityTolerance && spares_bad(qualities);
+    case Kind::untangles:
+      return untangles(qualities);
     case Kind::opening:
       return keeps_share(qualities);
   }
@@ -316,6 +323,14 @@ bool Judge::spares_bad(Comparison& qualities) const {
   return count_bad(now) <= bad && static_cast<std::size_t>(bad) <= now.size() &&
          std::equal(before.begin(), before.begin() + bad, now.begin(),
                     [](Quality was, Quality is) { return is > was - kQualityTolerance; });
+}
+
+bool Judge::untangles(Comparison& qualities) {
+  const auto count_not_positive = [](std::span<const Quality> ascending) {
+    return std::upper_bound(ascending.begin(), ascending.end(), Quality{0}) - ascending.begin();
+  };
+  return count_not_positive(qualities.now()) < count_not_positive(qualities.before()) &&
+         count_more_bad(qualities) <= 0;
 }
 
 bool Judge::lowers_angle(Comparison& qualities, double sine) const {

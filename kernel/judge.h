@@ -94,7 +94,15 @@ struct TETMEND_API Fairness {
 /// few words; immutable.
 class TETMEND_API Judge {
  public:
-  enum class Kind : std::uint8_t { strict, fair, reaches, lowers_angle, raises_mean, opening };
+  enum class Kind : std::uint8_t {
+    strict,
+    fair,
+    reaches,
+    lowers_angle,
+    raises_mean,
+    opening,
+    untangles
+  };
 
   /// The quality vector of what changed is better. Where the standard has a price, more bad tets
   /// are paid for: the worst tet gains the price of each.
@@ -113,6 +121,8 @@ class TETMEND_API Judge {
   /// The mean ratios of what changed, each less `usual`, have a larger sum, and no bad tet is new or
   /// worse. With the mean over the mesh for `usual`, that mean rises, whatever the number of tets.
   static Judge raises_mean(double usual);
+  /// Fewer tets are inverted or flat, and no more are bad. New edges may have any length.
+  static Judge untangles() { return Judge(Kind::untangles); }
   /// The worst tet keeps a share of the quality that the worst had: whoever asks for this judges
   /// the whole of what follows.
   static Judge opening(double share = 0.2);
@@ -152,6 +162,7 @@ class TETMEND_API Judge {
   bool pays(Comparison& qualities) const;
   bool keeps_share(const Comparison& qualities) const;
   bool spares_bad(Comparison& qualities) const;
+  static bool untangles(Comparison& qualities);
   bool lowers_angle(Comparison& qualities, double sine) const;
   double lack(std::span<const Quality> qualities) const;
 

@@ -13,6 +13,7 @@
 #include <cassert>
 #include <utility>
 
+#include "kernel/exact_orientation.h"
 #include "kernel/star.h"
 
 namespace tetmend {
@@ -492,6 +493,54 @@ EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
 
 EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
   assert(!kept_);
+  if (place(moves) == EditResult::constrained) return EditResult::constrained;
+  evaluate(moves);
+  if (turns_over(moves)) {
+    put_back(moves);
+    return EditResult::inverted;
+  }
+  std::size_t evaluated = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    note_move(moves[i], workspace_.moved_points_[i], evaluated);
+    evaluated += moves[i].link.size();
+  }
+  return EditResult::made;
+}
+
+EditResult Transaction::rearrange_vertices(std::span<const VertexMove> moves) {
+  assert(!kept_);
+  const auto count = [&](const auto& is_positive) {
+    IndexSet& seen = workspace_.touched_set_;
+    seen.clear();
+    std::size_t others = 0;
+    for (const VertexMove& move : moves) {
+      for (const HalfFace f : move.link) {
+        if (!seen.insert(f.tet().index())) continue;
+        if (!is_positive(mesh_.vertices(f.tet()))) ++others;
+      }
+    }
+    return others;
+  };
+  // A tet that is positive after all, though hardly, must not pay for one that turns over.
+  const std::size_t before = count([&](const TetVertices& v) {
+    return mesh_.is_certified_positive(v) ||
+           exact_orientation(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
+                             mesh_.point(v[3])) > 0;
+  });
+  if (place(moves) == EditResult::constrained) return EditResult::constrained;
+  if (count([&](const TetVertices& v) { return mesh_.is_certified_positive(v); }) >= before) {
+    put_back(moves);
+    return EditResult::inverted;
+  }
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    evaluate(moves.subspan(i, 1));
+    note_move(moves[i], workspace_.moved_points_[i], 0);
+  }
+  return EditResult::made;
+}
+
+/// Puts the vertices where they are to go, and keeps the places where they were; or refuses.
+EditResult Transaction::place(std::span<const VertexMove> moves) {
   for (const VertexMove& move : moves) {
     if (mesh_.is_fixed(move.vertex)) return EditResult::constrained;
   }
@@ -502,18 +551,6 @@ EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
     Point& stored = mesh_.points_[move.vertex.index()];
     before.push_back(stored);
     stored = move.point;
-  }
-  evaluate(moves);
-  if (turns_over(moves)) {
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      mesh_.points_[moves[i].vertex.index()] = before[i];
-    }
-    return EditResult::inverted;
-  }
-  std::size_t evaluated = 0;
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    note_move(moves[i], before[i], evaluated);
-    evaluated += moves[i].link.size();
   }
   return EditResult::made;
 }
@@ -526,6 +563,12 @@ void Transaction::make_room(std::span<const VertexMove> moves) {
   workspace_.batch_.reserve(tets);
   make_room_for(moves.size(), workspace_.journal_.edits);
   make_room_for(tets, workspace_.journal_.qualities);
+}
+
+void Transaction::put_back(std::span<const VertexMove> moves) {
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    mesh_.points_[moves[i].vertex.index()] = workspace_.moved_points_[i];
+  }
 }
 
 /// The tets of each link in turn, with the vertices in their new places.

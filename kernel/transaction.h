@@ -70,6 +70,10 @@ class TETMEND_API Transaction {
   /// Moves several different vertices at once, all or none: tets need to be positive only when all
   /// are in place.
   EditResult move_vertices(std::span<const VertexMove> moves);
+  /// Moves many different vertices at once, all or none. Any tet may turn over, if afterwards fewer
+  /// of those around are not certified positive. Cost: linear; asks for exact signs where the
+  /// certificate fails.
+  EditResult rearrange_vertices(std::span<const VertexMove> moves);
 
   bool empty() const;
 
@@ -124,6 +128,8 @@ class TETMEND_API Transaction {
   void note(const Edit& edit);
   void evaluate(std::span<const VertexMove> moves);
   bool turns_over(std::span<const VertexMove> moves) const;
+  EditResult place(std::span<const VertexMove> moves);
+  void put_back(std::span<const VertexMove> moves);
   void note_move(const VertexMove& move, const Point& before, std::size_t first_of_batch);
   void clear_slot(TetHandle t);
   void clear_slot(VertexHandle v);

@@ -9,6 +9,7 @@
 #include "schedule/composition.h"
 #include "schedule/run.h"
 #include "schedule/selection.h"
+#include "schedule/tangle.h"
 
 namespace tetmend {
 
@@ -46,6 +47,11 @@ struct PolishOptions {
   unsigned cycles = 3;  ///< of smoothing and flips, at most; ends earlier when nothing is accepted
 };
 
+struct UntangleOptions {
+  TangleLimits where = {};
+  unsigned looks = 400;  ///< at all tets of a tangle, at most
+};
+
 struct ApplyOptions {
   Composition what;
   Selection on = {};
@@ -71,6 +77,12 @@ void insert_points(Run& run, const InsertPointsOptions& options = {});
 /// Raises the mean of the mean ratios: smooths all movable vertices and flips, where that raises it
 /// and no tet falls below the goal or gets worse below it. For after the bad tets.
 void polish(Run& run, const PolishOptions& options = {});
+
+/// Moves all free vertices of a tangle at once, so that its tets become positive. The mesh is the
+/// same afterwards unless fewer tets are inverted or flat, no more are bad and no bound is broken. No
+/// pass is recorded where nothing is tangled. A run that is stopped meanwhile leaves the tangle as it
+/// is.
+void untangle(Run& run, const UntangleOptions& options = {});
 
 /// Any operators: on selected tets from the worst up, or, for one operator on vertices, on their
 /// movable vertices in the order of the mesh.

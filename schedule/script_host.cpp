@@ -154,6 +154,7 @@ void ScriptHost::add_words() {
   add("suppress_points", &ScriptHost::suppress_points);
   add("insert_points", &ScriptHost::insert_points);
   add("polish", &ScriptHost::polish);
+  add("untangle", &ScriptHost::untangle);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
   for (const char* how : {"first_of", "all_of", "sequence"}) {
@@ -270,8 +271,10 @@ ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const Scr
 
 template <class Pass>
 int ScriptHost::make_pass(lua_State* lua, const Pass& pass) {
+  const std::size_t passes = run_->records.size();
   pass();
-  const PassRecord& record = run_->records.back();
+  const bool was_made = run_->records.size() > passes;
+  const PassRecord record = was_made ? run_->records.back() : PassRecord{};
   lua_pushinteger(lua, static_cast<lua_Integer>(record.accepted()));
   lua_pushinteger(lua, static_cast<lua_Integer>(record.attempts()));
   return 2;
@@ -344,6 +347,19 @@ int ScriptHost::polish(lua_State* lua) {
   const PolishOptions options = {.below = numbers.real("below"),
                                  .cycles = static_cast<unsigned>(numbers.integer("cycles"))};
   return make_pass(lua, [&] { tetmend::polish(*run_, options); });
+}
+
+int ScriptHost::untangle(lua_State* lua) {
+  begin_work();
+  const WordInfo& word = find_word("untangle");
+  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  const UntangleOptions options = {
+      .where = {.share = numbers.real("share"),
+                .at_least = static_cast<std::size_t>(numbers.integer("at_least")),
+                .rings = static_cast<unsigned>(numbers.integer("rings"))},
+      .looks = static_cast<unsigned>(numbers.integer("looks"))};
+  return make_pass(lua, [&] { tetmend::untangle(*run_, options); });
 }
 
 int ScriptHost::apply(lua_State* lua) {

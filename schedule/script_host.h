@@ -46,6 +46,7 @@ class ScriptHost {
   int suppress_points(lua_State* lua);
   int insert_points(lua_State* lua);
   int polish(lua_State* lua);
+  int untangle(lua_State* lua);
   int apply(lua_State* lua);
   int attempt(lua_State* lua);
   int compose(lua_State* lua, const char* how);

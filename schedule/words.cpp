@@ -35,6 +35,15 @@ constexpr std::array<ParameterSpec, 2> kPolishNumbers = {{
     {"cycles", ParameterSpec::Kind::integer, 1, 100, 3,
      "of smoothing and flips, at most; ends earlier when nothing is accepted"},
 }};
+constexpr std::array<ParameterSpec, 4> kUntangleNumbers = {{
+    {"share", ParameterSpec::Kind::real, 0, 1, 0.05,
+     "the least share of inverted tets among those around their vertices"},
+    {"at_least", ParameterSpec::Kind::integer, 1, 1000000000, 100,
+     "the least number of inverted tets that are neighbours"},
+    {"rings", ParameterSpec::Kind::integer, 0, 100, 3,
+     "how many vertices away from theirs others may move, too"},
+    {"looks", ParameterSpec::Kind::integer, 1, 100000, 400, "at all tets of a tangle, at most"},
+}};
 constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 1,
      "at most; ends earlier when nothing is accepted"},
@@ -56,7 +65,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 23> kWords = {{
+constexpr std::array<WordInfo, 24> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -90,6 +99,13 @@ constexpr std::array<WordInfo, 23> kWords = {{
      "falls below the goal or gets worse below it. For the end",
      {},
      kPolishNumbers},
+    {"untangle",
+     "untangle{...}",
+     "moves all vertices of a tangle at once, so that its inverted and flat tets become positive. "
+     "A tangle is where they are many, and neighbours; elsewhere operators do as well, and "
+     "nothing is changed. For the beginning",
+     {},
+     kUntangleNumbers},
     {"apply", "apply(what, {...})",
      "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
      "value, order = \"sine\", \"angle\" (largest first), \"longest\" or \"shortest\", most_edges "

@@ -19,6 +19,8 @@ namespace tetmend {
 /// What the trace calls an attempt of several parts, which stay or go together: a sequence of a
 /// schedule. Attempts of the parts lie in it.
 inline constexpr std::string_view kSequenceName = "sequence";
+/// What it calls the attempt of a pass to untangle a part of the mesh. Its target is the worst tet.
+inline constexpr std::string_view kUntanglingName = "untangling";
 
 /// One attempt of an operator, or of a sequence, as the trace sees it. Vertices name the target in a
 /// way that outlives tet handles.

@@ -2,6 +2,9 @@ description "Reconnection and smoothing only: no point is added or removed"
 
 local max_rounds = parameter{"max_rounds", default = 20, low = 0, high = 10000, help = "rounds at most"}
 
+-- Where inverted tets are many and neighbours, no operator finds a place for one of them.
+untangle{}
+
 local before = quality()
 for _ = 1, max_rounds do
   if before.n_bad == 0 then break end

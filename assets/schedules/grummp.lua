@@ -16,6 +16,9 @@ local function smooth_twice()
 end
 
 judge_by{measure = "sine", price = 0}
+-- Where inverted tets are many and neighbours, no operator finds a place for one of them.
+untangle{}
+
 begin_round()
 for _ = 1, 3 do
   apply(all_of{"flip_2_3", "edge_removal"}, {on = "all"})

@@ -18,6 +18,9 @@ local function reconnect()
   return apply(all_of{"edge_removal", "multi_face_removal"}, {on = "all"})
 end
 
+-- Where inverted tets are many and neighbours, no operator finds a place for one of them.
+untangle{}
+
 begin_round()
 smooth{on = "all", cycles = 1}
 reconnect()

@@ -11,6 +11,9 @@ local time_limit = parameter{"time_limit", default = 0, low = 0, high = 1e9,
 local worst = {below = 1, worst = 100}
 local very_worst = {below = 1, worst = 20}
 
+-- Where inverted tets are many and neighbours, no operator finds a place for one of them.
+untangle{}
+
 local start = quality()
 
 local function is_enough()

@@ -196,6 +196,17 @@ TEST_CASE("a judge of the mean takes a gain, but no new bad tet and none that is
   CHECK(takes(judge, {0.8f, 1.2f}, {0.8f, 1.5f}, {.gain = 0.1}));
 }
 
+TEST_CASE("a judge of untangling wants fewer inverted or flat tets, and no more bad ones") {
+  const Judge judge = Judge::untangles();
+  CHECK(takes(judge, {-0.9f, 0.1f}, {-0.2f, -0.1f}));
+  CHECK(takes(judge, {-0.9f, 0.1f}, {-0.2f, 0.f}));
+  CHECK_FALSE(takes(judge, {-0.1f, -0.1f}, {-0.2f, -0.2f}));
+  CHECK_FALSE(takes(judge, {-0.1f, 0.f}, {-0.2f, -0.2f}));
+  CHECK(takes(judge, {0.1f, 0.1f, 1.2f}, {-0.1f, 0.9f, 1.2f}));
+  CHECK_FALSE(takes(judge, {0.1f, 0.1f, 0.9f}, {-0.1f, 0.9f, 1.2f}));
+  CHECK_FALSE(takes(judge, {0.9f}, {0.1f}));
+}
+
 TEST_CASE("an opening leaves its share of the worst quality") {
   const Judge judge = Judge::opening(0.2);
   CHECK(takes(judge, {0.22f, 0.6f}, {1.f, 1.8f}));

@@ -648,6 +648,65 @@ TEST_CASE("of vertices that move together none moves when one may not") {
   CHECK(mesh == before);
 }
 
+TEST_CASE("vertices are rearranged if fewer tets are inverted then, even if others turn over") {
+  const MeshData good = kuhn_cube(4, 0, 1);
+  MeshData data = kuhn_cube(4, 1.5, 2);
+  TetMesh mesh(data);
+  const TetMesh before = mesh;
+  Workspace workspace(mesh);
+  const std::size_t inverted = count_not_positive(mesh);
+  REQUIRE(inverted > 50);
+  const std::vector<VertexHandle> free = free_vertices(mesh);
+  std::vector<std::vector<HalfFace>> links;
+  std::vector<VertexMove> moves;
+  for (const VertexHandle v : free) {
+    const auto faces = link(mesh, v, workspace);
+    links.emplace_back(faces.begin(), faces.end());
+    moves.push_back({v, good.points[v.index()], {}});
+  }
+  for (std::size_t i = 0; i < moves.size(); ++i) moves[i].link = links[i];
+  // One vertex goes astray, so that tets that were positive are turned over.
+  moves[0].point += Point(0.3, 0.2, 0.1);
+  {
+    Transaction tx(mesh, workspace);
+    CHECK(tx.move_vertices(moves) == EditResult::inverted);
+    CHECK(mesh == before);
+    REQUIRE(tx.rearrange_vertices(moves) == EditResult::made);
+    std::size_t turned = 0;
+    for (const TetHandle t : live_tets(mesh)) {
+      CHECK(mesh.quality(t) == mesh.evaluate(mesh.vertices(t)));
+      turned += before.quality(t) > 0 && mesh.quality(t) <= 0 ? 1 : 0;
+    }
+    CHECK(turned > 0);
+    CHECK(count_not_positive(mesh) < inverted);
+    CHECK(to_string(check_integrity(mesh)) == "");
+    tx.undo();
+    CHECK(mesh == before);
+    // The way back makes more of them.
+    REQUIRE(tx.rearrange_vertices(moves) == EditResult::made);
+    const TetMesh better = mesh;
+    for (VertexMove& move : moves) move.point = before.point(move.vertex);
+    CHECK(tx.rearrange_vertices(moves) == EditResult::inverted);
+    CHECK(mesh == better);
+    tx.keep();
+  }
+  CHECK(count_not_positive(mesh) < inverted);
+}
+
+TEST_CASE("vertices of which one is fixed are not rearranged") {
+  TetMesh mesh(kuhn_cube(4, 1.5, 2));
+  const TetMesh before = mesh;
+  Workspace workspace(mesh);
+  const VertexHandle v = free_vertices(mesh).at(0);
+  const auto faces = link(mesh, v, workspace);
+  const std::array<VertexMove, 2> moves = {VertexMove{v, Point(0.5, 0.5, 0.5), faces},
+                                           VertexMove{VertexHandle(0), mesh.point(v), {}}};
+  REQUIRE(mesh.is_fixed(VertexHandle(0)));
+  Transaction tx(mesh, workspace);
+  CHECK(tx.rearrange_vertices(moves) == EditResult::constrained);
+  CHECK(mesh == before);
+}
+
 // --- comparison ----------------------------------------------------------------------------------
 
 TEST_CASE("compare gives the qualities of all that was touched, before and now, ascending") {

@@ -71,6 +71,7 @@ TEST_CASE("a call becomes a script only with settings and a name that are such")
   CHECK(script("a", "x = 1}, {}) improve{}").find("trace: event 0: settings that are") !=
         std::string::npos);
   CHECK(script("a\"}) improve{} --", "x = 1").find("an operator of a name") != std::string::npos);
+  CHECK(script("untangling", "").find("no attempt of an operator; --at 0") != std::string::npos);
   // A line of a comment ends with it.
   CHECK(script("a\nb", "x = 1") == R"({"a?b", x = 1})");
 }

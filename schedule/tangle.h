@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The parts of a mesh where so many tets are inverted that one after the other cannot be mended.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "kernel/tet_mesh.h"
+#include "kernel/workspace.h"
+
+namespace tetmend {
+
+/// What makes a tangle.
+struct TangleLimits {
+  double share = 0.05;         ///< of inverted or flat tets among those around their vertices
+  std::size_t at_least = 100;  ///< so many of them
+  unsigned rings = 3;          ///< vertices that far from theirs may move, too
+};
+
+/// Tets around free vertices that can be moved independently of the rest.
+struct Tangle {
+  std::vector<VertexHandle> free;  ///< in the order of a walk from the first
+  std::vector<TetHandle> tets;     ///< all around them
+  TetHandle worst;                 ///< lowest quality, the first of such
+};
+
+/// Finds the inverted and flat tets with a free vertex, gathers those that are neighbours, and takes
+/// what reaches the limits, with the rings around. Those rings may join several. Where no part of
+/// the mesh is tangled, costs one scan and a walk around each inverted tet.
+/// @param workspace of the whole mesh
+/// @param proceed asked often; false: nothing is found
+std::vector<Tangle> find_tangles(const TetMesh& mesh, Workspace& workspace,
+                                 const TangleLimits& limits, const std::function<bool()>& proceed);
+
+}  // namespace tetmend
