@@ -68,7 +68,7 @@ def fuzz(target, seconds):
     found = BUILD / "fuzz" / "found"
     found.mkdir(exist_ok=True)
     log = BUILD / "fuzz" / f"{target}.log"
-    command = [BUILD / "fuzz" / f"fuzz_{target}", corpus, f"-max_total_time={seconds}", "-timeout=20",
+    command = [BUILD / "fuzz" / f"fuzz_{target}", corpus, f"-max_total_time={seconds}", "-timeout=60",
                "-rss_limit_mb=3000", "-malloc_limit_mb=2000", "-max_len=16384", "-print_final_stats=1", "-len_control=50", "-print_funcs=0",
                f"-artifact_prefix={found}/{target}-"]
     if dictionary.read_text():
