@@ -3,11 +3,13 @@
 
 After each, the user's file is the old one or the new one, whole; nothing else stays in the folder.
 
-usage: faults.py PROGRAM SOURCE_FOLDER PRELOAD ROUNDS
+usage: faults.py PROGRAM SOURCE_FOLDER PRELOAD ROUNDS [--library FAULT_TESTS] [--write FILE]
 """
 
+import argparse
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -16,10 +18,20 @@ import tempfile
 import time
 from pathlib import Path
 
-PROGRAM, SOURCE, PRELOAD, ROUNDS = sys.argv[1], Path(sys.argv[2]), sys.argv[3], int(sys.argv[4])
+parser = argparse.ArgumentParser()
+parser.add_argument("program")
+parser.add_argument("source", type=Path)
+parser.add_argument("preload")
+parser.add_argument("rounds", type=int)
+parser.add_argument("--library", help="the program of tests/faults: its runs of the library whose n-th allocation fails")
+parser.add_argument("--write", type=Path, help="a document of how often all was tried")
+arguments = parser.parse_args()
+PROGRAM, SOURCE, PRELOAD, ROUNDS = arguments.program, arguments.source, arguments.preload, arguments.rounds
 MESHES = SOURCE / "assets" / "meshes"
 counts = {}
 failures = []
+sys.path.insert(0, str(SOURCE / "bench"))
+import documents  # noqa: E402
 
 
 def check(holds, what, *details):
@@ -28,8 +40,8 @@ def check(holds, what, *details):
         print("FAIL:", what, *details, flush=True)
 
 
-def count(what):
-    counts[what] = counts.get(what, 0) + 1
+def count(what, times=1):
+    counts[what] = counts.get(what, 0) + times
 
 
 class Work:
@@ -57,7 +69,6 @@ class Work:
         check(not extra, "nothing else stays: " + what, extra)
         for name in extra:
             os.remove(self.folder / name)
-        count("new" if content == self.new else "old")
         self.restore()
 
     def close(self):
@@ -94,7 +105,7 @@ def kills_and_signals():
                         count("temporaries of killed processes")
                         entry.unlink()
             work.settle(f"{number.name} ({status})", improved=is_mesh)
-            count(number.name)
+            count(f"{number.name} at any time")
     work.close()
 
 
@@ -208,10 +219,34 @@ def other_user():
     count("setuid programs")
 
 
+def failing_allocations_of_the_library():
+    """n = 1, 2, 3, ... of runs in this and that form."""
+    for schedule in ("shell", "thorough"):
+        for mesh in ("tangled", "lattice"):
+            done = subprocess.run([arguments.library, "1", str(50 * ROUNDS), "1", schedule, mesh], capture_output=True, text=True)
+            print(done.stdout, end="", flush=True)
+            check(done.returncode == 0, "an allocation of the library fails", schedule, mesh, done.stderr)
+            for form, runs in re.findall(r"^\S+ \S+ (\S+): (\d+) runs", done.stdout, re.MULTILINE):
+                count(f"failing allocations of the library, {form}", int(runs))
+
+
+def page():
+    table = [["What was done to a run", "Times"], *([what, f"{number:,}"] for what, number in counts.items())]
+    verdict = "Nothing was lost and nothing stayed." if not failures else "Failed: " + "; ".join(sorted(set(failures))) + "."
+    return documents.document("Faults", documents.stamp("script/faults"), [
+        "After each the file of the user was the old one or the new one, whole, and nothing else lay in its folder; after a "
+        "failed allocation of the library the mesh was what it was when the last attempt was kept. " + verdict,
+        documents.markdown_table(table)])
+
+
 kills_and_signals()
 failing_system_calls()
 full_disk()
 failing_allocations()
 other_user()
+if arguments.library:
+    failing_allocations_of_the_library()
 print("faults: " + ", ".join(f"{number} {what}" for what, number in counts.items()))
+if arguments.write:
+    documents.write(arguments.write, page())
 sys.exit(f"{len(failures)} checks failed" if failures else 0)
