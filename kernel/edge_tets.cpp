@@ -2,6 +2,7 @@
 // All tets at given edges, in one pass over the mesh.
 #include "kernel/edge_tets.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "kernel/chunks.h"
@@ -19,10 +20,10 @@ std::vector<TetAtEdge> find_tets_at(const TetMesh& mesh, std::span<const EdgeEnd
   const auto append = [&](TetHandle t, unsigned e, std::vector<TetAtEdge>& out) {
     const auto corners = mesh.vertices(TetEdge(t, e));
     const EdgeEnds ends = edge_ends(corners[0], corners[1]);
-    const std::uint32_t end = first[ends[0].index() + 1];
-    for (std::uint32_t n = first[ends[0].index()]; n < end; ++n) {
-      if (edges[n] == ends) out.push_back({n, TetEdge(t, e)});
-    }
+    const auto end = edges.begin() + first[ends[0].index() + 1];
+    const auto at = std::lower_bound(edges.begin() + first[ends[0].index()], end, ends);
+    if (at == end || *at != ends) return;
+    out.push_back({static_cast<std::uint32_t>(at - edges.begin()), TetEdge(t, e)});
   };
   const auto parts =
       map_chunks<std::vector<TetAtEdge>>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {

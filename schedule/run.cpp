@@ -204,8 +204,9 @@ void PassScope::expect(std::size_t items) {
 }
 
 bool PassScope::proceed(std::size_t n) {
+  // Some items take milliseconds.
+  if (run_.deadline_ != std::chrono::steady_clock::time_point::max()) run_.check_time();
   if (n % kTicksBetweenReports == 0) {
-    run_.check_time();
     const std::size_t done = ticks_.fetch_add(kTicksBetweenReports);
     run_.report_progress(record_.name, std::min(1.0, static_cast<double>(done) /
                                                          static_cast<double>(expected_ + 1)));

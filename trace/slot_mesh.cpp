@@ -59,7 +59,7 @@ Label decode_label(ByteReader& in, Label from) {
 /// Of a mesh of ordinary size nothing is written.
 Scale decode_scale(ByteReader& in) {
   const std::int64_t exponent = in.get_signed();
-  if (exponent < -Scale::kLargest || exponent > Scale::kLargest + 1) {
+  if (exponent == 0 || exponent < -Scale::kLargest || exponent > Scale::kLargest + 1) {
     throw ByteReader::Damage(fmt::format("a scale of 2^{}", exponent));
   }
   return Scale(static_cast<int>(exponent));

@@ -36,10 +36,10 @@ TEST_CASE("relaxing around a new vertex leaves a neighbour of 5,000 tets where i
   LoneWorker worker(hub(kRing));
   const Point before = worker.mesh.point(kHub);
   const Target edge = worker.edge(0, 3);
-  const Operator& split = *Registry::builtin().make("edge_split", {{"relax", 1}});
+  const auto split = Registry::builtin().make("edge_split", {{"relax", 1}});
   const Judge any = Judge::opening();
   OperatorContext context{worker.mesh, worker.workspace, worker.states};
   context.judge = &any;
-  MESSAGE(to_string(split.attempt(context, edge)));
+  MESSAGE(to_string(split->attempt(context, edge)));
   CHECK(worker.mesh.point(kHub) == before);
 }

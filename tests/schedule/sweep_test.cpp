@@ -2,8 +2,10 @@
 // Sweeps in blocks: each target is tried where it can be, and the number of threads does not show.
 #include "schedule/sweep.h"
 
+#include <chrono>
 #include <map>
 #include <set>
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -206,4 +208,22 @@ TEST_CASE("blocks do not cost quality, and keep surface, volume and integrity") 
     CHECK(static_cast<double>(before.n_bad - outcome.after.n_bad) > 0.98 * gained);
     CHECK(outcome.after.q_worst > whole.after.q_worst - 0.08);
   }
+}
+
+TEST_CASE("a time limit ends a sweep of slow items after the next one") {
+  TetMesh mesh = bad_cube();
+  Run run(mesh, kRegistry);
+  run.set_block_count(1);
+  run.set_time_limit(0.02);
+  std::size_t tried = 0;
+  {
+    PassScope scope(run, "slow");
+    work_off(run, scope, all_vertices(mesh), 0, [&](Worker&, Item&) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      ++tried;
+      return true;
+    });
+  }
+  CHECK(run.out_of_time());
+  CHECK(tried <= 11);  // of 2,197
 }
