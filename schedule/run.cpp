@@ -170,6 +170,7 @@ PassScope::~PassScope() {
   if (finished_) return;
   run_.is_measured_ = false;
   run_.worker_.verdicts = {};
+  run_.last_sweep_.clear();  // what it did not come to has not been tried
 }
 
 void PassScope::finish() {

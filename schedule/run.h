@@ -164,7 +164,7 @@ class Run {
 };
 
 /// Times one pass, counts its verdicts, reports progress. finish() adds the record to the run; a pass
-/// that an exception ends has none, and its counts are forgotten.
+/// that an exception ends has none, and nothing counts as tried then.
 class PassScope {
  public:
   PassScope(Run& run, std::string_view name);

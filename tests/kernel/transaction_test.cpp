@@ -930,7 +930,8 @@ TEST_CASE("an edit for whose properties memory runs out has changed nothing") {
       Costly::copies_left = copies;
       try {
         const VertexHandle m = tx.add_vertex(middle(mesh, whole));
-        REQUIRE(replace(tx, split_tet(mesh, t, m)) == EditResult::made);
+        const EditResult split = replace(tx, split_tet(mesh, t, m));
+        REQUIRE(split == EditResult::made);
         const std::vector<TetHandle> four(tx.created().begin(), tx.created().end());
         made = tx.replace_cavity(four, {&whole, 1}) == EditResult::made;
       } catch (const std::bad_alloc&) {

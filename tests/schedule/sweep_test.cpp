@@ -11,6 +11,7 @@
 
 #include "kernel/integrity.h"
 #include "kernel/surface.h"
+#include "schedule/passes.h"
 #include "schedule/schedule.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
@@ -162,6 +163,25 @@ TEST_CASE("when work on a block throws, the mesh is in order and the run can go 
       CHECK(to_string(check_integrity(mesh)) == "");
     });
   }
+}
+
+TEST_CASE("a pass that an exception ended leaves no record, and is made anew") {
+  struct Thrower final : ProgressListener {
+    void progress(std::string_view, unsigned, double) override { throw Error("enough"); }
+    void pass_done(std::string_view, unsigned, const QualityIndicators&) override {}
+  };
+  TetMesh mesh = bad_cube();
+  Thrower thrower;
+  Run run(mesh, kRegistry);
+  run.set_block_count(1);
+  run.set_listener(&thrower);
+  CHECK_THROWS_AS(local_reconnection(run), Error);
+  CHECK(run.records.empty());
+  CHECK(mesh == bad_cube());
+  run.set_listener(nullptr);
+  local_reconnection(run);
+  REQUIRE(run.records.size() == 1);
+  CHECK(run.records[0].accepted() > 0);
 }
 
 TEST_CASE("what is collected comes in the order of the slots") {
