@@ -86,7 +86,7 @@ TEST_CASE("places are told, and asked for, in the lengths of the user") {
 
   const auto touched = [&](double by) {
     Mesh mesh = multiplied(data, by);
-    const std::string box = fmt::format("box:{0},{0},{0},{1},{1},{1}", 0.2 * by, 0.9 * by);
+    const std::string box = fmt::format("box:{0},{0},{0},{1},{1},{1}", -0.1 * by, 0.85 * by);
     return improve(mesh, {.only = {box}}).touched_tets;
   };
   CHECK(touched(1) > 0);
