@@ -90,17 +90,17 @@ class Untangling {
     Comparison& comparison = context.states.comparison;
     comparison.forget();
     Untangler untangler(make_patch(run_.mesh(), tangle));
-    unsigned looks = 0;
-    untangler.untangle({.looks = options_.looks}, [&] {
+    untangler.untangle({.looks = options_.looks}, [&](std::size_t looks) {
+      const double share = static_cast<double>(looks) / static_cast<double>(options_.looks);
       run_.check_time();
-      run_.report_progress("untangle",
-                           static_cast<double>(++looks) / static_cast<double>(options_.looks));
+      run_.report_progress("untangle", std::min(1.0, share));
       return !run_.cancelled();
     });
     if (run_.cancelled()) return Verdict::no_improvement;
     if (context.trace != nullptr) context.trace->candidate_found();
     Workspace& workspace = run_.worker().workspace();
     const Moves moves(run_.mesh(), workspace, tangle, untangler.points());
+    if (run_.cancelled()) return Verdict::no_improvement;
     Transaction transaction(run_.mesh(), workspace);
     const EditResult result = transaction.rearrange_vertices(moves.moves);
     if (result != EditResult::made) return to_verdict(result);

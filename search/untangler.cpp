@@ -183,10 +183,14 @@ std::array<Point, 4> Untangler::corners(const Tet& tet) const {
 }
 
 /// Costs of the patch as it is, and the gradient by steps in units of `scale_`.
-void Untangler::look() {
+void Untangler::look(const Proceed& proceed) {
   ++looks_;
   const auto part = [&](std::size_t begin, std::size_t end) {
     State sum{.least = std::numeric_limits<double>::infinity()};
+    if (stopped_ || !proceed(looks_)) {
+      stopped_ = true;
+      return sum;
+    }
     for (std::size_t t = begin; t < end; ++t) {
       const Tet& tet = tets_[t];
       const std::array<Point, 4> p = corners(tet);
@@ -242,7 +246,7 @@ void Untangler::find_direction() {
 }
 
 /// Goes along the direction as far as the cost falls. False, and back, if it nowhere does.
-bool Untangler::search_line(double slope) {
+bool Untangler::search_line(double slope, const Proceed& proceed) {
   constexpr double kLeastShare = 1e-4;  // of the fall that the slope promises
   constexpr int kTrials = 10;
   const double before = state_.cost;
@@ -255,14 +259,14 @@ bool Untangler::search_line(double slope) {
       }
     };
     for_chunks(free_count_, work, kChunk);
-    look();
+    look(proceed);
     if (state_.cost <= before + kLeastShare * step_ * slope) return true;
     // The lowest point of the parabola through what is known.
     const double rise = state_.cost - before - slope * step_;
     step_ *= rise > 0 ? std::clamp(-0.5 * slope * step_ / rise, 0.1, 0.5) : 0.25;
   }
   std::copy(start_.begin(), start_.end(), points_.begin());
-  look();
+  look(proceed);
   return false;
 }
 
@@ -284,17 +288,17 @@ void Untangler::keep_best() {
 }
 
 /// Lowers the cost at one softness. False if the search is to end.
-bool Untangler::descend(const Limits& limits, const std::function<bool()>& proceed) {
+bool Untangler::descend(const Limits& limits, const Proceed& proceed) {
   constexpr double kLeastFall = 1e-5;  // of the cost, in a step
   remembered_ = 0;
   find_gradient();
   for (unsigned i = 0; i < limits.steps; ++i) {
-    if (looks_ >= limits.looks || !proceed()) return false;
+    if (stopped_ || looks_ >= limits.looks) return false;
     if (!(dot(gradient_, gradient_) > 0)) return true;
     find_direction();
     const double slope = dot(gradient_, direction_);
     const double before = state_.cost;
-    if (!(slope < 0) || !search_line(slope)) {
+    if (!(slope < 0) || !search_line(slope, proceed)) {
       if (remembered_ == 0) return true;
       remembered_ = 0;  // the past misleads: along the gradient
       continue;
@@ -308,20 +312,21 @@ bool Untangler::descend(const Limits& limits, const std::function<bool()>& proce
   return true;
 }
 
-std::size_t Untangler::untangle(const Limits& limits, const std::function<bool()>& proceed) {
+std::size_t Untangler::untangle(const Limits& limits, const Proceed& proceed) {
   constexpr double kHardest = 1e-3;
   constexpr double kHardening = 0.3;
   constexpr unsigned kPatience = 5;
-  look();
-  best_inverted_ = state_.inverted;
+  look(proceed);
+  best_inverted_ = stopped_ ? tets_.size() : state_.inverted;
   keep_best();
   softness_ = std::max(kHardest, -0.2 * state_.least);
   unsigned in_vain = 0;
   while (true) {
-    look();
+    look(proceed);
     const double before = state_.cost;
     const std::size_t fewest = best_inverted_;
     const bool goes_on = descend(limits, proceed);
+    if (stopped_) break;
     keep_best();
     if (!goes_on || (state_.inverted == 0 && softness_ <= kHardest)) break;
     in_vain = best_inverted_ < fewest || state_.inverted == 0 ? 0 : in_vain + 1;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -57,15 +58,17 @@ class Untangler {
     unsigned steps = 60;   ///< directions at one softness, at most
   };
 
+  /// Told how often it has looked; false ends the search. Called often, by any thread.
+  using Proceed = std::function<bool(std::size_t looks)>;
+
   explicit Untangler(TangledPatch patch);
 
   /// Moves the free vertices; they end where fewest tets were inverted. Ends when all are positive
   /// and hardly any softness is left, or when several values of it brought nothing. Uses the threads
   /// of the caller's oneTBB arena; their number cannot show in the result. Cost: some dozen looks at
   /// all tets, some hundred where not all can become positive.
-  /// @param proceed asked at each direction; false ends the search
-  /// @returns the number of tets whose volume is not positive
-  std::size_t untangle(const Limits& limits, const std::function<bool()>& proceed);
+  /// @returns the number of tets whose volume is not positive; of no use if the search was ended
+  std::size_t untangle(const Limits& limits, const Proceed& proceed);
 
   /// The free vertices are the first of them.
   std::span<const Point> points() const { return points_; }
@@ -95,11 +98,11 @@ class Untangler {
   std::array<Point, 4> corners(const Tet& tet) const;
   void list_stars();
   void measure_sizes();
-  void look();
+  void look(const Proceed& proceed);
   void find_gradient();
-  bool descend(const Limits& limits, const std::function<bool()>& proceed);
+  bool descend(const Limits& limits, const Proceed& proceed);
   void find_direction();
-  bool search_line(double slope);
+  bool search_line(double slope, const Proceed& proceed);
   void remember();
   void keep_best();
 
@@ -122,6 +125,7 @@ class Untangler {
   std::array<Memory, kMemory> memory_;
   std::size_t remembered_ = 0;
   std::size_t looks_ = 0;
+  std::atomic<bool> stopped_ = false;  // the state is of no use then
 };
 
 }  // namespace tetmend

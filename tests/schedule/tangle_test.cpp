@@ -22,13 +22,13 @@ std::size_t count_inverted(const TetMesh& mesh, const std::vector<TetHandle>& te
       std::count_if(tets.begin(), tets.end(), [&](TetHandle t) { return mesh.quality(t) <= 0; }));
 }
 
-/// A cube of 12^3 cells in which the inner vertices of two places are moved at random.
+/// A cube of 16^3 cells in which the inner vertices of two places are moved at random.
 MeshData two_knots() {
-  MeshData data = kuhn_cube(12, 0, 1);
+  MeshData data = kuhn_cube(16, 0, 1);
   Random random(1);
   for (Point& p : data.points) {
-    const bool first = (p - Point(0.25, 0.25, 0.25)).cwiseAbs().maxCoeff() < 0.13;
-    const bool second = (p - Point(0.75, 0.75, 0.75)).cwiseAbs().maxCoeff() < 0.13;
+    const bool first = (p - Point(0.25, 0.25, 0.25)).cwiseAbs().maxCoeff() < 0.1;
+    const bool second = (p - Point(0.75, 0.75, 0.75)).cwiseAbs().maxCoeff() < 0.1;
     if (first || second) p += random.in_ball(0.3);
   }
   return data;
@@ -71,7 +71,7 @@ TEST_CASE("a sound mesh has no tangle, and one with few inverted tets none eithe
 
 TEST_CASE("two places of many inverted tets are two tangles, which rings may join") {
   const TetMesh mesh(two_knots());
-  for (const unsigned rings : {0u, 1u, 2u}) {
+  for (const unsigned rings : {0u, 1u}) {
     CAPTURE(rings);
     const auto tangles = find(mesh, {.rings = rings});
     REQUIRE(tangles.size() == 2);
@@ -101,8 +101,8 @@ TEST_CASE("a place of too few inverted tets, or of too small a share, is no tang
     largest =
         std::max(largest, static_cast<double>(count) / static_cast<double>(tangle.tets.size()));
   }
-  CHECK(find(mesh, {.at_least = fewest}).size() == 2);
-  CHECK(find(mesh, {.at_least = fewest + 1}).size() == (fewest == most ? 0 : 1));
+  CHECK(find(mesh, {.at_least = fewest, .rings = 0}).size() == 2);
+  CHECK(find(mesh, {.at_least = fewest + 1, .rings = 0}).size() == (fewest == most ? 0 : 1));
   CHECK(find(mesh, {.at_least = most + 1}).empty());
   CHECK(find(mesh, {.share = largest + 0.01}).empty());
 }

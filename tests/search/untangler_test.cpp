@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -19,7 +20,7 @@ using namespace tetmend::test;
 
 namespace {
 
-const auto kGoOn = [] { return true; };
+const auto kGoOn = [](std::size_t) { return true; };
 
 using Corners = std::array<Point, 4>;
 
@@ -195,13 +196,18 @@ TEST_CASE("an untangler looks as often as it may, and never ends with more inver
   }
 }
 
-TEST_CASE("an untangler asks at each direction whether to go on") {
-  const TangledPatch patch = cube(6, 1.5, 1);
-  Untangler stopped(patch);
-  int asked = 0;
-  stopped.untangle({}, [&] { return ++asked < 3; });
-  CHECK(asked == 3);
-  CHECK(count_inverted(patch, stopped.points()) <= count_inverted(patch, patch.points));
+TEST_CASE("an untangler that is stopped in a look ends with what it had") {
+  const TangledPatch patch = cube(8, 1.5, 1);
+  const std::size_t before = count_inverted(patch, patch.points);
+  for (const int most : {1, 2, 3, 20, 41}) {
+    CAPTURE(most);
+    Untangler stopped(patch);
+    std::atomic<int> asked = 0;
+    stopped.untangle({}, [&](std::size_t) { return ++asked < most; });
+    CHECK(asked >= most);
+    CHECK(asked < most + 3);  // each part of a look asks once
+    CHECK(count_inverted(patch, stopped.points()) <= before);
+  }
 }
 
 TEST_CASE("a patch without free vertices, or without tets, is as it was") {
