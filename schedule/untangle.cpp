@@ -139,6 +139,7 @@ void untangle(Run& run, const UntangleOptions& options) {
     untangling.work_on(tangle);
   }
   scope.take_verdicts(run.worker());
+  scope.finish();
   run.note(untangling.summary());
 }
 

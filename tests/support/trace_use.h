@@ -30,6 +30,20 @@ inline void use_trace(const std::filesystem::path& path) {
   }
 }
 
+/// What is wrong with the mesh of a trace; empty if nothing. One too large or too small to be worked
+/// with may still be looked at.
+inline std::string findings_in(const SlotMesh& slots) {
+  try {
+    const TetMesh mesh(slots.to_data());
+    if (mesh.tet_count() != slots.tet_count()) return "another number of tets";
+    return to_string(check_integrity(mesh));
+  } catch (const BuildError& error) {
+    return error.what();
+  } catch (const Error&) {
+    return "";
+  }
+}
+
 /// Plays a trace event by event: what is wrong with the mesh after one of them; empty if nothing.
 /// @throws Error when it cannot be opened.
 inline std::string findings_in_trace(const std::filesystem::path& path) {
@@ -39,9 +53,7 @@ inline std::string findings_in_trace(const std::filesystem::path& path) {
     replay.seek(k);
     const Cavity cavity = replay.cavity();
     if (k > 0 && cavity.created.empty() && cavity.vertices.empty()) continue;
-    const TetMesh mesh(replay.mesh().to_data());
-    if (mesh.tet_count() != replay.mesh().tet_count()) return "another number of tets";
-    if (const auto findings = check_integrity(mesh); !findings.empty()) return to_string(findings);
+    if (std::string findings = findings_in(replay.mesh()); !findings.empty()) return findings;
   }
   replay.seek(0);
   return "";
