@@ -337,7 +337,7 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
   if (node.kind == Composition::Kind::sequence) {
     return attempt_sequence(node, worker, target, tet);
   }
-  return node.leaf.op->attempt(worker.context(), target);
+  return worker.attempt_in(worker.context(), *node.leaf.op, target);
 }
 
 /// To the trace a sequence is an attempt like that of an operator, with those of its parts in it.
@@ -368,7 +368,7 @@ Verdict TetAttempts::try_sequence(const Node& node, Worker& worker, Target targe
   Transaction sequence(context.mesh, context.workspace);
   OperatorContext opening = context;
   opening.judge = &hopeful;
-  const Verdict verdict = node.leaf.op->attempt(opening, target);
+  const Verdict verdict = worker.attempt_in(opening, *node.leaf.op, target);
   if (verdict != Verdict::accepted) {
     comparison.forget();  // of what the operator compared
     return verdict;

@@ -53,6 +53,11 @@ void Run::set_trace(TraceSink* trace) {
   worker_.workspace().set_listener(trace);
 }
 
+void Run::set_inspector(AttemptInspector* inspector) {
+  inspector_ = inspector;
+  worker_.set_inspector(inspector);
+}
+
 void Run::set_time_limit(double seconds) {
   using Clock = std::chrono::steady_clock;
   constexpr double kForever = 1e9;
@@ -62,7 +67,8 @@ void Run::set_time_limit(double seconds) {
 }
 
 void Run::check_time() {
-  if (std::chrono::steady_clock::now() >= deadline_) out_of_time_ = true;
+  using Clock = std::chrono::steady_clock;
+  if (deadline_ != Clock::time_point::max() && Clock::now() >= deadline_) out_of_time_ = true;
 }
 
 void Run::note(const std::string& text) {
@@ -110,10 +116,11 @@ void Run::on_all_threads(const std::function<void(Worker&)>& work) {
     }
     mine->context().trace = trace_;
     mine->workspace().set_listener(trace_);
+    mine->set_inspector(inspector_);
     mine->workspace().set_date(worker_.workspace().date());
     work(*mine);
   };
-  if (trace_ != nullptr) return work_here();
+  if (trace_ != nullptr || inspector_ != nullptr) return work_here();
   const int threads = tbb::this_task_arena::max_concurrency();
   FirstFailure failure;
   tbb::parallel_for(
@@ -204,8 +211,8 @@ void PassScope::expect(std::size_t items) {
 }
 
 bool PassScope::proceed(std::size_t n) {
+  run_.check_time();  // each time, for an operator of a plugin may be slow
   if (n % kTicksBetweenReports == 0) {
-    run_.check_time();
     const std::size_t done = ticks_.fetch_add(kTicksBetweenReports);
     run_.report_progress(record_.name, std::min(1.0, static_cast<double>(done) /
                                                          static_cast<double>(expected_ + 1)));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernel/index_set.h"
-#include "ops/operator.h"
+#include "ops/attempt_inspector.h"
 
 namespace tetmend {
 
@@ -24,8 +24,18 @@ class Worker {
   Workspace& workspace() { return workspace_; }
   OperatorContext& context() { return context_; }
 
+  /// Null: nobody looks at the attempts.
+  void set_inspector(AttemptInspector* inspector) { inspector_ = inspector; }
+
   /// Attempts and counts.
-  Verdict attempt(const Operator& op, Target target) { return count(op.attempt(context_, target)); }
+  Verdict attempt(const Operator& op, Target target) {
+    return count(attempt_in(context_, op, target));
+  }
+  /// Attempts, in a context of this worker.
+  Verdict attempt_in(OperatorContext& context, const Operator& op, Target target) {
+    return inspector_ == nullptr ? op.attempt(context, target)
+                                 : inspector_->attempt(op, context, target);
+  }
   Verdict count(Verdict verdict) {
     ++verdicts[static_cast<std::size_t>(verdict)];
     return verdict;
@@ -47,6 +57,7 @@ class Worker {
   Workspace workspace_;
   OperatorStates states_;
   OperatorContext context_;
+  AttemptInspector* inspector_ = nullptr;
 };
 
 }  // namespace tetmend
