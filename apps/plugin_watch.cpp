@@ -70,19 +70,16 @@ class AlternateStack {
     stack_t stack{};
     stack.ss_sp = memory_.get();
     stack.ss_size = kSize;
-    ::sigaltstack(&stack, nullptr);
+    ::sigaltstack(&stack, &before_);
   }
-  ~AlternateStack() {
-    stack_t none{};
-    none.ss_flags = SS_DISABLE;
-    ::sigaltstack(&none, nullptr);
-  }
+  ~AlternateStack() { ::sigaltstack(&before_, nullptr); }
   AlternateStack(const AlternateStack&) = delete;
   AlternateStack& operator=(const AlternateStack&) = delete;
 
  private:
   static constexpr std::size_t kSize = 1 << 16;
   std::unique_ptr<char[]> memory_;
+  stack_t before_{};
 };
 
 void provide_alternate_stack() {

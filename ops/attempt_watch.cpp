@@ -25,8 +25,9 @@ struct Windows {
   std::vector<Window*> all;
 };
 
+/// Never destroyed: threads may end after the program has begun to.
 Windows& windows() {
-  static Windows windows;
+  static Windows& windows = *new Windows;
   return windows;
 }
 

@@ -46,12 +46,16 @@ struct MovesAnother final : VertexMover {
   MovesAnother() : VertexMover(kInfo) {}
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
                 State& state) const override {
+    const Verdict verdict = VertexMover::apply(context, target, transaction, state);
+    Comparison comparison;
+    if (verdict != Verdict::accepted || !context.judge->accepts({transaction, comparison}))
+      return Verdict::no_improvement;
     for (std::uint32_t i = 0; i < context.mesh.vertex_slots(); ++i) {
-      if (VertexHandle(i) != target.vertex() && !is_near(context.mesh, VertexHandle(i), state) &&
-          move_behind(context.mesh, VertexHandle(i)))
-        break;
+      const VertexHandle v(i);
+      if (v == target.vertex() || is_near(context.mesh, v, state)) continue;
+      if (move_behind(context.mesh, v)) break;
     }
-    return VertexMover::apply(context, target, transaction, state);
+    return verdict;
   }
   static bool is_near(const TetMesh& mesh, VertexHandle v, const State& state) {
     for (const HalfFace f : state.link) {
