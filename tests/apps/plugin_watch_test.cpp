@@ -54,7 +54,7 @@ Ended improve(const Trial& trial) {
   const std::string out = (folder / "out.mesh").string();
   const std::string script = (folder / "mine.lua").string();
   write_text(out, "dear to me");
-  write_text(script, "apply(\"" + trial.op + "\", {on = {below = 1.2}})\n");
+  write_text(script, "apply(\"" + trial.op + "\", {on = {below = 0.8}})\n");
   std::vector<std::string> arguments = {"improve",    mesh,       "-o",
                                         out,          "--plugin", plugin_file(trial.plugin),
                                         "--schedule", script,     "--quiet"};
