@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/plugin_watch.h"
 #include "contract/contract.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "ops/plugin.h"
@@ -54,6 +55,7 @@ int run_check_plugin(const Options& options) {
   for (const std::filesystem::path& file : options.meshes) check_mesh_extension(file);
   Registry registry = Registry::builtin();
   const Plugin plugin = load_plugin(options.plugin, registry);
+  note_crashes();
   const std::vector<contract::Ground> grounds = load_grounds(options);
   std::size_t broken = 0;
   for (const OperatorInfo* info : plugin.operators) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +22,7 @@
 #include "apps/improve_options.h"
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
+#include "apps/plugin_watch.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
 #include "kernel/formats/output_file.h"
@@ -64,15 +66,31 @@ void check_files(const ImproveOptions& options) {
 
 /// Before the schedule signals end the program: there is nothing to be saved yet.
 /// @param interruption begins then
-Result improve_watched(Mesh& mesh, Options options, ProgressLine& line,
+Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line,
                        std::optional<Interruption>& interruption) {
+  Options options = all.run;
+  std::mutex line_busy;  // the watch has a thread of its own
+  std::optional<PluginWatch> watch;
+  if (!options.plugin.empty()) {
+    note_crashes();
+    watch.emplace(all.attempt_limit, options.time_limit, [&](std::string_view text) {
+      const std::lock_guard lock(line_busy);
+      line.clear();
+      complain(kSuccess, text);
+    });
+  }
   options.cancel = &Interruption::requested();
   options.progress = [&](const Progress& progress) {
     if (progress.stage == Stage::improving && !interruption) interruption.emplace();
+    if (watch) watch->show(progress.stage);
+    const std::lock_guard lock(line_busy);
     line.show(progress);
     return true;
   };
-  options.note = [&](std::string_view text) { line.note(text); };
+  options.note = [&](std::string_view text) {
+    const std::lock_guard lock(line_busy);
+    line.note(text);
+  };
   try {
     return tetmend::improve(mesh, options);
   } catch (const OptionError& error) {
@@ -108,7 +126,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
     mesh = load_for(options.input, options.output, threads, options.carry, report.file_notes);
   }
   std::optional<Interruption> interruption;  // until all is written
-  report.result = improve_watched(mesh, options.run, progress, interruption);
+  report.result = improve_watched(mesh, options, progress, interruption);
   {
     const Stopwatch watch(report.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
@@ -145,6 +163,9 @@ void add_improve(CLI::App& app, Invocation& invocation) {
       R"(Removes slivers and raises the worst dihedral angles. Prints the statistics
 before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
+
+An operator of a plugin that does not come back is named; two seconds after the
+time limit it ends the run with exit status 1, and nothing is written.
 
 Ctrl-C, SIGTERM or a lost terminal stop the work: OUT is still written, with the
 mesh as improved so far, and the exit status is 4. The second time they end the

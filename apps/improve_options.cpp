@@ -46,6 +46,18 @@ void add_schedule_options(CLI::App& command, ImproveOptions& options) {
       ->check(CLI::Range(1e-3, 1e9).description(""));
 }
 
+void add_plugin_options(CLI::App& command, ImproveOptions& options) {
+  add_plugin_option(command, options.run.plugin);
+  command
+      .add_option("--attempt-limit", options.attempt_limit,
+                  "Say so when an attempt of a plugin takes\nlonger; 0: never (default: 10)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1e9).description(""));
+  command.add_flag("--check-operators", options.run.check_operators,
+                   "Hold each attempt of a plugin to the contract\nof operators; slow, and in one "
+                   "thread");
+}
+
 void add_region_options(CLI::App& command, Options& options) {
   // One SPEC for each mention of the option, so that IN may follow.
   command.add_option("--protect", options.protect, "Leave these tets as they are; repeatable")
@@ -170,7 +182,7 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
       ->required()
       ->type_name("OUT");
   add_schedule_options(command, options);
-  add_plugin_option(command, options.run.plugin);
+  add_plugin_options(command, options);
   add_threads_option(command, options.run.threads);
   add_region_options(command, options.run);
   add_trace_options(command, options);

@@ -29,6 +29,7 @@ struct ImproveOptions {
   std::vector<std::string> settings;  ///< NAME=VALUE
   std::string goal;                   ///< 35 or 35,140; empty: the default
   std::string trace_limit;            ///< 500M; empty: none
+  double attempt_limit = 10;          ///< seconds; 0: none
 };
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);

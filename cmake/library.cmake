@@ -1,6 +1,6 @@
 # tetmend::tetmend, what users link: all layers as one shared library. What it is made with is its own affair: users see
 # include/tetmend and need nothing else.
-set(tetmend_layers kernel trace search ops schedule face)
+set(tetmend_layers kernel trace search ops contract schedule face)
 
 add_library(tetmend_library SHARED)
 add_library(tetmend::tetmend ALIAS tetmend_library)

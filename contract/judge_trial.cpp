@@ -5,34 +5,19 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "contract/changed_tets.h"
 #include "contract/portrait.h"
 #include "contract/trials.h"
-#include "contract/zoo.h"
 #include "kernel/integrity.h"
 
 namespace tetmend::contract {
 
 namespace {
-
-/// A tet by its vertices, sorted, and its quality: what did not change appears before and after.
-using NamedTet = std::pair<TetVertices, Quality>;
-
-std::vector<NamedTet> list_tets(const TetMesh& mesh) {
-  std::vector<NamedTet> all;
-  for (const TetHandle t : live_tets(mesh)) {
-    TetVertices v = mesh.vertices(t);
-    std::sort(v.begin(), v.end());
-    all.emplace_back(v, mesh.quality(t));
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
 
 /// The tets of a mesh that are not in the other.
 struct Side {
@@ -41,12 +26,7 @@ struct Side {
   double mean_ratios = 0;          // sum
 };
 
-Side list_changed(const TetMesh& mesh, const TetMesh& other) {
-  const auto here = list_tets(mesh);
-  const auto there = list_tets(other);
-  std::vector<NamedTet> changed;
-  std::set_difference(here.begin(), here.end(), there.begin(), there.end(),
-                      std::back_inserter(changed));
+Side describe(const TetMesh& mesh, const std::vector<NamedTet>& changed) {
   Side side;
   for (const auto& [v, quality] : changed) {
     side.qualities.push_back(quality);
@@ -197,7 +177,8 @@ std::string try_case(const Operator& op, const TetMesh& start, const Portrait& k
   }
   ++outcome.accepted;
   if (const auto loss = complaint_about_loss(known, mesh); !loss.empty()) return loss;
-  const bool holds = tried.holds(list_changed(start, mesh), list_changed(mesh, start));
+  const ChangedTets changed = changed_tets(start, mesh);
+  const bool holds = tried.holds(describe(start, changed.before), describe(mesh, changed.now));
   return holds ? "" : fmt::format("the promise is broken: {}", tried.judge.promise());
 }
 

@@ -18,6 +18,7 @@
 #endif
 #include <tetmend/improve.h>
 
+#include "contract/inspector.h"
 #include "face/advice.h"
 #include "face/arena.h"
 #include "face/carry.h"
@@ -157,6 +158,9 @@ class Improvement {
       if (!result_.worse().empty()) go_back();
       note(face::advice_after(mesh_, options_, result_));
       map_entities();
+    } catch (const contract::Breach& breach) {
+      give_back_input();
+      throw Error(breach.what());
     } catch (...) {
       give_back();
       throw;
@@ -294,6 +298,8 @@ void Improvement::run_schedule(std::size_t passes) {
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
   run.set_trace(trace.get());
+  contract::Inspector inspector;
+  if (options_.check_operators) run.set_inspector(&inspector);
   watcher_.watch(&run, quality_indicators(mesh_));
   watcher_.begin(Stage::improving);
   {

@@ -17,9 +17,9 @@ namespace tetmend {
 class Workspace;
 
 /// Largest star, in tets, that the operators look at; a vertex of a larger one stays where it is. An
-/// attempt may look at each tet once for each neighbour of the vertex, which takes some milliseconds
+/// attempt may look at each tet once for each neighbour of the vertex, which takes milliseconds
 /// here. Stars of real parts have less than a hundred tets.
-inline constexpr std::size_t kMaxStar = 1000;
+inline constexpr std::size_t kMaxStar = 300;
 
 enum class StarKind : std::uint8_t {
   whole,

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "ops/attempt_watch.h"
+
 namespace tetmend {
 
 namespace {
@@ -78,6 +80,7 @@ Verdict Operator::try_target(OperatorContext& context, Target target) const {
 
 Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   OperatorState& state = context.states.of(*this);
+  const Judge* const judge = context.judge;
   context.states.comparison.forget();
   // Open from the start: edits of the first two stages, which must make none, are undone as well.
   Transaction transaction(context.mesh, context.workspace);
@@ -85,6 +88,7 @@ Verdict Operator::run_stages(OperatorContext& context, Target target) const {
   if (verdict == Verdict::accepted) verdict = evaluate_in(context, target, state);
   if (!transaction.empty()) throw Error("it edits the mesh before apply()");
   if (verdict != Verdict::accepted) return verdict;
+  context.judge = judge;  // whatever a stage made of it
   if (context.trace != nullptr) context.trace->candidate_found();
   verdict = try_proposals(context, target, transaction, state);
   if (verdict == Verdict::accepted) transaction.keep();
@@ -97,11 +101,12 @@ Verdict Operator::try_proposals(OperatorContext& context, Target target, Transac
   const TetHandle tet = tet_of(target);
   const TetVertices corners = tet.is_valid() ? context.mesh.vertices(tet) : TetVertices{};
   Comparison& comparison = context.states.comparison;
+  const Judge& judge = *context.judge;
   for (;;) {
     Verdict verdict = apply_in(context, target, transaction, state);
     if (verdict != Verdict::accepted) {
       comparison.forget();  // of what apply() compared on its way
-    } else if (!context.judge->accepts({transaction, comparison, tet, corners})) {
+    } else if (!judge.accepts({transaction, comparison, tet, corners})) {
       verdict = Verdict::no_improvement;
     }
     if (verdict == Verdict::accepted || verdict == Verdict::deferred) return verdict;
@@ -123,6 +128,7 @@ void report_end(OperatorContext& context, Verdict verdict) {
 Verdict Operator::attempt(OperatorContext& outer, Target target) const {
   OperatorContext context = outer;
   if (context.judge == nullptr) context.judge = &judge_;
+  const AttemptMark mark(*this, target);
   if (context.trace == nullptr) return try_target(context, target);
 
   const TargetVertices vertices(context.mesh, target);

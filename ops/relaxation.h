@@ -17,8 +17,7 @@ struct RelaxationState {
 
 /// Smooths around a new vertex, reconnects its bad tets, smooths again; ends when the second half
 /// cannot make up for what the worst tet lost. Precondition: the star of the vertex lies in the
-/// territory. Cost: two smoothings of each vertex of its one-ring; where these have thousands of tets
-/// it ends before.
+/// territory. Cost: two smoothings of each vertex of its one-ring.
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
            const BallOptimiser::Limits& limits, RelaxationState& state);
 

@@ -168,11 +168,12 @@ struct TetAttempts::Progress {
   Date since;
   std::uint64_t deferred = 0;
   bool gone = false;
+  bool stopped = false;
   bool accepted = false;  // since the innermost first_of began
   bool until_accepted = false;
   bool counts = true;  // false: part of a sequence, which counts as one attempt
 
-  bool done() const { return gone || (until_accepted && accepted); }
+  bool done() const { return gone || stopped || (until_accepted && accepted); }
 };
 
 TetAttempts::TetAttempts(const Registry& registry, const Composition& composition)
@@ -317,6 +318,8 @@ bool TetAttempts::try_once(const Node& node, Progress& progress, Target target, 
   PairSet& tried = progress.worker.tried[leaf.number];
   const bool remembers = target.kind != TargetKind::tet;  // each tet is queued once
   if (remembers && tried.contains(key[0].index(), key[1].index())) return true;
+  progress.stopped = progress.worker.is_stopped();
+  if (progress.stopped) return false;
   const Verdict verdict = attempt(node, progress.worker, target, progress.entry.vertices);
   if (progress.counts) progress.worker.count(verdict);
   progress.accepted = progress.accepted || verdict == Verdict::accepted;
@@ -337,7 +340,7 @@ Verdict TetAttempts::attempt(const Node& node, Worker& worker, Target target,
   if (node.kind == Composition::Kind::sequence) {
     return attempt_sequence(node, worker, target, tet);
   }
-  return node.leaf.op->attempt(worker.context(), target);
+  return worker.attempt_in(worker.context(), *node.leaf.op, target);
 }
 
 /// To the trace a sequence is an attempt like that of an operator, with those of its parts in it.
@@ -368,7 +371,7 @@ Verdict TetAttempts::try_sequence(const Node& node, Worker& worker, Target targe
   Transaction sequence(context.mesh, context.workspace);
   OperatorContext opening = context;
   opening.judge = &hopeful;
-  const Verdict verdict = node.leaf.op->attempt(opening, target);
+  const Verdict verdict = worker.attempt_in(opening, *node.leaf.op, target);
   if (verdict != Verdict::accepted) {
     comparison.forget();  // of what the operator compared
     return verdict;

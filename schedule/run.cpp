@@ -33,6 +33,12 @@ std::size_t PassRecord::attempts() const {
 Run::Run(TetMesh& mesh, const Registry& registry)
     : mesh_(mesh), registry_(registry), worker_(mesh, Workspace(mesh)) {
   set_block_count(std::min(kEnoughBlocks, mesh.vertex_count() / kVerticesPerBlock));
+  worker_.set_stop([this] { return is_to_stop(); });
+}
+
+bool Run::is_to_stop() {
+  check_time();
+  return cancelled();
 }
 
 void Run::set_standard(const Standard& standard) {
@@ -53,6 +59,11 @@ void Run::set_trace(TraceSink* trace) {
   worker_.workspace().set_listener(trace);
 }
 
+void Run::set_inspector(AttemptInspector* inspector) {
+  inspector_ = inspector;
+  worker_.set_inspector(inspector);
+}
+
 void Run::set_time_limit(double seconds) {
   using Clock = std::chrono::steady_clock;
   constexpr double kForever = 1e9;
@@ -62,7 +73,8 @@ void Run::set_time_limit(double seconds) {
 }
 
 void Run::check_time() {
-  if (std::chrono::steady_clock::now() >= deadline_) out_of_time_ = true;
+  using Clock = std::chrono::steady_clock;
+  if (deadline_ != Clock::time_point::max() && Clock::now() >= deadline_) out_of_time_ = true;
 }
 
 void Run::note(const std::string& text) {
@@ -110,10 +122,12 @@ void Run::on_all_threads(const std::function<void(Worker&)>& work) {
     }
     mine->context().trace = trace_;
     mine->workspace().set_listener(trace_);
+    mine->set_inspector(inspector_);
+    mine->set_stop([this] { return is_to_stop(); });
     mine->workspace().set_date(worker_.workspace().date());
     work(*mine);
   };
-  if (trace_ != nullptr) return work_here();
+  if (trace_ != nullptr || inspector_ != nullptr) return work_here();
   const int threads = tbb::this_task_arena::max_concurrency();
   FirstFailure failure;
   tbb::parallel_for(
@@ -205,14 +219,13 @@ void PassScope::expect(std::size_t items) {
 }
 
 bool PassScope::proceed(std::size_t n) {
-  // Some items take milliseconds.
-  if (run_.deadline_ != std::chrono::steady_clock::time_point::max()) run_.check_time();
+  const bool goes_on = !run_.is_to_stop();  // asked each time, for one item may take long
   if (n % kTicksBetweenReports == 0) {
     const std::size_t done = ticks_.fetch_add(kTicksBetweenReports);
     run_.report_progress(record_.name, std::min(1.0, static_cast<double>(done) /
                                                          static_cast<double>(expected_ + 1)));
   }
-  return !run_.cancelled();
+  return goes_on;
 }
 
 void PassScope::take_verdicts(Worker& worker) {

@@ -91,6 +91,8 @@ class Run {
   bool cancelled() const { return flag_is_set() || out_of_time(); }
   /// True once the time limit was met, as far as anyone has looked at the clock.
   bool out_of_time() const { return out_of_time_.load(std::memory_order_relaxed); }
+  /// The same, by a look at the clock.
+  bool is_to_stop();
   /// Looks at the clock.
   void check_time();
   /// Since the run was made.
@@ -98,6 +100,8 @@ class Run {
   /// Passes, attempts and edits are told to the sink, by one thread. Null: no trace.
   void set_trace(TraceSink* trace);
   TraceSink* trace() const { return trace_; }
+  /// All attempts go through the inspector, in one thread. Null: none.
+  void set_inspector(AttemptInspector* inspector);
   /// For experiments: another number of blocks than the size of the mesh asks for. 1: no division.
   void set_block_count(std::size_t blocks);
 
@@ -157,6 +161,7 @@ class Run {
   std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
   std::atomic<bool> out_of_time_ = false;
   TraceSink* trace_ = nullptr;
+  AttemptInspector* inspector_ = nullptr;
   std::vector<std::pair<std::string, Date>> last_sweep_;
   bool is_measured_ = false;  // the last record has the indicators of the mesh as it is
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "kernel/index_set.h"
-#include "ops/operator.h"
+#include "ops/attempt_inspector.h"
 
 namespace tetmend {
 
@@ -24,8 +26,22 @@ class Worker {
   Workspace& workspace() { return workspace_; }
   OperatorContext& context() { return context_; }
 
+  /// Null: nobody looks at the attempts.
+  void set_inspector(AttemptInspector* inspector) { inspector_ = inspector; }
+
+  /// Says whether the run is to stop. Asked between two attempts, also on the same tet.
+  void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
+  bool is_stopped() const { return stop_ && stop_(); }
+
   /// Attempts and counts.
-  Verdict attempt(const Operator& op, Target target) { return count(op.attempt(context_, target)); }
+  Verdict attempt(const Operator& op, Target target) {
+    return count(attempt_in(context_, op, target));
+  }
+  /// Attempts, in a context of this worker.
+  Verdict attempt_in(OperatorContext& context, const Operator& op, Target target) {
+    return inspector_ == nullptr ? op.attempt(context, target)
+                                 : inspector_->attempt(op, context, target);
+  }
   Verdict count(Verdict verdict) {
     ++verdicts[static_cast<std::size_t>(verdict)];
     return verdict;
@@ -47,6 +63,8 @@ class Worker {
   Workspace workspace_;
   OperatorStates states_;
   OperatorContext context_;
+  AttemptInspector* inspector_ = nullptr;
+  std::function<bool()> stop_;
 };
 
 }  // namespace tetmend

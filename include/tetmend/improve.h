@@ -88,6 +88,10 @@ struct Options {
   int trace_depth = -1;           ///< attempts with at most that many around them; negative: any
   std::uint64_t trace_limit = 0;  ///< bytes at which the trace ends; 0: none
 
+  /// Hold each attempt of a plugin to the contract (docs/operators.md). The run uses one thread then,
+  /// and may take hours: linear in the mesh for each attempt. The result is the same.
+  bool check_operators = false;
+
   bool limit = false;  ///< prove what the surface allows; seconds for a large mesh
   /// Give Result::rulers_before and rulers_after; about 0.2 s for a million tets.
   bool rulers = true;
@@ -207,7 +211,8 @@ struct Result {
 ///
 /// When the schedule fails half-way (a mistake in a script, an exception of a plugin or of
 /// Options::progress), the mesh is sound and improved so far. When the mesh or an option is wrong,
-/// the mesh is as before. When memory runs out, the mesh is one or the other.
+/// or Options::check_operators finds a breach, the mesh is as before. When memory runs out, the mesh
+/// is one or the other.
 /// @throws OptionError for an option without sense; Error for a file that cannot be read, a script
 /// or a plugin with a mistake, and a mesh as measure() says. The message has the place: the line of
 /// the script, the line or byte of the mesh file, the number of the tet (from 0) in the arrays.

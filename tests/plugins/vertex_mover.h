@@ -18,7 +18,8 @@ struct MoverState {
 class VertexMover : public OperatorOf<MoverState> {
  public:
   using State = MoverState;
-  explicit VertexMover(const OperatorInfo& info) : OperatorOf(info) {}
+  explicit VertexMover(const OperatorInfo& info, const Judge& judge = Judge::strict())
+      : OperatorOf(info, judge) {}
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target, State&) const override {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "apps/plugin_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "apps/commands.h"
+#include "kernel/formats/temporary_names.h"
+#include "ops/attempt_watch.h"
+
+namespace tetmend::apps {
+namespace {
+
+constexpr auto kInterval = std::chrono::milliseconds(100);
+constexpr auto kGrace = std::chrono::seconds(2);
+
+/// A line that a signal handler may write: it neither allocates nor locks.
+class PlainLine {
+ public:
+  void add(std::string_view text) {
+    const std::size_t count = std::min(text.size(), text_.size() - size_);
+    std::copy_n(text.begin(), count, text_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += count;
+  }
+  void add(std::uint32_t number) {
+    std::array<char, 10> digits{};
+    const char* end = std::to_chars(digits.begin(), digits.end(), number).ptr;
+    add({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  }
+  void write() const {
+    if (::write(STDERR_FILENO, text_.data(), size_) < 0) return;
+  }
+
+ private:
+  std::array<char, 5000> text_{};  // for a path as long as can be
+  std::size_t size_ = 0;
+};
+
+extern "C" void on_crash(int number) {
+  if (const AttemptMark* mark = own_pending_attempt(); mark != nullptr) {
+    PlainLine line;
+    if (::isatty(STDERR_FILENO) == 1) line.add("\n");  // below the line of the progress
+    line.add("tetmend: crashed in operator '");
+    line.add(mark->op().info().name);
+    line.add("' of ");
+    line.add(mark->op().origin());
+    line.add(" at ");
+    line.add(to_string(mark->target().kind));
+    line.add(" ");
+    line.add(mark->target().code);
+    line.add("\n");
+    line.write();
+  }
+  formats::remove_temporaries();
+  ::raise(number);  // SA_RESETHAND: acts as it would have, when the handler returns
+}
+
+/// A handler needs a stack where an endless recursion has used up that of the thread.
+class AlternateStack {
+ public:
+  AlternateStack() : memory_(std::make_unique<char[]>(kSize)) {
+    stack_t stack{};
+    stack.ss_sp = memory_.get();
+    stack.ss_size = kSize;
+    ::sigaltstack(&stack, &before_);
+  }
+  ~AlternateStack() { ::sigaltstack(&before_, nullptr); }
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  static constexpr std::size_t kSize = 1 << 16;
+  std::unique_ptr<char[]> memory_;
+  stack_t before_{};
+};
+
+void provide_alternate_stack() {
+  thread_local const AlternateStack stack;
+}
+
+}  // namespace
+
+void note_crashes() {
+  set_attempt_thread_hook(provide_alternate_stack);
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    struct sigaction action {};
+    action.sa_handler = on_crash;
+    action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
+    ::sigaction(number, &action, nullptr);
+  }
+}
+
+PluginWatch::PluginWatch(double attempt_limit, double time_limit, Tell tell)
+    : attempt_limit_(attempt_limit),
+      time_limit_(time_limit),
+      tell_(std::move(tell)),
+      thread_([this] { watch(); }) {}
+
+PluginWatch::~PluginWatch() {
+  {
+    const std::lock_guard lock(busy_);
+    is_over_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+/// A run that goes back improves a second time, and no longer than the first.
+void PluginWatch::show(Stage stage) {
+  if (time_limit_.count() <= 0 || stage == stage_) return;
+  stage_ = stage;
+  deadline_ = stage == Stage::improving
+                  ? Clock::now() + std::chrono::duration_cast<Clock::duration>(time_limit_)
+                  : Clock::time_point::max();
+}
+
+void PluginWatch::watch() {
+  std::unique_lock lock(busy_);
+  while (!wake_.wait_for(lock, kInterval, [this] { return is_over_; })) look(Clock::now());
+}
+
+void PluginWatch::look(Clock::time_point now) {
+  const std::vector<PendingAttempt> pending = pending_attempts();
+  std::erase_if(told_, [&](Clock::time_point since) {
+    return std::none_of(pending.begin(), pending.end(),
+                        [&](const PendingAttempt& attempt) { return attempt.since == since; });
+  });
+  const Clock::time_point deadline = deadline_;
+  for (const PendingAttempt& attempt : pending) {
+    const Clock::duration age = now - attempt.since;
+    if (deadline < now && now - std::max(deadline, attempt.since) > kGrace) end(attempt.what);
+    if (attempt_limit_.count() <= 0 || age < attempt_limit_ ||
+        std::find(told_.begin(), told_.end(), attempt.since) != told_.end()) {
+      continue;
+    }
+    told_.push_back(attempt.since);
+    tell_(fmt::format("{} has not come back for {:g} s", attempt.what, attempt_limit_.count()));
+  }
+}
+
+/// The thread that hangs cannot be ended alone, and nobody knows what state it leaves.
+void PluginWatch::end(std::string_view what) const {
+  tell_(fmt::format("{} has not come back, and the time limit is over: nothing was written", what));
+  formats::remove_temporaries();
+  ::_exit(kFailed);
+}
+
+}  // namespace tetmend::apps

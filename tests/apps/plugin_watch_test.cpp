@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Plugins that crash or do not come back, and --check-operators, as a user of the command line has
+// them.
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+
+#include "tests/apps/program.h"
+#include "tests/support/text.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+std::string plugin_file(const std::string& name) {
+  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
+}
+
+struct Trial {
+  std::string plugin;
+  std::string op;
+  std::vector<std::string> options;
+  std::string below = "0.8";  // of the tets that it works on
+};
+
+/// No file with what was in memory is wanted, here and in what is started from here.
+class NoCore {
+ public:
+  NoCore() {
+    ::getrlimit(RLIMIT_CORE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    ::setrlimit(RLIMIT_CORE, &none);
+  }
+  ~NoCore() { ::setrlimit(RLIMIT_CORE, &before_); }
+  NoCore(const NoCore&) = delete;
+  NoCore& operator=(const NoCore&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+/// Improves a small mesh with one operator, over a file that is there already; checks that nothing
+/// else is left in its folder.
+struct Ended {
+  Outcome outcome;
+  std::string written;
+};
+Ended improve(const Trial& trial) {
+  const TempFolder folder;
+  const std::string mesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/bracket.meshb";
+  const std::string out = (folder / "out.mesh").string();
+  const std::string script = (folder / "mine.lua").string();
+  write_text(out, "dear to me");
+  write_text(script, "apply(\"" + trial.op + "\", {on = {below = " + trial.below + "}})\n");
+  std::vector<std::string> arguments = {"improve",    mesh,       "-o",
+                                        out,          "--plugin", plugin_file(trial.plugin),
+                                        "--schedule", script,     "--quiet"};
+  arguments.insert(arguments.end(), trial.options.begin(), trial.options.end());
+  Ended ended{run_program(arguments), {}};
+  ended.written = read_text(out);
+  CHECK(folder.entries() == 2);
+  return ended;
+}
+
+constexpr const char* kOld = "dear to me";
+
+}  // namespace
+
+TEST_CASE("an attempt that does not come back is named, and the time limit ends the run") {
+  for (const std::string threads : {"1", "3"}) {
+    const auto [outcome, written] =
+        improve({"hanging",
+                 "hangs",
+                 {"--attempt-limit", "0.2", "--time-limit", "0.5", "--threads", threads}});
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == 1);
+    const std::string who = "operator 'hangs' of " + plugin_file("hanging") + " at vertex ";
+    CHECK(outcome.err.starts_with("tetmend: " + who));
+    CHECK(contains(outcome.err, " has not come back for 0.2 s\n"));
+    CHECK(contains(outcome.err, "and the time limit is over: nothing was written\n"));
+    CHECK(written == kOld);
+  }
+}
+
+TEST_CASE("an attempt that does not come back is named once, and not at all with a limit of 0") {
+  const std::string note = "has not come back for";
+  const auto named =
+      improve({"hanging", "hangs", {"--attempt-limit", "0.2", "--time-limit", "0.5"}}).outcome.err;
+  CHECK(named.find(note) != std::string::npos);
+  CHECK(named.find(note) == named.rfind(note));
+  const auto silent =
+      improve({"hanging", "hangs", {"--attempt-limit", "0", "--time-limit", "0.5"}}).outcome.err;
+  CHECK(silent.find(note) == std::string::npos);
+}
+
+TEST_CASE("attempts that are slow and come back end in time, with what was reached") {
+  const auto [outcome, written] = improve({"hanging", "slow", {"--time-limit", "0.5"}});
+  CHECK(outcome.err.empty());
+  CHECK(outcome.status == 0);
+  CHECK(written != kOld);
+}
+
+TEST_CASE("a crash in an attempt is told with operator, plugin and target before it ends the run") {
+  const NoCore none;
+  struct Case {
+    std::string op;
+    int signal;
+  };
+  for (const auto& [op, signal] :
+       {Case{"crashes", SIGSEGV}, Case{"recurses", SIGSEGV}, Case{"aborts", SIGABRT}}) {
+    for (const std::string threads : {"1", "3"}) {
+      CAPTURE(op);
+      CAPTURE(threads);
+      const auto [outcome, written] = improve({"crashing", op, {"--threads", threads}});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 128 + signal);
+      const std::string line =
+          "tetmend: crashed in operator '" + op + "' of " + plugin_file("crashing") + " at vertex ";
+      CHECK(outcome.err.starts_with(line));
+      CHECK(outcome.err.ends_with("\n"));
+      CHECK(written == kOld);
+    }
+  }
+}
+
+TEST_CASE("check-plugin names the operator that crashes") {
+  const NoCore none;
+  const Outcome outcome = run_program({"check-plugin", plugin_file("crashing")});
+  CHECK(outcome.status == 128 + SIGSEGV);
+  CHECK(contains(outcome.err, "tetmend: crashed in operator 'crashes' of "));
+}
+
+TEST_CASE("improve --check-operators ends at the first breach, and no output is touched") {
+  const auto [outcome, written] = improve({"sly", "moves_another", {"--check-operators"}});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.starts_with("tetmend: "));
+  CHECK(contains(outcome.err, "operator 'moves_another' of " + plugin_file("sly") +
+                                  " breaks the contract at vertex "));
+  CHECK(contains(outcome.err, "something changed that the judge did not see"));
+  CHECK(written == kOld);
+  CHECK(improve({"sly", "moves_another", {}}).outcome.status == 0);  // nobody looks
+}
+
+TEST_CASE(
+    "improve --check-operators writes the same mesh as without, for operators that are sound") {
+  const auto plain = improve({"sound", "sound", {"--threads", "2"}, "0.1"});
+  const auto checked = improve({"sound", "sound", {"--threads", "2", "--check-operators"}, "0.1"});
+  CHECK(plain.outcome.status == 0);
+  CHECK(checked.outcome.status == 0);
+  CHECK(checked.outcome.err.empty());
+  CHECK(plain.written != kOld);
+  CHECK(plain.written == checked.written);
+}
