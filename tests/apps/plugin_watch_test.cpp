@@ -72,10 +72,12 @@ constexpr const char* kOld = "dear to me";
 
 TEST_CASE("an attempt that does not come back is named, and the time limit ends the run") {
   for (const std::string threads : {"1", "3"}) {
-    const auto [outcome, written] =
+    const Ended ended =
         improve({"hanging",
                  "hangs",
                  {"--attempt-limit", "0.2", "--time-limit", "0.5", "--threads", threads}});
+    const Outcome& outcome = ended.outcome;
+    const std::string& written = ended.written;
     CAPTURE(outcome.err);
     CHECK(outcome.status == 1);
     const std::string who = "operator 'hangs' of " + plugin_file("hanging") + " at vertex ";
@@ -98,7 +100,9 @@ TEST_CASE("an attempt that does not come back is named once, and not at all with
 }
 
 TEST_CASE("attempts that are slow and come back end in time, with what was reached") {
-  const auto [outcome, written] = improve({"hanging", "slow", {"--time-limit", "0.5"}});
+  const Ended ended = improve({"hanging", "slow", {"--time-limit", "0.5"}});
+  const Outcome& outcome = ended.outcome;
+  const std::string& written = ended.written;
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
   CHECK(written != kOld);
@@ -110,12 +114,16 @@ TEST_CASE("a crash in an attempt is told with operator, plugin and target before
     std::string op;
     int signal;
   };
-  for (const auto& [op, signal] :
+  for (const auto& trial :
        {Case{"crashes", SIGSEGV}, Case{"recurses", SIGSEGV}, Case{"aborts", SIGABRT}}) {
+    const std::string& op = trial.op;
+    const int signal = trial.signal;
     for (const std::string threads : {"1", "3"}) {
       CAPTURE(op);
       CAPTURE(threads);
-      const auto [outcome, written] = improve({"crashing", op, {"--threads", threads}});
+      const Ended ended = improve({"crashing", op, {"--threads", threads}});
+      const Outcome& outcome = ended.outcome;
+      const std::string& written = ended.written;
       CAPTURE(outcome.err);
       CHECK(outcome.status == 128 + signal);
       const std::string line =
@@ -135,7 +143,9 @@ TEST_CASE("check-plugin names the operator that crashes") {
 }
 
 TEST_CASE("improve --check-operators ends at the first breach, and no output is touched") {
-  const auto [outcome, written] = improve({"sly", "moves_another", {"--check-operators"}});
+  const Ended ended = improve({"sly", "moves_another", {"--check-operators"}});
+  const Outcome& outcome = ended.outcome;
+  const std::string& written = ended.written;
   CAPTURE(outcome.err);
   CHECK(outcome.status == 1);
   CHECK(outcome.err.starts_with("tetmend: "));
