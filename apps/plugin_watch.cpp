@@ -83,7 +83,7 @@ class AlternateStack {
 };
 
 void provide_alternate_stack() {
-  thread_local const AlternateStack stack;
+  thread_local const AlternateStack kStack;
 }
 
 }  // namespace

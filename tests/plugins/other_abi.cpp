@@ -16,7 +16,7 @@ namespace {
 struct Initialiser {
   Initialiser() { std::abort(); }
 };
-const Initialiser initialiser;
+const Initialiser kInitialiser;
 }  // namespace
 
 extern "C" void tetmend_plugin_register(tetmend::Registry&) {
