@@ -7,6 +7,7 @@ usage: faults.py PROGRAM SOURCE_FOLDER PRELOAD ROUNDS [--library FAULT_TESTS] [-
 """
 
 import argparse
+import dataclasses
 import os
 import random
 import re
@@ -30,7 +31,7 @@ PROGRAM, SOURCE, PRELOAD, ROUNDS = arguments.program, arguments.source, argument
 MESHES = SOURCE / "assets" / "meshes"
 counts = {}
 failures = []
-sys.path.insert(0, str(SOURCE / "bench"))
+sys.path.insert(0, str(SOURCE.resolve() / "bench"))
 import documents  # noqa: E402
 
 
@@ -233,7 +234,8 @@ def failing_allocations_of_the_library():
 def page():
     table = [["What was done to a run", "Times"], *([what, f"{number:,}"] for what, number in counts.items())]
     verdict = "Nothing was lost and nothing stayed." if not failures else "Failed: " + "; ".join(sorted(set(failures))) + "."
-    return documents.document("Faults", documents.stamp("script/faults"), [
+    made = dataclasses.replace(documents.stamp("script/faults"), command=f"script/faults {ROUNDS}")
+    return documents.document("Faults", made, [
         "After each the file of the user was the old one or the new one, whole, and nothing else lay in its folder; after a "
         "failed allocation of the library the mesh was what it was when the last attempt was kept. " + verdict,
         documents.markdown_table(table)])
