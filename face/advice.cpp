@@ -190,8 +190,9 @@ std::vector<std::string> advice_after(const TetMesh& mesh, const Options& option
   const Held held = count_held(mesh, faces);
   const auto binds = [&](std::size_t count) { return count > 0 && 10 * count >= held.bad; };
   std::vector<std::string> texts;
-  if (const InvertedTets inverted = count_inverted(mesh); inverted.all() > 0) {
-    texts.push_back(reasons_of_inverted(inverted));
+  if (result.ending != Ending::cancelled) {  // who stops a run waits for the program to end
+    const InvertedTets inverted = count_inverted(mesh);
+    if (inverted.all() > 0) texts.push_back(reasons_of_inverted(inverted));
   }
   if (binds(held.by_named)) {
     const bool only_faces = faces.named > 0;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
+#include "tests/support/hub.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -58,4 +59,14 @@ TEST_CASE("frozen tets count as such") {
   const InvertedTets count = count_inverted(mesh);
   CHECK(count.frozen == count_not_positive(mesh));
   CHECK(count.all() == count.frozen);
+}
+
+TEST_CASE("a vertex that many inverted tets share is asked once") {
+  // Asked for each of 10,000 tets, whose star is as large, it would take minutes.
+  MeshData data = hub(5000);
+  data.points[0] = {3, 0, 0};
+  const TetMesh mesh(data);
+  const InvertedTets count = count_inverted(mesh);
+  REQUIRE(count_not_positive(mesh) > 1000);
+  CHECK(count.open == count_not_positive(mesh));
 }
