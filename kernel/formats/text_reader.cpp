@@ -112,27 +112,30 @@ const char* TextReader::bytes(std::size_t size, std::string_view what) {
   return word_;
 }
 
+// Much of a short run is spent here: the loops look at no members.
 std::int64_t TextReader::integer(std::string_view what, std::int64_t low, std::int64_t high) {
-  skip_space();
-  word_ = next_;
-  const bool negative = *next_ == '-';
-  const char* digits = next_ + (negative ? 1 : 0);
-  const char* p = digits;
-  std::int64_t value = 0;
+  const char* p = next_;
+  while (is_space(*p)) ++p;
+  word_ = p;
+  const bool negative = *p == '-';
+  if (negative) ++p;
+  const char* digits = p;
+  std::uint64_t size = 0;  // wraps round where there are too many digits
+  for (; is_digit(*p); ++p) size = 10 * size + static_cast<unsigned char>(*p - '0');
   constexpr std::ptrdiff_t kAlwaysFits = 18;
-  while (is_digit(*p) && p - digits < kAlwaysFits) value = 10 * value + (*p++ - '0');
-  if (p != digits && ends_word(*p)) {
-    next_ = p;
-    if (negative) value = -value;
-  } else {
-    value = slow_integer(what);
+  if (p == digits || p - digits > kAlwaysFits || !ends_word(*p)) {
+    return slow_integer(what, low, high);
   }
-  if (value < low || value > high) {
-    const std::string_view word(word_, static_cast<std::size_t>(next_ - word_));
-    fail(
-        fmt::format("{} is out of range: expected {}, {} to {}", in_quotes(word), what, low, high));
-  }
+  next_ = p;
+  const auto value = static_cast<std::int64_t>(negative ? 0 - size : size);
+  if (value < low || value > high) fail_range(what, low, high);
   return value;
+}
+
+// Apart from integer(): its strings would cost each number the set-up of a stack frame.
+void TextReader::fail_range(std::string_view what, std::int64_t low, std::int64_t high) const {
+  const std::string_view word(word_, static_cast<std::size_t>(next_ - word_));
+  fail(fmt::format("{} is out of range: expected {}, {} to {}", in_quotes(word), what, low, high));
 }
 
 double TextReader::real(std::string_view what) {
@@ -159,7 +162,7 @@ std::string_view TextReader::slow_number(std::string_view what) {
   return found;
 }
 
-std::int64_t TextReader::slow_integer(std::string_view what) {
+std::int64_t TextReader::slow_integer(std::string_view what, std::int64_t low, std::int64_t high) {
   const std::string_view found = slow_number(what);
   const char* first = found.data();
   const char* last = first + found.size();
@@ -172,6 +175,7 @@ std::int64_t TextReader::slow_integer(std::string_view what) {
   if (error != std::errc() || stop != last) {
     fail(fmt::format("{} is not an integer: expected {}", in_quotes(found), what));
   }
+  if (value < low || value > high) fail_range(what, low, high);
   return value;
 }
 

@@ -89,7 +89,8 @@ class TextReader {
   bool ends_word(char c) const;
   const char* end_of_word() const;
   std::string_view slow_number(std::string_view what);
-  std::int64_t slow_integer(std::string_view what);
+  std::int64_t slow_integer(std::string_view what, std::int64_t low, std::int64_t high);
+  [[noreturn]] void fail_range(std::string_view what, std::int64_t low, std::int64_t high) const;
   double slow_real(std::string_view what);
 
   const InputFile& file_;
