@@ -25,6 +25,7 @@
 #include "apps/plugin_watch.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
+#include "face/recorded.h"
 #include "kernel/formats/output_file.h"
 
 namespace tetmend::apps {
@@ -67,7 +68,8 @@ void check_files(const ImproveOptions& options) {
 /// Before the schedule signals end the program: there is nothing to be saved yet.
 /// @param interruption begins then
 Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line,
-                       std::optional<Interruption>& interruption) {
+                       std::optional<Interruption>& interruption,
+                       std::unique_ptr<TraceRecorder>& trace) {
   Options options = all.run;
   std::mutex line_busy;  // the watch has a thread of its own
   std::optional<PluginWatch> watch;
@@ -92,7 +94,7 @@ Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line
     line.note(text);
   };
   try {
-    return tetmend::improve(mesh, options);
+    return face::improve(mesh, options, trace);
   } catch (const OptionError& error) {
     throw Error(message_of(error));
   }
@@ -111,6 +113,16 @@ std::size_t peak_memory() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
+/// What went wrong; empty: nothing. Null: there is no trace.
+std::string finish(TraceRecorder* trace) {
+  try {
+    if (trace != nullptr) trace->finish();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
 int run_improve(ImproveOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   check_files(options);
@@ -126,7 +138,8 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
     mesh = load_for(options.input, options.output, threads, options.carry, report.file_notes);
   }
   std::optional<Interruption> interruption;  // until all is written
-  report.result = improve_watched(mesh, options, progress, interruption);
+  std::unique_ptr<TraceRecorder> trace;
+  report.result = improve_watched(mesh, options, progress, interruption, trace);
   {
     const Stopwatch watch(report.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
@@ -135,11 +148,15 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   report.peak_memory = peak_memory();
   if (!options.report.empty()) write_report(options.report, report);
   invocation.wrote_files = true;
+  const std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little
   progress.clear();
   if (!options.quiet) {
     say(stream_beside(options.output),
         fmt::format("tetmend {}: {} -> {}\n\n{}", version(), options.input.string(),
                     options.output.string(), format_report(report)));
+  }
+  if (!trace_trouble.empty()) {
+    return complain(kFailed, fmt::format("{}: wrote the mesh, and no trace", trace_trouble));
   }
   if (report.result.ending == Ending::cancelled) {
     return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
@@ -165,11 +182,12 @@ before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
 
 An operator of a plugin that does not come back is named; two seconds after the
-time limit it ends the run with exit status 1, and nothing is written.
+time limit it ends the run with exit status 1, and no mesh is written. If the
+trace cannot be written, the mesh is all the same, and the exit status is 1.
 
-Ctrl-C, SIGTERM or a lost terminal stop the work: OUT is still written, with the
-mesh as improved so far, and the exit status is 4. The second time they end the
-program at once. A time limit stops the work likewise, with exit status 0. A mistake in a script ends
+Ctrl-C, SIGTERM, SIGUSR1, SIGXCPU and their like stop the work: OUT is still
+written, with the mesh as improved so far, and the exit status is 4. The second
+time, or while IN is read, they end the program at once, and nothing is written. A time limit stops the work likewise, with exit status 0. A mistake in a script ends
 it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
 then, and hands down owner and permissions. OUT may be IN; other files that are

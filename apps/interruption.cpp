@@ -19,6 +19,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not
 
 extern "C" void on_signal(int number) {
   if (stops_in_order && !signalled.exchange(true)) return;
+  if (stops_in_order && number == SIGXCPU) return;  // comes again every second
   formats::end_by_signal(number);
 }
 
@@ -43,7 +44,8 @@ extern "C" void on_signal(int number) {
 void end_without_remains() {
   std::set_terminate(on_terminate);
   ::signal(SIGXFSZ, SIG_IGN);
-  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
+  // What terminals send, and batch systems when the time of a job is nearly over.
+  for (const int number : {SIGHUP, SIGINT, SIGTERM, SIGXCPU, SIGUSR1, SIGUSR2, SIGALRM}) {
     struct sigaction action {};
     ::sigaction(number, nullptr, &action);
     if (action.sa_handler == SIG_IGN) continue;

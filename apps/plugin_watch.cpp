@@ -59,7 +59,7 @@ extern "C" void on_crash(int number) {
     line.add("\n");
     line.write();
   }
-  formats::remove_temporaries();
+  formats::remove_temporaries(formats::Remains::of_use);
   ::raise(number);  // SA_RESETHAND: acts as it would have, when the handler returns
 }
 
@@ -124,7 +124,12 @@ void PluginWatch::show(Stage stage) {
 
 void PluginWatch::watch() {
   std::unique_lock lock(busy_);
-  while (!wake_.wait_for(lock, kInterval, [this] { return is_over_; })) look(Clock::now());
+  while (!wake_.wait_for(lock, kInterval, [this] { return is_over_; })) {
+    try {
+      look(Clock::now());
+    } catch (const std::bad_alloc&) {  // the run may come through; the next look is soon
+    }
+  }
 }
 
 void PluginWatch::look(Clock::time_point now) {
@@ -148,8 +153,8 @@ void PluginWatch::look(Clock::time_point now) {
 
 /// The thread that hangs cannot be ended alone, and nobody knows what state it leaves.
 void PluginWatch::end(std::string_view what) const {
-  tell_(fmt::format("{} has not come back, and the time limit is over: nothing was written", what));
-  formats::remove_temporaries();
+  tell_(fmt::format("{} has not come back, and the time limit is over: no mesh was written", what));
+  formats::remove_temporaries(formats::Remains::of_use);
   ::_exit(kFailed);
 }
 

@@ -2,6 +2,7 @@
 #include "contract/inspector.h"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <span>
 #include <vector>
@@ -55,7 +56,7 @@ Verdict Inspector::attempt(const Operator& op, OperatorContext& context, Target 
   Verdict verdict{};
   try {
     verdict = op.attempt(context, target);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // also std::bad_alloc
     if (context.mesh == before_) throw;
     throw breach(op, target, fmt::format("the error left a trace: {}", error.what()));
   }

@@ -26,6 +26,7 @@
 #include "face/maps.h"
 #include "face/mesh_access.h"
 #include "face/mid_nodes.h"
+#include "face/recorded.h"
 #include "face/regions.h"
 #include "face/registry.h"
 #include "face/trace_plan.h"
@@ -148,6 +149,7 @@ class Improvement {
   Improvement(Mesh& mesh, const Options& options, Plan& plan)
       : user_mesh_(mesh), options_(options), plan_(plan), watcher_(options), file_(mesh.file()) {}
 
+  /// Without its trace.
   Result run() {
     result_.goal = options_.goal;
     build();
@@ -171,6 +173,8 @@ class Improvement {
     watcher_.rethrow();
     return std::move(result_);
   }
+  /// After run(). Null: nothing was recorded.
+  std::unique_ptr<TraceRecorder> take_trace() { return std::move(trace_); }
 
  private:
   static constexpr std::size_t kAllPasses = std::numeric_limits<std::size_t>::max();
@@ -203,6 +207,7 @@ class Improvement {
   bool goes_back_ = false;
   bool carries_ = false;  // it holds more than mesh_ knows
   TetMesh mesh_;
+  std::unique_ptr<TraceRecorder> trace_;
   Scale scale_;  // of mesh_
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
@@ -248,7 +253,7 @@ void Improvement::build_mesh(MeshData& data) {
                                .tet_numbers = options_.maps || carries_ ? &tet_numbers_ : nullptr});
   if (scale_ != mesh_.scale()) {  // not when going back
     scale_ = mesh_.scale();
-    scale_.to_work(input_.points);
+    for (Point& p : input_.points) p = scale_.to_work(p);  // cannot fail half-way
   }
   mesh_.set_standard(plan_.standard);
   const face::ProtectedPart part = face::protect(mesh_, options_);
@@ -293,19 +298,20 @@ void Improvement::measure_before() {
 
 /// The passes of the schedule, or so many of them.
 void Improvement::run_schedule(std::size_t passes) {
-  const auto trace = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
+  trace_.reset();  // of the run before, when going back
+  trace_ = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
-  run.set_trace(trace.get());
+  run.set_trace(trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
   watcher_.watch(&run, quality_indicators(mesh_));
   watcher_.begin(Stage::improving);
   {
     const Stopwatch watch(result_.improving);
+    run.set_cancel_flag(options_.cancel);
     if (passes == kAllPasses) {
-      run.set_cancel_flag(options_.cancel);
       if (options_.time_limit > 0) run.set_time_limit(options_.time_limit);
     } else {
       run.stop_after(passes);
@@ -320,11 +326,12 @@ void Improvement::run_schedule(std::size_t passes) {
     result_.ending = run.out_of_time() ? Ending::time_limit
                      : run.cancelled() ? Ending::cancelled
                                        : Ending::finished;
+  } else if (run.cancelled() && run.records.size() < passes) {
+    result_.ending = Ending::cancelled;
   }
   result_.passes.clear();
   for (PassRecord& record : run.records) result_.passes.push_back(to_pass(std::move(record)));
   for (std::string& text : run.notes) result_.notes.push_back(std::move(text));
-  if (trace) trace->finish();
 }
 
 void Improvement::measure_after() {
@@ -339,7 +346,7 @@ void Improvement::measure_after() {
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
-  if (options_.limit) result_.limit = compute_surface_limit(mesh_);
+  if (options_.limit) result_.limit = find_surface_limit(mesh_, options_.cancel);
 }
 
 /// Passes up to the one that left the fewest bad tets, the last of such; 0 if all left more than
@@ -372,7 +379,8 @@ void Improvement::go_back() {
       result_.passes.clear();
     }
     measure_after();
-    if (passes > 0 && !result_.worse().empty()) continue;
+    const bool is_whole = result_.passes.size() == passes;  // not cancelled on the way
+    if (passes > 0 && !(is_whole && result_.worse().empty())) continue;
     const std::string text = fmt::format(
         "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
     note({text});
@@ -419,7 +427,10 @@ void Improvement::give_back_improved() {
 }
 
 void Improvement::give_back_input() noexcept {
-  scale_.to_file(input_.points);
+  // By one thread: a second one takes memory.
+  if (!scale_.is_one()) {
+    for (Point& p : input_.points) p = scale_.to_file(p);
+  }
   MeshAccess::fill(unfilled_, std::move(input_));
   user_mesh_ = std::move(unfilled_);
 }
@@ -433,7 +444,7 @@ void Improvement::check_promises() const {
     broken = "the surface changed";
   }
   if (result_.not_positive_after > result_.not_positive_before) broken = "a tet got inverted";
-  if (result_.not_positive_before == 0 && result_.volume_change() > kMostVolumeChange) {
+  if (result_.not_positive_before == 0 && !(result_.volume_change() <= kMostVolumeChange)) {
     broken = "the volume changed";
   }
   if (broken.empty()) return;
@@ -501,9 +512,25 @@ std::vector<std::string> Result::missed_aims() const {
   return missed;
 }
 
-Result improve(Mesh& mesh, const Options& options) {
+Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace) {
   Plan plan(options);
-  return face::on_threads(options.threads, [&] { return Improvement(mesh, options, plan).run(); });
+  return face::on_threads(options.threads, [&] {
+    Improvement improvement(mesh, options, plan);
+    Result result = improvement.run();
+    trace = improvement.take_trace();
+    return result;
+  });
+}
+
+Result improve(Mesh& mesh, const Options& options) {
+  std::unique_ptr<TraceRecorder> trace;
+  Result result = face::improve(mesh, options, trace);
+  try {
+    if (trace) trace->finish();
+  } catch (const Error& error) {  // the mesh is none the worse for it
+    result.trace_trouble = error.what();
+  }
+  return result;
 }
 
 void check(const Options& options) {

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Fuzzes: bytes of strangers against every door, with address and undefined-behaviour sanitizers.
 
-What is found lies in build/checked/fuzz/found, and makes the exit status 1. The corpus grows in
+What is found lies in build/checked/fuzz/found, and makes the exit status 1; the program
+build/checked/fuzz/fuzz_TARGET, given such a file, repeats it. The corpus grows in
 build/checked/fuzz/corpus from run to run.
 """
 
@@ -40,15 +41,22 @@ def parse(arguments):
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="targets at the same time (default: all cores)")
     documents.add_option(parser)
     options = parser.parse_args(arguments)
-    options.seconds = 60
+    if options.jobs < 1:
+        parser.error("--jobs is at least 1")
+    options.seconds = 0
     options.targets = []
     for word in options.words:
-        if word.isdigit():
+        if word.isdigit() and int(word) > 0 and options.seconds == 0:
             options.seconds = int(word)
+        elif word.isdigit():
+            parser.error("one number of seconds, at least 1")
+        elif word in options.targets:
+            parser.error(f"'{word}' stands there twice")
         elif word in TARGETS:
             options.targets.append(word)
         else:
             parser.error(f"no target is called '{word}'; valid: {', '.join(TARGETS)}")
+    options.seconds = options.seconds or 60
     return options
 
 
@@ -98,15 +106,18 @@ def reason(text):
 def page(rows):
     """All runs so far as a document."""
     table = [["Target", "Bytes of", "Processor hours", "Inputs", "Findings"]]
-    for target, what in [*TARGETS.items(), ("all", "")]:
-        mine = [row for row in rows if target in (row["target"], "all")]
+    readers = list(TARGETS)[:list(TARGETS).index("trace")]
+    sums = {"all readers": readers, "traces and lessons": ["trace", "trace_events", "lesson"],
+            "options and settings": ["options", "parameters"], "all": list(TARGETS)}
+    for target, what in [*TARGETS.items(), *((name, "") for name in sums)]:
+        mine = [row for row in rows if row["target"] in sums.get(target, [target])]
         hours, runs = sum(row["processor_seconds"] for row in mine) / 3600, sum(row["runs"] for row in mine)
         table.append([f"`{target}`" if what else target, what, f"{hours:.2f}", f"{runs:,}", str(sum(row["found"] for row in mine))])
     commits = ", ".join(dict.fromkeys(row["commit"] for row in rows))
     return documents.document("Fuzzing", documents.stamp("script/fuzz --write docs/results/fuzzing.md"), [
         "All runs so far, of the commits " + commits + ". libFuzzer of clang 14, with its address and undefined-behaviour "
         "sanitizers. A finding is an input that ended the program or broke a promise that the target checks. Each "
-        "was repaired; what it was, [reliability.md](../reliability.md) says.",
+        "is repaired before the next run is recorded.",
         documents.markdown_table(table)])
 
 

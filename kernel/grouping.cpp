@@ -63,7 +63,7 @@ Grouping group_by_key(std::span<const std::uint32_t> key, std::uint32_t keys) {
   while ((std::size_t{keys} >> shift) >= most) ++shift;
   std::vector<std::uint32_t> starts((std::size_t{keys} >> shift) + 2);
   const std::vector<std::uint32_t> items = move_to_blocks(key, shift, starts);
-  tbb::parallel_for(std::size_t{0}, starts.size() - 1, [&](std::size_t block) {
+  const auto order_block = [&](std::size_t block, std::size_t) {
     const std::size_t first = block << shift;
     const std::size_t last = std::min<std::size_t>(keys, first + (std::size_t{1} << shift));
     std::vector<std::uint32_t> place(last - first + 1, 0);
@@ -78,7 +78,8 @@ Grouping group_by_key(std::span<const std::uint32_t> key, std::uint32_t keys) {
     for (std::uint32_t i = starts[block]; i < starts[block + 1]; ++i) {
       result.order[place[key[items[i]] - first]++] = items[i];
     }
-  });
+  };
+  for_chunks(starts.size() - 1, order_block, 1);
   result.begin[keys] = static_cast<std::uint32_t>(key.size());
   return result;
 }

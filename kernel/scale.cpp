@@ -78,7 +78,8 @@ Scale Scale::of(std::span<const Point> points) {
   if (exponent >= kLeastOrdinary && exponent < kMostOrdinary) return {};
   const Scale scale(exponent + 1);
   constexpr double kLeastNormal = std::numeric_limits<double>::min();
-  if (extent.least < kLeastNormal || scale.to_work(extent.least) < kLeastNormal) {
+  if (extent.least < kLeastNormal || scale.to_work(extent.least) < kLeastNormal ||
+      !std::isfinite(scale.to_work(extent.greatest()))) {
     throw Error(
         fmt::format("coordinates from {:.3g} to {:.3g} are too far apart to be worked with exactly",
                     extent.least, extent.greatest()));

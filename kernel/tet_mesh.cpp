@@ -25,12 +25,13 @@ void copy_points(const MeshView& view, MeshData& data) {
 
 void copy_tets(const MeshView& view, MeshData& data) {
   data.tets.resize(view.tet_count());
-  tbb::parallel_for(std::size_t{0}, view.tet_blocks(), [&](std::size_t block) {
+  const auto copy_block = [&](std::size_t block, std::size_t) {
     std::vector<MeshData::Tet> buffer;
     const auto tets = view.tets(block, buffer);
     std::copy(tets.begin(), tets.end(),
               data.tets.begin() + static_cast<std::ptrdiff_t>(view.first_tet(block)));
-  });
+  };
+  for_chunks(view.tet_blocks(), copy_block, 1);
 }
 
 void copy_named(const MeshView& view, MeshData& data) {

@@ -112,6 +112,7 @@ void Playback::log_vertex(const TraceEvent& event) {
   } else if (!was_there) {
     throw ByteReader::Damage(fmt::format("vertex {}, which is none of the mesh", v.index()));
   }
+  if (is_there) mesh_.check_place(event.point);
   if (event.kind == EventKind::move_vertex) log_star(event);
   vertices_.push_back({v, was_there, is_there, was_there ? mesh_.point(v) : Point::Zero(),
                        is_there ? event.point : Point::Zero()});

@@ -62,9 +62,9 @@ enum class TraceClock : std::uint8_t {
 enum class TraceEnd : std::uint8_t { complete, limit_reached };
 
 /// A file that is being written is FILE.part, and can be read up to the last chunk; finish() gives
-/// it its name, and a crash leaves it. Cost: linear in the mesh at the beginning, about 100 bytes in memory and 10 in the
-/// file for each attempt. Trouble with the file, or too little memory, ends the trace, not the run:
-/// finish() reports it.
+/// it its name, and a crash leaves it. Trouble with the file, or too little memory, ends the trace,
+/// not the run: finish() reports it. Cost: linear in the mesh at the beginning, about 100 bytes in
+/// memory and 10 in the file for each attempt.
 class TraceRecorder final : public TraceSink {
  public:
   /// @throws Error when the file cannot be written.
@@ -80,7 +80,7 @@ class TraceRecorder final : public TraceSink {
   std::uint64_t event_count() const { return events_; }
   /// False once the limit is reached or the file made trouble.
   bool is_active() const { return active_; }
-  /// Writes what is left. No event may follow.
+  /// Writes what is left. No event may follow; the mesh is not looked at any more.
   /// @throws Error when the file could not be written, now or earlier.
   void finish();
 

@@ -276,6 +276,11 @@ void SlotMesh::check_corners(const TetVertices& tet) const {
   }
 }
 
+void SlotMesh::check_place(const Point& point) const {
+  if (scale_.to_file(point).allFinite()) return;
+  throw ByteReader::Damage("a coordinate and the scale do not go together");
+}
+
 SlotMesh SlotMesh::decode(ByteReader& in) {
   SlotMesh mesh;
   mesh.standard_ = get_standard(in);
@@ -288,7 +293,10 @@ SlotMesh SlotMesh::decode(ByteReader& in) {
   if (!std::ranges::is_sorted(mesh.frozen_tets_)) {
     throw ByteReader::Damage("frozen tets are not in order");
   }
-  if (!in.at_end()) mesh.scale_ = decode_scale(in);
+  if (!in.at_end()) {
+    mesh.scale_ = decode_scale(in);
+    for (const Point& p : mesh.points_) mesh.check_place(p);
+  }
   if (!in.at_end()) throw ByteReader::Damage("bytes behind the mesh");
   return mesh;
 }

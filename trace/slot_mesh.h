@@ -65,6 +65,8 @@ class SlotMesh {
   static SlotMesh decode(ByteReader& in);
   /// @throws ByteReader::Damage unless these are four live vertices, each another.
   void check_corners(const TetVertices& tet) const;
+  /// @throws ByteReader::Damage where a place is beyond the doubles in lengths of the file.
+  void check_place(const Point& point) const;
 
   // For replay: contents of slots, which come into being as needed. An invalid first vertex
   // deletes a tet.

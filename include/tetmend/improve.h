@@ -165,7 +165,9 @@ struct Result {
   /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
   std::vector<std::string> notes;
   std::vector<CarriedArray> carried;  ///< arrays of the points and tets of the mesh
-  BuildReport build;                  ///< what was peculiar about the mesh
+  /// Why there is no trace, as "FILE: reason"; empty: it is whole, or nobody asked for one.
+  std::string trace_trouble;
+  BuildReport build;  ///< what was peculiar about the mesh
   std::size_t protected_tets = 0;
   std::size_t protected_bad_tets = 0;  ///< of them
   std::size_t layer_tets = 0;          ///< of boundary layers that were kept

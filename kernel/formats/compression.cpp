@@ -51,6 +51,7 @@ bool is_gzip(std::string_view bytes) {
 
 Inflated inflate_gzip(std::string_view bytes) {
   constexpr std::size_t kLeast = std::size_t{1} << 16;
+  const std::size_t packed = bytes.size();
   Inflater inflater;
   z_stream& stream = inflater.get();
   std::size_t capacity = std::max(kLeast, 4 * bytes.size());
@@ -74,6 +75,9 @@ Inflated inflate_gzip(std::string_view bytes) {
     bytes.remove_prefix(in - stream.avail_in);
     result.size += out - stream.avail_out;
     if (status == Z_MEM_ERROR) throw std::bad_alloc();
+    if (is_bomb(packed, result.size)) {
+      throw Error("the gzip file holds hundreds of times its size, which no mesh does");
+    }
     if (status == Z_BUF_ERROR && result.size == capacity) status = Z_OK;
     if (status != Z_OK && status != Z_STREAM_END) {
       throw Error(bytes.empty() ? "the gzip file is truncated" : "the gzip file is damaged");

@@ -12,11 +12,19 @@ namespace tetmend::formats {
 
 bool is_gzip(std::string_view bytes);
 
+/// No mesh is packed that well: whoever made the file wants to use memory up. Meshes are packed to a
+/// tenth, and regular ones to a fiftieth.
+constexpr bool is_bomb(std::size_t packed, std::size_t unpacked) {
+  constexpr std::size_t kMostRatio = 200;
+  constexpr std::size_t kFree = std::size_t{1} << 26;
+  return unpacked > kFree && unpacked / kMostRatio > packed;
+}
+
 struct Inflated {
   std::unique_ptr<char[]> bytes;  ///< followed by a zero byte
   std::size_t size = 0;
 };
-/// All of a gzip file, of one member or several. Memory is taken as bytes come out.
+/// All of a gzip file, of one member or several. Memory is taken as bytes come out; see is_bomb().
 /// @throws Error with the reason, without the name of the file
 Inflated inflate_gzip(std::string_view bytes);
 

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "kernel/error.h"
+#include "kernel/first_failure.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/standard_stream.h"
 
@@ -77,22 +78,29 @@ void OutputFile::put_blocks(
   const std::size_t under_way = threads == 1 ? 1 : 2 * threads;
   std::vector<OutputBuffer> buffers(under_way);
   std::size_t next = 0;
+  FirstFailure failure;
   const auto begin = [&](tbb::flow_control& control) {
-    if (next == blocks) control.stop();
+    if (next == blocks || failure.failed()) control.stop();
     return next++;
   };
   const auto fill_buffer = [&](std::size_t block) {
-    OutputBuffer& buffer = buffers[block % under_way];
-    buffer.clear();
-    fill(block, buffer);
+    failure.guard([&] {
+      OutputBuffer& buffer = buffers[block % under_way];
+      buffer.clear();
+      fill(block, buffer);
+    });
     return block;
   };
-  const auto write = [&](std::size_t block) { write_out(buffers[block % under_way].content()); };
+  const auto write = [&](std::size_t block) {
+    if (failure.failed()) return;
+    failure.guard([&] { write_out(buffers[block % under_way].content()); });
+  };
   tbb::parallel_pipeline(
       under_way,
       tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, begin) &
           tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, fill_buffer) &
           tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, write));
+  failure.rethrow();
 }
 
 void OutputFile::finish() {

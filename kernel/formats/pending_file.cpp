@@ -113,7 +113,7 @@ void PendingFile::make_temporary(Name name) {
     if (errno != ENAMETOOLONG || name == Name::hidden) fail(errno);
     name = Name::hidden;
   }
-  registered_.remember(temporary_);
+  registered_.remember(temporary_, name == Name::part);
 }
 
 void PendingFile::keep_owner() {
@@ -181,7 +181,8 @@ class PendingFile::Replacement {
       return {};
     }
     if (!is_made_ && !was_moved_) return accept(), std::filesystem::path();
-    return ::rename(aside_.c_str(), file_.target_.c_str()) == 0 ? std::filesystem::path() : aside_;
+    if (::rename(aside_.c_str(), file_.target_.c_str()) == 0) return {};
+    return std::move(aside_);
   }
 
  private:
@@ -222,14 +223,19 @@ void PendingFile::commit_all(std::span<PendingFile* const> files) {
   const EndDelay delay;
   std::vector<Replacement> made;
   made.reserve(files.size());
+  std::vector<std::filesystem::path> moved;  // older files that could not get their names back
+  moved.reserve(files.size());
   try {
     for (PendingFile* file : files) made.emplace_back(*file).make();
   } catch (const std::exception& error) {
+    for (; !made.empty(); made.pop_back()) {  // all of them before anything else may fail
+      std::filesystem::path aside = made.back().undo();
+      if (!aside.empty()) moved.push_back(std::move(aside));
+    }
+    if (moved.empty()) throw;
     std::string message = error.what();
-    while (!made.empty()) {
-      const std::filesystem::path aside = made.back().undo();
-      if (!aside.empty()) message += fmt::format("; an older file is now {}", aside.string());
-      made.pop_back();
+    for (const std::filesystem::path& aside : moved) {
+      message += fmt::format("; an older file is now {}", aside.string());
     }
     throw Error(message);
   }

@@ -17,6 +17,7 @@ enum class State : unsigned char { free, filling, in_use };
 
 struct Slot {
   std::atomic<State> state{State::free};
+  std::atomic<bool> of_use{false};
   std::array<char, PATH_MAX> name;
 };
 
@@ -34,13 +35,14 @@ void end_now(int number) noexcept {
 
 }  // namespace
 
-void TemporaryName::remember(const std::filesystem::path& file) {
+void TemporaryName::remember(const std::filesystem::path& file, bool of_use) {
   const std::string& name = file.native();
   if (name.size() >= PATH_MAX) return;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     State expected = State::free;
     if (!slots[i].state.compare_exchange_strong(expected, State::filling)) continue;
     std::memcpy(slots[i].name.data(), name.c_str(), name.size() + 1);
+    slots[i].of_use = of_use;
     slots[i].state = State::in_use;
     slot_ = i;
     return;
@@ -63,9 +65,10 @@ EndDelay::~EndDelay() {
   if (const int number = awaited; number != 0 && is_last) end_now(number);
 }
 
-void remove_temporaries() noexcept {
+void remove_temporaries(Remains remains) noexcept {
   for (Slot& slot : slots) {
-    if (slot.state == State::in_use) ::unlink(slot.name.data());
+    if (slot.state != State::in_use || (slot.of_use && remains == Remains::of_use)) continue;
+    ::unlink(slot.name.data());
   }
 }
 

@@ -17,7 +17,8 @@ class TemporaryName {
   TemporaryName& operator=(const TemporaryName&) = delete;
 
   /// Precondition: an EndDelay lives since before the file was made.
-  void remember(const std::filesystem::path& file);
+  /// @param of_use also without its end: stays when the program crashes
+  void remember(const std::filesystem::path& file, bool of_use);
   /// The file has another name now, or is no longer there.
   void forget();
 
@@ -35,8 +36,13 @@ class EndDelay {
   EndDelay& operator=(const EndDelay&) = delete;
 };
 
+enum class Remains : unsigned char {
+  none,
+  of_use  ///< files that are of use without their end stay
+};
+
 /// Removes all files that are looked after. A signal handler may call it.
-void remove_temporaries() noexcept;
+void remove_temporaries(Remains remains = Remains::none) noexcept;
 
 /// Removes them and lets the signal act as if it had no handler; at once, or when the last EndDelay
 /// is gone. For handlers.

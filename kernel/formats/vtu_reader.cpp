@@ -514,6 +514,9 @@ class Reader {
                              blocks, block_size, last, size));
     }
     expect(full * block_size + last);
+    if (is_bomb(file_.size(), size)) {
+      fail(node, "an array of hundreds of times the size of the file, which no mesh has");
+    }
     const std::string sizes = source.next(blocks * header_size_);
     std::string bytes(size, '\0');
     std::size_t done = 0;

@@ -7,6 +7,7 @@
 #include "schedule/limit/surface_limit.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <unordered_set>
@@ -23,6 +24,12 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kWallsPerChunk = 64;
 constexpr WallProbe::Scope kAll = 0b1111;
+
+/// Whether somebody waits for the end.
+struct Stop {
+  const std::atomic<bool>* cancel = nullptr;
+  bool operator()() const { return cancel != nullptr && cancel->load(std::memory_order_relaxed); }
+};
 
 /// The angles of a tet whose quality is at least the sine of `least`.
 AngleRange symmetric(double least) {
@@ -199,10 +206,12 @@ std::vector<SharpWall> find_sharp_walls(const TetMesh& mesh) {
   return all;
 }
 
-AngleBounds find_bounds(const TetMesh& mesh) {
+AngleBounds find_bounds(const TetMesh& mesh, const Stop& stop) {
   const std::vector<SharpWall> walls = find_sharp_walls(mesh);
   const auto tighten = [&](AngleBounds& bounds, std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) bounds.tighten(WallProbe(mesh, walls[n].wall));
+    for (std::size_t n = begin; n < end && !stop(); ++n) {
+      bounds.tighten(WallProbe(mesh, walls[n].wall));
+    }
   };
   AngleBounds all;
   const std::size_t first = std::min(walls.size(), kWallsPerChunk);
@@ -219,12 +228,13 @@ AngleBounds find_bounds(const TetMesh& mesh) {
   return all;
 }
 
-std::vector<Argument> find_arguments(const TetMesh& mesh, const std::vector<HalfFace>& walls) {
+std::vector<Argument> find_arguments(const TetMesh& mesh, const std::vector<HalfFace>& walls,
+                                     const Stop& stop) {
   const auto parts = map_chunks<std::vector<Argument>>(
       walls.size(),
       [&](std::size_t begin, std::size_t end) {
         std::vector<Argument> part;
-        for (std::size_t n = begin; n < end; ++n) {
+        for (std::size_t n = begin; n < end && !stop(); ++n) {
           Argument argument = find_argument(mesh, WallProbe(mesh, walls[n]));
           if (!argument.walls.empty()) part.push_back(std::move(argument));
         }
@@ -303,20 +313,12 @@ Hindrance hindrance_of(const TetMesh& mesh, TetHandle t, const ForcedTets& force
   return all_fixed ? Hindrance::no_free_vertex : Hindrance::search;
 }
 
-}  // namespace
-
-std::string_view to_string(Hindrance hindrance) {
-  static constexpr std::array<std::string_view, kHindranceCount> kNames = {
-      "frozen", "surface", "constraint", "no_free_vertex", "search"};
-  return kNames[static_cast<std::size_t>(hindrance)];
-}
-
-SurfaceLimit compute_surface_limit(const TetMesh& mesh,
-                                   std::vector<std::pair<TetHandle, Hindrance>>* bad) {
+SurfaceLimit compute_limit(const TetMesh& mesh, std::vector<std::pair<TetHandle, Hindrance>>* bad,
+                           const Stop& stop) {
   const std::vector<TetHandle> bad_tets = find_bad_tets(mesh);
-  const std::vector<Argument> arguments = find_arguments(mesh, walls_around(mesh, bad_tets));
+  const std::vector<Argument> arguments = find_arguments(mesh, walls_around(mesh, bad_tets), stop);
   const ForcedTets forced(mesh, arguments);
-  const AngleBounds bounds = find_bounds(mesh);
+  const AngleBounds bounds = find_bounds(mesh, stop);
   SurfaceLimit limit;
   for (const TetHandle t : bad_tets) {
     const Hindrance hindrance = hindrance_of(mesh, t, forced);
@@ -329,6 +331,26 @@ SurfaceLimit compute_surface_limit(const TetMesh& mesh,
   limit.theta_min = bounds.smallest.value();
   if (const auto angle = bounds.largest.value()) limit.theta_max = 180 - *angle;
   return limit;
+}
+
+}  // namespace
+
+std::string_view to_string(Hindrance hindrance) {
+  static constexpr std::array<std::string_view, kHindranceCount> kNames = {
+      "frozen", "surface", "constraint", "no_free_vertex", "search"};
+  return kNames[static_cast<std::size_t>(hindrance)];
+}
+
+std::optional<SurfaceLimit> find_surface_limit(const TetMesh& mesh,
+                                               const std::atomic<bool>* cancel) {
+  const Stop stop{cancel};
+  SurfaceLimit limit = compute_limit(mesh, nullptr, stop);
+  return stop() ? std::nullopt : std::optional(limit);
+}
+
+SurfaceLimit compute_surface_limit(const TetMesh& mesh,
+                                   std::vector<std::pair<TetHandle, Hindrance>>* bad) {
+  return compute_limit(mesh, bad, {});
 }
 
 }  // namespace tetmend

@@ -10,6 +10,8 @@
 // at.
 #pragma once
 
+#include <atomic>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,5 +29,9 @@ namespace tetmend {
 /// @param bad null, or filled with each bad tet and why it is there, by slot
 SurfaceLimit compute_surface_limit(const TetMesh& mesh,
                                    std::vector<std::pair<TetHandle, Hindrance>>* bad = nullptr);
+
+/// The same; nothing if `cancel` becomes true meanwhile. Null: nobody cancels.
+std::optional<SurfaceLimit> find_surface_limit(const TetMesh& mesh,
+                                               const std::atomic<bool>* cancel);
 
 }  // namespace tetmend

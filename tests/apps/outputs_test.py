@@ -306,6 +306,15 @@ def limits_are_errors():
                              limits=small_files)
         check(status == 1 and one_line(err), "a limit of files is an error for a trace", status, err)
         check(entries(folder) == kept, "a limit of files leaves nothing", entries(folder))
+        shutil.copy(MESH, folder / "b.meshb")
+        def room_for_the_mesh():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (MESH.stat().st_size,) * 2)
+        status, _, err = run("improve", folder / "b.meshb", "-o", folder / "o.meshb", "-q", "--trace", folder / "t",
+                             limits=room_for_the_mesh)
+        check(status == 1 and one_line(err) and "wrote the mesh, and no trace" in err, "a trace does not fit", status, err)
+        check(entries(folder) == sorted([*kept, "b.meshb", "o.meshb"]), "the mesh is written without", entries(folder))
+        (folder / "o.meshb").unlink()
+        (folder / "b.meshb").unlink()
         # The least that a program needs differs: all from hardly anything to enough.
         failed = 0
         for megabytes in range(24, 160, 8):

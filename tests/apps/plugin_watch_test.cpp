@@ -25,6 +25,7 @@ struct Trial {
   std::string op;
   std::vector<std::string> options;
   std::string below = "0.8";  // of the tets that it works on
+  bool recorded = false;
 };
 
 /// No file with what was in memory is wanted, here and in what is started from here.
@@ -48,6 +49,7 @@ class NoCore {
 struct Ended {
   Outcome outcome;
   std::string written;
+  Outcome trace;  // of looking at what is there of it
 };
 Ended improve(const Trial& trial) {
   const TempFolder folder;
@@ -60,9 +62,12 @@ Ended improve(const Trial& trial) {
                                         out,          "--plugin", plugin_file(trial.plugin),
                                         "--schedule", script,     "--quiet"};
   arguments.insert(arguments.end(), trial.options.begin(), trial.options.end());
-  Ended ended{run_program(arguments), {}};
+  const std::string trace = (folder / "run.trace").string();
+  if (trial.recorded) arguments.insert(arguments.end(), {"--trace", trace});
+  Ended ended{run_program(arguments), {}, {}};
   ended.written = read_text(out);
-  CHECK(folder.entries() == 2);
+  CHECK(folder.entries() == (trial.recorded ? 3 : 2));
+  if (trial.recorded) ended.trace = run_program({"trace", trace + ".part"});
   return ended;
 }
 
@@ -83,7 +88,7 @@ TEST_CASE("an attempt that does not come back is named, and the time limit ends 
     const std::string who = "operator 'hangs' of " + plugin_file("hanging") + " at vertex ";
     CHECK(outcome.err.starts_with("tetmend: " + who));
     CHECK(contains(outcome.err, " has not come back for 0.2 s\n"));
-    CHECK(contains(outcome.err, "and the time limit is over: nothing was written\n"));
+    CHECK(contains(outcome.err, "and the time limit is over: no mesh was written\n"));
     CHECK(written == kOld);
   }
 }
@@ -132,6 +137,18 @@ TEST_CASE("a crash in an attempt is told with operator, plugin and target before
       CHECK(outcome.err.ends_with("\n"));
       CHECK(written == kOld);
     }
+  }
+}
+
+TEST_CASE("after a crash, and after an attempt that did not come back, the trace can be opened") {
+  const NoCore none;
+  for (const Trial& trial : {Trial{"crashing", "crashes", {}, "0.8", true},
+                             Trial{"hanging", "hangs", {"--time-limit", "0.5"}, "0.8", true}}) {
+    const Ended ended = improve(trial);
+    CAPTURE(ended.trace.err);
+    CHECK(ended.outcome.status != 0);
+    CHECK(ended.trace.status == 0);
+    CHECK(contains(ended.trace.err, "has no end, the run was not finished"));
   }
 }
 

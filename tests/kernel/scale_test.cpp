@@ -107,6 +107,12 @@ TEST_CASE("meshes that are too small, too large or both are refused with a reaso
   CHECK(complaint(denormal).find("too far apart") != std::string::npos);
 }
 
+TEST_CASE("a coordinate that all points share must fit as well") {
+  MeshData flat = scaled(one_tet(), -332);
+  for (Point& p : flat.points) p.x() = 1e300;
+  CHECK(complaint(flat).find("too far apart") != std::string::npos);
+}
+
 TEST_CASE("noise beside zero is no reason to refuse a mesh of ordinary size") {
   MeshData data = zoo_data("ball_20");
   data.points[0].x() = 5e-324;

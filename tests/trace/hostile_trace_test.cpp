@@ -196,7 +196,7 @@ const std::vector<Hostile> kHostileEvents = {
 
 /// A frame `M` of five vertices and these tets.
 FrameContent forged_mesh(std::initializer_list<std::int64_t> steps, std::uint64_t tets,
-                         double coordinate = 1, char live = 1) {
+                         double coordinate = 1, char live = 1, int scale = 0) {
   ByteWriter out;
   out.put_raw('M');
   put_standard(out, Standard(Goal{}));
@@ -207,6 +207,7 @@ FrameContent forged_mesh(std::initializer_list<std::int64_t> steps, std::uint64_
   for (const std::int64_t step : steps) out.put_signed(step);
   for (std::uint64_t t = 0; t < tets && t < 8; ++t) out.put_signed(0);
   for (int list = 0; list < 4; ++list) out.put(0);
+  if (scale != 0) out.put_signed(scale);
   return {out.bytes().begin(), out.bytes().end()};
 }
 
@@ -250,6 +251,21 @@ TEST_CASE("an event that does not fit the mesh is refused with byte, event and r
     const std::string message = complaint(folder / "forged");
     CHECK_MESSAGE(message.find(hostile.reason) != std::string::npos, message);
     CHECK(message.starts_with((folder / "forged").string() + ": byte "));
+  }
+}
+
+TEST_CASE("a place that the scale takes out of the doubles is refused, in a mesh and in an event") {
+  const TempFolder folder;
+  const auto beginning = sound_beginning(folder);
+  const std::string reason = "a coordinate and the scale do not go together";
+  write_frames(folder / "forged", {beginning[0], forged_mesh({0, 1, 2, 3}, 1, 1e300, 1, 500)});
+  CHECK(complaint(folder / "forged").find(reason) != std::string::npos);
+  for (const double x : {1e10, 1e300}) {
+    ForgedEvents event;
+    event.kind(EventKind::add_vertex).put(5).point(x, 0, 0);
+    write_frames(folder / "forged", {beginning[0], forged_mesh({0, 1, 2, 3}, 1, 1, 1, 500),
+                                     event.chunk(), end_frame(1)});
+    CHECK((complaint(folder / "forged").find(reason) != std::string::npos) == (x > 1e100));
   }
 }
 

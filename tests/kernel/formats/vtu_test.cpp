@@ -203,6 +203,22 @@ TEST_CASE("files are read and written packed by gzip, and damaged ones refused")
   CHECK_THROWS_AS(write_mesh(folder / "a.node.gz", awkward_mesh()), Error);
 }
 
+TEST_CASE("a file that was packed to use memory up is refused before it has") {
+  CHECK_FALSE(formats::is_bomb(1, std::size_t{1} << 26));
+  CHECK_FALSE(formats::is_bomb(std::size_t{1} << 20, std::size_t{200} << 20));
+  CHECK(formats::is_bomb(std::size_t{1} << 20, std::size_t{202} << 20));
+  const TempFolder folder;
+  std::string packed;
+  formats::GzipWriter writer([&](std::string_view bytes) { packed += bytes; });
+  const std::string blanks(std::size_t{1} << 20, ' ');
+  for (int i = 0; i < 100; ++i) writer.put(blanks);
+  writer.finish();
+  REQUIRE(packed.size() < std::size_t{1} << 18);
+  write_text(folder / "bomb.mesh", packed);
+  CHECK(error_of_reading(folder / "bomb.mesh").find("hundreds of times its size") !=
+        std::string::npos);
+}
+
 TEST_CASE("base64 goes there and back, over padding and white space") {
   for (std::size_t size = 0; size < 10; ++size) {
     std::string bytes;
