@@ -28,7 +28,7 @@ set(below_viewer/gl kernel viewer/mesh viewer)
 set(below_viewer/ui kernel viewer/mesh viewer/debugger viewer/live viewer viewer/commands viewer/gl)
 set(below_apps ${rooms})
 
-set(public_of_kernel api curved error goal rulers statistics)
+set(public_of_kernel api curved data error goal rulers statistics)
 set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
 set(public_of_face improve io measure mesh)
