@@ -16,6 +16,7 @@
 #include <sys/resource.h>
 #include <tetmend/catalogue.h>
 #include <tetmend/improve.h>
+#include <tetmend/option_text.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
@@ -94,7 +95,7 @@ Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line
   try {
     return tetmend::improve(mesh, options);
   } catch (const OptionError& error) {
-    throw Error(message_of(error));
+    throw Error("--" + message_of(error));
   }
 }
 
