@@ -100,7 +100,7 @@ constexpr Row kRows[] = {
      [](Options& o, std::string_view text) {
        o.time_limit = read_number(text, 1e-3, 1e9, "a number of seconds");
      }},
-    {{"plugin", "FILE.so", kAdds},
+    {{"plugin", "FILE", kAdds},
      [](Options& o, std::string_view text) { o.plugin.emplace_back(text); }},
     {{"check-operators", kSwitch},
      [](Options& o, std::string_view text) { o.check_operators = read_switch(text); }},
