@@ -16,6 +16,7 @@
 #include <sys/resource.h>
 #include <tetmend/catalogue.h>
 #include <tetmend/improve.h>
+#include <tetmend/option_text.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
@@ -96,7 +97,7 @@ Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line
   try {
     return face::improve(mesh, options, trace);
   } catch (const OptionError& error) {
-    throw Error(message_of(error));
+    throw Error("--" + message_of(error));
   }
 }
 

@@ -2,12 +2,11 @@
 // The options of `tetmend improve`, from the command line to the library.
 #include "apps/improve_options.h"
 
-#include <algorithm>
-#include <charconv>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <tetmend/option_text.h>
 
 #include "apps/commands.h"
 #include "apps/plugins.h"
@@ -16,34 +15,65 @@
 namespace tetmend::apps {
 namespace {
 
+/// An option of the library; the parser adds to the message where help is.
+void set(Options& options, const std::string& name, const std::string& value) {
+  try {
+    set_option(options, name, value);
+  } catch (const OptionError& error) {
+    throw CLI::ValidationError("--" + message_of(error));
+  }
+}
+
+/// What the library says the option takes.
+std::string value_of(std::string_view name) {
+  for (const OptionForm& form : option_forms()) {
+    if (form.name == name) return std::string(form.value);
+  }
+  return {};
+}
+
+/// Adds --NAME, which the library reads.
+CLI::Option* add_value(CLI::App& command, Options& options, const std::string& name,
+                       const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          "--" + name, [&options, name](const std::string& value) { set(options, name, value); },
+          help)
+      ->type_name(value_of(name));
+}
+
+/// The same for one that may be given several times.
+CLI::Option* add_values(CLI::App& command, Options& options, const std::string& name,
+                        const std::string& help) {
+  return command
+      .add_option_function<std::vector<std::string>>(
+          "--" + name,
+          [&options, name](const std::vector<std::string>& values) {
+            for (const std::string& value : values) set(options, name, value);
+          },
+          help)
+      ->type_name(value_of(name))
+      ->allow_extra_args(false);  // so that IN may follow
+}
+
 void add_schedule_options(CLI::App& command, ImproveOptions& options) {
-  command
-      .add_option("--schedule", options.run.schedule,
-                  "What is tried in which order: one of\n"
-                  "'tetmend schedules', or a script\n"
-                  "(default: shell)")
-      ->type_name("NAME|FILE.lua");
-  command
-      .add_option("--set", options.settings,
-                  "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
-                  "given several times")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  command
-      .add_option("--goal", options.goal,
-                  "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "
-                  "180\nless MIN). Tets that miss it are bad")
-      ->type_name("MIN[,MAX]");
-  command
-      .add_option("--measure", options.run.measure,
-                  "What tets are judged by: angles and needles,\nor with 'sine' angles alone, as "
-                  "in the\npaper (default: sine_and_length)")
-      ->type_name("NAME");
-  command
-      .add_option("--time-limit", options.run.time_limit,
-                  "Stop improving after that time and\nwrite what was reached")
-      ->type_name("SECONDS")
-      ->check(CLI::Range(1e-3, 1e9).description(""));
+  Options& run = options.run;
+  add_value(command, run, "schedule",
+            "What is tried in which order: one of\n"
+            "'tetmend schedules', or a script\n"
+            "(default: shell)");
+  add_values(command, run, "set",
+             "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
+             "given several times");
+  add_value(command, run, "goal",
+            "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "
+            "180\nless MIN). Tets that miss it are bad")
+      ->each([&options](const std::string& text) { options.goal = text; });
+  add_value(command, run, "measure",
+            "What tets are judged by: angles and needles,\nor with 'sine' angles alone, as "
+            "in the\npaper (default: sine_and_length)");
+  add_value(command, run, "time-limit",
+            "Stop improving after that time and\nwrite what was reached");
 }
 
 void add_plugin_options(CLI::App& command, ImproveOptions& options) {
@@ -59,29 +89,15 @@ void add_plugin_options(CLI::App& command, ImproveOptions& options) {
 }
 
 void add_region_options(CLI::App& command, Options& options) {
-  // One SPEC for each mention of the option, so that IN may follow.
-  command.add_option("--protect", options.protect, "Leave these tets as they are; repeatable")
-      ->type_name("SPEC")
-      ->allow_extra_args(false);
-  command.add_option("--only", options.only, "Leave all other tets as they are; repeatable")
-      ->type_name("SPEC")
-      ->allow_extra_args(false);
-  command
-      .add_option_function<std::string>(
-          "--layers",
-          [&options](const std::string& choice) {
-            options.layers = choice == "improve" ? Layers::improve : Layers::keep;
-          },
-          "Boundary layers, prisms cut into tets, stay\n"
-          "as they are (keep, the default) or are\n"
-          "worked on like the rest (improve)")
-      ->type_name("keep|improve")
-      ->check(CLI::IsMember({"keep", "improve"}).description(""));
-  command
-      .add_option("--tets", options.tets,
-                  "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all "
-                  "(default:\nas far as it pays)")
-      ->type_name("P%|N");
+  add_values(command, options, "protect", "Leave these tets as they are; repeatable");
+  add_values(command, options, "only", "Leave all other tets as they are; repeatable");
+  add_value(command, options, "layers",
+            "Boundary layers, prisms cut into tets, stay\n"
+            "as they are (keep, the default) or are\n"
+            "worked on like the rest (improve)");
+  add_value(command, options, "tets",
+            "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all "
+            "(default:\nas far as it pays)");
   command.add_flag("--keep-size", options.keep_size,
                    "Make no edge that is shorter than half or\nlonger than twice what edges are "
                    "there in IN");
@@ -90,88 +106,25 @@ void add_region_options(CLI::App& command, Options& options) {
                    "vertices that the file names inside a region");
 }
 
-void add_trace_options(CLI::App& command, ImproveOptions& options) {
-  CLI::Option* trace =
-      command
-          .add_option("--trace", options.run.trace,
-                      "Record all that happens, for 'tetmend\ntrace'; the run uses one thread then")
-          ->type_name("FILE");
-  command
-      .add_option("--trace-around", options.run.trace_around,
-                  "Record only attempts that aim at a vertex\nin a ball: around a point, or "
-                  "around tet N\nof IN, counted from 0 (radius: its\nlongest edge, if not given)")
-      ->type_name("TET[,R]|X,Y,Z,R")
+void add_trace_options(CLI::App& command, Options& options) {
+  CLI::Option* trace = add_value(command, options, "trace",
+                                 "Record all that happens, for 'tetmend\ntrace'; the run uses one "
+                                 "thread then");
+  add_value(command, options, "trace-around",
+            "Record only attempts that aim at a vertex\nin a ball: around a point, or "
+            "around tet N\nof IN, counted from 0 (radius: its\nlongest edge, if not given)")
       ->needs(trace);
-  command
-      .add_option("--trace-operator", options.run.trace_operator,
-                  "Record only attempts of this operator, with\nall that they call; may be "
-                  "given several\ntimes")
-      ->type_name("NAME")
-      ->allow_extra_args(false)
+  add_values(command, options, "trace-operator",
+             "Record only attempts of this operator, with\nall that they call; may be "
+             "given several\ntimes")
       ->needs(trace);
-  command
-      .add_option("--trace-depth", options.run.trace_depth,
-                  "Record only attempts with at most that many\nattempts around them; 0: the "
-                  "outermost")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000).description(""))
+  add_value(command, options, "trace-depth",
+            "Record only attempts with at most that many\nattempts around them; 0: the "
+            "outermost")
       ->needs(trace);
-  command
-      .add_option("--trace-limit", options.trace_limit,
-                  "End the trace before it is larger, such as\n500M; the run goes on")
-      ->type_name("SIZE")
+  add_value(command, options, "trace-limit",
+            "End the trace before it is larger, such as\n500M; the run goes on")
       ->needs(trace);
-}
-
-std::vector<std::pair<std::string, std::string>> split_settings(
-    const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> settings;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UsageError(fmt::format("--set: '{}' is not of the form NAME=VALUE", text));
-    }
-    settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-  }
-  return settings;
-}
-
-/// 35 or 35,140.
-Goal read_goal(const std::string& text) {
-  Goal goal;
-  const std::size_t comma = text.find(',');
-  const auto read = [&](std::string_view part) {
-    double angle = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), angle);
-    if (error != std::errc() || end != part.data() + part.size()) {
-      throw UsageError(fmt::format("--goal: '{}' is not of the form MIN or MIN,MAX", text));
-    }
-    return angle;
-  };
-  const std::string_view whole = text;
-  goal = Goal::symmetric(read(whole.substr(0, comma)));
-  if (comma != std::string::npos) goal.max_angle = read(whole.substr(comma + 1));
-  return goal;
-}
-
-/// 5000, 500K, 500M, 5G.
-std::uint64_t read_size(std::string_view text) {
-  constexpr std::string_view kUnits = "KMG";
-  std::uint64_t unit = 1;
-  std::string_view digits = text;
-  if (const std::size_t i = text.empty() ? kUnits.npos : kUnits.find(text.back());
-      i != kUnits.npos) {
-    digits.remove_suffix(1);
-    for (std::size_t k = 0; k <= i; ++k) unit *= 1000;
-  }
-  std::uint64_t count = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-  if (error != std::errc() || end != digits.data() + digits.size() || count == 0 ||
-      count > std::uint64_t{1} << 50) {
-    throw UsageError(
-        fmt::format("--trace-limit: '{}' is not a size such as 500M (K, M or G)", text));
-  }
-  return count * unit;
 }
 
 }  // namespace
@@ -185,15 +138,11 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_plugin_options(command, options);
   add_threads_option(command, options.run.threads);
   add_region_options(command, options.run);
-  add_trace_options(command, options);
+  add_trace_options(command, options.run);
   add_carry_options(command, options.carry);
-  command
-      .add_option("--conserve", options.run.conserve,
-                  "Keep the integral of this array of the\ntets: new tets get the mean of the old "
-                  "by\nshared volume; may be repeated")
-      ->type_name("NAME")
-      ->expected(1)
-      ->take_all();
+  add_values(command, options.run, "conserve",
+             "Keep the integral of this array of the\ntets: new tets get the mean of the old "
+             "by\nshared volume; may be repeated");
   add_format_option(command, options.format);
   command.add_option("--report", options.report, "Write all that is printed, and more, as JSON")
       ->type_name("FILE.json");
@@ -218,23 +167,14 @@ and the faces between different labels are respected always.)";
 void complete(ImproveOptions& options) {
   Options& run = options.run;
   run.plugin = all_plugins(run.plugin);
-  run.set = split_settings(options.settings);
-  if (!options.goal.empty()) run.goal = read_goal(options.goal);
-  if (!options.trace_limit.empty()) run.trace_limit = read_size(options.trace_limit);
   run.limit = true;
   run.maps = false;
   run.rulers = !options.quiet || !options.report.empty();
   try {
     tetmend::check(run);
   } catch (const OptionError& error) {
-    throw UsageError(message_of(error));
+    throw UsageError("--" + message_of(error));
   }
-}
-
-std::string message_of(const OptionError& error) {
-  std::string flag = error.option();
-  std::replace(flag.begin(), flag.end(), '_', '-');
-  return fmt::format("--{}{}", flag, std::string_view(error.what()).substr(flag.size()));
 }
 
 }  // namespace tetmend::apps

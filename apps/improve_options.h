@@ -2,7 +2,6 @@
 // The options of `tetmend improve`, from the command line to the library.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,12 +23,10 @@ struct ImproveOptions {
   std::filesystem::path report;  ///< empty: none
   bool quiet = false;
   CarryOptions carry;
-  std::string format;                 ///< of "-"
-  Options run;                        ///< all that has the same form in the library
-  std::vector<std::string> settings;  ///< NAME=VALUE
-  std::string goal;                   ///< 35 or 35,140; empty: the default
-  std::string trace_limit;            ///< 500M; empty: none
-  double attempt_limit = 10;          ///< seconds; 0: none
+  std::string format;         ///< of "-"
+  Options run;                ///< what the library reads
+  std::string goal;           ///< 35 or 35,140; empty: none was asked for
+  double attempt_limit = 10;  ///< seconds; 0: none
 };
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);
@@ -40,8 +37,5 @@ std::string region_help();
 /// Fills in what of `run` has another form on the command line, and checks all of it.
 /// @throws UsageError for a mistake; Error for a plugin, a script or a trace file that is none.
 void complete(ImproveOptions& options);
-
-/// The message of an error in the words of the command line: "--time-limit: ..."
-std::string message_of(const OptionError& error);
 
 }  // namespace tetmend::apps

@@ -1,16 +1,34 @@
-# find_package(tetmend): the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin.
+# What is installed: the library, its headers, how others find it, and the licences.
+#   find_package(tetmend)   the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin
+#   pkg-config tetmend      the same for other build tools; with --static what a static libtetmend needs
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tetmend)
 
 install(TARGETS tetmend_library EXPORT tetmendTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/tetmend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/fortran/tetmend.f90 DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tetmend)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT tetmendTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
 install(TARGETS tetmend_plugin EXPORT tetmendPluginTargets)
 install(FILES ${TETMEND_PLUGIN_HEADER} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tetmend)
 install(EXPORT tetmendPluginTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
+set(tetmend_config_libraries "")
+if(NOT BUILD_SHARED_LIBS)
+  set(tetmend_config_libraries "# A static library does not bring along what it is made with.
+set_property(TARGET tetmend::tetmend APPEND PROPERTY INTERFACE_LINK_LIBRARIES \"${tetmend_static_libraries}\")
+")
+endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmendConfig.cmake.in ${PROJECT_BINARY_DIR}/tetmendConfig.cmake @ONLY)
 # Until 1.0 each minor version may change what it likes.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tetmendConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tetmendConfig.cmake ${PROJECT_BINARY_DIR}/tetmendConfigVersion.cmake
   DESTINATION ${package_dir})
+
+# The folders are seen from that of the file itself, so that all may be moved together.
+file(RELATIVE_PATH tetmend_way_up ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" tetmend_way_up "${tetmend_way_up}")
+list(TRANSFORM tetmend_static_libraries PREPEND "-l" OUTPUT_VARIABLE tetmend_private_libraries)
+list(JOIN tetmend_private_libraries " " tetmend_private_libraries)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmend.pc.in ${PROJECT_BINARY_DIR}/tetmend.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/tetmend.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

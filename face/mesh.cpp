@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A user's mesh: arrays in, checked, and arrays out.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,10 +23,68 @@ void release(std::vector<T>& values) {
   std::vector<T>().swap(values);
 }
 
-void check_labels(std::string_view entities, std::size_t count, std::string_view name,
-                  std::size_t labels) {
-  if (labels == 0 || labels == count) return;
-  throw Error(fmt::format("{}: {} labels for {} {}", name, labels, count, entities));
+/// One kind of entity, in the words of MeshArrays.
+struct Kind {
+  std::string_view plural;
+  std::string_view singular;
+  std::size_t count = 0;
+  const std::vector<DataArray>& data;
+};
+
+void check_labels(const Kind& kind, std::string_view what, const std::vector<Label>& labels) {
+  if (labels.empty() || labels.size() == kind.count) return;
+  throw Error(fmt::format("{}_{}: {} {} for {} {}", kind.singular, what, labels.size(), what,
+                          kind.count, kind.plural));
+}
+
+void check_data(const Kind& kind) {
+  for (std::size_t i = 0; i < kind.data.size(); ++i) {
+    const DataArray& array = kind.data[i];
+    const auto fail = [&](const std::string& reason) {
+      throw Error(fmt::format("{}_data[{}]: '{}' has {}", kind.singular, i, array.name, reason));
+    };
+    if (array.components == 0) fail("0 components");
+    if (array.size() % array.components == 0 && array.size() / array.components == kind.count) {
+      continue;
+    }
+    fail(fmt::format("{} numbers for {} {}, {} for each", array.size(), kind.count, kind.plural,
+                     array.components));
+  }
+}
+
+void check_members(const Group& group, std::size_t i, const Kind& kind) {
+  std::vector<bool> is_in(kind.count, false);
+  for (std::size_t k = 0; k < group.members.size(); ++k) {
+    const std::uint32_t member = group.members[k];
+    const auto fail = [&](const std::string& reason) {
+      throw Error(fmt::format("groups[{}].members[{}]: {}, counted from 0", i, k, reason));
+    };
+    if (member >= kind.count) {
+      fail(fmt::format("no {} {}, there are {}", kind.singular, member, kind.count));
+    }
+    if (is_in[member]) fail(fmt::format("{} {} twice", kind.singular, member));
+    is_in[member] = true;
+  }
+}
+
+/// @param kinds by dimension
+void check_groups(const std::vector<Group>& groups, const std::array<Kind, 4>& kinds) {
+  std::map<std::pair<int, Label>, std::size_t> known;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Group& group = groups[i];
+    const auto fail = [&](const std::string& reason) {
+      throw Error(fmt::format("groups[{}]: {}", i, reason));
+    };
+    if (group.dimension < 0 || group.dimension > 3) {
+      fail(fmt::format("dimension {}, expected 0 to 3", group.dimension));
+    }
+    if (!group.parts.empty() && !group.members.empty()) fail("it has parts and members");
+    if (group.number != 0) {
+      const auto [at, is_new] = known.try_emplace({group.dimension, group.number}, i);
+      if (!is_new) fail(fmt::format("number {} is that of groups[{}]", group.number, at->second));
+    }
+    check_members(group, i, kinds[static_cast<std::size_t>(group.dimension)]);
+  }
 }
 
 void check_points(const std::vector<std::array<double, 3>>& points) {
@@ -61,11 +122,21 @@ void check(const MeshArrays& arrays) {
     throw Error(fmt::format("required_vertices[{}]: no point {}, there are {}, counted from 0", i,
                             arrays.required_vertices[i], n));
   }
-  check_labels("points", n, "point_labels", arrays.point_labels.size());
-  check_labels("tets", arrays.tets.size(), "tet_labels", arrays.tet_labels.size());
-  check_labels("triangles", arrays.triangles.size(), "triangle_labels",
-               arrays.triangle_labels.size());
-  check_labels("edges", arrays.edges.size(), "edge_labels", arrays.edge_labels.size());
+  const std::array<Kind, 4> kinds = {
+      {{"points", "point", n, arrays.point_data},
+       {"edges", "edge", arrays.edges.size(), arrays.edge_data},
+       {"triangles", "triangle", arrays.triangles.size(), arrays.triangle_data},
+       {"tets", "tet", arrays.tets.size(), arrays.tet_data}}};
+  const auto& [points, edges, triangles, tets] = kinds;
+  check_labels(points, "labels", arrays.point_labels);
+  check_labels(tets, "labels", arrays.tet_labels);
+  check_labels(triangles, "labels", arrays.triangle_labels);
+  check_labels(edges, "labels", arrays.edge_labels);
+  check_labels(tets, "parts", arrays.tet_parts);
+  check_labels(triangles, "parts", arrays.triangle_parts);
+  check_labels(edges, "parts", arrays.edge_parts);
+  for (const Kind& kind : kinds) check_data(kind);
+  check_groups(arrays.groups, kinds);
 }
 
 /// Elements with their labels, or label 0. Releases both lists.
@@ -104,10 +175,18 @@ MeshData pack(MeshArrays arrays) {
   pack(arrays.triangles, arrays.triangle_labels, data.triangles);
   pack(arrays.edges, arrays.edge_labels, data.edges);
   data.required_vertices = std::move(arrays.required_vertices);
+  data.point_data = std::move(arrays.point_data);
+  data.tet_data = std::move(arrays.tet_data);
+  data.triangle_data = std::move(arrays.triangle_data);
+  data.edge_data = std::move(arrays.edge_data);
+  data.tet_parts = std::move(arrays.tet_parts);
+  data.triangle_parts = std::move(arrays.triangle_parts);
+  data.edge_parts = std::move(arrays.edge_parts);
+  data.groups = std::move(arrays.groups);
   return data;
 }
 
-MeshArrays unpack(const MeshData& data) {
+MeshArrays unpack_elements(const MeshData& data) {
   MeshArrays arrays;
   arrays.points.reserve(data.points.size());
   for (const Point& p : data.points) arrays.points.push_back({p.x(), p.y(), p.z()});
@@ -117,6 +196,17 @@ MeshArrays unpack(const MeshData& data) {
   unpack(data.edges, arrays.edges, arrays.edge_labels);
   arrays.required_vertices = data.required_vertices;
   return arrays;
+}
+
+void unpack_rest(const MeshData& data, MeshArrays& arrays) {
+  arrays.point_data = data.point_data;
+  arrays.tet_data = data.tet_data;
+  arrays.triangle_data = data.triangle_data;
+  arrays.edge_data = data.edge_data;
+  arrays.tet_parts = data.tet_parts;
+  arrays.triangle_parts = data.triangle_parts;
+  arrays.edge_parts = data.edge_parts;
+  arrays.groups = data.groups;
 }
 
 }  // namespace
@@ -161,9 +251,32 @@ const std::filesystem::path& Mesh::file() const {
   return content().file;
 }
 
+const std::vector<DataArray>& Mesh::point_data() const {
+  return content().data.point_data;
+}
+const std::vector<DataArray>& Mesh::tet_data() const {
+  return content().data.tet_data;
+}
+const std::vector<DataArray>& Mesh::triangle_data() const {
+  return content().data.triangle_data;
+}
+const std::vector<DataArray>& Mesh::edge_data() const {
+  return content().data.edge_data;
+}
+const std::vector<Group>& Mesh::groups() const {
+  return content().data.groups;
+}
+
+const MeshArrays& Mesh::elements() const {
+  const Content& here = content();
+  std::call_once(here.elements_unpacked, [&here] { here.arrays = unpack_elements(here.data); });
+  return here.arrays;
+}
+
 const MeshArrays& Mesh::arrays() const {
   const Content& here = content();
-  std::call_once(here.unpacked, [&here] { here.arrays = unpack(here.data); });
+  elements();
+  std::call_once(here.rest_unpacked, [&here] { unpack_rest(here.data, here.arrays); });
   return here.arrays;
 }
 

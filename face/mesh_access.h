@@ -17,7 +17,7 @@ namespace tetmend {
 struct Mesh::Content {
   MeshData data;
   std::filesystem::path file;
-  mutable std::once_flag unpacked;
+  mutable std::once_flag elements_unpacked, rest_unpacked;
   mutable MeshArrays arrays;  // of `data`, once they were asked for
 
   Content() = default;

@@ -7,44 +7,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 #include <tetmend/api.h>
+#include <tetmend/data.h>
 
 namespace tetmend {
 
 using Point = Eigen::Vector3d;
 /// Reference label of a tet, a triangle or an edge, as the file gives it.
 using Label = std::int32_t;
-
-/// Numbers that a file gives under a name for each point, or each element of a kind: `components` of
-/// them for the first, then for the second, and so on.
-struct TETMEND_API DataArray {
-  using Values = std::variant<std::vector<std::int32_t>, std::vector<std::int64_t>,
-                              std::vector<float>, std::vector<double>>;
-  std::string name;
-  std::size_t components = 1;
-  Values values;
-
-  /// Numbers in all.
-  std::size_t size() const {
-    return std::visit([](const auto& numbers) { return numbers.size(); }, values);
-  }
-  friend bool operator==(const DataArray&, const DataArray&) = default;
-};
-
-/// A named or numbered set of points or elements. One of them may be in several.
-struct TETMEND_API Group {
-  int dimension = 3;                   ///< 0: points, 1: edges, 2: triangles, 3: tets
-  Label number = 0;                    ///< no other group of this dimension has it; 0: none
-  std::string name;                    ///< may be empty
-  std::vector<Label> parts;            ///< all elements of these parts, see MeshData::tet_parts; or
-  std::vector<std::uint32_t> members;  ///< these points or elements; or, if both are empty, all
-                                       ///< elements with the label `number`
-  friend bool operator==(const Group&, const Group&) = default;
-};
 
 /// A vertex, curve, surface or volume of the geometry that a mesh was made from.
 struct TETMEND_API GeometricEntity {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <tetmend/data.h>
 #include <tetmend/error.h>
 
 namespace tetmend {
@@ -29,6 +30,14 @@ struct MeshArrays {
   std::vector<std::array<std::uint32_t, 2>> edges = {};
   std::vector<std::int32_t> edge_labels = {};
   std::vector<std::uint32_t> required_vertices = {};  ///< must neither move nor vanish
+
+  // They come over to the improved mesh: of points linearly in the old mesh (integers from the
+  // nearest vertex), of tets from the old tet at the centroid, or see Options::conserve.
+  std::vector<DataArray> point_data = {}, tet_data = {}, triangle_data = {}, edge_data = {};
+  /// Like labels, but only to tell apart what groups tell apart: one for each element, or none. A
+  /// face between two parts stays.
+  std::vector<std::int32_t> tet_parts = {}, triangle_parts = {}, edge_parts = {};
+  std::vector<Group> groups = {};
 };
 
 /// A mesh, as it was loaded, made of arrays, or improved. Its coordinates are finite and its
@@ -40,8 +49,9 @@ class TETMEND_API Mesh {
   Mesh();
   /// Move the arrays in where they are not needed any more.
   /// @throws Error when a coordinate is NaN or infinite, when a vertex number is out of range or
-  /// twice in an element, or when an array of labels has another length than its entities. The
-  /// message begins with the place: "tets[7]: ", counted from 0.
+  /// twice in an element, when an array of labels, parts or data has another length than its
+  /// entities, or when a group contradicts itself. The message begins with the place: "tets[7]: ",
+  /// counted from 0.
   explicit Mesh(MeshArrays arrays);
   ~Mesh();
   Mesh(const Mesh& other);
@@ -56,16 +66,25 @@ class TETMEND_API Mesh {
 
   // The arrays, contiguous, valid until the mesh changes. The first call of any of these copies
   // them out of the form in which the library works, once: 24 bytes a point and 20 a tet.
-  std::span<const std::array<double, 3>> points() const { return arrays().points; }
-  std::span<const std::array<std::uint32_t, 4>> tets() const { return arrays().tets; }
-  std::span<const std::array<std::uint32_t, 3>> triangles() const { return arrays().triangles; }
-  std::span<const std::array<std::uint32_t, 2>> edges() const { return arrays().edges; }
-  std::span<const std::uint32_t> required_vertices() const { return arrays().required_vertices; }
+  std::span<const std::array<double, 3>> points() const { return elements().points; }
+  std::span<const std::array<std::uint32_t, 4>> tets() const { return elements().tets; }
+  std::span<const std::array<std::uint32_t, 3>> triangles() const { return elements().triangles; }
+  std::span<const std::array<std::uint32_t, 2>> edges() const { return elements().edges; }
+  std::span<const std::uint32_t> required_vertices() const { return elements().required_vertices; }
   // One label for each entity; `point_labels` is empty where all are 0.
-  std::span<const std::int32_t> point_labels() const { return arrays().point_labels; }
-  std::span<const std::int32_t> tet_labels() const { return arrays().tet_labels; }
-  std::span<const std::int32_t> triangle_labels() const { return arrays().triangle_labels; }
-  std::span<const std::int32_t> edge_labels() const { return arrays().edge_labels; }
+  std::span<const std::int32_t> point_labels() const { return elements().point_labels; }
+  std::span<const std::int32_t> tet_labels() const { return elements().tet_labels; }
+  std::span<const std::int32_t> triangle_labels() const { return elements().triangle_labels; }
+  std::span<const std::int32_t> edge_labels() const { return elements().edge_labels; }
+
+  // Without a copy; valid until the mesh changes.
+  const std::vector<DataArray>& point_data() const;
+  const std::vector<DataArray>& tet_data() const;
+  const std::vector<DataArray>& triangle_data() const;
+  const std::vector<DataArray>& edge_data() const;
+  const std::vector<Group>& groups() const;
+
+  /// All of it; the first call also copies data, parts and groups.
   const MeshArrays& arrays() const;
   /// Moves the arrays out: `std::move(mesh).take_arrays()`. The mesh is empty then.
   MeshArrays take_arrays() &&;
@@ -79,6 +98,7 @@ class TETMEND_API Mesh {
   friend struct MeshAccess;
   struct Content;
   const Content& content() const;
+  const MeshArrays& elements() const;  // with their labels, all else may be missing
 
   std::unique_ptr<Content> content_;  // null: empty
 };

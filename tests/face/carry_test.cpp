@@ -15,7 +15,9 @@
 
 #include "face/mesh_access.h"
 #include "face/tet_locator.h"
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/mesh_io.h"
+#include "tests/kernel/formats/fixtures.h"
 
 using namespace tetmend;
 
@@ -138,6 +140,52 @@ TEST_CASE("parts that labels do not tell apart keep their volumes, groups their 
     std::sort(made.begin(), made.end());
     if (old != made) CHECK(old == made);
   }
+}
+
+TEST_CASE("data and groups of a mesh of arrays come over, are saved, and come back") {
+  const test::TempFolder folder;
+  MeshArrays arrays =
+      load(std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes/sheet.mesh").arrays();
+  std::vector<float> field;
+  for (const auto& p : arrays.points) field.push_back(static_cast<float>(1 + p[0]));
+  std::vector<std::int64_t> order;
+  for (std::size_t t = 0; t < arrays.tets.size(); ++t) order.push_back(std::int64_t{1} << 40 | t);
+  arrays.point_data = {{"field", 1, field}};
+  arrays.tet_data = {{"order", 1, order}};
+  arrays.tet_parts.assign(arrays.tets.size(), 4);
+  arrays.groups = {{.dimension = 3, .number = 9, .name = "all of it", .parts = {4}},
+                   {.dimension = 0, .number = 2, .name = "corner", .members = {3}}};
+  const std::array<double, 3> corner = arrays.points[3];
+  Mesh mesh(std::move(arrays));
+  const Result result = improve(mesh);
+  CHECK(result.touched_tets > 0);
+  REQUIRE(result.carried.size() == 2);
+  for (const std::string file : {"a.vtu", "a.msh"}) {
+    CAPTURE(file);
+    save(folder / file, mesh);
+    const Mesh again = load(folder / file);
+    CHECK(again.tets().size() == mesh.tets().size());
+    REQUIRE(again.point_data().size() == 1);
+    CHECK(again.point_data()[0].name == "field");
+    for (std::size_t i = 0; i < again.point_count(); ++i) {
+      const double value = formats::real_value(again.point_data()[0], i);
+      const bool is_linear = std::abs(value - 1 - again.points()[i][0]) < 1e-6;
+      if (!is_linear) CHECK(value == 1 + again.points()[i][0]);
+    }
+    REQUIRE(again.tet_data().size() == 1);
+    CHECK(again.tet_data()[0].name == "order");
+  }
+  const Mesh again = load(folder / "a.msh");
+  std::size_t named = 0;  // labels become groups without a name
+  for (const Group& group : again.groups()) {
+    if (group.name.empty()) continue;
+    ++named;
+    CHECK(group.name == (group.dimension == 3 ? "all of it" : "corner"));
+    if (group.dimension == 3) continue;
+    REQUIRE(group.members.size() == 1);
+    CHECK(again.points()[group.members[0]] == corner);
+  }
+  CHECK(named == 2);
 }
 
 TEST_CASE("data belong to the mesh that a run leaves which failed half-way") {

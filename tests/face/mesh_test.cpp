@@ -25,6 +25,36 @@ void check_equal(const MeshArrays& a, const MeshArrays& b) {
   CHECK(a.edges == b.edges);
   CHECK(a.edge_labels == b.edge_labels);
   CHECK(a.required_vertices == b.required_vertices);
+  CHECK(a.point_data == b.point_data);
+  CHECK(a.tet_data == b.tet_data);
+  CHECK(a.triangle_data == b.triangle_data);
+  CHECK(a.edge_data == b.edge_data);
+  CHECK(a.tet_parts == b.tet_parts);
+  CHECK(a.triangle_parts == b.triangle_parts);
+  CHECK(a.edge_parts == b.edge_parts);
+  CHECK(a.groups == b.groups);
+}
+
+using Integers = std::vector<std::int32_t>;
+using LongIntegers = std::vector<std::int64_t>;
+using Singles = std::vector<float>;
+using Doubles = std::vector<double>;
+
+/// Data of every type, and groups of every kind.
+MeshArrays with_data() {
+  MeshArrays arrays = two_tets();
+  arrays.point_data = {{"velocity", 3, Doubles(15, 0.5)}, {"mark", 1, Integers{1, 2, 3, 4, 5}}};
+  arrays.tet_data = {{"density", 1, Singles{1.5F, 2.5F}}};
+  arrays.triangle_data = {{"number", 1, LongIntegers{1LL << 40, -7}}};
+  arrays.edge_data = {{"width", 2, Doubles{0.25, 0.75}}};
+  arrays.tet_parts = {1, 2};
+  arrays.triangle_parts = {3, 3};
+  arrays.edge_parts = {4};
+  arrays.groups = {{.dimension = 3, .number = 1, .name = "upper", .parts = {2}},
+                   {.dimension = 2, .number = 1, .name = "wall", .members = {1}},
+                   {.dimension = 2, .number = 5, .name = "glue"},
+                   {.dimension = 0, .name = "corner", .members = {4, 0}}};
+  return arrays;
 }
 
 std::string complaint(const std::function<void(MeshArrays&)>& damage) {
@@ -46,6 +76,19 @@ TEST_CASE("arrays come out of a mesh as they went in") {
   CHECK(mesh.points()[4][2] == 1);
   CHECK(mesh.file().empty());
   check_equal(std::move(mesh).take_arrays(), two_tets());
+}
+
+TEST_CASE("data, parts and groups come out of a mesh as they went in") {
+  Mesh mesh(with_data());
+  CHECK(mesh.point_data() == with_data().point_data);
+  CHECK(mesh.tet_data() == with_data().tet_data);
+  CHECK(mesh.triangle_data() == with_data().triangle_data);
+  CHECK(mesh.edge_data() == with_data().edge_data);
+  CHECK(mesh.groups() == with_data().groups);
+  CHECK(mesh.tets().size() == 2);
+  check_equal(mesh.arrays(), with_data());
+  check_equal(Mesh(mesh).arrays(), with_data());
+  check_equal(std::move(mesh).take_arrays(), with_data());
 }
 
 TEST_CASE("labels that are not given are 0, and points without any have no array of them") {
@@ -115,4 +158,46 @@ TEST_CASE("labels are one for each entity") {
   CHECK(complaint([](MeshArrays& a) { a.triangle_labels.pop_back(); }) ==
         "triangle_labels: 1 labels for 2 triangles");
   CHECK(complaint([](MeshArrays& a) { a.edge_labels = {1, 2}; }).starts_with("edge_labels: 2"));
+}
+
+TEST_CASE("parts and data are one for each entity") {
+  const auto damaged = [](const std::function<void(MeshArrays&)>& damage) {
+    MeshArrays arrays = with_data();
+    damage(arrays);
+    return message_of([&] { Mesh(std::move(arrays)); });
+  };
+  CHECK(damaged([](MeshArrays&) {}).empty());
+  CHECK(damaged([](MeshArrays& a) { a.tet_parts.pop_back(); }) == "tet_parts: 1 parts for 2 tets");
+  CHECK(damaged([](MeshArrays& a) { a.triangle_parts = {1}; }).starts_with("triangle_parts: 1"));
+  CHECK(damaged([](MeshArrays& a) { a.edge_parts = {1, 2}; }).starts_with("edge_parts: 2"));
+  CHECK(damaged([](MeshArrays& a) { a.point_data[0].values = Doubles(14); }) ==
+        "point_data[0]: 'velocity' has 14 numbers for 5 points, 3 for each");
+  CHECK(damaged([](MeshArrays& a) { a.point_data[1].components = 2; }) ==
+        "point_data[1]: 'mark' has 5 numbers for 5 points, 2 for each");
+  CHECK(damaged([](MeshArrays& a) { a.tet_data[0].components = 0; }) ==
+        "tet_data[0]: 'density' has 0 components");
+  CHECK(damaged([](MeshArrays& a) { a.triangle_data[0].values = LongIntegers(); }) ==
+        "triangle_data[0]: 'number' has 0 numbers for 2 triangles, 1 for each");
+  CHECK(damaged([](MeshArrays& a) { a.edge_data[0].values = Singles(1); }) ==
+        "edge_data[0]: 'width' has 1 numbers for 1 edges, 2 for each");
+}
+
+TEST_CASE("a group that contradicts itself is an error with its place") {
+  const auto complaint_about = [](std::size_t i, const std::function<void(Group&)>& damage) {
+    MeshArrays arrays = with_data();
+    damage(arrays.groups[i]);
+    return message_of([&] { Mesh(std::move(arrays)); });
+  };
+  CHECK(complaint_about(1, [](Group& group) { group.dimension = 4; }) ==
+        "groups[1]: dimension 4, expected 0 to 3");
+  CHECK(complaint_about(2, [](Group& group) { group.number = 1; }) ==
+        "groups[2]: number 1 is that of groups[1]");
+  CHECK(complaint_about(0, [](Group& group) { group.members = {0}; }) ==
+        "groups[0]: it has parts and members");
+  CHECK(complaint_about(1, [](Group& group) {
+          group.members = {1, 2};
+        }) == "groups[1].members[1]: no triangle 2, there are 2, counted from 0");
+  CHECK(complaint_about(3, [](Group& group) {
+          group.members = {4, 0, 4};
+        }) == "groups[3].members[2]: point 4 twice, counted from 0");
 }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Installs tetmend into a folder of its own, and builds against it, with find_package alone, what a stranger would: the
 # plugin of plugins/ and the programs of docs/library.md. Then runs them. The programs are built for this very processor,
-# and write the same bytes as the command line.
+# and write the same bytes as the command line. So does one that is built by pkg-config alone, after all that was installed
+# has moved.
 #   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -DGENERATOR=... -DLAUNCHER=... -DFLAGS=... -P installed_test.cmake
 cmake_minimum_required(VERSION 3.21)
 
@@ -83,6 +84,30 @@ foreach(name IN LISTS names)
   endif()
 endforeach()
 
+# C has no namespace: its names are those of a list, so that none vanishes unnoticed, and the header declares them all.
+run(nm --dynamic --defined-only --format=posix ${library})
+string(REGEX MATCHALL "(^|\n)tetmend_[a-z_]+ " shown "${output}")
+list(TRANSFORM shown STRIP)
+list(SORT shown)
+file(STRINGS ${SOURCE}/bindings/c/names.txt expected)
+list(SORT expected)
+if(NOT shown STREQUAL expected)
+  message(FATAL_ERROR "${library} shows\n${shown}\nand bindings/c/names.txt has\n${expected}")
+endif()
+file(READ ${WORK}/prefix/include/tetmend/tetmend.h header)
+foreach(name IN LISTS expected)
+  if(NOT header MATCHES "TETMEND_API [a-z_0-9]+( const)?[ *]+${name}\\(|TETMEND_API const char\\* ${name}\\(")
+    message(FATAL_ERROR "tetmend.h does not declare ${name}")
+  endif()
+endforeach()
+run(readelf --dynamic ${library})
+expect("[libtetmend.so.0]")
+foreach(name IN ITEMS share/doc/tetmend/LICENSE share/doc/tetmend/THIRD-PARTY.md include/tetmend/tetmend.f90)
+  if(NOT EXISTS ${WORK}/prefix/${name})
+    message(FATAL_ERROR "${name} is not installed")
+  endif()
+endforeach()
+
 set(program ${WORK}/prefix/bin/tetmend)
 set(plugin ${WORK}/plugins/odt_smoothing.so)
 build(${SOURCE}/plugins ${WORK}/plugins)
@@ -100,3 +125,31 @@ run(${program} improve ${WORK}/part.mesh -o ${WORK}/expected.mesh --schedule tho
 run(${CMAKE_COMMAND} -E compare_files ${WORK}/better.mesh ${WORK}/expected.mesh)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/programs/embedded ${plugin})
 expect("odt_smoothing: ")
+
+find_program(pkg_config pkg-config REQUIRED)
+file(REMOVE_RECURSE ${WORK}/moved)
+file(RENAME ${WORK}/prefix ${WORK}/moved)
+string(REPLACE "${WORK}/prefix" "${WORK}/moved" library "${library}")
+get_filename_component(folder ${library} DIRECTORY)
+set(environment ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder}/pkgconfig LD_LIBRARY_PATH=${folder})
+run(${environment} ${pkg_config} --modversion tetmend)
+expect("0.")
+run(${environment} ${pkg_config} --cflags --libs tetmend)
+string(STRIP "${output}" words)
+if(words MATCHES "fmt|tbb|lua|zstd")
+  message(FATAL_ERROR "a shared library needs nothing else, but: ${words}")
+endif()
+separate_arguments(words UNIX_COMMAND "${words} ${FLAGS}")
+run(${COMPILER} -std=c++20 ${SOURCE}/tests/install/library_user/main.cpp ${words} -o ${WORK}/by_pkg_config)
+file(REMOVE ${WORK}/better.mesh)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${environment} ${WORK}/by_pkg_config)
+run(${CMAKE_COMMAND} -E compare_files ${WORK}/better.mesh ${WORK}/expected.mesh)
+run(${environment} ${pkg_config} --static --libs tetmend)
+expect("-lzstd")
+
+# The page about C and Fortran, command by command.
+if(NOT FLAGS)  # a sanitizer would have to be in these programs too
+  find_program(python python3 REQUIRED)
+  run(${python} -B ${SOURCE}/tests/docs/c_page_test.py ${SOURCE} ${WORK}/moved)
+  message(STATUS "${output}")
+endif()

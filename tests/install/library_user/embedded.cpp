@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <tetmend/catalogue.h>
@@ -20,21 +20,21 @@ struct Solver {
   std::vector<std::array<std::uint32_t, 4>> cells;
   std::vector<std::int32_t> materials;  // of the cells
   std::vector<double> temperatures;     // at the nodes
+  std::vector<std::uint32_t> held;      // nodes of the surface
 };
 
 void improve_mesh_of(Solver& solver) {
-  tetmend::Mesh mesh(
-      {.points = solver.nodes, .tets = solver.cells, .tet_labels = solver.materials});
+  tetmend::Mesh mesh({.points = solver.nodes,
+                      .tets = solver.cells,
+                      .tet_labels = solver.materials,
+                      .point_data = {{"temperature", 1, solver.temperatures}}});
   const tetmend::Result result = tetmend::improve(mesh, {.threads = 4});
 
-  std::vector<double> temperatures(mesh.point_count(), std::nan(""));  // to be interpolated
-  for (std::size_t v = 0; v < result.vertex_map.size(); ++v) {
-    const std::uint32_t now = result.vertex_map[v];
-    if (now != tetmend::kGone) temperatures[now] = solver.temperatures[v];
-  }
+  for (std::uint32_t& node : solver.held) node = result.vertex_map[node];
   tetmend::MeshArrays arrays = std::move(mesh).take_arrays();
+  auto& temperatures = std::get<std::vector<double>>(arrays.point_data[0].values);
   solver = {std::move(arrays.points), std::move(arrays.tets), std::move(arrays.tet_labels),
-            std::move(temperatures)};
+            std::move(temperatures), std::move(solver.held)};
 }
 
 bool is_usable(const std::string& file) {
@@ -92,11 +92,17 @@ int main(int argc, char** argv) {
   solver.nodes.assign(part.points().begin(), part.points().end());
   solver.cells.assign(part.tets().begin(), part.tets().end());
   solver.materials.assign(part.tet_labels().begin(), part.tet_labels().end());
-  solver.temperatures.assign(part.point_count(), 300);
+  for (const auto& node : solver.nodes) solver.temperatures.push_back(300 + node[0]);
+  solver.held = {part.triangles()[0][0]};
+  const std::array<double, 3> held = solver.nodes[solver.held[0]];
   improve_mesh_of(solver);
   expect(solver.temperatures.size() == solver.nodes.size(), "a temperature for each node");
   expect(solver.materials.size() == solver.cells.size(), "a material for each cell");
-  expect(solver.temperatures[0] == 300, "nodes that stay come first");
+  for (std::size_t i = 0; i < solver.nodes.size(); ++i) {
+    expect(std::abs(solver.temperatures[i] - 300 - solver.nodes[i][0]) < 1e-9,
+           "data are linear in the old mesh");
+  }
+  expect(solver.nodes[solver.held[0]] == held, "nodes of the surface stay where they were");
   expect(is_usable("better.mesh"), "a mesh that was improved is usable");
   expect(!is_usable("missing.mesh"), "errors are caught by their type");
 
