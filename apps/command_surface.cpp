@@ -10,7 +10,9 @@
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/formats/tet_mesh_io.h"
+#ifdef TETMEND_HAS_OPENMESH
 #include "kernel/surface.h"
+#endif
 
 namespace tetmend::apps {
 namespace {
@@ -22,6 +24,9 @@ struct Options {
   bool constraints = false;
   int threads = 1;
 };
+
+#ifdef TETMEND_HAS_OPENMESH
+constexpr const char* kPurpose = "Write the boundary of a mesh as triangles";
 
 int run_surface(const Options& options, Invocation& invocation) {
   check_mesh_extension(options.input);
@@ -45,12 +50,19 @@ int run_surface(const Options& options, Invocation& invocation) {
                           grouped(surface.mesh.n_vertices()), grouped(surface.mesh.n_faces())));
   return 0;
 }
+#else
+constexpr const char* kPurpose = "Write the boundary as triangles (not in this build)";
+
+int run_surface(const Options&, Invocation&) {
+  throw UsageError("surface: tetmend was built without OpenMesh, which this command needs");
+}
+#endif
 
 }  // namespace
 
 void add_surface(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("surface", "Write the boundary of a mesh as triangles");
+  CLI::App* command = app.add_subcommand("surface", kPurpose);
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write: .off, .obj, .ply or .stl")
       ->required()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bowyer-Watson inside a huge tet, with the exact predicates of CGAL's kernel.
+// Bowyer-Watson inside a huge tet, with exact predicates.
 //
 //   for each point: cavity = tets whose circumsphere holds it; replace them by tets from the point
 //                   to each face of the cavity
@@ -9,18 +9,16 @@
 #include <algorithm>
 #include <map>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
+#include "kernel/exact_orientation.h"
+#include "kernel/exact_sphere.h"
 #include "kernel/handles.h"
 
 namespace tetmend::contract {
 
 std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Tet = std::array<std::uint32_t, 4>;
   using Face = std::array<std::uint32_t, 3>;
-  std::vector<Kernel::Point_3> p;
-  for (const Point& q : points) p.emplace_back(q.x(), q.y(), q.z());
+  std::vector<Point> p(points.begin(), points.end());
   const auto n = static_cast<std::uint32_t>(points.size());
   // So far away that every face of the convex hull gets its tet, short of nearly flat corners.
   constexpr double kFar = 0x1p40;
@@ -29,9 +27,7 @@ std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points
   p.emplace_back(-kFar, kFar, -kFar);
   p.emplace_back(kFar, -kFar, -kFar);
   Tet huge = {n, n + 1, n + 2, n + 3};
-  if (CGAL::orientation(p[n], p[n + 1], p[n + 2], p[n + 3]) != CGAL::POSITIVE) {
-    std::swap(huge[2], huge[3]);
-  }
+  if (exact_orientation(p[n], p[n + 1], p[n + 2], p[n + 3]) < 0) std::swap(huge[2], huge[3]);
 
   std::vector<Tet> tets = {huge};
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -39,8 +35,7 @@ std::vector<std::array<std::uint32_t, 4>> delaunay(std::span<const Point> points
     // By sorted vertices: the face counterclockwise as seen from outside.
     std::map<Face, Face> open;
     for (const Tet& t : tets) {
-      if (CGAL::side_of_oriented_sphere(p[t[0]], p[t[1]], p[t[2]], p[t[3]], p[i]) !=
-          CGAL::ON_POSITIVE_SIDE) {
+      if (side_of_sphere(p[t[0]], p[t[1]], p[t[2]], p[t[3]], p[i]) <= 0) {
         kept.push_back(t);
         continue;
       }

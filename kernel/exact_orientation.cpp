@@ -1,19 +1,69 @@
 // SPDX-License-Identifier: MIT
-// The only file of the kernel that includes CGAL: its headers are slow to compile.
 #include "kernel/exact_orientation.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include "kernel/chunks.h"
+#include "kernel/exact_sum.h"
+#include "kernel/geometry.h"
 
 namespace tetmend {
 
+namespace {
+
+/// x - y, if that is a double: the error of a difference is one [shewchuk_predicates].
+bool subtract_exactly(const Point& x, const Point& y, Point& difference) {
+  for (int i = 0; i < 3; ++i) {
+    const double z = x[i] - y[i];
+    const double of_y = x[i] - z;
+    const double of_x = z + of_y;
+    if (!((x[i] - of_x) + (of_y - y[i]) == 0)) return false;
+    difference[i] = z;
+  }
+  return true;
+}
+
+/// p . (q x r)
+void add_triple(ExactSum<3>& sum, const Point& p, const Point& q, const Point& r, bool subtract) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    sum.add({p[i], q[j], r[k]}, subtract);
+    sum.add({p[i], q[k], r[j]}, !subtract);
+  }
+}
+
+template <std::size_t Points>
+ExactSum<3> empty_sum(const std::array<const Point*, Points>& points) {
+  std::array<double, 3 * Points> coordinates;
+  auto place = coordinates.begin();
+  for (const Point* p : points) place = std::copy(p->begin(), p->end(), place);
+  return ExactSum<3>(coordinates);
+}
+
+/// By differences where they are exact, as on a lattice, which takes a quarter of the products.
+int sign_by_integers(const Point& a, const Point& b, const Point& c, const Point& d) {
+  Point u, v, w;
+  if (subtract_exactly(b, a, u) && subtract_exactly(c, a, v) && subtract_exactly(d, a, w)) {
+    ExactSum<3> sum = empty_sum<3>({&u, &v, &w});
+    add_triple(sum, u, v, w, false);
+    return sum.sign();
+  }
+  ExactSum<3> sum = empty_sum<4>({&a, &b, &c, &d});
+  add_triple(sum, b, c, d, false);
+  add_triple(sum, a, c, d, true);
+  add_triple(sum, a, b, d, false);
+  add_triple(sum, a, b, c, true);
+  return sum.sign();
+}
+
+}  // namespace
+
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  const auto convert = [](const Point& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
-  return static_cast<int>(CGAL::orientation(convert(a), convert(b), convert(c), convert(d)));
+  const int sign = certified_sign(a, b, c, d);
+  return sign != 0 ? sign : sign_by_integers(a, b, c, d);
 }
 
 bool is_turned_over(const Point& a, const Point& b, const Point& c, const Point& d) {

@@ -17,8 +17,8 @@ struct ExactOrientation {
 };
 
 /// Sign of volume6(a, b, c, d) in exact arithmetic: -1, 0 or 1. Precondition: finite coordinates.
-/// Cost: floating-point operations decide nearly always, rational numbers the rest (CGAL's filtered
-/// kernel).
+/// Exact for all of them, from denormal numbers to the largest doubles, in any mixture. Cost:
+/// floating-point operations decide nearly always (certified_sign), integers the rest (ExactSum).
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// True if volume6() of the tet is negative; the exact one where the products leave the doubles.

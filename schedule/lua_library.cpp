@@ -352,6 +352,15 @@ void push_text(lua_State* lua, int index) {
   }
 }
 
+int call_with_texts(lua_State* lua) {
+  const int count = lua_gettop(lua);
+  luaL_checkstack(lua, count + 4, "too many arguments");
+  lua_pushvalue(lua, lua_upvalueindex(1));
+  for (int i = 1; i <= count; ++i) push_text(lua, i);
+  lua_call(lua, count, 0);
+  return 0;
+}
+
 void push_library(lua_State* lua) {
   lua_newtable(lua);
   luaL_requiref(lua, "_G", luaopen_base, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of Lua's library that a script gets: repeatable, and never long without a watch.
+// The part of Lua's library that a script gets: repeatable, and never long without a watch. All are
+// functions of Lua (schedule/lua_box.h).
 #pragma once
 
 #include <lua.hpp>
@@ -13,6 +14,9 @@ void push_library(lua_State* lua);
 
 /// Pushes what tostring() says: of tables and functions only what they are.
 void push_text(lua_State* lua, int index);
+
+/// Front of a word (LuaState::add_word) that takes its arguments as texts.
+int call_with_texts(lua_State* lua);
 
 /// Charges the work of reading the arguments of the function that runs.
 void charge_arguments(lua_State* lua);

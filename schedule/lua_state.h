@@ -11,6 +11,8 @@
 
 #include <lua.hpp>
 
+#include "schedule/word_call.h"
+
 namespace tetmend {
 
 struct LuaBox;
@@ -26,8 +28,7 @@ struct LuaBox;
 /// Reading an unknown global name is an error that names the valid ones; words that were given to
 /// the script cannot be overwritten.
 ///
-/// The interpreter is compiled as C++: an exception of Lua unwinds C++ frames. No other exception
-/// may leave a function that Lua calls; see add_word().
+/// Lua may be compiled as C++ or as C: see schedule/lua_box.h for what that asks of the code here.
 class LuaState {
  public:
   struct Limits {
@@ -38,7 +39,9 @@ class LuaState {
   /// Asked every thousand instructions, or earlier where they copy large blocks. Throws to stop
   /// the script; the exception comes out of run().
   using Watch = std::function<void()>;
-  using Function = std::function<int(lua_State*)>;
+  /// Work of C++ that a script calls. May throw tetmend::Error, which becomes an error of the line
+  /// that called it; anything else comes out of run() unchanged, ScriptStop above all.
+  using Word = std::function<void(WordCall&)>;
 
   explicit LuaState(Limits limits, Watch watch = {});
   LuaState() : LuaState(Limits{}) {}
@@ -46,40 +49,39 @@ class LuaState {
   LuaState(const LuaState&) = delete;
   LuaState& operator=(const LuaState&) = delete;
 
-  /// Makes a function available by name. It may throw tetmend::Error, which becomes an error of the
-  /// line that called it, and ScriptStop, which comes out of run() unchanged.
-  void add_word(const std::string& name, Function function);
-
-  /// Pushes such a function on the stack. It lives as long as this state.
-  void push_function(Function function);
+  /// Makes a word available by name. If there is a `front`, the script calls that: a function of
+  /// Lua, which has the word as its upvalue 1, for what only the interpreter can do.
+  void add_word(const std::string& name, Word word, lua_CFunction front = nullptr);
+  /// Makes a function of Lua available by name.
+  void add_function(const std::string& name, lua_CFunction function);
+  /// Makes a word the metamethod `event` of the tables that luaL_setmetatable(lua, table) marks.
+  void add_metamethod(const char* table, const char* event, Word word, lua_CFunction front);
 
   /// Runs the text of a script. `name` is what errors call it.
   /// @throws Error "NAME:LINE: reason" for a mistake in the script or its run, without control
   /// characters; whatever the watch or a word throws to stop; std::bad_alloc.
   void run(std::string_view text, const std::string& name);
 
-  lua_State* get() const { return lua_.get(); }
-
  private:
   struct Close {
     void operator()(lua_State* lua) const;
   };
 
+  /// What a function of Lua needs to add another one to a table.
+  struct Addition;
+  void add(Addition addition);
+  static int add_to_table(lua_State* lua);
+  /// Calls a function of Lua, outside of a script, with `what` as light userdata.
+  /// @throws std::bad_alloc: only memory can be missing.
+  void call(lua_CFunction function, void* what);
+
   std::unique_ptr<LuaBox> box_;
   std::unique_ptr<lua_State, Close> lua_;
 };
 
-// For functions that a script calls. Each takes the state of a LuaState and may raise an error of
-// Lua, which is an exception: the frames between need no more than destructors.
-
-/// Charges work, in units of an instruction. May ask the watch.
+/// Charges work, in units of an instruction. May ask the watch, and raise an error. For functions
+/// of Lua; words have WordCall::charge_steps().
 void charge_steps(lua_State* lua, std::size_t steps);
-
-/// Counts bytes that the present word takes outside of the interpreter until it returns.
-/// @throws Error when the script has too much there.
-void hold_in_call(lua_State* lua, std::size_t bytes);
-/// The same for what stays: notes, descriptions.
-void hold_for_good(lua_State* lua, std::size_t bytes);
 
 /// Thrown by a word or a watch to end a script that did nothing wrong.
 struct ScriptStop {};

@@ -28,8 +28,7 @@ constexpr std::size_t kMostBytesShown = 4;
 
 constexpr const char* kQualityTable = "tetmend quality";
 
-ScriptValue read_table(lua_State* lua, int index, const WordInfo& word) {
-  ScriptValue value = read_value(lua, index);
+ScriptValue read_table(ScriptValue value, const WordInfo& word) {
   if (value.kind == ScriptValue::Kind::nothing) value.kind = ScriptValue::Kind::table;
   if (value.kind != ScriptValue::Kind::table) {
     throw Error(fmt::format("{} takes named arguments in braces, not {}: {}", word.name,
@@ -89,10 +88,8 @@ std::size_t memory_of(const ScheduleParameter& parameter) {
   return bytes;
 }
 
-bool is_place_in_list(lua_State* lua, int index, lua_Integer length) {
-  if (lua_isinteger(lua, index) == 0) return false;
-  const lua_Integer place = lua_tointeger(lua, index);
-  return place >= 1 && place <= length;
+ScriptValue integer(std::size_t number) {
+  return ScriptValue::of_integer(static_cast<double>(number));
 }
 
 QualityIndicators read_indicators(const Subject& subject, const ScriptValue& value) {
@@ -106,6 +103,77 @@ QualityIndicators read_indicators(const Subject& subject, const ScriptValue& val
   };
   return {number("q_worst"), static_cast<std::size_t>(std::max(0.0, number("n_bad"))),
           number("q_aver")};
+}
+
+// ---- Functions of Lua (schedule/lua_box.h) ------------------------------------------------------
+
+bool is_place_in_list(lua_State* lua, int index, lua_Integer length) {
+  if (lua_isinteger(lua, index) == 0) return false;
+  const lua_Integer place = lua_tointeger(lua, index);
+  return place >= 1 && place <= length;
+}
+
+/// What first_of, all_of and sequence return: a copy of their table, marked by their name.
+int compose(lua_State* lua, const char* how) {
+  charge_arguments(lua);
+  luaL_checktype(lua, 1, LUA_TTABLE);
+  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, 1));
+  lua_newtable(lua);
+  const int made = lua_gettop(lua);
+  for (lua_Integer i = 1; i <= length; ++i) {
+    charge_steps(lua, 1);
+    lua_rawgeti(lua, 1, i);
+    lua_rawseti(lua, made, i);
+  }
+  // What is no name is refused by the word that reads the table.
+  for (lua_pushnil(lua); lua_next(lua, 1) != 0; lua_pop(lua, 1)) {
+    charge_steps(lua, 1);
+    if (is_place_in_list(lua, -2, length)) continue;
+    lua_pushvalue(lua, -2);
+    lua_pushvalue(lua, -2);
+    lua_rawset(lua, made);
+  }
+  lua_pushstring(lua, how);
+  lua_setfield(lua, -2, "how");
+  return 1;
+}
+
+int first_of(lua_State* lua) {
+  return compose(lua, "first_of");
+}
+
+int all_of(lua_State* lua) {
+  return compose(lua, "all_of");
+}
+
+int sequence(lua_State* lua) {
+  return compose(lua, "sequence");
+}
+
+/// Before the word `quality`: a field that is not in its table is asked for when it is read.
+int mark_quality_table(lua_State* lua) {
+  lua_settop(lua, 0);
+  lua_pushvalue(lua, lua_upvalueindex(1));
+  lua_call(lua, 0, 1);
+  luaL_setmetatable(lua, kQualityTable);
+  return 1;
+}
+
+/// Before the word that measures, as the event __index(table, name): keeps what it finds.
+int keep_measured(lua_State* lua) {
+  lua_settop(lua, 2);
+  lua_pushvalue(lua, lua_upvalueindex(1));
+  lua_pushvalue(lua, 2);
+  lua_getfield(lua, 1, "passes");
+  lua_call(lua, 2, 1);
+  for (lua_pushnil(lua); lua_next(lua, 3) != 0; lua_pop(lua, 1)) {
+    lua_pushvalue(lua, -2);
+    lua_pushvalue(lua, -2);
+    lua_rawset(lua, 1);
+  }
+  lua_pushvalue(lua, 2);
+  lua_rawget(lua, 3);
+  return 1;
 }
 
 }  // namespace
@@ -142,9 +210,10 @@ void ScriptHost::begin_work() {
 }
 
 void ScriptHost::add_words() {
-  const auto add = [&](const char* name, auto member) {
-    lua_.add_word(name, [this, member](lua_State* lua) { return (this->*member)(lua); });
+  const auto bind = [this](auto member) {
+    return [this, member](WordCall& call) { (this->*member)(call); };
   };
+  const auto add = [&](const char* name, auto member) { lua_.add_word(name, bind(member)); };
   add("description", &ScriptHost::describe);
   add("parameter", &ScriptHost::declare);
   add("begin_round", &ScriptHost::begin_round);
@@ -157,76 +226,64 @@ void ScriptHost::add_words() {
   add("untangle", &ScriptHost::untangle);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
-  for (const char* how : {"first_of", "all_of", "sequence"}) {
-    lua_.add_word(how, [this, how](lua_State* lua) { return compose(lua, how); });
-  }
+  lua_.add_function("first_of", first_of);
+  lua_.add_function("all_of", all_of);
+  lua_.add_function("sequence", sequence);
   add("goal", &ScriptHost::goal);
   add("judge_by", &ScriptHost::judge_by);
   add("quality_of_angle", &ScriptHost::quality_of_angle);
-  add("quality", &ScriptHost::quality);
+  lua_.add_word("quality", bind(&ScriptHost::quality), mark_quality_table);
+  lua_.add_metamethod(kQualityTable, "__index", bind(&ScriptHost::measure), keep_measured);
   add("limit", &ScriptHost::limit);
   add("is_progress", &ScriptHost::is_progress);
   add("operators", &ScriptHost::operators);
-  add("log", &ScriptHost::log);
-  add("print", &ScriptHost::log);
-
-  luaL_newmetatable(lua_.get(), kQualityTable);
-  lua_.push_function([this](lua_State* lua) { return measure(lua); });
-  lua_setfield(lua_.get(), -2, "__index");
-  lua_pop(lua_.get(), 1);
+  lua_.add_word("log", bind(&ScriptHost::log), call_with_texts);
+  lua_.add_word("print", bind(&ScriptHost::log), call_with_texts);
 }
 
 // ---- Declarations -------------------------------------------------------------------------------
 
-int ScriptHost::describe(lua_State* lua) {
-  info_.description = printable(read_text({"description"}, read_value(lua, 1)));
-  hold_for_good(lua, info_.description.size());
-  return 0;
+void ScriptHost::describe(WordCall& call) {
+  info_.description = printable(read_text({"description"}, call.argument(1)));
+  call.hold_for_good(info_.description.size());
 }
 
-int ScriptHost::declare(lua_State* lua) {
+void ScriptHost::declare(WordCall& call) {
   if (working_) throw Error("parameter: to be declared before the first pass");
-  const ScriptValue value = read_table(lua, 1, find_word("parameter"));
-  charge_steps(lua, info_.parameters.size());
+  const ScriptValue value = read_table(call.argument(1), find_word("parameter"));
+  call.charge_steps(info_.parameters.size());
   const ScheduleParameter& parameter =
       info_.parameters.emplace_back(read_parameter(value, info_.parameters));
-  hold_for_good(lua, memory_of(parameter));
+  call.hold_for_good(memory_of(parameter));
   const auto [number, text] = chosen_value(parameter, settings_);
   switch (parameter.kind) {
     case ScheduleParameter::Kind::integer:
-      lua_pushinteger(lua, static_cast<lua_Integer>(number));
-      break;
+      return call.give(ScriptValue::of_integer(number));
     case ScheduleParameter::Kind::real:
-      lua_pushnumber(lua, number);
-      break;
+      return call.give(ScriptValue::of_number(number));
     case ScheduleParameter::Kind::flag:
-      lua_pushboolean(lua, number != 0);
-      break;
+      return call.give(ScriptValue::of_flag(number != 0));
     case ScheduleParameter::Kind::choice:
-      lua_pushstring(lua, text.c_str());
-      break;
+      return call.give(ScriptValue::of_text(text));
   }
-  return 1;
 }
 
 // ---- Passes -------------------------------------------------------------------------------------
 
-int ScriptHost::begin_round(lua_State* lua) {
+void ScriptHost::begin_round(WordCall& call) {
   begin_work();
-  lua_pushinteger(lua, ++run_->round);
-  return 1;
+  call.give(integer(++run_->round));
 }
 
 /// In an interpreter of its own. A script can run a built-in schedule only, so that none can run
 /// itself.
-int ScriptHost::run_schedule(lua_State* lua) {
+void ScriptHost::run_schedule(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("run_schedule");
-  const Schedule schedule = Schedule::builtin(read_text({"run_schedule"}, read_value(lua, 1)));
-  const ScheduleSettings settings = read_settings(word, read_table(lua, 2, word));
+  const Schedule schedule = Schedule::builtin(read_text({"run_schedule"}, call.argument(1)));
+  const ScheduleSettings settings = read_settings(word, read_table(call.argument(2), word));
   ScriptHost(run_, settings).execute(schedule);
   watch();
-  return 0;
 }
 
 ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const ScriptValue& value,
@@ -270,20 +327,19 @@ ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const Scr
 }
 
 template <class Pass>
-int ScriptHost::make_pass(lua_State* lua, const Pass& pass) {
+void ScriptHost::make_pass(WordCall& call, const Pass& pass) {
   const std::size_t passes = run_->records.size();
   pass();
   const bool was_made = run_->records.size() > passes;
   const PassRecord record = was_made ? run_->records.back() : PassRecord{};
-  lua_pushinteger(lua, static_cast<lua_Integer>(record.accepted()));
-  lua_pushinteger(lua, static_cast<lua_Integer>(record.attempts()));
-  return 2;
+  call.give(integer(record.accepted()));
+  call.give(integer(record.attempts()));
 }
 
-int ScriptHost::local_reconnection(lua_State* lua) {
+void ScriptHost::local_reconnection(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("local_reconnection");
-  const ScriptValue value = read_table(lua, 1, word);
+  const ScriptValue value = read_table(call.argument(1), word);
   LocalReconnectionOptions options;
   Composition edges;
   Composition faces;
@@ -305,144 +361,120 @@ int ScriptHost::local_reconnection(lua_State* lua) {
   for (auto& setting : arguments.of_operators[0]) options.edge_settings.push_back(setting);
   for (auto& setting : arguments.of_operators[1]) options.face_settings.push_back(setting);
   options.sweeps = static_cast<unsigned>(numbers.integer("sweeps"));
-  return make_pass(lua, [&] { tetmend::local_reconnection(*run_, options); });
+  make_pass(call, [&] { tetmend::local_reconnection(*run_, options); });
 }
 
-int ScriptHost::smooth(lua_State* lua) {
+void ScriptHost::smooth(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("smooth");
-  Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"smoothing"});
+  Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {"smoothing"});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   SmoothOptions options;
   options.on = std::move(arguments.on);
   options.settings = std::move(arguments.of_operators[0]);
   options.cycles = static_cast<unsigned>(numbers.integer("cycles"));
-  return make_pass(lua, [&] { tetmend::smooth(*run_, options); });
+  make_pass(call, [&] { tetmend::smooth(*run_, options); });
 }
 
-int ScriptHost::suppress_points(lua_State* lua) {
+void ScriptHost::suppress_points(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("suppress_points");
-  Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"edge_contraction"});
-  return make_pass(lua, [&] {
+  Arguments arguments =
+      read_arguments(word, read_table(call.argument(1), word), {"edge_contraction"});
+  make_pass(call, [&] {
     tetmend::suppress_points(*run_,
                              {std::move(arguments.on), std::move(arguments.of_operators[0])});
   });
 }
 
-int ScriptHost::insert_points(lua_State* lua) {
+void ScriptHost::insert_points(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("insert_points");
-  Arguments arguments = read_arguments(word, read_table(lua, 1, word), {"edge_split"});
-  return make_pass(lua, [&] {
+  Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {"edge_split"});
+  make_pass(call, [&] {
     tetmend::insert_points(*run_, {std::move(arguments.on), std::move(arguments.of_operators[0])});
   });
 }
 
-int ScriptHost::polish(lua_State* lua) {
+void ScriptHost::polish(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("polish");
-  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const PolishOptions options = {.below = numbers.real("below"),
                                  .cycles = static_cast<unsigned>(numbers.integer("cycles"))};
-  return make_pass(lua, [&] { tetmend::polish(*run_, options); });
+  make_pass(call, [&] { tetmend::polish(*run_, options); });
 }
 
-int ScriptHost::untangle(lua_State* lua) {
+void ScriptHost::untangle(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("untangle");
-  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const UntangleOptions options = {
       .where = {.share = numbers.real("share"),
                 .at_least = static_cast<std::size_t>(numbers.integer("at_least")),
                 .rings = static_cast<unsigned>(numbers.integer("rings"))},
       .looks = static_cast<unsigned>(numbers.integer("looks"))};
-  return make_pass(lua, [&] { tetmend::untangle(*run_, options); });
+  make_pass(call, [&] { tetmend::untangle(*run_, options); });
 }
 
-int ScriptHost::apply(lua_State* lua) {
+void ScriptHost::apply(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("apply");
   ApplyOptions options;
-  options.what = read_composition(run_->registry(), {"apply"}, read_value(lua, 1));
-  Arguments arguments = read_arguments(word, read_table(lua, 2, word), {});
+  options.what = read_composition(run_->registry(), {"apply"}, call.argument(1));
+  Arguments arguments = read_arguments(word, read_table(call.argument(2), word), {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   options.on = std::move(arguments.on);
   options.sweeps = static_cast<unsigned>(numbers.integer("sweeps"));
   options.again = numbers.flag("again");
-  return make_pass(lua, [&] { tetmend::apply(*run_, options); });
+  make_pass(call, [&] { tetmend::apply(*run_, options); });
 }
 
-int ScriptHost::attempt(lua_State* lua) {
+void ScriptHost::attempt(WordCall& call) {
   begin_work();
-  const Composition what = read_composition(run_->registry(), {"attempt"}, read_value(lua, 1));
+  const Composition what = read_composition(run_->registry(), {"attempt"}, call.argument(1));
   if (what.kind != Composition::Kind::one && what.kind != Composition::Kind::sequence) {
     throw Error("attempt: must be one operator or a sequence");
   }
-  const std::vector<std::uint32_t> vertices = read_vertices(read_value(lua, 2));
+  const std::vector<std::uint32_t> vertices = read_vertices(call.argument(2));
   std::vector<std::uint32_t> tet;
-  if (!lua_isnoneornil(lua, 3)) tet = read_vertices(read_value(lua, 3));
-  return make_pass(lua, [&] { attempt_once(*run_, {what, vertices, tet}); });
-}
-
-int ScriptHost::compose(lua_State* lua, const char* how) {
-  luaL_checktype(lua, 1, LUA_TTABLE);
-  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, 1));
-  lua_newtable(lua);
-  const int made = lua_gettop(lua);
-  for (lua_Integer i = 1; i <= length; ++i) {
-    charge_steps(lua, 1);
-    lua_rawgeti(lua, 1, i);
-    lua_rawseti(lua, made, i);
-  }
-  // What is no name is refused by the word that reads the table.
-  for (lua_pushnil(lua); lua_next(lua, 1) != 0; lua_pop(lua, 1)) {
-    charge_steps(lua, 1);
-    if (is_place_in_list(lua, -2, length)) continue;
-    lua_pushvalue(lua, -2);
-    lua_pushvalue(lua, -2);
-    lua_rawset(lua, made);
-  }
-  lua_pushstring(lua, how);
-  lua_setfield(lua, -2, "how");
-  return 1;
+  const ScriptValue third = call.argument(3);
+  if (third.kind != ScriptValue::Kind::nothing) tet = read_vertices(third);
+  make_pass(call, [&] { attempt_once(*run_, {what, vertices, tet}); });
 }
 
 // ---- Questions ----------------------------------------------------------------------------------
 
-int ScriptHost::quality(lua_State* lua) {
+void ScriptHost::quality(WordCall& call) {
   begin_work();
   const QualityIndicators now = run_->indicators();
-  lua_newtable(lua);
+  const Goal goal = run_->mesh().standard().goal();
+  ScriptValue table = ScriptValue::empty_table();
   const auto number = [&](const char* name, double value) {
-    lua_pushnumber(lua, value);
-    lua_setfield(lua, -2, name);
+    table.fields.push_back({name, ScriptValue::of_number(value)});
   };
   const auto count = [&](const char* name, std::size_t value) {
-    lua_pushinteger(lua, static_cast<lua_Integer>(value));
-    lua_setfield(lua, -2, name);
+    table.fields.push_back({name, integer(value)});
   };
   number("q_worst", now.q_worst);
   count("n_bad", now.n_bad);
   count("n_needles", now.n_needles);
   number("q_aver", now.q_aver);
-  const Goal goal = run_->mesh().standard().goal();
   number("goal_min", goal.min_angle);
   number("goal_max", goal.max_angle);
   count("tets", run_->mesh().tet_count());
   count("vertices", run_->mesh().vertex_count());
   number("seconds", run_->seconds());
   count("passes", run_->records.size());
-  luaL_setmetatable(lua, kQualityTable);
-  return 1;
+  call.give(std::move(table));
 }
 
-int ScriptHost::goal(lua_State* lua) {
+void ScriptHost::goal(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("goal");
-  const Arguments arguments = read_arguments(word, read_table(lua, 1, word), {});
+  const Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const Standard now = run_->mesh().standard();
   Goal goal = now.goal();
@@ -452,13 +484,12 @@ int ScriptHost::goal(lua_State* lua) {
     throw Error(fmt::format("goal: {},{} is no goal", goal.min_angle, goal.max_angle));
   }
   run_->set_standard(Standard(goal, now.terms(), now.price()));
-  return 0;
 }
 
-int ScriptHost::judge_by(lua_State* lua) {
+void ScriptHost::judge_by(WordCall& call) {
   begin_work();
   const WordInfo& word = find_word("judge_by");
-  const ScriptValue value = read_table(lua, 1, word);
+  const ScriptValue value = read_table(call.argument(1), word);
   const Arguments arguments = read_arguments(word, value, {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const Standard now = run_->mesh().standard();
@@ -467,28 +498,27 @@ int ScriptHost::judge_by(lua_State* lua) {
     terms = to_terms(read_text({"judge_by: measure"}, *measure));
   }
   run_->set_standard(Standard(now.goal(), terms, numbers.real("price")));
-  return 0;
 }
 
-int ScriptHost::quality_of_angle(lua_State* lua) {
+void ScriptHost::quality_of_angle(WordCall& call) {
   begin_work();
-  const double angle = read_number({"quality_of_angle"}, read_value(lua, 1));
-  lua_pushnumber(lua, run_->mesh().standard().quality_of_angle(angle));
-  return 1;
+  const double angle = read_number({"quality_of_angle"}, call.argument(1));
+  call.give(ScriptValue::of_number(run_->mesh().standard().quality_of_angle(angle)));
 }
 
-/// A field of a quality table that is not there yet.
-int ScriptHost::measure(lua_State* lua) {
-  const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "?";
-  const std::string_view wanted = name;
+/// measure(name, passes): fields of a quality table that are not there yet, by the name of one. The
+/// table is of the time when so many passes had been made.
+void ScriptHost::measure(WordCall& call) {
+  const ScriptValue name = call.argument(1);
+  const std::string& wanted = name.kind == ScriptValue::Kind::text ? name.text : "?";
   if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda") {
     throw Error(fmt::format(
         "quality() has no '{}'; valid: lambda, n_bad, n_needles, passes, q_aver, q_worst, "
         "seconds, tets, theta_max, theta_min, vertices",
         wanted));
   }
-  lua_getfield(lua, 1, "passes");
-  if (lua_tointeger(lua, -1) != static_cast<lua_Integer>(run_->records.size())) {
+  const ScriptValue passes = call.argument(2);
+  if (!passes.is_integer || passes.number != static_cast<double>(run_->records.size())) {
     throw Error(
         fmt::format("quality(): {} was not read before the next pass, and cannot be "
                     "measured any more",
@@ -496,30 +526,22 @@ int ScriptHost::measure(lua_State* lua) {
   }
   const MeshStatistics statistics =
       compute_statistics(run_->mesh(), run_->mesh().standard().goal());
-  const auto keep = [&](const char* field, double value) {
-    lua_pushnumber(lua, value);
-    lua_setfield(lua, 1, field);
-  };
-  keep("theta_min", statistics.theta_min);
-  keep("theta_max", statistics.theta_max);
-  keep("lambda", statistics.lambda);
-  lua_getfield(lua, 1, name);
-  return 1;
+  ScriptValue table = ScriptValue::empty_table();
+  table.fields = {{"theta_min", ScriptValue::of_number(statistics.theta_min)},
+                  {"theta_max", ScriptValue::of_number(statistics.theta_max)},
+                  {"lambda", ScriptValue::of_number(statistics.lambda)}};
+  call.give(std::move(table));
 }
 
-int ScriptHost::limit(lua_State* lua) {
+void ScriptHost::limit(WordCall& call) {
   begin_work();
   const SurfaceLimit now = compute_surface_limit(run_->mesh());
-  lua_newtable(lua);
+  ScriptValue table = ScriptValue::empty_table();
   const auto count = [&](std::string_view name, std::size_t value) {
-    lua_pushlstring(lua, name.data(), name.size());
-    lua_pushinteger(lua, static_cast<lua_Integer>(value));
-    lua_rawset(lua, -3);
+    table.fields.push_back({std::string(name), integer(value)});
   };
   const auto bound = [&](const char* name, const std::optional<double>& value) {
-    if (!value) return;
-    lua_pushnumber(lua, *value);
-    lua_setfield(lua, -2, name);
+    if (value) table.fields.push_back({name, ScriptValue::of_number(*value)});
   };
   count("n_forced", now.n_forced);
   bound("q_worst", now.q_worst);
@@ -528,43 +550,35 @@ int ScriptHost::limit(lua_State* lua) {
   for (std::size_t i = 0; i < kHindranceCount; ++i) {
     count(to_string(static_cast<Hindrance>(i)), now.bad[i]);
   }
-  return 1;
+  call.give(std::move(table));
 }
 
-int ScriptHost::is_progress(lua_State* lua) {
-  const auto before = read_indicators({"is_progress: before"}, read_value(lua, 1));
-  const auto now = read_indicators({"is_progress: now"}, read_value(lua, 2));
-  lua_pushboolean(lua, tetmend::is_progress(before, now));
-  return 1;
+void ScriptHost::is_progress(WordCall& call) {
+  const auto before = read_indicators({"is_progress: before"}, call.argument(1));
+  const auto now = read_indicators({"is_progress: now"}, call.argument(2));
+  call.give(ScriptValue::of_flag(tetmend::is_progress(before, now)));
 }
 
-int ScriptHost::operators(lua_State* lua) {
+void ScriptHost::operators(WordCall& call) {
   begin_work();
-  lua_newtable(lua);
-  lua_Integer i = 0;
+  ScriptValue names = ScriptValue::empty_table();
   for (const OperatorInfo* info : run_->registry().operators()) {
-    lua_pushlstring(lua, info->name.data(), info->name.size());
-    lua_rawseti(lua, -2, ++i);
+    names.list.push_back(ScriptValue::of_text(info->name));
   }
-  return 1;
+  call.give(std::move(names));
 }
 
-int ScriptHost::log(lua_State* lua) {
+void ScriptHost::log(WordCall& call) {
   begin_work();
   std::string text;
-  const int count = lua_gettop(lua);
-  for (int i = 1; i <= count; ++i) {
-    push_text(lua, i);
-    std::size_t length = 0;
-    const char* part = lua_tolstring(lua, -1, &length);
-    hold_in_call(lua, kMostBytesShown * (length + 1));
+  for (int i = 1; i <= call.argument_count(); ++i) {
+    const std::string_view part = call.text(i);
+    call.hold_in_call(kMostBytesShown * (part.size() + 1));
     if (i > 1) text += ' ';
-    text += printable({part, length});
-    lua_pop(lua, 1);
+    text += printable(part);
   }
-  hold_for_good(lua, sizeof(text) + text.size());
+  call.hold_for_good(sizeof(text) + text.size());
   run_->note(text);
-  return 0;
 }
 
 }  // namespace tetmend

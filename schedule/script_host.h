@@ -37,34 +37,33 @@ class ScriptHost {
   /// Called by each word that is more than a declaration.
   void begin_work();
 
-  int describe(lua_State* lua);
-  int declare(lua_State* lua);
-  int begin_round(lua_State* lua);
-  int run_schedule(lua_State* lua);
-  int local_reconnection(lua_State* lua);
-  int smooth(lua_State* lua);
-  int suppress_points(lua_State* lua);
-  int insert_points(lua_State* lua);
-  int polish(lua_State* lua);
-  int untangle(lua_State* lua);
-  int apply(lua_State* lua);
-  int attempt(lua_State* lua);
-  int compose(lua_State* lua, const char* how);
-  int quality(lua_State* lua);
-  int measure(lua_State* lua);
-  int goal(lua_State* lua);
-  int judge_by(lua_State* lua);
-  int quality_of_angle(lua_State* lua);
-  int limit(lua_State* lua);
-  int is_progress(lua_State* lua);
-  int operators(lua_State* lua);
-  int log(lua_State* lua);
+  void describe(WordCall& call);
+  void declare(WordCall& call);
+  void begin_round(WordCall& call);
+  void run_schedule(WordCall& call);
+  void local_reconnection(WordCall& call);
+  void smooth(WordCall& call);
+  void suppress_points(WordCall& call);
+  void insert_points(WordCall& call);
+  void polish(WordCall& call);
+  void untangle(WordCall& call);
+  void apply(WordCall& call);
+  void attempt(WordCall& call);
+  void quality(WordCall& call);
+  void measure(WordCall& call);
+  void goal(WordCall& call);
+  void judge_by(WordCall& call);
+  void quality_of_angle(WordCall& call);
+  void limit(WordCall& call);
+  void is_progress(WordCall& call);
+  void operators(WordCall& call);
+  void log(WordCall& call);
 
   Arguments read_arguments(const WordInfo& word, const ScriptValue& value,
                            const std::vector<std::string>& operators) const;
   /// Makes a pass; returns to the script how many attempts were accepted and how many made.
   template <class Pass>
-  int make_pass(lua_State* lua, const Pass& pass);
+  void make_pass(WordCall& call, const Pass& pass);
   Run* run_;
   const ScheduleSettings& settings_;
   ScheduleInfo info_;

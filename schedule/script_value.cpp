@@ -9,84 +9,12 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
-#include "schedule/lua_state.h"
 
 namespace tetmend {
 
 namespace {
 
 using Kind = ScriptValue::Kind;
-
-constexpr int kDeepest = 16;
-
-/// Memory of a value and of what is made from it: a composition, a place in a vector that grows.
-constexpr std::size_t kBytesOfValue = 256;
-
-/// The text at an index, copied. What is shared in Lua may be large when it is copied often.
-std::string take_text(lua_State* lua, int index) {
-  hold_in_call(lua, 2 * lua_rawlen(lua, index));
-  charge_steps(lua, lua_rawlen(lua, index) / 64);
-  std::size_t length = 0;
-  const char* text = lua_tolstring(lua, index, &length);
-  return {text, length};
-}
-
-ScriptValue read_nested(lua_State* lua, int index, int depth);
-
-ScriptValue read_table(lua_State* lua, int index, int depth) {
-  if (depth > kDeepest) throw Error("tables are nested too deep");
-  luaL_checkstack(lua, 4, "tables are nested too deep");
-  ScriptValue value;
-  value.kind = Kind::table;
-  const auto length = static_cast<lua_Integer>(lua_rawlen(lua, index));
-  for (lua_Integer i = 1; i <= length; ++i) {
-    lua_rawgeti(lua, index, i);
-    value.list.push_back(read_nested(lua, lua_gettop(lua), depth + 1));
-    lua_pop(lua, 1);
-  }
-  lua_pushnil(lua);
-  while (lua_next(lua, index) != 0) {
-    if (lua_type(lua, -2) == LUA_TSTRING) {
-      std::string name = take_text(lua, -2);
-      value.fields.push_back({std::move(name), read_nested(lua, lua_gettop(lua), depth + 1)});
-    } else if (!lua_isinteger(lua, -2) || lua_tointeger(lua, -2) < 1 ||
-               lua_tointeger(lua, -2) > length) {
-      throw Error("a table has keys that are neither names nor 1, 2, ... n");
-    }
-    lua_pop(lua, 1);
-  }
-  std::sort(value.fields.begin(), value.fields.end(),
-            [](const auto& x, const auto& y) { return x.name < y.name; });
-  return value;
-}
-
-ScriptValue read_nested(lua_State* lua, int index, int depth) {
-  hold_in_call(lua, kBytesOfValue);
-  charge_steps(lua, 1);
-  ScriptValue value;
-  switch (lua_type(lua, index)) {
-    case LUA_TNIL:
-    case LUA_TNONE:
-      return value;
-    case LUA_TBOOLEAN:
-      value.kind = Kind::flag;
-      value.number = lua_toboolean(lua, index);
-      return value;
-    case LUA_TNUMBER:
-      value.kind = Kind::number;
-      value.number = lua_tonumber(lua, index);
-      value.is_integer = lua_isinteger(lua, index) != 0;
-      return value;
-    case LUA_TSTRING:
-      value.kind = Kind::text;
-      value.text = take_text(lua, index);
-      return value;
-    case LUA_TTABLE:
-      return read_table(lua, index, depth);
-    default:
-      throw Error(fmt::format("a {} is of no use here", luaL_typename(lua, index)));
-  }
-}
 
 [[noreturn]] void refuse(const Subject& subject, std::string_view wanted,
                          const ScriptValue& value) {
@@ -224,6 +152,39 @@ unsigned read_most_edges(const Subject& subject, const ScriptValue& value) {
 
 }  // namespace
 
+ScriptValue ScriptValue::of_flag(bool flag) {
+  ScriptValue value;
+  value.kind = Kind::flag;
+  value.number = flag ? 1 : 0;
+  return value;
+}
+
+ScriptValue ScriptValue::of_integer(double number) {
+  ScriptValue value = of_number(number);
+  value.is_integer = true;
+  return value;
+}
+
+ScriptValue ScriptValue::of_number(double number) {
+  ScriptValue value;
+  value.kind = Kind::number;
+  value.number = number;
+  return value;
+}
+
+ScriptValue ScriptValue::of_text(std::string_view text) {
+  ScriptValue value;
+  value.kind = Kind::text;
+  value.text = text;
+  return value;
+}
+
+ScriptValue ScriptValue::empty_table() {
+  ScriptValue value;
+  value.kind = Kind::table;
+  return value;
+}
+
 const ScriptValue* ScriptValue::field(std::string_view name) const {
   for (const auto& [key, value] : fields) {
     if (key == name) return &value;
@@ -245,10 +206,6 @@ std::string ScriptValue::quoted() const {
       return "a table";
   }
   return "";
-}
-
-ScriptValue read_value(lua_State* lua, int index) {
-  return read_nested(lua, lua_absindex(lua, index), 0);
 }
 
 double read_number(const Subject& subject, const ScriptValue& value) {

@@ -5,16 +5,15 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include <lua.hpp>
 
 #include "schedule/composition.h"
 #include "schedule/selection.h"
 
 namespace tetmend {
 
-/// A value without functions in it.
+/// A value without functions in it, as words take and give it.
 struct ScriptValue {
   struct Field;
   enum class Kind { nothing, flag, number, text, table };
@@ -24,6 +23,13 @@ struct ScriptValue {
   std::string text;
   std::vector<ScriptValue> list;  ///< of a table: 1, 2, ... n
   std::vector<Field> fields;      ///< of a table: by name, in their order
+
+  static ScriptValue of_flag(bool flag);
+  /// Precondition: a whole number of less than 2^53.
+  static ScriptValue of_integer(double number);
+  static ScriptValue of_number(double number);
+  static ScriptValue of_text(std::string_view text);
+  static ScriptValue empty_table();
 
   /// Null when there is none.
   const ScriptValue* field(std::string_view name) const;
@@ -36,10 +42,6 @@ struct ScriptValue::Field {
   std::string name;
   ScriptValue value;
 };
-
-/// @throws Error for functions, for keys that are neither names nor 1 to n, and for tables too
-/// deep.
-ScriptValue read_value(lua_State* lua, int index);
 
 /// How messages name what is being read: "smooth: cycles".
 struct Subject {

@@ -140,9 +140,12 @@ def what_is_said_does_not_change_the_status():
         mesh, out = folder / "in.mesh", folder / "o.mesh"
         run("improve", mesh, "-o", folder / "good.mesh", "-q")
         good = (folder / "good.mesh").read_bytes()
+        has_surface = "(not in this build)" not in run("--help")[1]  # it needs OpenMesh
         for tail in (">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-", ">/dev/full", "2>/dev/full", ">/dev/full 2>/dev/full"):
-            for command in (("improve", mesh, "-o", out), ("convert", mesh, out),
-                            ("surface", mesh, folder / "o.off")):
+            commands = [("improve", mesh, "-o", out), ("convert", mesh, out)]
+            if has_surface:
+                commands.append(("surface", mesh, folder / "o.off"))
+            for command in commands:
                 product = Path(command[-1])
                 product.unlink(missing_ok=True)
                 status, _, err = run(*command, shell_tail=tail)

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernel/integrity.h"
-#include "kernel/surface.h"
+#include "kernel/surface_fingerprint.h"
 #include "tests/apps/program.h"
 #include "tests/support/layered_mesh.h"
 #include "tests/support/text.h"

@@ -15,7 +15,7 @@
 #include "kernel/chunks.h"
 #include "kernel/integrity.h"
 #include "kernel/quality.h"
-#include "kernel/surface.h"
+#include "kernel/surface_fingerprint.h"
 #include "kernel/tet_mesh.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"

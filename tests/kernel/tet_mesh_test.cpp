@@ -12,7 +12,7 @@
 
 #include "kernel/exact_orientation.h"
 #include "kernel/integrity.h"
-#include "kernel/surface.h"
+#include "kernel/surface_fingerprint.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
 #include "tests/support/threads.h"

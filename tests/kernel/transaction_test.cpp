@@ -14,7 +14,7 @@
 #include "kernel/integrity.h"
 #include "kernel/shell.h"
 #include "kernel/star.h"
-#include "kernel/surface.h"
+#include "kernel/surface_fingerprint.h"
 #include "tests/support/costly.h"
 #include "tests/support/zoo.h"
 

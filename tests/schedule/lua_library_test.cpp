@@ -37,18 +37,13 @@ Watched run(const std::string& script, std::size_t most = kNever) {
     ++watched.watches;
     if (!watched.marks.empty() && watched.watches >= watched.marks[0] + most) throw ScriptStop();
   });
-  lua.add_word("say", [&](lua_State* state) {
-    for (int i = 1; i <= lua_gettop(state); ++i) {
-      push_text(state, i);
-      watched.said += std::string(lua_tostring(state, -1)) + ' ';
-      lua_pop(state, 1);
+  const auto say = [&](WordCall& call) {
+    for (int i = 1; i <= call.argument_count(); ++i) {
+      watched.said += std::string(call.text(i)) + ' ';
     }
-    return 0;
-  });
-  lua.add_word("mark", [&](lua_State*) {
-    watched.marks.push_back(watched.watches);
-    return 0;
-  });
+  };
+  lua.add_word("say", say, call_with_texts);
+  lua.add_word("mark", [&](WordCall&) { watched.marks.push_back(watched.watches); });
   try {
     lua.run(script, "test.lua");
   } catch (const Error& error) {

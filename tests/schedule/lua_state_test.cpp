@@ -9,6 +9,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
+#include "schedule/lua_library.h"
+#include "schedule/script_value.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
@@ -25,15 +27,13 @@ struct Spoken {
 Spoken run(const std::string& text, LuaState::Limits limits = {}) {
   Spoken spoken;
   LuaState lua(limits);
-  lua.add_word("say", [&](lua_State* state) {
-    for (int i = 1; i <= lua_gettop(state); ++i) {
-      spoken.said += luaL_tolstring(state, i, nullptr);
-      spoken.said += ' ';
-      lua_pop(state, 1);
+  const auto say = [&](WordCall& call) {
+    for (int i = 1; i <= call.argument_count(); ++i) {
+      spoken.said += std::string(call.text(i)) + ' ';
     }
-    return 0;
-  });
-  lua.add_word("fail", [](lua_State*) -> int { throw Error("no such luck"); });
+  };
+  lua.add_word("say", say, call_with_texts);
+  lua.add_word("fail", [](WordCall&) { throw Error("no such luck"); });
   try {
     lua.run(text, "test.lua");
   } catch (const Error& error) {
@@ -50,7 +50,7 @@ TEST_CASE("an interpreter that lacks memory throws, wherever it runs out") {
   for (std::size_t memory = 0; !made; memory += 256, ++tries) {
     try {
       LuaState lua({.memory = memory});
-      lua.add_word("word", [](lua_State*) { return 0; });
+      lua.add_word("word", [](WordCall&) {});
       made = true;
     } catch (const std::bad_alloc&) {
     }
@@ -60,7 +60,7 @@ TEST_CASE("an interpreter that lacks memory throws, wherever it runs out") {
 
 TEST_CASE("a word that lacks memory ends the script") {
   LuaState lua;
-  lua.add_word("fill", [](lua_State*) -> int { throw std::bad_alloc(); });
+  lua.add_word("fill", [](WordCall&) { throw std::bad_alloc(); });
   CHECK_THROWS_AS(lua.run("fill()", "test.lua"), std::bad_alloc);
 }
 
@@ -190,14 +190,8 @@ TEST_CASE("every message begins with the file, and shows no control characters")
 TEST_CASE("what words hold outside of the interpreter has one budget") {
   const LuaState::Limits limits{.outside = std::size_t{1} << 20};
   LuaState lua(limits);
-  lua.add_word("keep", [](lua_State* state) {
-    hold_for_good(state, std::size_t{100} << 10);
-    return 0;
-  });
-  lua.add_word("need", [](lua_State* state) {
-    hold_in_call(state, std::size_t{600} << 10);
-    return 0;
-  });
+  lua.add_word("keep", [](WordCall& call) { call.hold_for_good(std::size_t{100} << 10); });
+  lua.add_word("need", [](WordCall& call) { call.hold_in_call(std::size_t{600} << 10); });
   CHECK_NOTHROW(lua.run("for i = 1, 100 do need() end", "test.lua"));
   CHECK_NOTHROW(lua.run("for i = 1, 4 do keep() need() end", "test.lua"));
   CHECK_THROWS_WITH_AS(lua.run("keep()\nneed()", "test.lua"),

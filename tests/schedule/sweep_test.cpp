@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/integrity.h"
-#include "kernel/surface.h"
+#include "kernel/surface_fingerprint.h"
 #include "schedule/passes.h"
 #include "schedule/schedule.h"
 #include "tests/support/threads.h"

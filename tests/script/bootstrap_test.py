@@ -34,7 +34,7 @@ def listed() -> str:
 
 
 def packages() -> set[str]:
-    groups = {"build", "viewer", "test", "bench", "check"}
+    groups = {"build", "surface", "viewer", "test", "bench", "check"}
     return {word for line in listed().splitlines() for i, word in enumerate(line.split())
             if not (i == 0 and line[0] != " " and word in groups)}
 
@@ -47,7 +47,9 @@ def found_by_cmake() -> set[str]:
         text = file.read_text()
         names |= set(re.findall(r"^ *find_package\((\w+)", text, re.M))
         for words in re.findall(r"^ *pkg_check_modules\(\w+ ([^)]+)\)", text, re.M):
-            names |= {word for word in words.split() if word not in OPTIONS}
+            names |= {word for word in words.split() if word not in OPTIONS and word[0] != "$"}
+        for words in re.findall(r"^ *set\(TETMEND_LUA (.+) CACHE", text, re.M):
+            names |= set(words.split())
     return names - NOT_PACKAGES
 
 

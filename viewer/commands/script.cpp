@@ -39,41 +39,30 @@ json to_json(const ScriptValue& value) {
   return fields;
 }
 
-void push(lua_State* lua, const json& value) {
-  luaL_checkstack(lua, 4, "tables are nested too deep");
-  if (value.is_boolean()) {
-    lua_pushboolean(lua, value.get<bool>() ? 1 : 0);
-  } else if (value.is_number_integer()) {
-    lua_pushinteger(lua, value.get<lua_Integer>());
-  } else if (value.is_number()) {
-    lua_pushnumber(lua, value.get<double>());
-  } else if (value.is_string()) {
-    lua_pushstring(lua, value.get_ref<const std::string&>().c_str());
-  } else if (value.is_structured()) {
-    lua_newtable(lua);
-    lua_Integer next = 1;
-    for (const auto& item : value.items()) {
-      push(lua, item.value());
-      if (value.is_array()) {
-        lua_rawseti(lua, -2, next++);
-      } else {
-        lua_setfield(lua, -2, item.key().c_str());
-      }
+ScriptValue to_value(const json& value) {
+  if (value.is_boolean()) return ScriptValue::of_flag(value.get<bool>());
+  if (value.is_number_integer()) return ScriptValue::of_integer(value.get<double>());
+  if (value.is_number()) return ScriptValue::of_number(value.get<double>());
+  if (value.is_string()) return ScriptValue::of_text(value.get_ref<const std::string&>());
+  if (!value.is_structured()) return {};
+  ScriptValue table = ScriptValue::empty_table();
+  for (const auto& item : value.items()) {
+    if (value.is_array()) {
+      table.list.push_back(to_value(item.value()));
+    } else {
+      table.fields.push_back({item.key(), to_value(item.value())});
     }
-  } else {
-    lua_pushnil(lua);
   }
+  return table;
 }
 
-int call(const Command& command, Session& session, lua_State* lua) {
+void run_command(const Command& command, Session& session, WordCall& call) {
   json arguments = json::array();
-  const int count = lua_gettop(lua);
-  for (int i = 1; i <= count; ++i) arguments.push_back(to_json(read_value(lua, i)));
+  for (int i = 1; i <= call.argument_count(); ++i) arguments.push_back(to_json(call.argument(i)));
   session.host.arrange(session.document);  // places below are those of the next picture
   const json result = command.run(session, arguments);
   if (session.document.quit) throw ScriptStop();
-  push(lua, result);
-  return 1;
+  call.give(to_value(result));
 }
 
 }  // namespace
@@ -82,7 +71,7 @@ void run_script(Session& session, const std::string& text, const std::string& na
   LuaState lua;
   for (const Command& command : commands()) {
     lua.add_word(std::string(command.name),
-                 [&command, &session](lua_State* state) { return call(command, session, state); });
+                 [&command, &session](WordCall& call) { run_command(command, session, call); });
   }
   try {
     lua.run(text, name);

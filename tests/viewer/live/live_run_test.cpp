@@ -8,7 +8,7 @@
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
-#include "kernel/surface.h"
+#include "kernel/surface_fingerprint.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/traced_run.h"
 #include "tests/viewer/session.h"
