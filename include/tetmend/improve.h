@@ -53,8 +53,8 @@ enum class Layers : std::uint8_t {
   improve  ///< like all other tets, which destroys them
 };
 
-/// An option has the name that it has on the command line (--time-limit is time_limit), and means
-/// the same.
+/// An option has the name that it has on the command line (`--time-limit` is `time_limit`), and
+/// means the same.
 struct Options {
   std::string schedule = "shell";  ///< name, see schedules(), or a file that ends in .lua
   std::string script = {};         ///< text of a schedule, instead of `schedule`; empty: none
@@ -224,7 +224,8 @@ struct Result {
 TETMEND_API Result improve(Mesh& mesh, const Options& options = {});
 
 /// Finds what is wrong with the options as far as can be told without a mesh. Loads the plugins.
-/// @throws OptionError, Error as improve()
+/// @throws OptionError as improve()
+/// @throws Error as improve()
 TETMEND_API void check(const Options& options);
 
 }  // namespace tetmend
