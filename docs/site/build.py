@@ -31,6 +31,8 @@ NAVIGATION: dict[str, list[str]] = {
 }
 # Files outside of docs/ that are pages of the site.
 OUTSIDE = {"CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md", "README.md": "index.md"}
+# Pages that are not in docs/: what they say is said by the program and the headers.
+GENERATED = {"docs/command-line.md", "docs/cpp.md"}
 COMMANDS = ["improve", "quality", "check", "convert", "surface", "operators", "schedules", "trace",
             "check-plugin"]
 
@@ -51,7 +53,7 @@ def place_of(target: Path) -> Path | None:
     name = target.as_posix()
     if name in OUTSIDE:
         return Path(OUTSIDE[name])
-    if name.startswith("docs/") and (ROOT / target).is_file():
+    if name in GENERATED or name.startswith("docs/") and (ROOT / target).is_file():
         return target.relative_to("docs")
     return None
 
@@ -66,7 +68,7 @@ def with_links_of_the_site(text: str, source: Path) -> str:
         if not target or "://" in target or target.startswith("mailto:"):
             return found[0]
         path = Path(os.path.normpath(source.parent / target))
-        if not (ROOT / path).exists():
+        if path.as_posix() not in GENERATED and not (ROOT / path).exists():
             raise Failure(f"{source}: there is no {target}")
         place = place_of(path)
         if place is None:
@@ -185,23 +187,27 @@ DIRECTIVES = {"enum": "doxygenenum", "variable": "doxygenvariable", "define": "d
               "function": "doxygenfunction"}
 
 
-def declarations(xml: Path, header: str) -> list[str]:
+def declarations(xml: Path, header: Path) -> list[str]:
     """A directive of Breathe for each declaration of a header, in its order."""
+    file = ElementTree.parse(xml / f"{header.stem}_8h.xml").find("compounddef")
+    space = ElementTree.parse(xml / "namespacetetmend.xml").find("compounddef")
     found: list[tuple[int, str, str]] = []
-    compound = ElementTree.parse(xml / f"{header}_8h.xml").find("compounddef")
-    for inner in compound.findall("innerclass"):
+    for inner in file.findall("innerclass"):
         definition = ElementTree.parse(xml / f"{inner.get('refid')}.xml").find("compounddef")
-        if definition.get("prot") == "public" and inner.text.count("::") == 1:  # a nested class stands in its outer one
+        if inner.text.count("::") == 1:  # a nested class stands in its outer one
             found.append((int(definition.find("location").get("line")), f"doxygen{definition.get('kind')}", inner.text))
-    for member in compound.iter("memberdef"):
-        name = member.findtext("qualifiedname") or member.findtext("name")
-        name = name if "::" in name or member.get("kind") == "define" else f"tetmend::{name}"
-        if member.get("kind") == "function":
-            name += member.findtext("argsstring")
-        found.append((int(member.find("location").get("line")), DIRECTIVES[member.get("kind")], name))
+    for member in [*file.iter("memberdef"), *space.iter("memberdef")]:
+        place = member.find("location")
+        if place.get("file").endswith(f"include/tetmend/{header.name}"):
+            name = member.findtext("name") if member.get("kind") == "define" else f"tetmend::{member.findtext('name')}"
+            arguments = member.findtext("argsstring") if member.get("kind") == "function" else ""
+            found.append((int(place.get("line")), DIRECTIVES[member.get("kind")], name + arguments))
+    if not found:
+        raise Failure(f"{header}: Doxygen finds no declaration")
     members = {"doxygenstruct", "doxygenclass"}
-    return [f"```{{{directive}}} {name}\n{':members:' if directive in members else ''}\n```\n"
-            for _, directive, name in sorted(found)]
+    return [f"## {name.partition('(')[0].removeprefix('tetmend::')}\n\n"
+            f"```{{{directive}}} {name}\n{':members:' if directive in members else ''}\n```\n"
+            for _, directive, name in sorted(set(found))]
 
 
 def purpose_of(header: Path) -> str:
@@ -220,7 +226,7 @@ def write_cpp(pages: Path, xml: Path) -> None:
     for header in headers:
         text = purpose_of(header)
         parts = [f"# {header.name}\n", f"{text}\n", f"```cpp\n#include <tetmend/{header.name}>\n```\n"]
-        (pages / "cpp" / f"{header.stem}.md").write_text("\n".join(parts + declarations(xml, header.stem)))
+        (pages / "cpp" / f"{header.stem}.md").write_text("\n".join(parts + declarations(xml, header)))
         rows.append(f"| [`{header.name}`](cpp/{header.stem}.md) | {text} |\n")
     NAVIGATION["cpp"] = [f"cpp/{header.stem}" for header in headers]
     (pages / "cpp.md").write_text(

@@ -20,6 +20,7 @@ cpp_id_attributes = ["TETMEND_API"]
 html_theme = "furo"
 html_title = "tetmend"
 html_static_path = ["style.css", "search.js"]
+html_favicon = "icon.svg"
 html_css_files = ["style.css"]
 html_js_files = ["search.js"]
 html_copy_source = False

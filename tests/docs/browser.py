@@ -27,7 +27,8 @@ class Browser:
     def __init__(self, width: int, height: int, dark: bool = False) -> None:
         self.folder = tempfile.TemporaryDirectory(prefix="tetmend-browser-")
         log = Path(self.folder.name) / "log"
-        self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=log.open("w"), stderr=subprocess.DEVNULL)
+        with log.open("w") as output:
+            self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=output, stderr=subprocess.DEVNULL)
         self.base = f"http://127.0.0.1:{self._port(log)}"
         options = {"args": [*FLAGS, f"--user-data-dir={self.folder.name}/profile", f"--window-size={width},{height}"],
                    "binary": shutil.which("chromium")}
