@@ -183,8 +183,8 @@ def write_command_line(page: Path, program: Path) -> None:
 
 # --- the C++ reference
 
-DIRECTIVES = {"enum": "doxygenenum", "variable": "doxygenvariable", "define": "doxygendefine", "typedef": "doxygentypedef",
-              "function": "doxygenfunction"}
+DIRECTIVES = {"enum": "doxygenenum", "variable": "doxygenvariable", "define": "doxygendefine",
+              "typedef": "doxygentypedef", "function": "doxygenfunction"}
 
 
 def declarations(xml: Path, header: Path) -> list[str]:
@@ -255,7 +255,8 @@ def run_sphinx(pages: Path, output: Path, xml: Path) -> None:
         raise Failure("Sphinx found what stands above")
 
 
-NORMALIZE = [Path("/usr/share/nodejs/normalize.css/normalize.css"), Path("/usr/share/javascript/normalize.css/normalize.css")]
+NORMALIZE = [Path("/usr/share/nodejs/normalize.css/normalize.css"),
+             Path("/usr/share/javascript/normalize.css/normalize.css")]
 
 
 def complete_theme(static: Path) -> None:
@@ -305,8 +306,10 @@ def build(output: Path, program: Path) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(
-        prog="script/site", description="Writes the documents as a site that needs no server: open index.html in a browser.")
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "build" / "site", help="folder (default: build/site)")
+        prog="script/site",
+        description="Writes the documents as a site that needs no server: open its index.html in a browser.")
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "build" / "site",
+                        help="folder (default: build/site)")
     parser.add_argument("--program", type=Path, default=ROOT / "build" / "release" / "bin" / "tetmend",
                         help="whose --help is quoted (default: build/release/bin/tetmend)")
     arguments = parser.parse_args()

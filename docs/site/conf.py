@@ -32,11 +32,13 @@ html_use_index = False
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0b5cad", "color-brand-content": "#0b5cad"},
     "dark_css_variables": {
-        "color-brand-primary": "#6cb2ff", "color-brand-content": "#6cb2ff", "color-problematic": "#ff9a8f",
-        "color-foreground-primary": "#e3e5e8", "color-foreground-secondary": "#a4a9af", "color-foreground-muted": "#8d939a",
-        "color-foreground-border": "#666666", "color-background-primary": "#131416", "color-background-secondary": "#1a1c1e",
+        "color-brand-primary": "#6cb2ff", "color-brand-content": "#6cb2ff",
+        "color-problematic": "#ff9a8f", "color-api-keyword": "#9ca0a5",
+        "color-foreground-primary": "#e3e5e8", "color-foreground-secondary": "#a4a9af",
+        "color-foreground-muted": "#8d939a", "color-foreground-border": "#666666",
+        "color-background-primary": "#131416", "color-background-secondary": "#1a1c1e",
         "color-background-hover": "#1e2124ff", "color-background-hover--transparent": "#1e212400",
-        "color-background-border": "#303335", "color-background-item": "#444444", "color-highlight-on-target": "#333300",
-        "color-highlighted-background": "#083563", "color-api-keyword": "#9ca0a5",
+        "color-background-border": "#303335", "color-background-item": "#444444",
+        "color-highlight-on-target": "#333300", "color-highlighted-background": "#083563",
     },
 }

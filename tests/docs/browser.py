@@ -11,8 +11,8 @@ import urllib.error
 import urllib.request
 from pathlib import Path
 
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync",
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync",
          # No name is found, so that nothing can be fetched unnoticed.
          "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE localhost, EXCLUDE 127.0.0.1"]
 
@@ -49,7 +49,8 @@ class Browser:
         raise RuntimeError(f"chromedriver does not start: {log.read_text()}")
 
     def _post(self, path: str, content: dict) -> dict:
-        request = urllib.request.Request(self.base + path, json.dumps(content).encode(), {"Content-Type": "application/json"})
+        body = json.dumps(content).encode()
+        request = urllib.request.Request(self.base + path, body, {"Content-Type": "application/json"})
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:
                 return json.load(answer)["value"]
@@ -75,22 +76,25 @@ class Browser:
                 return value
             time.sleep(0.1)
 
+    def _log(self, kind: str) -> list[dict]:
+        return self._post(f"{self.session}/se/log", {"type": kind})
+
     def complaints(self) -> list[str]:
         """What the console has said since the last call."""
-        return [entry["message"] for entry in self._post(f"{self.session}/se/log", {"type": "browser"})
-                if entry["level"] in ("SEVERE", "WARNING")]
+        return [entry["message"] for entry in self._log("browser") if entry["level"] in ("SEVERE", "WARNING")]
 
     def requests(self) -> list[str]:
         """The addresses that were asked for since the last call."""
-        events = (json.loads(entry["message"])["message"] for entry in self._post(f"{self.session}/se/log", {"type": "performance"}))
+        events = (json.loads(entry["message"])["message"] for entry in self._log("performance"))
         return [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
 
-    def picture(self, file: Path, whole: bool = False) -> None:
-        data = self.command("Page.captureScreenshot", captureBeyondViewport=whole)["data"]
-        file.write_bytes(base64.b64decode(data))
+    def picture(self) -> bytes:
+        """What is seen, as PNG."""
+        return base64.b64decode(self.command("Page.captureScreenshot")["data"])
 
-    def print_to(self, file: Path) -> None:
-        file.write_bytes(base64.b64decode(self.command("Page.printToPDF", printBackground=False, paperWidth=8.27, paperHeight=11.69)["data"]))
+    def printed(self) -> bytes:
+        """The page on paper, as PDF."""
+        return base64.b64decode(self.command("Page.printToPDF", paperWidth=8.27, paperHeight=11.69)["data"])
 
     def close(self) -> None:
         try:

@@ -5,8 +5,8 @@
     pages_test.py SOURCE --all          that all pages have their commands where the first form finds them
 
 Commands stand in blocks of the language `sh`. A block `output` below has lines that the last of them printed; blanks
-do not count. A block `python NAME` or `lua NAME` is a file that a command uses. A command ends with status 0, unless its
-comment has the words "status N". One whose program is not installed is named and passed over. Scripts for those who
+do not count. A block `python NAME` or `lua NAME` is a file that a command uses. A command ends with status 0, unless
+its comment has the words "status N". One whose program is not installed is named and passed over. Scripts for those who
 work on tetmend, and builds of all of it, are not run but looked up: script, options and presets exist. Exit status 77:
 no command could be run.
 """
@@ -27,7 +27,8 @@ DEBIAN_PYTHON = "/usr/bin/python3"
 
 # Commands that build something, and the test that does the same with a build of its own.
 ELSEWHERE = {
-    "cmake --build build/release --target make_lessons && build/release/bin/make_lessons assets/lessons": "lesson_tests",
+    "cmake --build build/release --target make_lessons && build/release/bin/make_lessons assets/lessons":
+        "lesson_tests",
     "cmake -S plugins -B build/plugins -DCMAKE_PREFIX_PATH=~/tetmend":
         "a plugin and a program are built against an installed tetmend, and run",
     "cmake --build build/plugins": "a plugin and a program are built against an installed tetmend, and run",
@@ -38,6 +39,8 @@ ELSEWHERE = {
 }
 # A line that begins so is a command, and belongs into a block `sh`.
 COMMAND = re.compile(r"^(?:\$ )?(?:tetmend(?:-view)? [a-z-]|script/\w|cmake |ctest |build/\w|gmsh |ccx |python3 )")
+# Besides `sh`, and what has no language.
+KNOWN_KIND = re.compile(r"output|cpp|cmake|lua|(python|lua) \w+\.(py|lua)")
 
 GEOMETRY = """SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
@@ -109,8 +112,8 @@ class Workshop:
         (self.tools / "python3").symlink_to(DEBIAN_PYTHON)
         (self.work / "build").mkdir()
         (self.work / "build/release").symlink_to(build)
-        self.environment = dict(os.environ, PATH=f"{self.tools}:{os.environ['PATH']}", HOME=str(folder), OMP_NUM_THREADS="1",
-                                WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
+        self.environment = dict(os.environ, PATH=f"{self.tools}:{os.environ['PATH']}", HOME=str(folder),
+                                OMP_NUM_THREADS="1", WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
         self.environment.pop("TETMEND_PLUGIN_PATH", None)
         self.makers = {"part.mesh": self.make_mesh, "better.mesh": self.make_better, "part.geo": self.make_geometry,
                        "part.msh": self.make_gmsh, "job.inp": self.make_deck, "case": self.make_case}
@@ -196,7 +199,8 @@ def look_up(command: str, source: Path) -> list[str]:
         told = file.read_text()
         if "| --help)" in told:  # any other script would begin its work
             told += subprocess.run([file, "--help"], capture_output=True, text=True, timeout=60).stdout
-        wrong += [f"{script[0]} --help does not say {option}" for option in re.findall(r" (--[a-z-]+)", command) if option not in told]
+        options = re.findall(r" (--[a-z-]+)", command)
+        wrong += [f"{script[0]} --help does not say {option}" for option in options if option not in told]
     known = {preset["name"] for preset in json.loads((source / "CMakePresets.json").read_text())["configurePresets"]}
     wrong += [f"there is no preset {name}" for name in re.findall(r"--preset (\S+)", command) if name not in known]
     return wrong
@@ -285,13 +289,14 @@ def check_all(source: Path) -> int:
     wrong = []
     seen = set()
     for page in pages_of(source):
+        name = page.relative_to(source)
         for language, content in blocks(page):
             if language == "sh":
                 seen |= {command for command, _ in commands_of(content)}
             elif language in ("", "text", "bash", "shell", "console"):
-                wrong += [f"{page.relative_to(source)}: no test runs: {line}" for line in content.splitlines() if COMMAND.match(line)]
-            elif language not in ("output", "cpp", "cmake", "lua") and not re.fullmatch(r"(python|lua) \w+\.(py|lua)", language):
-                wrong.append(f"{page.relative_to(source)}: a block of unknown kind: {language}")
+                wrong += [f"{name}: no test runs: {line}" for line in content.splitlines() if COMMAND.match(line)]
+            elif not KNOWN_KIND.fullmatch(language):
+                wrong.append(f"{name}: a block of unknown kind: {language}")
     tests = (source / "tests/CMakeLists.txt").read_text()
     for command, test in ELSEWHERE.items():
         if command not in seen:

@@ -28,6 +28,7 @@ SCRIPT = SOURCE / "script" / "site"
 SITE = WORK / "site"
 PHONE = (390, 844)
 DESK = (1280, 900)
+EMPTY_ELEMENTS = {"img", "br", "hr", "input", "link", "meta", "col"}
 # Reached from the page that they belong to; a reader has no need of them on the first day.
 DEEP = re.compile(r"(results|cpp)/.*")
 
@@ -53,13 +54,13 @@ class Page(HTMLParser):
     def handle_starttag(self, tag: str, attributes: list) -> None:
         named = dict(attributes)
         self.anchors |= {named[key] for key in ("id", "name") if named.get(key)}
-        if tag == "article" or (self.depth_of_article and tag not in ("img", "br", "hr", "input", "link", "meta", "col")):
+        if tag == "article" or (self.depth_of_article and tag not in EMPTY_ELEMENTS):
             self.depth_of_article += 1
         if tag == "a" and named.get("href"):
             self.links.append(named["href"])
             if self.depth_of_article:
                 self.links_of_text.append(named["href"])
-        elif tag == "link" and named.get("href") and named.get("rel") not in ("index", "search", "next", "prev", "canonical"):
+        elif tag == "link" and named.get("href") and named.get("rel") not in ("index", "search", "next", "prev"):
             self.loaded.append(named["href"])
         elif named.get("src"):
             self.loaded.append(named["src"])
@@ -134,7 +135,8 @@ class Files(unittest.TestCase):
         for header in (SOURCE / "include/tetmend").glob("*.h"):
             anchors = pages()[f"cpp/{header.stem}.html"].anchors
             for name in re.findall(r"^(?:struct|class|enum class)(?: TETMEND_API)? (\w+)", header.read_text(), re.M):
-                self.assertTrue(any(anchor.endswith(f"{len(name)}{name}E") for anchor in anchors), f"{header.name}: {name}")
+                has_name = any(anchor.endswith(f"{len(name)}{name}E") for anchor in anchors)  # a mangled one
+                self.assertTrue(has_name, f"{header.name}: {name}")
 
     def test_each_option_of_the_command_line_has_an_anchor(self) -> None:
         anchors = pages()["command-line.html"].anchors
@@ -158,7 +160,8 @@ class Files(unittest.TestCase):
 
     def test_nothing_is_loaded_from_elsewhere(self) -> None:
         for name, page in pages().items():
-            self.assertEqual([link for link in page.loaded if is_outside(link) and not link.startswith("data:")], [], name)
+            outside = [link for link in page.loaded if is_outside(link) and not link.startswith("data:")]
+            self.assertEqual(outside, [], name)
         for style in SITE.rglob("*.css"):
             for address in re.findall(r"(?:url\(|@import\s+)[\"']?([^\"')\s;]+)", style.read_text()):
                 self.assertRegex(address, r"^(data:|#|[\w./-]+$)(?!/)", style.name)
@@ -197,15 +200,15 @@ class Server:
         self.server.server_close()
 
 
-@unittest.skipUnless(browser.is_installed(), "chromium and chromium-driver are not installed: the pages are not looked at")
+@unittest.skipUnless(browser.is_installed(), "chromium and chromium-driver are not installed: no page is looked at")
 class Shown(unittest.TestCase):
     def looked_at(self, window: browser.Browser, address: str) -> None:
         """Opens it; it must not complain, or ask anybody for anything."""
         window.open(address)
         self.assertEqual(window.complaints(), [], address)
         base = address[:address.index("/", len("http://"))]
-        self.assertEqual([request for request in window.requests() if not request.startswith((base, "file:", "data:", "chrome:"))],
-                         [], address)
+        elsewhere = [url for url in window.requests() if not url.startswith((base, "file:", "data:", "chrome:"))]
+        self.assertEqual(elsewhere, [], address)
 
     def open_window(self, size: tuple[int, int], dark: bool = False) -> browser.Browser:
         window = browser.Browser(*size, dark)
@@ -240,6 +243,17 @@ class Shown(unittest.TestCase):
         self.looked_at(window, f"file://{SITE}/start.html")
         text, ground = self.lightness(window)
         self.assertLess(text - ground, -0.6)
+
+    def test_on_paper_it_is_light_and_without_navigation(self) -> None:
+        window = self.open_window(DESK, dark=True)
+        self.looked_at(window, f"file://{SITE}/start.html")
+        window.command("Emulation.setEmulatedMedia", media="print",
+                       features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        text, ground = self.lightness(window)
+        self.assertLess(text - ground, -0.6)
+        for part in (".sidebar-drawer", ".toc-drawer", ".related-pages", ".theme-toggle"):
+            self.assertEqual(window.run("return document.querySelector(arguments[0])?.offsetHeight ?? 0", part), 0, part)
+        self.assertTrue(window.printed().startswith(b"%PDF"))
 
     def rare_words(self) -> list[tuple[str, str]]:
         """Words that stand on one page only, with the page: one of each of some pages."""
