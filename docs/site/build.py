@@ -15,7 +15,8 @@ from xml.etree import ElementTree
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
-# What stands under each page, in this order. A new page of docs/ gets its place here.
+# What stands under each page, in this order. A new page of docs/ gets its place here: how to call tetmend from
+# another language beside "library", all that there is to call beside "cpp".
 NAVIGATION: dict[str, list[str]] = {
     "index": ["start", "howto", "choosing", "report", "extending", "overview", "reliability", "results",
               "reference"],

@@ -29,6 +29,10 @@ SITE = WORK / "site"
 PHONE = (390, 844)
 DESK = (1280, 900)
 EMPTY_ELEMENTS = {"img", "br", "hr", "input", "link", "meta", "col"}
+# Boxes that scroll sideways: only programs and tables may.
+SCROLLS_SIDEWAYS = """return [...document.querySelectorAll("body *")].filter(box => box.scrollWidth > box.clientWidth + 1
+    && ["auto", "scroll", "hidden"].includes(getComputedStyle(box).overflowX) && box.offsetWidth > 1
+    && !box.matches("pre, .highlight, .table-wrapper, .sidebar-drawer *, .toc-drawer *")).map(box => box.outerHTML.slice(0, 80))"""
 # Reached from the page that they belong to; a reader has no need of them on the first day.
 DEEP = re.compile(r"(results|cpp)/.*")
 
@@ -222,6 +226,7 @@ class Shown(unittest.TestCase):
         for name in pages():
             self.looked_at(window, f"file://{SITE}/{name}")
             self.assertEqual(window.run("return [innerWidth, document.documentElement.scrollWidth]"), [390, 390], name)
+            self.assertEqual(window.run(SCROLLS_SIDEWAYS), [], name)
 
     def lightness(self, window: browser.Browser) -> tuple[float, float]:
         """Of text and ground, 0 to 1."""
