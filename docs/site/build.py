@@ -18,8 +18,8 @@ ROOT = HERE.parent.parent
 # What stands under each page, in this order. A new page of docs/ gets its place here: how to call tetmend from
 # another language beside "library", all that there is to call beside "cpp".
 NAVIGATION: dict[str, list[str]] = {
-    "index": ["start", "howto", "choosing", "report", "extending", "overview", "reliability", "results",
-              "reference"],
+    "index": ["start", "howto", "choosing", "report", "troubleshooting", "extending", "overview",
+              "reliability", "results", "reference"],
     "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
               "howto/others", "library", "howto/ci", "layers", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing"],
