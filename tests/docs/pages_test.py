@@ -212,6 +212,14 @@ def without_window(command: str) -> str:
     return f"{command} --render window.png" if is_window else command
 
 
+def outputs_of(command: str) -> list[str]:
+    """The files that a command says it writes."""
+    named = re.findall(r"(?:\s-o|\s--cells|\s--report|\s--trace|\s--render|>)\s+([\w./]+)", command)
+    named += re.findall(r"^tetmend convert \S+ (\S+)", command)
+    named += [f"{job}.dat" for job in re.findall(r"^ccx (\w+)", command)]
+    return named + [f"{case}/constant/polyMesh" for case in re.findall(r"^gmshToFoam .*-case (\w+)", command)]
+
+
 def squeezed(line: str) -> str:
     return " ".join(line.split())
 
@@ -224,6 +232,7 @@ class Trial:
         self.shop = Workshop(folder, source, build)
         self.counts = {"ok": 0, "FAIL": 0, "looked up": 0, "elsewhere": 0, "passed over": 0}
         self.printed: str | None = None  # by the last command that ran
+        self.not_made: dict[str, str] = {}  # files of commands that were passed over, with what is not installed
 
     def tell(self, outcome: str, text: str) -> None:
         self.counts[outcome] += 1
@@ -241,14 +250,26 @@ class Trial:
         try:
             self.shop.prepare(command)
             self.shop.require(command)
+            self.require_files(command)
         except Missing as missing:
             self.tell("passed over", f"{command}   [{missing} is not installed]")
+            for file in re.findall(r"[\w./-]+\.\w+|(?<=-case )\w+", command):
+                self.not_made |= {file: str(missing), file.partition(".")[0] or file: str(missing)}
             return
         done = self.shop.run(without_window(command))
         self.printed = done.stdout
-        self.tell("FAIL" if done.returncode != status else "ok", command)
+        lacking = [file for file in outputs_of(command) if status in (0, 3) and not (self.shop.work / file).exists()]
+        self.tell("FAIL" if done.returncode != status or lacking else "ok", command)
         if done.returncode != status:
             print(f"status {done.returncode}, not {status}\n{done.stdout[-2000:]}")
+        elif lacking:
+            print(f"did not make {', '.join(lacking)}")
+
+    def require_files(self, command: str) -> None:
+        """@throws Missing when it reads what a command that was passed over would have made"""
+        for word in re.findall(r"[\w./-]+", re.sub(r"(?:-o|>) *\S+", "", command)):
+            if word in self.not_made and not (self.shop.work / word).is_file():
+                raise Missing(self.not_made[word])
 
     def compare(self, quoted: str) -> None:
         """With what the last command that ran printed."""
