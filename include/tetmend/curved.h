@@ -15,7 +15,7 @@ struct JacobianRatio {
 
 /// What the tets of a mesh of second order are like.
 struct CurvedStatistics {
-  std::size_t mid_nodes = 0;
+  std::size_t mid_nodes = 0;    ///< of all edges, curved or not
   std::size_t curved = 0;       ///< tets with a curved edge
   std::size_t turned_over = 0;  ///< of them: the Jacobian is not positive at one of the ten nodes
   JacobianRatio worst;          ///< each figure by itself

@@ -15,6 +15,7 @@ namespace tetmend {
 /// assertions and refusals of operators are `Verdict`s.
 class TETMEND_API Error : public std::runtime_error {
  public:
+  /// @param message one line, with the place
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 

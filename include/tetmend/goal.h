@@ -12,6 +12,7 @@ struct Goal {
 
   /// The same distance from 0 and from 180.
   static Goal symmetric(double min_angle) { return {min_angle, 180 - min_angle}; }
+  /// Both angles are equal.
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 

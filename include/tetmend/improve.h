@@ -40,11 +40,11 @@ enum class Stage : std::uint8_t {
 
 /// How far a run has come.
 struct Progress {
-  Stage stage = Stage::building;
-  std::string_view phase;  ///< of Stage::improving: the name of the pass
-  unsigned round = 0;      ///< of the schedule; 0 before its main loop
-  double share = 0;        ///< of the phase that is done, 0 to 1
-  QualityIndicators now;   ///< of the mesh after the pass before; not of Stage::building
+  Stage stage = Stage::building;  ///< what is being done
+  std::string_view phase;         ///< of Stage::improving: the name of the pass
+  unsigned round = 0;             ///< of the schedule; 0 before its main loop
+  double share = 0;               ///< of the phase that is done, 0 to 1
+  QualityIndicators now;          ///< of the mesh after the pass before; not of Stage::building
 };
 
 /// What becomes of boundary layers: prisms in layers along walls, each cut into three tets.
@@ -53,8 +53,8 @@ enum class Layers : std::uint8_t {
   improve  ///< like all other tets, which destroys them
 };
 
-/// An option has the name that it has on the command line (--time-limit is time_limit), and means
-/// the same.
+/// An option has the name that it has on the command line (`--time-limit` is `time_limit`), and
+/// means the same.
 struct Options {
   std::string schedule = "shell";  ///< name, see schedules(), or a file that ends in .lua
   std::string script = {};         ///< text of a schedule, instead of `schedule`; empty: none
@@ -106,20 +106,23 @@ struct Options {
 
 /// What one pass of the schedule did.
 struct Pass {
-  std::string name;
-  unsigned round = 0;
-  double seconds = 0;
+  std::string name;                                   ///< the word of the schedule
+  unsigned round = 0;                                 ///< of the schedule; 0 before its main loop
+  double seconds = 0;                                 ///< by the clock
   std::array<std::size_t, kVerdictCount> verdicts{};  ///< number of attempts by Verdict
   std::size_t items = 0;                              ///< tets or vertices that were tried
   std::size_t deferred = 0;      ///< of them, those that two threads' parts of the mesh shared
   double seconds_in_scans = 0;   ///< over the whole mesh
   double seconds_in_blocks = 0;  ///< in the parts that threads divide among them, summed up
-  QualityIndicators after;
+  QualityIndicators after;       ///< of the mesh when it ended
 
+  /// Attempts with that verdict.
   std::size_t count(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
+  /// Attempts with any verdict.
   std::size_t attempts() const {
     return std::accumulate(verdicts.begin(), verdicts.end(), std::size_t{0});
   }
+  /// Attempts that changed the mesh.
   std::size_t accepted() const { return count(Verdict::accepted); }
 };
 
@@ -136,14 +139,14 @@ inline constexpr std::uint32_t kGone = 0xFFFFFFFF;
 /// How the lengths of edges have changed: of the mean length at a vertex, after by before, over
 /// vertices that stayed, 20,000 or so of them.
 struct SizeDrift {
-  double one_percent = 1;  ///< 1 % of the ratios are less
-  double median = 1;
-  double ninety_nine_percent = 1;
+  double one_percent = 1;          ///< 1 % of the ratios are less
+  double median = 1;               ///< half of them are
+  double ninety_nine_percent = 1;  ///< 99 % of them are
 };
 
 /// How a named array came over to the improved mesh.
 struct CarriedArray {
-  std::string name;
+  std::string name;  ///< as in the file
   std::string on;    ///< "points" or "tets"
   std::string rule;  ///< in words
   /// |after - before| of its integral over the mesh by that of its absolute value, the largest of all
@@ -151,24 +154,25 @@ struct CarriedArray {
   double integral_error = 0;
 };
 
+/// What improve() did.
 struct Result {
-  Goal goal;  ///< what the run worked towards
-  MeshStatistics before;
-  MeshStatistics after;
-  std::optional<MeshRulers> rulers_before;  ///< the measures of other programs
-  std::optional<MeshRulers> rulers_after;
+  Goal goal;                                      ///< what the run worked towards
+  MeshStatistics before;                          ///< of the input
+  MeshStatistics after;                           ///< of the improved mesh
+  std::optional<MeshRulers> rulers_before;        ///< the measures of other programs
+  std::optional<MeshRulers> rulers_after;         ///< likewise
   std::optional<SizeDrift> size_drift;            ///< with rulers
   std::optional<CurvedStatistics> curved_before;  ///< of a mesh of second order
-  std::optional<CurvedStatistics> curved_after;
-  Ending ending = Ending::finished;
-  std::vector<Pass> passes;
+  std::optional<CurvedStatistics> curved_after;   ///< likewise
+  Ending ending = Ending::finished;               ///< why it ended
+  std::vector<Pass> passes;                       ///< in the order in which they were made
   /// Of the schedule; what was kept or is stretched on purpose; what holds the bad tets left.
   std::vector<std::string> notes;
   std::vector<CarriedArray> carried;  ///< arrays of the points and tets of the mesh
   /// Why there is no trace, as "FILE: reason"; empty: it is whole, or nobody asked for one.
   std::string trace_trouble;
-  BuildReport build;  ///< what was peculiar about the mesh
-  std::size_t protected_tets = 0;
+  BuildReport build;                   ///< what was peculiar about the mesh
+  std::size_t protected_tets = 0;      ///< by `protect` and `only`
   std::size_t protected_bad_tets = 0;  ///< of them
   std::size_t layer_tets = 0;          ///< of boundary layers that were kept
   std::size_t layer_bad_tets = 0;      ///< of them
@@ -191,7 +195,7 @@ struct Result {
   // Seconds of each part of the work.
   double building = 0;   ///< adjacency, order along a space-filling curve
   double measuring = 0;  ///< statistics and checks, before and after
-  double improving = 0;
+  double improving = 0;  ///< the schedule
 
   /// The figures that are worse than before, in words; empty, for that is promised: theta_min is not
   /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad
@@ -222,7 +226,8 @@ struct Result {
 TETMEND_API Result improve(Mesh& mesh, const Options& options = {});
 
 /// Finds what is wrong with the options as far as can be told without a mesh. Loads the plugins.
-/// @throws OptionError, Error as improve()
+/// @throws OptionError as improve()
+/// @throws Error as improve()
 TETMEND_API void check(const Options& options);
 
 }  // namespace tetmend

@@ -38,6 +38,7 @@ TETMEND_API std::vector<std::string_view> file_variants(const std::filesystem::p
 /// @throws Error "FILE: reason" when the extension is unknown
 TETMEND_API std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh);
 
+/// A format, by one of its extensions.
 struct FileFormat {
   std::string_view name;       ///< "MEDIT ASCII"
   std::string_view extension;  ///< ".mesh"

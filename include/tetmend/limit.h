@@ -20,6 +20,7 @@ enum class Hindrance : std::uint8_t {
   no_free_vertex,  ///< its vertices all lie on the boundary; whether that must be so is not known
   search           ///< nothing known: the search ended without success
 };
+/// The number of values of Hindrance.
 inline constexpr std::size_t kHindranceCount = 5;
 
 /// With underscores, as in JSON.
@@ -36,6 +37,7 @@ struct SurfaceLimit {
   std::optional<double> theta_max;                 ///< degrees; none has a smaller one
   std::array<std::size_t, kHindranceCount> bad{};  ///< of this mesh, by Hindrance
 
+  /// Bad tets of this mesh that are still there for that reason.
   std::size_t bad_by(Hindrance hindrance) const { return bad[static_cast<std::size_t>(hindrance)]; }
 };
 

@@ -18,6 +18,7 @@
 
 namespace tetmend {
 
+/// What measure() is to find out besides the statistics.
 struct MeasureOptions {
   std::vector<std::string> measure = {};  ///< names of further measures, see measures()
   bool rulers = true;                     ///< give Measurement::rulers
@@ -30,23 +31,24 @@ struct MeasureOptions {
 struct BadTet {
   std::size_t tet = 0;      ///< number, from 0
   std::int64_t number = 1;  ///< what the file calls it; from 1 where files do not number tets
-  std::int32_t label = 0;
-  std::array<double, 3> centre{};
-  double theta_min = 0;  ///< degrees
-  double theta_max = 0;
-  double quality = 0;     ///< minimum sine; below 0: inverted
-  int free_vertices = 0;  ///< that may move
-  Hindrance hindrance = Hindrance::search;
+  std::int32_t label = 0;   ///< of its region
+  std::array<double, 3> centre{};           ///< its centroid
+  double theta_min = 0;                     ///< degrees, its smallest dihedral angle
+  double theta_max = 0;                     ///< degrees, its largest
+  double quality = 0;                       ///< minimum sine; below 0: inverted
+  int free_vertices = 0;                    ///< that may move
+  Hindrance hindrance = Hindrance::search;  ///< why it is still there
 };
 
+/// What measure() found.
 struct Measurement {
-  MeshStatistics statistics;
+  MeshStatistics statistics;               ///< counts, angles, bad tets
   std::optional<MeshRulers> rulers;        ///< the measures of other programs
   std::optional<CurvedStatistics> curved;  ///< of a mesh of second order
   BuildReport build;                       ///< what is peculiar about the mesh
   std::vector<MeasureSummary> measures;    ///< in the order asked for
-  std::optional<SurfaceLimit> limit;
-  std::vector<BadTet> bad_tets;  ///< the worst first
+  std::optional<SurfaceLimit> limit;       ///< if asked for
+  std::vector<BadTet> bad_tets;            ///< the worst first
 };
 
 /// Measures a mesh, and finds out whether its topology is sound. Move it in where it is not needed
@@ -61,8 +63,8 @@ TETMEND_API void check(const MeasureOptions& options);
 
 /// One quality measure of a tet.
 struct Measure {
-  std::string_view name;
-  std::string_view help;
+  std::string_view name;  ///< as on the command line: "min_sine"
+  std::string_view help;  ///< formula and range, one line
 };
 
 /// All that MeasureOptions::measure can name.

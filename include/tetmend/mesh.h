@@ -19,25 +19,30 @@ namespace tetmend {
 /// A mesh as plain arrays. Vertices are numbered from 0, in the order of `points`. An array of
 /// labels has one for each entity, or none: then all labels are 0.
 struct MeshArrays {
-  std::vector<std::array<double, 3>> points = {};
-  std::vector<std::int32_t> point_labels = {};
-  std::vector<std::array<std::uint32_t, 4>> tets = {};
-  std::vector<std::int32_t> tet_labels = {};
+  std::vector<std::array<double, 3>> points = {};       ///< coordinates
+  std::vector<std::int32_t> point_labels = {};          ///< carried along
+  std::vector<std::array<std::uint32_t, 4>> tets = {};  ///< either way round
+  std::vector<std::int32_t> tet_labels = {};            ///< regions; faces between two stay
   /// Triangles and edges with a name: of the boundary, between two regions, or inside one. They are
   /// constraints: all of them are there afterwards.
   std::vector<std::array<std::uint32_t, 3>> triangles = {};
-  std::vector<std::int32_t> triangle_labels = {};
-  std::vector<std::array<std::uint32_t, 2>> edges = {};
-  std::vector<std::int32_t> edge_labels = {};
-  std::vector<std::uint32_t> required_vertices = {};  ///< must neither move nor vanish
+  std::vector<std::int32_t> triangle_labels = {};        ///< carried along
+  std::vector<std::array<std::uint32_t, 2>> edges = {};  ///< constraints like `triangles`
+  std::vector<std::int32_t> edge_labels = {};            ///< carried along
+  std::vector<std::uint32_t> required_vertices = {};     ///< must neither move nor vanish
 
-  // They come over to the improved mesh: of points linearly in the old mesh (integers from the
-  // nearest vertex), of tets from the old tet at the centroid, or see Options::conserve.
-  std::vector<DataArray> point_data = {}, tet_data = {}, triangle_data = {}, edge_data = {};
-  /// Like labels, but only to tell apart what groups tell apart: one for each element, or none. A
-  /// face between two parts stays.
-  std::vector<std::int32_t> tet_parts = {}, triangle_parts = {}, edge_parts = {};
-  std::vector<Group> groups = {};
+  /// Comes over to the improved mesh: linearly in the old mesh, integers from the nearest vertex.
+  std::vector<DataArray> point_data = {};
+  /// Comes over from the old tet at the centroid, or see Options::conserve.
+  std::vector<DataArray> tet_data = {};
+  std::vector<DataArray> triangle_data = {};  ///< carried along
+  std::vector<DataArray> edge_data = {};      ///< carried along
+  /// Like labels, but only to tell apart what groups tell apart: one for each tet, or none. A face
+  /// between two parts stays.
+  std::vector<std::int32_t> tet_parts = {};
+  std::vector<std::int32_t> triangle_parts = {};  ///< likewise
+  std::vector<std::int32_t> edge_parts = {};      ///< likewise
+  std::vector<Group> groups = {};                 ///< named sets of points and elements
 };
 
 /// A mesh, as it was loaded, made of arrays, or improved. Its coordinates are finite and its
@@ -46,6 +51,7 @@ struct MeshArrays {
 /// Reading from several threads at once is safe. What was moved from is an empty mesh.
 class TETMEND_API Mesh {
  public:
+  /// An empty mesh.
   Mesh();
   /// Move the arrays in where they are not needed any more.
   /// @throws Error when a coordinate is NaN or infinite, when a vertex number is out of range or
@@ -54,34 +60,53 @@ class TETMEND_API Mesh {
   /// counted from 0.
   explicit Mesh(MeshArrays arrays);
   ~Mesh();
+  /// A copy takes as much memory as the mesh.
   Mesh(const Mesh& other);
+  /// The other mesh is empty then.
   Mesh(Mesh&& other) noexcept;
+  /// As the copy.
   Mesh& operator=(const Mesh& other);
+  /// As the move.
   Mesh& operator=(Mesh&& other) noexcept;
 
-  std::size_t point_count() const;
-  std::size_t tet_count() const;
-  std::size_t triangle_count() const;
-  std::size_t edge_count() const;
+  std::size_t point_count() const;     ///< also of points of no tet
+  std::size_t tet_count() const;       ///< without making arrays
+  std::size_t triangle_count() const;  ///< those with a name
+  std::size_t edge_count() const;      ///< those with a name
 
   // The arrays, contiguous, valid until the mesh changes. The first call of any of these copies
   // them out of the form in which the library works, once: 24 bytes a point and 20 a tet.
+
+  /// Coordinates of each vertex.
   std::span<const std::array<double, 3>> points() const { return elements().points; }
+  /// Four vertices of each tet.
   std::span<const std::array<std::uint32_t, 4>> tets() const { return elements().tets; }
+  /// Triangles with a name.
   std::span<const std::array<std::uint32_t, 3>> triangles() const { return elements().triangles; }
+  /// Edges with a name.
   std::span<const std::array<std::uint32_t, 2>> edges() const { return elements().edges; }
+  /// Vertices that must neither move nor vanish.
   std::span<const std::uint32_t> required_vertices() const { return elements().required_vertices; }
-  // One label for each entity; `point_labels` is empty where all are 0.
+  /// A label for each vertex; empty where all are 0.
   std::span<const std::int32_t> point_labels() const { return elements().point_labels; }
+  /// The region of each tet.
   std::span<const std::int32_t> tet_labels() const { return elements().tet_labels; }
+  /// A label for each triangle.
   std::span<const std::int32_t> triangle_labels() const { return elements().triangle_labels; }
+  /// A label for each edge.
   std::span<const std::int32_t> edge_labels() const { return elements().edge_labels; }
 
   // Without a copy; valid until the mesh changes.
+
+  /// Named numbers of each point.
   const std::vector<DataArray>& point_data() const;
+  /// Named numbers of each tet.
   const std::vector<DataArray>& tet_data() const;
+  /// Named numbers of each triangle.
   const std::vector<DataArray>& triangle_data() const;
+  /// Named numbers of each edge.
   const std::vector<DataArray>& edge_data() const;
+  /// Named sets of points and elements.
   const std::vector<Group>& groups() const;
 
   /// All of it; the first call also copies data, parts and groups.

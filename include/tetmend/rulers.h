@@ -9,6 +9,7 @@
 
 namespace tetmend {
 
+/// A measure of a whole mesh as another program defines it; kRulers has formulas.
 enum class Ruler : std::uint8_t {
   mean_ratio,
   radius_ratio,
@@ -27,10 +28,11 @@ struct RulerInfo {
   std::string_view name;   ///< as in JSON: "mean_ratio"
   std::string_view title;  ///< as in tables: with unit and program
   std::string_view help;   ///< formula and value of the regular tet
-  bool large_is_good;
-  bool of_faces;  ///< a value for each face, not for each tet
+  bool large_is_good;      ///< the worst is the least
+  bool of_faces;           ///< a value for each face, not for each tet
 };
 
+/// The number of values of Ruler.
 inline constexpr std::size_t kRulerCount = 10;
 
 /// All rulers, by Ruler. V is the volume, r and R the radii of the inner and the outer sphere. The
@@ -60,18 +62,19 @@ inline constexpr std::array<RulerInfo, kRulerCount> kRulers = {{
 
 /// What one ruler says about a mesh.
 struct RulerFigures {
-  double worst = 0;
+  double worst = 0;        ///< of any tet, or face
   double one_percent = 0;  ///< 1 % of the tets, or faces, are as bad as that or worse
-  double mean = 0;
+  double mean = 0;         ///< of all of them
 };
 
 /// What all of them say. All 0 for a mesh without tets, or for a ruler without a face.
 struct MeshRulers {
   std::array<RulerFigures, kRulerCount> figures{};  ///< by Ruler
   double shortest_edge = 0;                         ///< a length
-  std::size_t inner_faces = 0;
+  std::size_t inner_faces = 0;                      ///< faces of two tets
   std::size_t faces_above_70 = 0;  ///< inner faces of more than 70 degrees non-orthogonality
 
+  /// The figures of one ruler.
   const RulerFigures& operator[](Ruler ruler) const {
     return figures[static_cast<std::size_t>(ruler)];
   }

@@ -14,18 +14,18 @@ namespace tetmend {
 /// 6 x tets dihedral angles; the angles of an inverted tet are those of its mirror image, an angle
 /// at a degenerate face counts as 0. All 0 for a mesh without tets.
 struct MeshStatistics {
-  std::size_t tets = 0;
-  std::size_t vertices = 0;  ///< also those of no tet
-  std::size_t boundary_triangles = 0;
-  std::size_t inverted = 0;  ///< tets of negative volume
-  std::size_t flat = 0;      ///< tets whose volume is zero or too close to tell
+  std::size_t tets = 0;                ///< of any sign
+  std::size_t vertices = 0;            ///< also those of no tet
+  std::size_t boundary_triangles = 0;  ///< faces of one tet
+  std::size_t inverted = 0;            ///< tets of negative volume
+  std::size_t flat = 0;                ///< tets whose volume is zero or too close to tell
   double volume = 0;  ///< sum of the signed volumes; infinite or 0 where that is beyond a double
   double scaled_volume = 0;  ///< the same as a multiple of 8^scale: within a double for any mesh
   int scale = 0;             ///< 0 for a mesh of ordinary size
-  double theta_min = 0;
-  double theta_max = 0;
-  Goal goal;          ///< what lambda and the bad tets refer to
-  double lambda = 0;  ///< share of angles <= 30 or >= 150, or whatever the goal is
+  double theta_min = 0;      ///< smallest dihedral angle
+  double theta_max = 0;      ///< largest
+  Goal goal;                 ///< what lambda and the bad tets refer to
+  double lambda = 0;         ///< share of angles <= 30 or >= 150, or whatever the goal is
   /// lambda_i: angles in [6 (i-1), 6 i) or (180 - 6 i, 180 - 6 (i-1)], or in fifths of what is
   /// outside another goal. Angles of exactly 30 and 150 count for lambda_5, so that the five add up
   /// to lambda.
@@ -50,8 +50,8 @@ struct QualityIndicators {
 /// Any quality measure over a whole mesh.
 struct MeasureSummary {
   std::string_view name;  ///< of the measure
-  double worst = 0;
-  double mean = 0;
+  double worst = 0;       ///< of any tet
+  double mean = 0;        ///< of all tets
 };
 
 /// What building a mesh from a file's contents, or from arrays, found and did.
@@ -69,9 +69,9 @@ struct BuildReport {
   std::size_t unused_points = 0;      ///< points of no tet: kept
   std::size_t constrained_faces = 0;  ///< interior faces that must survive
   // Where constraints inside regions are ignored:
-  std::size_t dropped_triangles = 0;
-  std::size_t dropped_edges = 0;
-  std::size_t dropped_vertices = 0;  ///< no longer required
+  std::size_t dropped_triangles = 0;  ///< no longer kept
+  std::size_t dropped_edges = 0;      ///< no longer kept
+  std::size_t dropped_vertices = 0;   ///< no longer required
 };
 
 }  // namespace tetmend

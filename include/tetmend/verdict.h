@@ -7,6 +7,7 @@
 
 namespace tetmend {
 
+/// How an attempt of an operator ended.
 enum class Verdict : std::uint8_t {
   accepted,  ///< the mesh is better now; from a stage of an attempt: nothing speaks against going
              ///< on
@@ -19,8 +20,10 @@ enum class Verdict : std::uint8_t {
   deferred         ///< another worker's part of the mesh is in the way: to be tried again later
 };
 
+/// The number of values of Verdict.
 inline constexpr std::size_t kVerdictCount = 8;
 
+/// With blanks: "not applicable".
 constexpr std::string_view to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::accepted:

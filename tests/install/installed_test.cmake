@@ -115,7 +115,7 @@ run(${program} operators --plugin ${plugin} odt_smoothing)
 expect("plugin: ${plugin}")
 run(${CMAKE_COMMAND} -E env TETMEND_PLUGIN_PATH=${WORK}/plugins ${program} operators)
 expect("odt_smoothing")
-run(${program} check-plugin ${plugin})
+run(${program} check-plugin ${plugin} --mesh ${SOURCE}/assets/meshes/sheet.mesh)
 expect("odt_smoothing keeps its contract")
 
 build(${SOURCE}/tests/install/library_user ${WORK}/programs -march=native -O3 -Wall -Wextra -Werror -fvisibility=hidden)
