@@ -116,8 +116,8 @@ def page(rows):
     commits = ", ".join(dict.fromkeys(row["commit"] for row in rows))
     return documents.document("Fuzzing", documents.stamp("script/fuzz --write docs/results/fuzzing.md"), [
         "All runs so far, of the commits " + commits + ". libFuzzer of clang 14, with its address and undefined-behaviour "
-        "sanitizers. A finding is an input that ended the program or broke a promise that the target checks. Each "
-        "is repaired before the next run is recorded.",
+        "sanitizers. A finding is an input that ended the program or broke a promise that the target checks. What is "
+        "not repaired yet, [reliability.md](../reliability.md) says.",
         documents.markdown_table(table)])
 
 

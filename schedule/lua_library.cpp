@@ -183,7 +183,8 @@ void move_entry(lua_State* lua, lua_Integer from, lua_Integer to) {
 }
 
 int insert_entry(lua_State* lua) {
-  const lua_Integer end = list_length(lua, 1) + 1;
+  // A list may claim to end at the largest integer.
+  const auto end = static_cast<lua_Integer>(static_cast<lua_Unsigned>(list_length(lua, 1)) + 1);
   const int count = lua_gettop(lua);
   if (count != 2 && count != 3) return luaL_error(lua, "wrong number of arguments to 'insert'");
   const lua_Integer place = count == 2 ? end : luaL_checkinteger(lua, 2);

@@ -53,7 +53,8 @@ void LuaBox::charge(std::size_t new_steps) {
 void LuaBox::check_outside() const {
   if (kept + in_call <= limits.outside) return;
   throw Error(
-      fmt::format("arguments, notes and descriptions take more than {} MB", limits.outside >> 20));
+      fmt::format("arguments, notes, descriptions and records of passes take more than {} MB",
+                  limits.outside >> 20));
 }
 
 namespace {

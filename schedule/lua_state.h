@@ -34,7 +34,7 @@ class LuaState {
   struct Limits {
     std::size_t memory = std::size_t{128} << 20;  ///< bytes of the interpreter
     std::size_t text = std::size_t{4} << 20;      ///< bytes of the longest text
-    std::size_t outside = std::size_t{16} << 20;  ///< bytes that words hold for the script
+    std::size_t outside = std::size_t{64} << 20;  ///< bytes that words hold for the script
   };
   /// Asked every thousand instructions, or earlier where they copy large blocks. Throws to stop
   /// the script; the exception comes out of run().

@@ -79,6 +79,7 @@ void Run::check_time() {
 
 void Run::note(const std::string& text) {
   notes.push_back(text);
+  held_bytes_ += sizeof(text) + text.size();
   if (listener_ != nullptr) listener_->noted(text);
 }
 
@@ -99,6 +100,7 @@ Date Run::begin_sweep(std::string_view calendar) {
     if (name == calendar) return std::exchange(date, now);
   }
   last_sweep_.emplace_back(calendar, now);
+  held_bytes_ += sizeof(last_sweep_.back()) + calendar.size();
   return 0;
 }
 
@@ -191,6 +193,7 @@ void PassScope::finish() {
   indicators();
   record_.seconds = seconds_since(start_);
   const PassRecord& record = run_.records.emplace_back(std::move(record_));
+  run_.held_bytes_ += sizeof(record) + record.name.size();
   finished_ = true;
   run_.is_measured_ = true;
   if (run_.records.size() >= run_.most_passes_) run_.stop();

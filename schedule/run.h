@@ -110,6 +110,8 @@ class Run {
   std::vector<std::string> notes;  ///< of the schedule
   /// Adds to the notes and tells the listener.
   void note(const std::string& text);
+  /// Bytes of all that grows with each pass: records, notes, names of calendars. For who bounds them.
+  std::size_t held_bytes() const { return held_bytes_; }
 
   /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was
   /// none. Later commits carry the new date.
@@ -163,6 +165,7 @@ class Run {
   TraceSink* trace_ = nullptr;
   AttemptInspector* inspector_ = nullptr;
   std::vector<std::pair<std::string, Date>> last_sweep_;
+  std::size_t held_bytes_ = 0;
   bool is_measured_ = false;  // the last record has the indicators of the mesh as it is
 
   friend class PassScope;

@@ -101,7 +101,8 @@ QualityIndicators read_indicators(const Subject& subject, const ScriptValue& val
     }
     return read_number(subject.of(name), *field);
   };
-  return {number("q_worst"), static_cast<std::size_t>(std::max(0.0, number("n_bad"))),
+  constexpr double kMostTets = 1 << 29;
+  return {number("q_worst"), static_cast<std::size_t>(std::clamp(number("n_bad"), 0.0, kMostTets)),
           number("q_aver")};
 }
 
@@ -282,7 +283,9 @@ void ScriptHost::run_schedule(WordCall& call) {
   const WordInfo& word = find_word("run_schedule");
   const Schedule schedule = Schedule::builtin(read_text({"run_schedule"}, call.argument(1)));
   const ScheduleSettings settings = read_settings(word, read_table(call.argument(2), word));
+  const std::size_t held = run_->held_bytes();
   ScriptHost(run_, settings).execute(schedule);
+  call.hold_for_good(run_->held_bytes() - held);
   watch();
 }
 
@@ -329,7 +332,9 @@ ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const Scr
 template <class Pass>
 void ScriptHost::make_pass(WordCall& call, const Pass& pass) {
   const std::size_t passes = run_->records.size();
+  const std::size_t held = run_->held_bytes();
   pass();
+  call.hold_for_good(run_->held_bytes() - held);
   const bool was_made = run_->records.size() > passes;
   const PassRecord record = was_made ? run_->records.back() : PassRecord{};
   call.give(integer(record.accepted()));

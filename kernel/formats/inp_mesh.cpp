@@ -58,7 +58,7 @@ class Reader {
     }
     InpFields fields(block);
     while (fields.next_line()) {
-      mesh_.nodes.add(fields.integer("the number of a node"));
+      mesh_.nodes.add(own_number(fields, "the number of a node"));
       Point& point = mesh_.points.emplace_back();
       for (int axis = 0; axis < 3; ++axis) point[axis] = fields.real("a coordinate");
       // Behind them Abaqus has the cosines of a normal.
@@ -88,7 +88,7 @@ class Reader {
     InpFields fields(block);
     if (elements.type.kind == InpType::Kind::other) return note_others(fields);
     while (fields.next_line()) {
-      mesh_.elements.add(fields.integer("the number of an element"));
+      mesh_.elements.add(own_number(fields, "the number of an element"));
       if (elements.type.vtk_type == kVtkTet && question_ != nullptr && tets_++ == question_->tet) {
         question_->place = block.file->line_place(fields.place());
       }
@@ -128,6 +128,13 @@ class Reader {
                                 mesh_.nodes.numbers()[vertices[i]]));
       }
     }
+  }
+
+  /// What is without a number gets one when it is written, and loads and sets may mean another then.
+  static std::int64_t own_number(InpFields& fields, std::string_view what) {
+    const std::int64_t number = fields.integer(what);
+    if (number == 0) fields.fail(fmt::format("'0' is out of range: expected {}, from 1", what));
+    return number;
   }
 
   void note_others(InpFields& fields) {

@@ -33,8 +33,11 @@ bool to_label(std::string_view key, Label& label) {
   std::string digits(key.substr(kPrefix.size()));
   if (digits.starts_with('M')) digits[0] = '-';
   const char* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, label);
-  return error == std::errc() && stop == end && inp_key(label_name(label)) == key;
+  Label number = 0;  // "Label_3_of_4" begins like one
+  const auto [stop, error] = std::from_chars(digits.data(), end, number);
+  if (error != std::errc() || stop != end || inp_key(label_name(number)) != key) return false;
+  label = number;
+  return true;
 }
 
 std::string label_name(Label label) {

@@ -409,13 +409,14 @@ TEST_CASE("a script that makes much of little for a word is stopped, also while 
     for (const char* call : {"apply(t)", "smooth{on = t}", "attempt('smoothing', t)",
                              "run_schedule('shell', t)", "is_progress(t, t)"}) {
       CAPTURE(call);
-      CHECK(contains(run(bomb + "begin_round() " + call).error, "take more than 16 MB"));
+      CHECK(contains(run(bomb + "begin_round() " + call).error, "take more than 64 MB"));
     }
     for (const char* call : {"description(t)", "parameter{'p', choices = t}", "parameter(t)"}) {
       CAPTURE(call);
-      CHECK_THROWS_WITH_AS(Schedule("test.lua", bomb + call).describe(),
-                           "test.lua:1: arguments, notes and descriptions take more than 16 MB",
-                           Error);
+      CHECK_THROWS_WITH_AS(
+          Schedule("test.lua", bomb + call).describe(),
+          "test.lua:1: arguments, notes, descriptions and records of passes take more than 64 MB",
+          Error);
     }
   }
   CHECK_NOTHROW(Schedule("test.lua",
@@ -426,11 +427,11 @@ TEST_CASE("a script that makes much of little for a word is stopped, also while 
 TEST_CASE("notes come to an end, and show no control characters") {
   const Outcome flood =
       run("local s = 'x' for i = 1, 16 do s = s .. s end while true do log(s) end");
-  CHECK(contains(flood.error, "take more than 16 MB"));
+  CHECK(contains(flood.error, "take more than 64 MB"));
   std::size_t bytes = 0;
   for (const std::string& text : flood.notes) bytes += text.size();
-  CHECK(bytes > (std::size_t{10} << 20));
-  CHECK(bytes < (std::size_t{16} << 20));
+  CHECK(bytes > (std::size_t{40} << 20));
+  CHECK(bytes < (std::size_t{64} << 20));
   CHECK(note("'a\\27[2Jb\\n', 3, {}, log, nil, '\\255'") ==
         "a\\x1b[2Jb\\n 3 table function nil \\xff");
   const ScheduleInfo info = Schedule("test.lua",
@@ -440,6 +441,13 @@ TEST_CASE("notes come to an end, and show no control characters") {
   CHECK(info.description == "a\\x07b");
   CHECK(info.parameters.at(0).help == "\\x1b[1m");
   CHECK_THROWS_AS(Schedule("test.lua", "parameter{'p', choices = {'a\\27'}}").describe(), Error);
+}
+
+TEST_CASE("passes without end come to an end") {
+  for (const char* pass : {"smooth{}", "attempt('smoothing', {0})"}) {
+    CAPTURE(pass);
+    CHECK(contains(run(std::string("while true do ") + pass + " end").error, "records of passes"));
+  }
 }
 
 TEST_CASE("a script that never comes to a pass can be described, wherever it spends its time") {

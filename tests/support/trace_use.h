@@ -38,7 +38,8 @@ inline std::string findings_in(const SlotMesh& slots) {
     if (mesh.tet_count() != slots.tet_count()) return "another number of tets";
     return to_string(check_integrity(mesh));
   } catch (const BuildError& error) {
-    return error.what();
+    const std::string reason = error.what();
+    return reason.find("too short to be worked with") == std::string::npos ? reason : "";
   } catch (const Error&) {
     return "";
   }

@@ -299,6 +299,16 @@ TEST_CASE("elements of second order come back with their type, in two lines or i
         std::string::npos);
 }
 
+TEST_CASE("a set whose name begins like that of a label is none") {
+  const TempFolder folder;
+  for (const char* name : {"Label_3_inlet", "Label_3\xff", "Label_03", "Label_"}) {
+    CAPTURE(name);
+    write_text(folder / "a.inp", replaced(kSmall, "ELSET=E", "ELSET=" + std::string(name)));
+    const MeshData data = read_mesh(folder / "a.inp");
+    CHECK(data.tets.at(0).label != 3);
+  }
+}
+
 TEST_CASE("types of elements have the nodes that their names say") {
   const auto type = [](std::string_view name) { return formats::inp_type(name); };
   CHECK(type("c3d4").vtk_type == 10);
@@ -456,6 +466,9 @@ TEST_CASE("bad decks are refused with line, word and what was expected") {
       {"not finite", replaced(kSmall, "2, 1, 0, 0", "2, 1, nan, 0"), ":3", "'nan'"},
       {"node twice", replaced(kSmall, "2, 1, 0, 0", "3, 1, 0, 0"), ":4", "the node '3' appears"},
       {"element twice", with("1, 1, 2, 3, 4\n"), ":8", "the element '1' appears"},
+      {"node 0", replaced(kSmall, "2, 1, 0, 0", "0, 1, 0, 0"), ":3", "'0' is out of range"},
+      {"element 0", with("0, 1, 2, 3, 4\n"), ":8",
+       "'0' is out of range: expected the number of an"},
       {"vertex missing", replaced(kSmall, "1, 1, 2, 3, 4", "1, 1, 2, 3, 5"), ":7",
        "'5' is not the number of a node"},
       {"vertex repeated", replaced(kSmall, "1, 1, 2, 3, 4", "1, 1, 2, 3, 3"), ":7",
