@@ -87,6 +87,7 @@ std::shared_ptr<Mesh> make_mesh(const py::array& points, const py::array& tets, 
   const std::size_t n = arrays.points.size();
   arrays.tets = read_elements<4>("tets", tets, n);
   arrays.tet_labels = labels_of(given, "labels", arrays.tets.size());
+  arrays.tet_parts = labels_of(given, "parts", arrays.tets.size());
   arrays.point_labels = labels_of(given, "point_labels", n);
   read<3>(given, "triangles", "triangle_labels", n, arrays.triangles, arrays.triangle_labels);
   read<2>(given, "edges", "edge_labels", n, arrays.edges, arrays.edge_labels);
@@ -175,6 +176,9 @@ void add_views(py::class_<Mesh, std::shared_ptr<Mesh>>& type) {
            [](const Mesh& m, const py::object& self) { return view(m.edges(), self); });
   add_view(type, "labels",
            [](const Mesh& m, const py::object& self) { return view(m.tet_labels(), self); });
+  add_view(type, "parts", [](const Mesh& mesh, const py::object& self) {
+    return view(std::span(mesh.arrays().tet_parts), self);
+  });
   add_view(type, "triangle_labels",
            [](const Mesh& m, const py::object& self) { return view(m.triangle_labels(), self); });
   add_view(type, "edge_labels",

@@ -70,6 +70,11 @@ class Result:
         return self.mesh.labels
 
     @property
+    def parts(self) -> NDArray[np.int32]:
+        """(m,), or (0,) where none were given."""
+        return self.mesh.parts
+
+    @property
     def triangles(self) -> NDArray[Any]:
         """(k, 3)."""
         return self.mesh.triangles
@@ -155,7 +160,7 @@ Progress = Callable[[_core.Progress], object]
 
 
 def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, labels: ArrayLike | None = None,
-            triangles: ArrayLike | None = None, triangle_labels: ArrayLike | None = None,
+            parts: ArrayLike | None = None, triangles: ArrayLike | None = None, triangle_labels: ArrayLike | None = None,
             edges: ArrayLike | None = None, edge_labels: ArrayLike | None = None,
             point_labels: ArrayLike | None = None, required: ArrayLike | None = None,
             point_data: Mapping[str, ArrayLike] | None = None, cell_data: Mapping[str, ArrayLike] | None = None,
@@ -190,7 +195,7 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     Traceback (most recent call last):
     tetmend._core.Error: tets[0, 3] is 9, but there are 9 points
     """
-    given = {"labels": labels, "triangles": triangles, "triangle_labels": triangle_labels, "edges": edges,
+    given = {"labels": labels, "parts": parts, "triangles": triangles, "triangle_labels": triangle_labels, "edges": edges,
              "edge_labels": edge_labels, "point_labels": point_labels, "required": required, "point_data": point_data,
              "cell_data": cell_data, "triangle_data": triangle_data, "edge_data": edge_data, "groups": groups}
     settings = to_settings(options)

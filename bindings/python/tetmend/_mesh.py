@@ -63,6 +63,7 @@ class Mesh:
     points            (n, 3), real
     tets              (m, 4), integers; which way round does not matter
     labels            (m,), integers: regions. A face between two labels stays
+    parts             (m,), integers, or None: what labels do not tell apart. A face between two parts stays
     triangles, edges  (k, 3) and (k, 2): those of the surface with a name, and constraints inside. They stay
     triangle_labels, edge_labels, point_labels    carried along
     required          numbers of points, or a mask of them: they neither move nor vanish
@@ -73,7 +74,7 @@ class Mesh:
     """
 
     def __init__(self, points: ArrayLike, tets: ArrayLike, *, labels: ArrayLike | None = None,
-                 triangles: ArrayLike | None = None, triangle_labels: ArrayLike | None = None,
+                 parts: ArrayLike | None = None, triangles: ArrayLike | None = None, triangle_labels: ArrayLike | None = None,
                  edges: ArrayLike | None = None, edge_labels: ArrayLike | None = None,
                  point_labels: ArrayLike | None = None, required: ArrayLike | None = None,
                  point_data: Mapping[str, ArrayLike] | None = None, cell_data: Mapping[str, ArrayLike] | None = None,
@@ -85,7 +86,7 @@ class Mesh:
                   **{f"{name[:-1]}_data": 0 if array is None else len(array) for name, array in elements.items()}}
         data = {"point_data": point_data, "cell_data": cell_data, "triangle_data": triangle_data, "edge_data": edge_data}
         packed = {name: pack(name, arrays, counts[name]) for name, arrays in data.items()}
-        arrays = {**elements, "labels": _array(labels), "triangle_labels": _array(triangle_labels),
+        arrays = {**elements, "labels": _array(labels), "parts": _array(parts), "triangle_labels": _array(triangle_labels),
                   "edge_labels": _array(edge_labels), "point_labels": _array(point_labels),
                   "required": _indices("required", required, counts["point_data"]),
                   **{name: values for name, (values, _) in packed.items()}}
@@ -135,6 +136,11 @@ class Mesh:
     def labels(self) -> NDArray[np.int32]:
         """(m,): regions of the tets."""
         return self._core.labels
+
+    @cached_property
+    def parts(self) -> NDArray[np.int32]:
+        """(m,), or (0,) where there are none."""
+        return self._core.parts
 
     @cached_property
     def triangle_labels(self) -> NDArray[np.int32]:
