@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 // tetmend check: does a mesh keep what a solver, or its input, asks of it?
-//
-//   of one mesh: thresholds of angles and measures, inverted tets, as asked for or as a preset says
-//   of two: the same surface, walls, labels, volumes, groups, and nothing worse; computed from the
-//   two files alone
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,14 +12,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <tetmend/check.h>
 #include <tetmend/io.h>
-#include <tetmend/measure.h>
+#include <tetmend/option_text.h>
+#include <tetmend/rulers.h>
 
 #include "apps/commands.h"
-#include "apps/facts.h"
 #include "apps/files.h"
 #include "apps/threads.h"
-#include "kernel/formats/mesh_io.h"
 
 namespace tetmend::apps {
 namespace {
@@ -33,62 +27,23 @@ namespace {
 struct Options {
   std::filesystem::path file;
   std::filesystem::path improved;
-  double min_dihedral = 0;
-  double max_dihedral = 180;
-  bool no_inverted = false;
+  CheckOptions wanted;
   std::vector<std::string> measures;  ///< NAME=VALUE
-  std::string preset;
   bool json = false;
-  int threads = 1;
   std::string format;
 };
 
-struct Preset {
-  std::string_view name;
-  std::string_view source;
-  std::vector<std::pair<Ruler, double>> rulers;
-  bool wants_markers = false;  ///< on all of the boundary
-};
-
-const std::vector<Preset>& presets() {
-  static const std::vector<Preset> kPresets = {
-      {"calculix", "ccx ends with status 201 at an element whose Jacobian is not positive", {}},
-      {"fenicsx", "the Jacobian of an affine cell must not vanish, nor change its sign", {}},
-      {"openfoam",
-       "limits of checkMesh: non-orthogonality 70, skewness 4, aspect ratio 1000",
-       {{Ruler::non_orthogonality, 70}, {Ruler::skewness, 4}, {Ruler::aspect_ratio, 1000}}},
-      {"su2",
-       "the dual volumes of a mesh must be positive, all of the boundary in markers",
-       {},
-       true}};
-  return kPresets;
-}
-
-const Preset& find_preset(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const Preset& preset : presets()) {
-    if (preset.name == name) return preset;
-    names.push_back(preset.name);
-  }
-  throw UsageError(
-      fmt::format("--for: '{}' is no preset: expected one of {}", name, fmt::join(names, ", ")));
-}
-
-const RulerInfo& info(Ruler ruler) {
-  return kRulers[static_cast<std::size_t>(ruler)];
-}
-
-std::pair<Ruler, double> to_threshold(const std::string& text) {
+/// @throws UsageError
+std::pair<std::string, double> to_threshold(const std::string& text) {
   const std::size_t equals = text.find('=');
   double value = 0;
   if (equals != std::string::npos) {
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data() + equals + 1, end, value);
-    if (error == std::errc() && stop == end) {
-      for (std::size_t i = 0; i < kRulerCount; ++i) {
-        if (kRulers[i].name == text.substr(0, equals)) return {static_cast<Ruler>(i), value};
-      }
-    }
+    const std::string name = text.substr(0, equals);
+    const bool is_known = std::any_of(kRulers.begin(), kRulers.end(),
+                                      [&](const RulerInfo& ruler) { return ruler.name == name; });
+    if (is_known && error == std::errc() && stop == end) return {name, value};
   }
   std::vector<std::string_view> names;
   for (const RulerInfo& each : kRulers) names.push_back(each.name);
@@ -97,39 +52,10 @@ std::pair<Ruler, double> to_threshold(const std::string& text) {
                   text, fmt::join(names, ", ")));
 }
 
-std::vector<Fact> check_one(const Options& options) {
-  const Mesh mesh = load(options.file, options.threads);
-  std::vector<std::pair<Ruler, double>> thresholds;
-  if (!options.preset.empty()) thresholds = find_preset(options.preset).rulers;
-  for (const std::string& text : options.measures) thresholds.push_back(to_threshold(text));
-  std::vector<Fact> facts;
-  if (options.no_inverted || !options.preset.empty()) {
-    facts.push_back(no_inverted(read_mesh(options.file)));
-  }
-  if (!options.preset.empty() && find_preset(options.preset).wants_markers) {
-    facts.push_back(no_bare_boundary(read_mesh(options.file)));
-  }
-  const Measurement measured = measure(mesh, {.threads = options.threads});
-  if (measured.curved && (options.no_inverted || !options.preset.empty())) {
-    facts.push_back(at_most("turned_over", "curved tets turned over",
-                            static_cast<double>(measured.curved->turned_over), 0));
-  }
-  if (options.min_dihedral > 0) {
-    facts.push_back(at_least("theta_min", "smallest dihedral angle", measured.statistics.theta_min,
-                             options.min_dihedral));
-  }
-  if (options.max_dihedral < 180) {
-    facts.push_back(at_most("theta_max", "largest dihedral angle", measured.statistics.theta_max,
-                            options.max_dihedral));
-  }
-  for (const auto& [ruler, wanted] : thresholds) {
-    const RulerInfo& of = info(ruler);
-    const std::string what = fmt::format("worst {}", of.title);
-    const double worst = (*measured.rulers)[ruler].worst;
-    facts.push_back(of.large_is_good ? at_least(std::string(of.name), what, worst, wanted)
-                                     : at_most(std::string(of.name), what, worst, wanted));
-  }
-  return facts;
+nlohmann::json to_json(const Fact::Number& number) {
+  if (const auto* count = std::get_if<std::uint64_t>(&number)) return *count;
+  if (const auto* value = std::get_if<double>(&number)) return *value;
+  return nullptr;
 }
 
 void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
@@ -142,8 +68,8 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
     list.push_back({{"name", fact.name},
                     {"holds", fact.holds},
                     {"text", fact.text},
-                    {"value", fact.value},
-                    {"wanted", fact.wanted}});
+                    {"value", to_json(fact.value)},
+                    {"wanted", to_json(fact.wanted)}});
   }
   nlohmann::json result = {
       {"schema", 1}, {"file", options.file.string()}, {"holds", holds}, {"facts", list}};
@@ -155,20 +81,26 @@ int run_check(Options& options) {
   name_streams(options.format, options.file, nullptr);
   check_mesh_extension(options.file);
   if (!options.improved.empty()) check_mesh_extension(options.improved);
-  const bool asks = options.min_dihedral > 0 || options.max_dihedral < 180 || options.no_inverted ||
-                    !options.measures.empty() || !options.preset.empty();
-  if (!asks && options.improved.empty()) {
+  CheckOptions& wanted = options.wanted;
+  for (const std::string& text : options.measures) wanted.measure.push_back(to_threshold(text));
+  if (!wanted.asks() && options.improved.empty()) {
     throw UsageError(
         "nothing to check: give a threshold, --for PRESET or a second mesh (see tetmend check "
         "--help)");
   }
   std::vector<Fact> facts;
-  if (!options.improved.empty())
-    facts = compare_meshes(options.file, options.improved, options.threads);
-  if (asks) {
-    Options one = options;
-    if (!options.improved.empty()) one.file = options.improved;
-    for (Fact& fact : check_one(one)) facts.push_back(std::move(fact));
+  Mesh mesh = load(options.file, wanted.threads);
+  if (!options.improved.empty()) {
+    Mesh improved = load(options.improved, wanted.threads);
+    facts = compare(mesh, improved, wanted.threads);
+    mesh = std::move(improved);
+  }
+  if (wanted.asks()) {
+    try {
+      for (Fact& fact : check(mesh, wanted)) facts.push_back(std::move(fact));
+    } catch (const OptionError& error) {
+      throw UsageError("--" + message_of(error));
+    }
   }
   const bool holds =
       std::all_of(facts.begin(), facts.end(), [](const Fact& fact) { return fact.holds; });
@@ -178,7 +110,7 @@ int run_check(Options& options) {
 
 std::string preset_help() {
   std::string text;
-  for (const Preset& preset : presets())
+  for (const CheckPreset& preset : check_presets())
     text += fmt::format("  {:<9} {}\n", preset.name, preset.source);
   return text;
 }
@@ -191,14 +123,14 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
   command->add_option("OUT", options->improved, "What became of it: compared with FILE")
       ->type_name("");
-  command->add_option("--min-dihedral", options->min_dihedral, "No smaller dihedral angle")
+  command->add_option("--min-dihedral", options->wanted.min_dihedral, "No smaller dihedral angle")
       ->type_name("DEGREES")
       ->check(CLI::Range(0.0, 71.0));
-  command->add_option("--max-dihedral", options->max_dihedral, "No larger dihedral angle")
+  command->add_option("--max-dihedral", options->wanted.max_dihedral, "No larger dihedral angle")
       ->type_name("DEGREES")
       ->check(CLI::Range(70.0, 180.0));
   command->add_flag(
-      "--no-inverted", options->no_inverted,
+      "--no-inverted", options->wanted.no_inverted,
       "No inverted or flat tet, in exact arithmetic, as the\nfile lists its vertices");
   command
       ->add_option("--measure", options->measures,
@@ -206,11 +138,11 @@ void add_check(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->take_all();
-  command->add_option("--for", options->preset, "What a solver asks, see below")
+  command->add_option("--for", options->wanted.preset, "What a solver asks, see below")
       ->type_name("PRESET");
   command->add_flag("--json", options->json, "Print JSON (docs/check.schema.json)");
   add_format_option(*command, options->format);
-  add_threads_option(*command, options->threads);
+  add_threads_option(*command, options->wanted.threads);
   command->footer(fmt::format(
       R"(Prints a line for each fact. With two meshes, from the files alone: the same
 surface, bit for bit, the same faces between labels, named triangles and groups,

@@ -33,7 +33,7 @@ set(below_apps ${rooms})
 set(public_of_kernel api curved data error goal rulers statistics)
 set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
-set(public_of_face improve io measure mesh option_text)
+set(public_of_face check improve io measure mesh option_text trace)
 set(public_of_bindings tetmend)
 
 set(violations "")

@@ -202,13 +202,13 @@ struct Result {
   /// tets, lambda is not higher. With rulers also: the worst mean ratio and radius ratio are not
   /// smaller, the worst edge ratio not above the larger of what it was and 10. Of a mesh of second
   /// order also: the worst Jacobian ratio, at the nodes and by its bound, is not smaller.
-  std::vector<std::string> worse() const;
+  TETMEND_API std::vector<std::string> worse() const;
   /// What else is worse, in words. An aim, no promise: the means of mean ratio and radius ratio are
   /// not smaller, and no more faces are above 70 degrees non-orthogonality. Empty without rulers.
-  std::vector<std::string> missed_aims() const;
+  TETMEND_API std::vector<std::string> missed_aims() const;
 
   /// |after - before| / |before|, the rounding error of the volume if no tet was inverted before.
-  double volume_change() const;
+  TETMEND_API double volume_change() const;
 };
 
 /// Improves a mesh in place. The surface, the faces between two labels and what else is a

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "apps/facts.h"
-
+// Does a mesh keep what a solver, or its input, asks of it?
+//
+//   of one mesh: thresholds of angles and rulers, inverted tets, as asked for or as a preset says
+//   of two: the same surface, walls, labels, volumes, groups, and nothing worse; computed from the
+//   two meshes alone
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,23 +11,27 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
-#include <tetmend/io.h>
+#include <fmt/ranges.h>
+#include <tetmend/check.h>
 #include <tetmend/measure.h>
 
 #include "face/grouped.h"
+#include "face/mesh_access.h"
 #include "kernel/curved.h"
 #include "kernel/exact_orientation.h"
-#include "kernel/formats/mesh_io.h"
 #include "kernel/geometry.h"
 #include "kernel/statistics.h"
 #include "kernel/tet_faces.h"
 
-namespace tetmend::apps {
+namespace tetmend {
 
 using face::grouped;
+
+namespace {
 
 Fact at_least(std::string name, std::string_view what, double value, double wanted) {
   return {std::move(name), value >= wanted,
@@ -35,7 +42,8 @@ Fact at_most(std::string name, std::string_view what, double value, double wante
           fmt::format("{} {:.6g}, wanted at most {:.6g}", what, value, wanted), value, wanted};
 }
 
-Fact no_inverted(const MeshData& mesh, std::size_t allowed) {
+/// In exact arithmetic. `allowed`: so many there were before.
+Fact no_inverted(const MeshData& mesh, std::size_t allowed = 0) {
   const Scale scale = Scale::of(mesh.points);
   std::size_t count = 0;
   std::optional<std::size_t> first;
@@ -53,8 +61,6 @@ Fact no_inverted(const MeshData& mesh, std::size_t allowed) {
   }
   return {"inverted", count <= allowed, text, count, allowed};
 }
-
-namespace {
 
 using Bits = std::array<std::uint64_t, 3>;
 
@@ -120,7 +126,7 @@ Fact same(std::string name, std::string_view what, const std::vector<T>& before,
           ? fmt::format("{}: the same {}, bit for bit", what, grouped(before.size()))
           : fmt::format("{}: {} and {}, {} of them in one mesh only", what, grouped(before.size()),
                         grouped(after.size()), grouped(differing));
-  return {std::move(name), differing == 0, text, differing, 0};
+  return {std::move(name), differing == 0, text, differing, std::uint64_t{0}};
 }
 
 /// In lengths that can be worked with.
@@ -154,8 +160,7 @@ std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after, co
   }
   for (const auto& [label, volume] : now) {
     if (then.contains(label)) continue;
-    facts.push_back(
-        {"volume", false, fmt::format("label {} is new", label), in_file(volume), nullptr});
+    facts.push_back({"volume", false, fmt::format("label {} is new", label), in_file(volume), {}});
   }
   return facts;
 }
@@ -261,20 +266,20 @@ Fact same_groups(const MeshData& before, const MeshData& after, const Scale& sca
                         grouped(then.size()))
           : fmt::format("{} groups have other triangles, edges or volumes, the first is {}",
                         grouped(differing), first);
-  return {"group_contents", differing == 0, text, differing, 0};
+  return {"group_contents", differing == 0, text, differing, std::uint64_t{0}};
 }
 
-/// @throws Error, with the file, as Scale::of()
-Scale scale_of(const std::filesystem::path& file, const MeshData& mesh) {
+/// @throws Error, with the file if there is one, as Scale::of()
+Scale scale_of(const Mesh& mesh) {
   try {
-    return Scale::of(mesh.points);
+    return Scale::of(MeshAccess::data(mesh).points);
   } catch (const Error& error) {
-    throw Error(fmt::format("{}: {}", file.string(), error.what()));
+    if (mesh.file().empty()) throw;
+    throw Error(fmt::format("{}: {}", mesh.file().string(), error.what()));
   }
 }
 
-}  // namespace
-
+/// Faces of one tet only that no triangle has: solvers want a boundary condition on each.
 Fact no_bare_boundary(const MeshData& mesh) {
   std::vector<std::array<Bits, 3>> named;
   for (const MeshData::Triangle& triangle : mesh.triangles) {
@@ -291,15 +296,65 @@ Fact no_bare_boundary(const MeshData& mesh) {
                        "{} triangles of the boundary are not in the file: they have no "
                        "label or marker",
                        grouped(count));
-  return {"bare_boundary", count == 0, text, count, 0};
+  return {"bare_boundary", count == 0, text, count, std::uint64_t{0}};
 }
 
-std::vector<Fact> compare_meshes(const std::filesystem::path& file,
-                                 const std::filesystem::path& improved, int threads) {
-  const MeshData before = read_mesh(file);
-  const MeshData after = read_mesh(improved);
-  const Scale scale = scale_of(file, before);
-  scale_of(improved, after);  // or an error
+struct Preset {
+  CheckPreset shown;
+  std::vector<std::pair<std::string_view, double>> rulers;
+  bool wants_markers = false;  ///< on all of the boundary
+};
+
+std::span<const Preset> presets() {
+  static const std::vector<Preset> kPresets = {
+      {{"calculix", "ccx ends with status 201 at an element whose Jacobian is not positive"}, {}},
+      {{"fenicsx", "the Jacobian of an affine cell must not vanish, nor change its sign"}, {}},
+      {{"openfoam", "limits of checkMesh: non-orthogonality 70, skewness 4, aspect ratio 1000"},
+       {{"non_orthogonality", 70}, {"skewness", 4}, {"aspect_ratio", 1000}}},
+      {{"su2", "the dual volumes of a mesh must be positive, all of the boundary in markers"},
+       {},
+       true}};
+  return kPresets;
+}
+
+/// Null where no name was given.
+const Preset* find_preset(const std::string& name) {
+  if (name.empty()) return nullptr;
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) {
+    if (preset.shown.name == name) return &preset;
+    names.push_back(preset.shown.name);
+  }
+  throw OptionError("for", fmt::format("for: '{}' is no preset: expected one of {}", name,
+                                       fmt::join(names, ", ")));
+}
+
+std::size_t find_ruler(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < kRulerCount; ++i) {
+    if (kRulers[i].name == name) return i;
+    names.push_back(kRulers[i].name);
+  }
+  throw OptionError("measure", fmt::format("measure: '{}' is no ruler: expected one of {}", name,
+                                           fmt::join(names, ", ")));
+}
+
+void check_range(const char* option, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  throw OptionError(option,
+                    fmt::format("{}: {:g} is not in {:g} to {:g}", option, value, low, high));
+}
+
+Fact threshold(std::string_view name, double wanted, const MeshRulers& rulers) {
+  const std::size_t i = find_ruler(name);
+  const RulerInfo& of = kRulers[i];
+  const std::string what = fmt::format("worst {}", of.title);
+  const double worst = rulers.figures[i].worst;
+  return of.large_is_good ? at_least(std::string(of.name), what, worst, wanted)
+                          : at_most(std::string(of.name), what, worst, wanted);
+}
+
+std::vector<Fact> same_walls(const MeshData& before, const MeshData& after) {
   std::vector<Wall> then = walls_of(before);
   std::vector<Wall> now = walls_of(after);
   const auto split = [](std::vector<Wall>& walls) {
@@ -311,25 +366,71 @@ std::vector<Fact> compare_meshes(const std::filesystem::path& file,
   };
   const std::vector<Wall> inner_then = split(then);
   const std::vector<Wall> inner_now = split(now);
+  return {same("surface", "triangles of the surface", then, now),
+          same("walls", "faces between two labels", inner_then, inner_now)};
+}
+
+}  // namespace
+
+std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
+  check_range("min_dihedral", options.min_dihedral, 0, 71);
+  check_range("max_dihedral", options.max_dihedral, 70, 180);
+  const Preset* const preset = find_preset(options.preset);
+  for (const auto& [name, wanted] : options.measure) find_ruler(name);
+  const bool asks_for_inverted = options.no_inverted || preset != nullptr;
+  const MeshData& data = MeshAccess::data(mesh);
   std::vector<Fact> facts;
-  facts.push_back(same("surface", "triangles of the surface", then, now));
-  facts.push_back(same("walls", "faces between two labels", inner_then, inner_now));
+  if (asks_for_inverted) {
+    scale_of(mesh);  // or an error with the file
+    facts.push_back(no_inverted(data));
+  }
+  if (preset != nullptr && preset->wants_markers) facts.push_back(no_bare_boundary(data));
+  const Measurement measured = measure(mesh, {.threads = options.threads});
+  if (measured.curved && asks_for_inverted) {
+    facts.push_back(at_most("turned_over", "curved tets turned over",
+                            static_cast<double>(measured.curved->turned_over), 0));
+  }
+  const MeshStatistics& statistics = measured.statistics;
+  if (options.min_dihedral > 0) {
+    facts.push_back(at_least("theta_min", "smallest dihedral angle", statistics.theta_min,
+                             options.min_dihedral));
+  }
+  if (options.max_dihedral < 180) {
+    facts.push_back(
+        at_most("theta_max", "largest dihedral angle", statistics.theta_max, options.max_dihedral));
+  }
+  if (preset != nullptr) {
+    for (const auto& [name, wanted] : preset->rulers) {
+      facts.push_back(threshold(name, wanted, *measured.rulers));
+    }
+  }
+  for (const auto& [name, wanted] : options.measure) {
+    facts.push_back(threshold(name, wanted, *measured.rulers));
+  }
+  return facts;
+}
+
+std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
+  const MeshData& before = MeshAccess::data(first);
+  const MeshData& after = MeshAccess::data(second);
+  const Scale scale = scale_of(first);
+  scale_of(second);  // or an error
+  std::vector<Fact> facts = same_walls(before, after);
   facts.push_back(same("triangles", "named triangles with labels", named_triangles(before),
                        named_triangles(after)));
   facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
   facts.push_back(same_groups(before, after, scale));
   for (Fact& fact : same_volumes(before, after, scale)) facts.push_back(std::move(fact));
-  facts.push_back(no_inverted(after, no_inverted(before).value.get<std::size_t>()));
+  facts.push_back(no_inverted(after, std::get<std::uint64_t>(no_inverted(before).value)));
   if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
     facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
                          fixed_mid_nodes(after)));
   }
-  const MeasureOptions wanted = {.threads = threads};
-  const Measurement first = measure(load(file, threads), wanted);
-  const Measurement second = measure(load(improved, threads), wanted);
-  if (first.curved && second.curved) add_second_order(*first.curved, *second.curved, facts);
-  const MeshStatistics& was = first.statistics;
-  const MeshStatistics& is = second.statistics;
+  const Measurement then = measure(first, {.threads = threads});
+  const Measurement now = measure(second, {.threads = threads});
+  if (then.curved && now.curved) add_second_order(*then.curved, *now.curved, facts);
+  const MeshStatistics& was = then.statistics;
+  const MeshStatistics& is = now.statistics;
   facts.push_back(at_least("theta_min", "smallest dihedral angle", is.theta_min, was.theta_min));
   facts.push_back(at_most("theta_max", "largest dihedral angle", is.theta_max,
                           std::max(was.theta_max, Goal().max_angle)));
@@ -338,4 +439,10 @@ std::vector<Fact> compare_meshes(const std::filesystem::path& file,
   return facts;
 }
 
-}  // namespace tetmend::apps
+std::vector<CheckPreset> check_presets() {
+  std::vector<CheckPreset> shown;
+  for (const Preset& preset : presets()) shown.push_back(preset.shown);
+  return shown;
+}
+
+}  // namespace tetmend

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The classes Mesh and Trace of the extension, and improving.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace tetmend::python {
+
+void add_mesh(pybind11::module_& module);
+void add_improve(pybind11::module_& module);
+void add_trace(pybind11::module_& module);
+
+}  // namespace tetmend::python

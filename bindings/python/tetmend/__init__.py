@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""Better tetrahedral meshes, with the same surface.
+
+    import tetmend
+    result = tetmend.improve(points, tets, labels=materials, threads=4)
+    result.points, result.tets, result.labels
+
+Points are an array (n, 3) of real numbers, tets an array (m, 4) of numbers of points, from 0. The surface, the faces between
+two labels and all other constraints stay bit for bit. The same input gives the same output, for every number of threads, and
+the same as the command line.
+
+`tetmend.gmsh`, `tetmend.meshio`, `tetmend.vtk` and `tetmend.pyvista` improve meshes of these programs where they are.
+"""
+
+from tetmend._catalogue import Operator, Parameter, Schedule, formats, operators, schedules
+from tetmend._check import Check, Fact, check
+from tetmend._core import Error, OptionError, Progress, __version__
+from tetmend._figures import Pass, Statistics
+from tetmend._improve import Result, improve
+from tetmend._mesh import Group, Mesh, load, save
+from tetmend._quality import BadTet, Quality, quality
+from tetmend._trace import Trace
+
+__all__ = [
+    "BadTet", "Check", "Error", "Fact", "Group", "Mesh", "Operator", "OptionError", "Parameter", "Pass", "Progress", "Quality",
+    "Result", "Schedule", "Statistics", "Trace", "__version__", "check", "formats", "improve", "load", "operators", "quality",
+    "save", "schedules",
+]

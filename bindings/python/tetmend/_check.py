@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Facts about a mesh, or about what became of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tetmend import _core
+from tetmend._mesh import Mesh, PathLike, load
+
+
+@dataclass(frozen=True)
+class Fact:
+    """What was looked at, and whether it holds."""
+
+    name: str
+    holds: bool
+    text: str
+    value: float | int | None
+    wanted: float | int | None
+
+
+@dataclass(frozen=True)
+class Check:
+    """All facts. It is true if all of them hold."""
+
+    facts: list[Fact]
+
+    @property
+    def holds(self) -> bool:
+        """Whether all of them do."""
+        return all(fact.holds for fact in self.facts)
+
+    @property
+    def status(self) -> int:
+        """Exit status of `tetmend check`: 0 all of it holds, 3 something does not."""
+        return 0 if self.holds else 3
+
+    def __bool__(self) -> bool:
+        return self.holds
+
+    def __str__(self) -> str:
+        return "\n".join(f"{'ok  ' if fact.holds else 'FAIL'}  {fact.text}" for fact in self.facts)
+
+
+def check(mesh: Mesh | PathLike, improved: Mesh | PathLike | None = None, *, min_dihedral: float = 0,
+          max_dihedral: float = 180, no_inverted: bool = False, measure: Mapping[str, float] | None = None, preset: str = "",
+          threads: int = 1) -> Check:
+    """Does a mesh keep what a solver, or its input, asks of it? As `tetmend check` does.
+
+    With two meshes: the same surface, walls, labels, groups and volumes, and nothing worse; thresholds are asked of the second.
+    min_dihedral, max_dihedral: degrees. no_inverted: in exact arithmetic. measure: worst values of rulers,
+    {"mean_ratio": 0.1}. preset: what a solver asks: "calculix", "fenicsx", "openfoam", "su2" (`--for`).
+
+    >>> tet = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    >>> print(check(tet, min_dihedral=60, no_inverted=True))
+    ok    no inverted or flat tet, in exact arithmetic
+    FAIL  smallest dihedral angle 54.7356, wanted at least 60
+    >>> check(tet, tet).status
+    0
+    """
+    asks = min_dihedral > 0 or max_dihedral < 180 or no_inverted or bool(measure) or bool(preset)
+    if not asks and improved is None:
+        raise _core.Error("nothing to check: give a threshold, a preset or a second mesh")
+    first, second = (each if isinstance(each, Mesh) or each is None else load(each, threads=threads) for each in (mesh, improved))
+    facts = _core.check(first._core, None if second is None else second._core, min_dihedral, max_dihedral, no_inverted,
+                        list((measure or {}).items()), preset, threads)
+    return Check([Fact(**each) for each in facts])

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: MIT
+"""A mesh, and files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tetmend import _core
+from tetmend._arrays import Forms, pack, unpack
+
+PathLike = str | os.PathLike[str]
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """A named or numbered set of points (dimension 0), edges (1), triangles (2) or tets (3).
+
+    `members` are their numbers. Left out, the group has all elements with the label `number`.
+    """
+
+    dimension: int
+    number: int = 0
+    name: str = ""
+    members: ArrayLike | None = None
+
+
+def _array(values: ArrayLike | None) -> NDArray[Any] | None:
+    if values is None:
+        return None
+    array = np.asarray(values)
+    return None if array.size == 0 else array
+
+
+def _indices(name: str, values: ArrayLike | None, count: int) -> NDArray[Any] | None:
+    """Numbers, also of a mask."""
+    array = _array(values)
+    if array is None or array.dtype != bool:
+        return array
+    if array.shape != (count,):
+        raise _core.Error(f"{name} has shape {array.shape}, but a mask of {count} points is wanted")
+    return np.flatnonzero(array)
+
+
+class Mesh:
+    """Points, tets and what else belongs to them. It does not change; its arrays are read-only views.
+
+    >>> mesh = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], cell_data={"heat": [2.5]})
+    >>> mesh.points.shape, mesh.tets.tolist(), mesh.cell_data["heat"].tolist()
+    ((4, 3), [[0, 1, 2, 3]], [2.5])
+    >>> Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 4]])
+    Traceback (most recent call last):
+    tetmend._core.Error: tets[0, 3] is 4, but there are 4 points
+
+    Arguments and attributes, for n points and m tets:
+
+    points            (n, 3), real
+    tets              (m, 4), integers; which way round does not matter
+    labels            (m,), integers: regions. A face between two labels stays
+    parts             (m,), integers, or None: what labels do not tell apart. A face between two parts stays
+    triangles, edges  (k, 3) and (k, 2): those of the surface with a name, and constraints inside. They stay
+    triangle_labels, edge_labels, point_labels    carried along
+    required          numbers of points, or a mask of them: they neither move nor vanish
+    point_data, cell_data, triangle_data, edge_data    dicts of named arrays: of points, tets, triangles, edges
+    groups            a sequence of Group
+
+    Raises Error, a ValueError, with the place of what is wrong.
+    """
+
+    def __init__(self, points: ArrayLike, tets: ArrayLike, *, labels: ArrayLike | None = None,
+                 parts: ArrayLike | None = None, triangles: ArrayLike | None = None, triangle_labels: ArrayLike | None = None,
+                 edges: ArrayLike | None = None, edge_labels: ArrayLike | None = None,
+                 point_labels: ArrayLike | None = None, required: ArrayLike | None = None,
+                 point_data: Mapping[str, ArrayLike] | None = None, cell_data: Mapping[str, ArrayLike] | None = None,
+                 triangle_data: Mapping[str, ArrayLike] | None = None, edge_data: Mapping[str, ArrayLike] | None = None,
+                 groups: Sequence[Group] = ()) -> None:
+        point_array, tet_array = np.asarray(points), np.asarray(tets)
+        elements = {"triangles": _array(triangles), "edges": _array(edges)}
+        counts = {"point_data": len(point_array) if point_array.ndim else 0, "cell_data": len(tet_array) if tet_array.ndim else 0,
+                  **{f"{name[:-1]}_data": 0 if array is None else len(array) for name, array in elements.items()}}
+        data = {"point_data": point_data, "cell_data": cell_data, "triangle_data": triangle_data, "edge_data": edge_data}
+        packed = {name: pack(name, arrays, counts[name]) for name, arrays in data.items()}
+        arrays = {**elements, "labels": _array(labels), "parts": _array(parts), "triangle_labels": _array(triangle_labels),
+                  "edge_labels": _array(edge_labels), "point_labels": _array(point_labels),
+                  "required": _indices("required", required, counts["point_data"]),
+                  **{name: values for name, (values, _) in packed.items()}}
+        sets = [(group.dimension, group.number, group.name, _array(group.members)) for group in groups]
+        self._core = _core.Mesh(point_array, tet_array, arrays, sets)
+        self._forms: dict[str, Forms] = {name: forms for name, (_, forms) in packed.items()}
+        self._integer: np.dtype[Any] = tet_array.dtype
+
+    @classmethod
+    def _of(cls, core: _core.Mesh, forms: dict[str, Forms] | None = None, integer: np.dtype[Any] | None = None) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._core = core
+        mesh._forms = forms or {}
+        mesh._integer = integer or np.dtype(np.int32)
+        return mesh
+
+    def __repr__(self) -> str:
+        return f"<tetmend.Mesh: {self._core.point_count:,} points, {self._core.tet_count:,} tets>"
+
+    def _integers(self, array: NDArray[Any]) -> NDArray[Any]:
+        """Numbers of points, as the type that was given."""
+        if self._integer == np.uint32:
+            return array.view(np.uint32)
+        return array if array.dtype == self._integer else array.astype(self._integer)
+
+    @cached_property
+    def points(self) -> NDArray[np.float64]:
+        """(n, 3)."""
+        return self._core.points
+
+    @cached_property
+    def tets(self) -> NDArray[Any]:
+        """(m, 4), of the type of integers that was given; int32 for a mesh from a file."""
+        return self._integers(self._core.tets)
+
+    @cached_property
+    def triangles(self) -> NDArray[Any]:
+        """(k, 3)."""
+        return self._integers(self._core.triangles)
+
+    @cached_property
+    def edges(self) -> NDArray[Any]:
+        """(k, 2)."""
+        return self._integers(self._core.edges)
+
+    @cached_property
+    def labels(self) -> NDArray[np.int32]:
+        """(m,): regions of the tets."""
+        return self._core.labels
+
+    @cached_property
+    def parts(self) -> NDArray[np.int32]:
+        """(m,), or (0,) where there are none."""
+        return self._core.parts
+
+    @cached_property
+    def triangle_labels(self) -> NDArray[np.int32]:
+        """(k,)."""
+        return self._core.triangle_labels
+
+    @cached_property
+    def edge_labels(self) -> NDArray[np.int32]:
+        """(k,)."""
+        return self._core.edge_labels
+
+    @cached_property
+    def point_labels(self) -> NDArray[np.int32]:
+        """(n,), or (0,) where all are 0."""
+        return self._core.point_labels
+
+    @cached_property
+    def required(self) -> NDArray[Any]:
+        """Numbers of the points that neither move nor vanish."""
+        return self._integers(self._core.required)
+
+    @cached_property
+    def point_data(self) -> dict[str, NDArray[Any]]:
+        """Named arrays of the points."""
+        return unpack(self._core.point_data, self._forms.get("point_data", {}))
+
+    @cached_property
+    def cell_data(self) -> dict[str, NDArray[Any]]:
+        """Named arrays of the tets."""
+        return unpack(self._core.cell_data, self._forms.get("cell_data", {}))
+
+    @cached_property
+    def triangle_data(self) -> dict[str, NDArray[Any]]:
+        """Named arrays of the triangles."""
+        return unpack(self._core.triangle_data, self._forms.get("triangle_data", {}))
+
+    @cached_property
+    def edge_data(self) -> dict[str, NDArray[Any]]:
+        """Named arrays of the edges."""
+        return unpack(self._core.edge_data, self._forms.get("edge_data", {}))
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """Named sets, each with its members."""
+        return [Group(*group) for group in self._core.groups]
+
+    @property
+    def notes(self) -> list[str]:
+        """What of the file it was loaded from is not here, one sentence each."""
+        return self._core.notes
+
+    def save(self, file: PathLike, *, threads: int = 1, variant: str = "") -> list[str]:
+        """As tetmend.save()."""
+        return save(file, self, threads=threads, variant=variant)
+
+
+def load(file: PathLike, *, threads: int = 1, label_array: str = "") -> Mesh:
+    """Reads a mesh; the format follows from the extension, see formats().
+
+    label_array: the array over cells that holds their labels; empty: the one with a name that mesh tools use.
+    Raises Error, "FILE:LINE: reason", for a file that cannot be read. `Mesh.notes` names what of it is not kept.
+    """
+    return Mesh._of(_core.load(os.fspath(file), threads, label_array))
+
+
+def save(file: PathLike, mesh: Mesh, *, threads: int = 1, variant: str = "") -> list[str]:
+    """Writes a mesh, and returns what of it the format cannot hold, one sentence each.
+
+    The file appears when it is complete; a failure leaves an older one as it was. Where the command line writes the same mesh,
+    the bytes are the same.
+    variant: of a format with several, "2.2 ASCII" of `.msh`; empty: as the mesh was read.
+    """
+    return _core.save(os.fspath(file), mesh._core, threads, variant)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""Options of improve() as the text that the library takes."""
+
+from __future__ import annotations
+
+import difflib
+import numbers
+import operator
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, TypedDict, Union
+
+from tetmend import _core
+
+Text = Union[str, "os.PathLike[str]"]
+
+
+class Options(TypedDict, total=False):
+    """What improve() takes besides the mesh: the options of `tetmend improve`, with `_` for `-`. None is the default.
+
+    docs/library.md has their meaning. The option `tets`, how far the mesh may grow, stands in the signature of improve().
+    """
+
+    schedule: Text
+    script: str
+    set: Mapping[str, Any]
+    plugin: Text | Sequence[Text]
+    goal: float | tuple[float, float] | str
+    measure: str
+    threads: int
+    time_limit: float
+    protect: str | Sequence[str]
+    only: str | Sequence[str]
+    layers: str
+    keep_size: bool
+    conserve: str | Sequence[str]
+    ignore_interior: bool
+    trace: Text
+    trace_around: str
+    trace_operator: str | Sequence[str]
+    trace_depth: int
+    trace_limit: int | str
+    check_operators: bool
+    limit: bool
+
+
+def _to_text(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (str, os.PathLike)):
+        return str(os.fspath(value))
+    if isinstance(value, numbers.Integral):
+        return str(operator.index(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    raise _core.Error(f"{value!r} is neither text nor a number")
+
+
+def _values_of(name: str, value: Any, adds: bool) -> list[str]:
+    if name == "set":
+        return [f"{key}={_to_text(one)}" for key, one in dict(value).items()]
+    if name == "goal" and isinstance(value, (tuple, list)):
+        return [",".join(_to_text(angle) for angle in value)]
+    if adds and isinstance(value, (tuple, list)):
+        return [_to_text(one) for one in value]
+    return [_to_text(value)]
+
+
+def to_settings(options: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Names and values as on the command line.
+
+    >>> to_settings({"goal": (20, 160), "set": {"max_rounds": 2}, "time_limit": None, "keep_size": True})
+    [('goal', '20,160'), ('set', 'max_rounds=2'), ('keep-size', 'true')]
+    >>> to_settings({"shedule": "thorough"})
+    Traceback (most recent call last):
+    TypeError: improve() has no option 'shedule': did you mean 'schedule'?
+    """
+    adds = {name.replace("-", "_"): several for name, _, several in _core.option_forms()}
+    settings = []
+    for name, value in options.items():
+        if name not in adds:
+            close = difflib.get_close_matches(name, adds, 1)
+            hint = f": did you mean {close[0]!r}?" if close else ": expected one of " + ", ".join(adds)
+            raise TypeError(f"improve() has no option {name!r}{hint}")
+        if value is None:
+            continue
+        try:
+            settings += [(name.replace("_", "-"), text) for text in _values_of(name, value, adds[name])]
+        except _core.Error as error:
+            raise _core.Error(f"{name}: {error}") from None
+    return settings

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""The figures of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from tetmend import _core
+from tetmend._figures import Statistics
+from tetmend._mesh import Mesh
+
+
+@dataclass(frozen=True)
+class BadTet:
+    """A tet that misses the goal of 30 and 150 degrees."""
+
+    tet: int
+    number: int
+    """What its file calls it."""
+    label: int
+    centre: tuple[float, float, float]
+    theta_min: float
+    theta_max: float
+    quality: float
+    """Minimum sine; below 0: inverted."""
+    free_vertices: int
+    reason: str
+    """Why it is there: 'frozen', 'surface', 'constraint', 'no_free_vertex', 'search'."""
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What quality() found."""
+
+    statistics: Statistics
+    measures: dict[str, dict[str, float]]
+    """Worst and mean value of each measure that was asked for."""
+    limit: dict[str, Any] | None
+    """What no mesh of this surface can beat."""
+    bad_tets: list[BadTet]
+    """The worst first."""
+    build: dict[str, Any]
+    """What is peculiar about the mesh."""
+
+
+def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: ArrayLike | None = None,
+            measures: Sequence[str] = (), rulers: bool = True, limit: bool = False, bad_tets: bool = False,
+            threads: int = 1) -> Quality:
+    """Measures a Mesh, or quality(points, tets).
+
+    measures: names of further measures, see `tetmend quality --help`. limit: prove what the surface allows. bad_tets: list them,
+    with reasons. Raises Error for a mesh without tets or of broken topology.
+
+    >>> found = quality([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], bad_tets=True)
+    >>> round(found.statistics.theta_min, 4), found.statistics.n_bad, found.bad_tets
+    (54.7356, 0, [])
+    """
+    if not isinstance(mesh, Mesh):
+        if tets is None:
+            raise TypeError("quality() takes points and tets, or a Mesh")
+        mesh = Mesh(mesh, tets, labels=labels)
+    elif tets is not None or labels is not None:
+        raise TypeError("a Mesh has its own tets and labels")
+    figures = _core.measure(mesh._core, list(measures), rulers, limit, bad_tets, threads)
+    return Quality(Statistics(figures["statistics"]), figures["measures"], figures["limit"],
+                   [BadTet(**{**each, "centre": tuple(each["centre"])}) for each in figures["bad_tets"]], figures["build"])

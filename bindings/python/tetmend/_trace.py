@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""A recorded run."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from typing import Any
+
+from tetmend import _core
+from tetmend._mesh import Mesh, PathLike
+
+_AT_ONCE = 4096  # events
+
+
+class Trace:
+    """What `improve(..., trace=FILE)` recorded, opened for reading.
+
+    Events, calls (attempts of operators), visits (bad tets that a pass turned to) and passes come as dicts; vertices are numbered
+    as the run numbered them. The calls that call c makes are those from c + 1 up to before its 'subtree_end'.
+
+        trace = tetmend.Trace("run.trace")
+        accepted = sum(call["accepted"] for call in trace.calls())
+        trace.mesh_at(trace.call(17)["events"][0]).save("then.vtu")
+    """
+
+    def __init__(self, file: PathLike) -> None:
+        self._core = _core.Trace(os.fspath(file))
+
+    def __repr__(self) -> str:
+        return f"<tetmend.Trace of {self.input}: {self.call_count:,} calls, {self.event_count:,} events>"
+
+    @property
+    def program(self) -> str:
+        """Name and version."""
+        return self._core.program
+
+    @property
+    def input(self) -> str:
+        """File of the mesh; empty: it was made of arrays."""
+        return self._core.input
+
+    @property
+    def schedule(self) -> str:
+        """Its name."""
+        return self._core.schedule
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """Parameters of the schedule."""
+        return dict(self._core.settings)
+
+    @property
+    def filter(self) -> str:
+        """What was left out, in words; empty: nothing."""
+        return self._core.filter
+
+    @property
+    def damage(self) -> str:
+        """How far the file can be read, and why no further; empty: it is complete."""
+        return self._core.damage
+
+    @property
+    def limit_reached(self) -> bool:
+        """The trace ends before the run, for its size."""
+        return self._core.limit_reached
+
+    @property
+    def event_count(self) -> int:
+        """Events in all."""
+        return self._core.event_count
+
+    @property
+    def call_count(self) -> int:
+        """Calls in all."""
+        return self._core.call_count
+
+    def call(self, number: int) -> dict[str, Any]:
+        """One attempt of an operator."""
+        return self._core.call(number)
+
+    def calls(self, *, outermost: bool = False) -> Iterator[dict[str, Any]]:
+        """All of them, or those that no other call made."""
+        number = 0
+        while number < self._core.call_count:
+            call = self._core.call(number)
+            yield {"number": number, **call}
+            number = call["subtree_end"] if outermost else number + 1
+
+    def visits(self) -> Iterator[dict[str, Any]]:
+        """The bad tets that passes turned to."""
+        return (self._core.visit(i) for i in range(self._core.visit_count))
+
+    def passes(self) -> Iterator[dict[str, Any]]:
+        """The passes of the schedule."""
+        return (self._core.pass_(i) for i in range(self._core.pass_count))
+
+    def events(self, first: int = 0, last: int | None = None) -> Iterator[dict[str, Any]]:
+        """From one up to before the other."""
+        end = self.event_count if last is None else last
+        for begin in range(first, end, _AT_ONCE):
+            yield from self._core.events(begin, min(begin + _AT_ONCE, end))
+
+    def mesh_at(self, n: int) -> Mesh:
+        """The mesh after the first n events. Takes a microsecond for each of them."""
+        return Mesh._of(self._core.mesh_at(n))
+
+    def summary(self) -> str:
+        """As `tetmend trace FILE` prints it."""
+        return self._core.summary()
+
+    def tree(self, call: int) -> str:
+        """A call and all in it, as text."""
+        return self._core.tree(call)
+
+    def dot(self, call: int) -> str:
+        """The same as a graph for Graphviz."""
+        return self._core.dot(call)
+
+    def slices(self) -> Any:
+        """All of it in the JSON format of Perfetto and chrome://tracing."""
+        return json.loads(self._core.slices())

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Facts about a mesh, or about what became of it: what `tetmend check` prints.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <tetmend/mesh.h>
+
+namespace tetmend {
+
+/// What was looked at, and whether it holds.
+struct Fact {
+  using Number =
+      std::variant<std::monostate, std::uint64_t, double>;  ///< nothing, a count, a value
+  std::string name;                                         ///< for programs
+  bool holds = true;
+  std::string text;  ///< for people
+  Number value;
+  Number wanted;
+};
+
+/// Thresholds and presets; the options of `tetmend check` have the same names.
+struct CheckOptions {
+  double min_dihedral = 0;    ///< degrees, 0 to 71: no smaller dihedral angle; 0: any
+  double max_dihedral = 180;  ///< degrees, 70 to 180: no larger one; 180: any
+  bool no_inverted =
+      false;  ///< no inverted or flat tet, in exact arithmetic, as vertices are listed
+  /// Worst values of rulers (kRulers): {"mean_ratio", 0.1}.
+  std::vector<std::pair<std::string, double>> measure = {};
+  std::string preset = {};  ///< what a solver asks, see check_presets(); empty: none
+  int threads = 1;          ///< 1 to 1024
+
+  /// Whether there is anything to look at.
+  bool asks() const {
+    return min_dihedral > 0 || max_dihedral < 180 || no_inverted || !measure.empty() ||
+           !preset.empty();
+  }
+};
+
+/// The facts that the options ask for, in a fixed order.
+/// @throws OptionError for an unknown ruler ("measure") or preset ("for"), or a threshold out of
+/// range; Error as measure().
+TETMEND_API std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options);
+
+/// What an improved mesh must have in common with the mesh that it came from, and that it is no
+/// worse. Looks at the two meshes alone: it knows nothing of the run.
+/// @throws Error as measure(). Cost: n log n.
+TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1);
+
+struct CheckPreset {
+  std::string_view name;
+  std::string_view source;  ///< who asks for it
+};
+/// What CheckOptions::preset can name; all of them ask for no inverted tet.
+TETMEND_API std::vector<CheckPreset> check_presets();
+
+}  // namespace tetmend

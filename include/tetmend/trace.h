@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// A recorded run: what Options::trace wrote, opened for reading.
+//
+//   tetmend::Trace trace("run.trace");
+//   for (std::uint32_t c = 0; c < trace.call_count(); c = trace.call(c).subtree_end) {
+//     std::puts(std::string(trace.call(c).verdict).c_str());
+//   }
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <tetmend/mesh.h>
+#include <tetmend/statistics.h>
+
+namespace tetmend {
+
+/// Holds the compressed events and an index of them in memory: about 90 bytes a call. Events, calls
+/// and vertices are numbered from 0; vertices as the run numbered them. Reading from several threads
+/// at once is safe.
+class TETMEND_API Trace {
+ public:
+  /// From the event that begins something to the one after the event that ends it.
+  struct Range {
+    std::uint64_t begin = 0, end = 0;
+    double begin_seconds = 0, end_seconds = 0;  ///< since the trace began
+  };
+
+  struct Pass {
+    std::string_view name;
+    unsigned round = 0;
+    Range events;
+    std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
+    QualityIndicators after;
+  };
+
+  /// A tet that a pass wanted to get rid of.
+  struct Visit {
+    Range events;
+    std::vector<std::uint32_t> tet;  ///< its four vertices
+    double quality = 0;
+    std::uint32_t first_call = 0, last_call = 0;  ///< as of a pass
+  };
+
+  /// One attempt of an operator. Those that it makes, directly or not, have the numbers from its own
+  /// + 1 up to before subtree_end.
+  struct Call {
+    std::string_view operator_name;
+    std::string_view settings;
+    Range events;
+    std::optional<std::uint32_t> parent;
+    std::uint32_t subtree_end = 0;
+    unsigned level = 0;  ///< of recursion, as the operator counts it
+    unsigned depth = 0;  ///< number of calls around it
+    unsigned edits = 0;  ///< made by itself; also those undone
+    std::vector<std::uint32_t>
+        target;                ///< a vertex, two of an edge, three of a face, four of a tet
+    std::string_view verdict;  ///< "accepted", ...; "cut off" if the trace ends before
+    std::string_view reason;   ///< in a sentence
+    bool accepted = false;
+    double worst_before = 0, worst_after = 0;  ///< quality; refused: of what was tried
+  };
+
+  struct Event {
+    std::string_view kind;          ///< "pass begins", "cavity replaced", ...
+    std::string name;               ///< of the pass or operator, where one begins
+    std::optional<double> seconds;  ///< since the trace began; not of edits and candidates
+    std::vector<std::uint32_t>
+        vertices;              ///< of the target or visited tet, or the one vertex edited
+    std::string_view verdict;  ///< where an attempt ends
+    std::size_t removed = 0, created = 0;  ///< tets, where a cavity is replaced
+  };
+
+  /// Reads all events once. A trace that is cut off or damaged is opened up to there: see damage().
+  /// @throws Error when the file cannot be read, is no trace, is of an unknown version, or when an
+  /// event makes no sense: with byte, event and reason. Cost: about 0.3 s for a million events.
+  explicit Trace(const std::filesystem::path& file);
+  ~Trace();
+  Trace(Trace&& other) noexcept;
+  Trace& operator=(Trace&& other) noexcept;
+
+  const std::string& program() const;                                        ///< "tetmend 0.1.0"
+  const std::string& input() const;                                          ///< file of the mesh
+  const std::string& schedule() const;                                       ///< its name
+  const std::vector<std::pair<std::string, std::string>>& settings() const;  ///< of the schedule
+  const std::string& filter() const;  ///< what was left out, in words; empty: nothing
+  const std::string& damage() const;  ///< how far it can be read and why; empty: it is complete
+  bool limit_reached() const;         ///< the trace ends before the run, for its size
+
+  std::uint64_t event_count() const;
+  std::uint32_t call_count() const;
+  std::size_t visit_count() const;
+  std::size_t pass_count() const;
+  // Preconditions: the number is less than the count. @throws Error otherwise.
+  Call call(std::uint32_t number) const;
+  Visit visit(std::size_t number) const;
+  Pass pass(std::size_t number) const;
+  /// The events from one up to before the other. @throws Error when there are not so many.
+  /// Cost: the events, and up to a millisecond.
+  std::vector<Event> events(std::uint64_t first, std::uint64_t last) const;
+
+  /// The mesh after the first n events, 0 to event_count(). @throws Error when there are not so
+  /// many. Cost: a microsecond for each of them.
+  Mesh mesh_at(std::uint64_t n) const;
+
+  // What `tetmend trace` prints: in numbers; a call and all in it, as text and for Graphviz; all of
+  // it as JSON for Perfetto and chrome://tracing, handed over piece by piece.
+  std::string summary() const;
+  std::string tree(std::uint32_t call) const;
+  std::string dot(std::uint32_t call) const;
+  void write_slices(const std::function<void(std::string_view)>& write) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace tetmend

@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: MIT
+"""Meshes in other programs: Gmsh, meshio, VTK, PyVista, ParaView. What is not installed is skipped."""
+
+import importlib
+import runpy
+import sys
+import types
+
+import numpy as np
+import pytest
+import tetmend
+from conftest import SOURCE
+
+
+def volumes(points, tets):
+    a, b, c, d = (points[tets[:, k]] for k in range(4))
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+
+
+def lattice(n, seed=1):
+    """Two cubes side by side, cut into tets, with the inner vertices moved at random. Labels by side."""
+    rng = np.random.default_rng(seed)
+    shape = (2 * n + 1, n + 1, n + 1)
+    index = np.arange(np.prod(shape)).reshape(shape)
+    points = np.stack(np.meshgrid(*(np.arange(k) / n for k in shape), indexing="ij"), axis=-1).reshape(-1, 3)
+    inner = np.all((points > 1e-9) & (points < np.array([2, 1, 1]) - 1e-9), axis=1) & (np.abs(points[:, 0] - 1) > 1e-9)
+    tets = []
+    for axes in ((0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)):
+        corner = np.zeros(3, int)
+        steps = [corner.copy()]
+        for axis in axes:
+            corner[axis] = 1
+            steps.append(corner.copy())
+        tets.append(np.stack([index[tuple(slice(s, s + k - 1) for s, k in zip(step, shape))].ravel() for step in steps], axis=1))
+    tets = np.concatenate(tets)
+    flipped = volumes(points, tets) < 0
+    tets[flipped] = tets[flipped][:, [0, 2, 1, 3]]
+    points[inner] += rng.uniform(-0.3, 0.3, (int(inner.sum()), 3)) / n
+    side = (points[tets].mean(axis=1)[:, 0] > 1).astype(np.int32)
+    return points, tets, side
+
+
+# --- Gmsh
+
+PHYSICAL = [(30, "inlet", -0.1, 0.1), (40, "outlet", 1.9, 2.1), (50, "interface", 0.9, 1.1)]
+
+
+@pytest.fixture
+def gmsh():
+    library = pytest.importorskip("gmsh")
+    library.initialize()
+    library.option.setNumber("General.Terminal", 0)
+    library.option.setNumber("Mesh.Optimize", 0)
+    library.option.setNumber("Mesh.MeshSizeMax", 0.2)
+    library.option.setNumber("Mesh.Binary", 1)  # text would round coordinates
+    yield library
+    library.finalize()
+
+
+@pytest.fixture
+def boxes(gmsh):
+    """Two glued boxes with named groups, meshed."""
+    gmsh.model.add("boxes")
+    left, right = gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1), gmsh.model.occ.addBox(1, 0, 0, 1, 1, 1)
+    gmsh.model.occ.fragment([(3, left)], [(3, right)])
+    gmsh.model.occ.synchronize()
+    groups = [(3, [1], 10, "left steel"), (3, [2], 20, "right copper")]
+    for number, name, low, high in PHYSICAL:
+        groups.append((2, [tag for _, tag in gmsh.model.getEntitiesInBoundingBox(low, -1, -1, high, 2, 2, 2)], number, name))
+    for dimension, tags, number, name in groups:
+        gmsh.model.addPhysicalGroup(dimension, tags, number)
+        gmsh.model.setPhysicalName(dimension, number, name)
+    gmsh.model.mesh.generate(3)
+    return gmsh
+
+
+def contents(gmsh):
+    """Names of groups, with the nodes of each element of a surface, and the volume of each region."""
+    found = {}
+    tags, xyz, _ = gmsh.model.mesh.getNodes()
+    order = np.argsort(tags)
+    sorted_tags, points = tags[order], np.array(xyz).reshape(-1, 3)[order]
+    for dimension, number in gmsh.model.getPhysicalGroups():
+        name = gmsh.model.getPhysicalName(dimension, number)
+        kind, width = {2: (2, 3), 3: (4, 4)}[dimension]
+        nodes = np.concatenate([gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, width)
+                                for tag in gmsh.model.getEntitiesForPhysicalGroup(dimension, number)])
+        at = points[np.searchsorted(sorted_tags, nodes)]
+        found[(dimension, number, name)] = (
+            sorted(map(bytes, at)) if dimension == 2 else round(float(np.abs(volumes(points, np.searchsorted(sorted_tags, nodes))).sum()), 9))
+    return found
+
+
+def test_gmsh_keeps_names_groups_and_classification(boxes, tmp_path):
+    import tetmend.gmsh
+    before = contents(boxes)
+    entities = boxes.model.getEntities()
+    sheets = {(d, t): list(boxes.model.mesh.getNodes(d, t)[0]) for d, t in entities if d < 3}
+    result = tetmend.gmsh.improve()
+    assert result.before.n_bad > 50 and result.after.n_bad == 0 and result.ending == "finished"
+    assert len(before) == 5 and contents(boxes) == before
+    assert boxes.model.getEntities() == entities
+    assert {key: list(boxes.model.mesh.getNodes(*key)[0]) for key in sheets} == sheets
+    assert sum(len(boxes.model.mesh.getElementsByType(4, volume)[0]) for volume in (1, 2)) == result.after.tets
+    boxes.write(str(tmp_path / "boxes.msh"))
+    boxes.clear()
+    boxes.open(str(tmp_path / "boxes.msh"))
+    assert contents(boxes) == before
+    saved = tetmend.load(tmp_path / "boxes.msh")
+    assert tetmend.quality(saved).statistics.theta_min == pytest.approx(result.after.theta_min, abs=1e-9)
+    # Once more, on what is there now: nothing bad is left, so little changes.
+    assert tetmend.gmsh.improve().after.n_bad == 0
+
+
+def test_gmsh_nodes_and_tets_that_stay_keep_their_tags(boxes):
+    import tetmend.gmsh
+    tags, nodes = boxes.model.mesh.getElementsByType(4)
+    then = {tag: frozenset(four) for tag, four in zip(tags, nodes.reshape(-1, 4).tolist())}
+    result = tetmend.gmsh.improve()
+    tags, nodes = boxes.model.mesh.getElementsByType(4)
+    now = {tag: frozenset(four) for tag, four in zip(tags, nodes.reshape(-1, 4).tolist())}
+    same = [tag for tag in now if tag in then]
+    assert len(same) == (result.tet_map >= 0).sum() > 0 and all(now[tag] == then[tag] for tag in same)
+
+
+def test_gmsh_improves_the_volumes_that_are_named(boxes):
+    import tetmend.gmsh
+    before = contents(boxes)
+    right = boxes.model.mesh.getElementsByType(4, 2)
+    result = tetmend.gmsh.improve(tags=[1])
+    assert result.before.n_bad > result.after.n_bad
+    assert all(np.array_equal(then, now) for then, now in zip(right, boxes.model.mesh.getElementsByType(4, 2)))
+    assert contents(boxes) == before
+    with pytest.raises(ValueError, match=r"tags\[1\]: there is no volume 7"):
+        tetmend.gmsh.improve(tags=[1, 7])
+
+
+def test_gmsh_keeps_what_is_embedded(gmsh):
+    import tetmend.gmsh
+    gmsh.model.add("embedded")
+    box = gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+    sheet = gmsh.model.occ.addRectangle(0.3, 0.3, 0.5, 0.4, 0.4)
+    point = gmsh.model.occ.addPoint(0.2, 0.2, 0.2)
+    line = gmsh.model.occ.addLine(gmsh.model.occ.addPoint(0.8, 0.8, 0.2), gmsh.model.occ.addPoint(0.8, 0.8, 0.4))
+    gmsh.model.occ.synchronize()
+    gmsh.model.mesh.embed(2, [sheet], 3, box)
+    gmsh.model.mesh.embed(1, [line], 3, box)
+    gmsh.model.mesh.embed(0, [point], 3, box)
+    gmsh.model.mesh.generate(3)
+    kept = {key: gmsh.model.mesh.getNodes(*key, True) for key in ((2, sheet), (1, line), (0, point))}
+    result = tetmend.gmsh.improve()
+    assert result.touched_tets > 0
+    faces = {frozenset(face) for four in gmsh.model.mesh.getElementsByType(4)[1].reshape(-1, 4).tolist()
+             for face in (four[1:], four[:1] + four[2:], four[:2] + four[3:], four[:3])}
+    assert all(frozenset(three) in faces for three in gmsh.model.mesh.getElementsByType(2, sheet)[1].reshape(-1, 3).tolist())
+    edges = {pair for face in faces for pair in ({frozenset((a, b)) for a in face for b in face if a != b})}
+    assert all(frozenset(two) in edges for two in gmsh.model.mesh.getElementsByType(1, line)[1].reshape(-1, 2).tolist())
+    for key, (tags, xyz, _) in kept.items():
+        now = gmsh.model.mesh.getNodes(*key, True)
+        assert np.array_equal(tags, now[0]) and np.array_equal(xyz, now[1])
+
+
+def test_gmsh_refuses_what_it_cannot_keep_and_leaves_it(gmsh):
+    import tetmend.gmsh
+    with pytest.raises(ValueError, match="no tets in memory"):
+        tetmend.gmsh.improve()
+    gmsh.model.add("curved")
+    gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
+    gmsh.model.occ.synchronize()
+    gmsh.model.mesh.generate(3)
+    gmsh.model.mesh.setOrder(2)
+    before = gmsh.model.mesh.getElements()[2]
+    with pytest.raises(ValueError, match="volume 1 has elements 'Tetrahedron 10'"):
+        tetmend.gmsh.improve()
+    assert all(np.array_equal(then, now) for then, now in zip(before, gmsh.model.mesh.getElements()[2]))
+
+
+# --- meshio
+
+
+def test_meshio_keeps_blocks_data_sets_and_fields(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    import tetmend.meshio
+    points, tets, side = lattice(5)
+    left, right = tets[side == 0], tets[side == 1]
+    wall = np.array([[0, 1, 6], [1, 7, 6]])
+    faces = np.sort(np.concatenate([tets[:, k] for k in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]), axis=1)
+    rows, counts = np.unique(faces, axis=0, return_counts=True)
+    wall = rows[counts == 1][:20]
+    core = np.flatnonzero(points[left].mean(axis=1)[:, 1] > 0.5)
+    mesh = meshio.Mesh(
+        points, [("tetra", left), ("triangle", wall), ("tetra", right), ("vertex", [[0], [3]])],
+        point_data={"linear": points @ [1.0, 2.0, 3.0], "vector": points.astype(np.float32)},
+        cell_data={"gmsh:physical": [np.full(len(left), 7), np.full(20, 3), np.full(len(right), 9), np.array([1, 2])],
+                   "heat": [np.full(len(left), 1.5), np.zeros(20), np.full(len(right), 2.5), np.zeros(2)]},
+        field_data={"steel": np.array([7, 3]), "inlet": np.array([3, 2])},
+        cell_sets={"core": [core, np.empty(0, int), np.empty(0, int), np.empty(0, int)],
+                   "inlet": [np.empty(0, int), np.arange(5), np.empty(0, int), np.array([1])]},
+        point_sets={"corners": np.array([0, 5])})
+    better = tetmend.meshio.improve(mesh, threads=2)
+    result = better.tetmend_result
+    assert result.before.n_bad > 50 > result.after.n_bad
+    assert [block.type for block in better.cells] == ["tetra", "triangle", "tetra", "vertex"]
+    for i, number, heat in ((0, 7, 1.5), (2, 9, 2.5)):
+        assert (better.cell_data["gmsh:physical"][i] == number).all() and (better.cell_data["heat"][i] == heat).all()
+        assert volumes(better.points, better.cells[i].data).sum() == pytest.approx(1)
+    assert np.array_equal(better.points[better.cells[1].data], points[wall])
+    assert np.array_equal(better.points[better.cells[3].data], points[[[0], [3]]])
+    assert np.allclose(better.point_data["linear"], better.points @ [1.0, 2.0, 3.0])
+    assert better.point_data["vector"].dtype == np.float32
+    inside = better.cell_sets["core"][0]
+    assert volumes(better.points, better.cells[0].data[inside]).sum() == pytest.approx(volumes(points, left[core]).sum())
+    assert list(better.cell_sets["inlet"][1]) == [0, 1, 2, 3, 4] and list(better.cell_sets["inlet"][3]) == [1]
+    assert better.field_data is mesh.field_data
+    assert np.array_equal(better.points[better.point_sets["corners"]], points[[0, 5]])
+    better.write(tmp_path / "better.vtu")
+    assert len(meshio.read(tmp_path / "better.vtu").points) == len(better.points)
+    assert tetmend.meshio.improve(mesh, protect="label:7").tetmend_result.figures["protected"]["tets"] == len(left)
+
+
+def test_meshio_files_of_gmsh_come_back_whole(tmp_path, boxes):
+    meshio = pytest.importorskip("meshio")
+    import tetmend.meshio
+    before = contents(boxes)
+    boxes.write(str(tmp_path / "boxes.msh"))
+    better = tetmend.meshio.improve(meshio.read(tmp_path / "boxes.msh"))
+    assert better.tetmend_result.after.n_bad == 0
+    tags = better.point_data["gmsh:dim_tags"]
+    assert tags.shape == (len(better.points), 2) and (tags[:, 0] <= 3).all()
+    meshio.write(tmp_path / "better.msh", better, file_format="gmsh", binary=False)
+    boxes.clear()
+    boxes.open(str(tmp_path / "better.msh"))
+    assert {key: value for key, value in contents(boxes).items() if key[0] == 3} == \
+        {key: value for key, value in before.items() if key[0] == 3}
+
+
+def test_meshio_refuses_what_it_cannot_keep():
+    meshio = pytest.importorskip("meshio")
+    import tetmend.meshio
+    with pytest.raises(ValueError, match="tetra10"):
+        tetmend.meshio.improve(meshio.Mesh(np.random.rand(10, 3), [("tetra10", [range(10)])]))
+    with pytest.raises(ValueError, match="no tets"):
+        tetmend.meshio.improve(meshio.Mesh(np.random.rand(3, 3), [("triangle", [[0, 1, 2]])]))
+    with pytest.raises(ValueError, match="label_array"):
+        tetmend.meshio.improve(meshio.Mesh(*lattice(1)[:1], [("tetra", lattice(1)[1])]), label_array="nothing")
+
+
+# --- VTK, ParaView
+
+
+def grid_of(points, tets, side):
+    """With a prism's worth of other cells: triangles on the surface, a vertex, and data."""
+    vtk = pytest.importorskip("vtkmodules.all")
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    faces = np.sort(np.concatenate([tets[:, k] for k in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]), axis=1)
+    rows, counts = np.unique(faces, axis=0, return_counts=True)
+    grid = vtk.vtkUnstructuredGrid()
+    nodes = vtk.vtkPoints()
+    nodes.SetDataTypeToDouble()
+    for p in points:
+        nodes.InsertNextPoint(p)
+    grid.SetPoints(nodes)
+    for kind, cells in ((5, rows[counts == 1][:12]), (10, tets), (1, [[4]])):
+        for cell in cells:
+            grid.InsertNextCell(kind, len(cell), list(map(int, cell)))
+    for attributes, name, values in (
+            (grid.GetCellData(), "material", np.concatenate([np.zeros(12, int), side + 1, [0]])),
+            (grid.GetCellData(), "weight", np.linspace(0, 1, len(tets) + 13)),
+            (grid.GetPointData(), "linear", points @ [1.0, 2.0, 3.0])):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        attributes.AddArray(array)
+    note = vtk.vtkStringArray()
+    note.SetName("note")
+    note.InsertNextValue("mine")
+    grid.GetFieldData().AddArray(note)
+    return grid
+
+
+def check_grid(better, points, side):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    types = vtk_to_numpy(better.GetCellTypesArray())
+    assert (types == 5).sum() == 12 and (types == 1).sum() == 1
+    material = vtk_to_numpy(better.GetCellData().GetArray("material"))
+    at = vtk_to_numpy(better.GetPoints().GetData())
+    offsets = vtk_to_numpy(better.GetCells().GetOffsetsArray())
+    nodes = vtk_to_numpy(better.GetCells().GetConnectivityArray())
+    tets = nodes[offsets[:-1][types == 10][:, None] + np.arange(4)]
+    for label in (1, 2):
+        assert volumes(at, tets[material[types == 10] == label]).sum() == pytest.approx(1)
+    assert np.allclose(vtk_to_numpy(better.GetPointData().GetArray("linear")), at @ [1.0, 2.0, 3.0])
+    assert np.array_equal(at[nodes[offsets[:-1][types == 1]]][0], points[4])
+    assert better.GetFieldData().GetAbstractArray("note").GetValue(0) == "mine"
+    return tetmend.quality(at, tets).statistics
+
+
+def test_vtk_grids_come_back_with_their_cells_and_data():
+    points, tets, side = lattice(4)
+    grid = grid_of(points, tets, side)
+    import tetmend.vtk
+    better = tetmend.vtk.improve(grid)
+    assert check_grid(better, points, side).n_bad < 20 < better.tetmend_result.before.n_bad
+    assert grid.GetNumberOfCells() == len(tets) + 13
+    text = importlib.import_module("vtkmodules.all").vtkStringArray()
+    text.SetName("words")
+    text.SetNumberOfValues(len(points))
+    grid.GetPointData().AddArray(text)
+    with pytest.raises(ValueError, match="'words' are no numbers"):
+        tetmend.vtk.improve(grid)
+
+
+def test_the_paraview_macro_does_the_same_in_a_programmable_filter():
+    points, tets, side = lattice(4)
+    grid = grid_of(points, tets, side)
+    vtk = importlib.import_module("vtkmodules.all")
+    macro = runpy.run_path(str(SOURCE / "bindings/python/paraview/tetmend_improve.py"))
+    programmable = vtk.vtkProgrammableFilter()
+    programmable.SetInputData(grid)
+    programmable.SetExecuteMethod(lambda: macro["execute"](programmable))
+    programmable.Update()
+    assert check_grid(programmable.GetUnstructuredGridOutput(), points, side).n_bad < 20
+
+
+# --- PyVista
+
+
+class StubGrid:
+    """What of PyVista's grid the accessor uses."""
+
+    def __init__(self, cells, celltypes, points):
+        self.cells, self.celltypes, self.points = np.asarray(cells), np.asarray(celltypes), np.asarray(points)
+        self.point_data, self.cell_data, self.field_data = {}, {}, {}
+        offset, at = [0], 0
+        keep = np.ones(len(self.cells), bool)
+        for _ in self.celltypes:
+            keep[at] = False
+            offset.append(offset[-1] + int(self.cells[at]))
+            at += 1 + int(self.cells[at])
+        assert at == len(self.cells)
+        self.offset, self.cell_connectivity = np.array(offset), self.cells[keep]
+
+    @property
+    def cells_dict(self):
+        starts = self.offset[:-1]
+        return {kind: np.array([self.cell_connectivity[a:b] for a, b, k in zip(starts, self.offset[1:], self.celltypes) if k == kind])
+                for kind in np.unique(self.celltypes)}
+
+
+def test_pyvista_grids_have_an_accessor(monkeypatch):
+    stub = types.ModuleType("pyvista")
+    stub.UnstructuredGrid = type("UnstructuredGrid", (StubGrid,), {})
+    monkeypatch.setitem(sys.modules, "pyvista", stub)
+    monkeypatch.delitem(sys.modules, "tetmend.pyvista", raising=False)
+    importlib.import_module("tetmend.pyvista")
+    points, tets, side = lattice(4)
+    flat = np.concatenate([[3, *tets[0][:3]], np.insert(tets, 0, 4, axis=1).ravel()])
+    grid = stub.UnstructuredGrid(flat, [5] + [10] * len(tets), points)
+    grid.cell_data["material"] = np.concatenate([[0], side + 1])
+    grid.point_data["linear"] = points @ [1.0, 2.0, 3.0]
+    grid.field_data["note"] = ["mine"]
+    before = grid.tetmend.quality().statistics
+    better = grid.tetmend.improve(threads=2)
+    assert type(better) is stub.UnstructuredGrid and better.tetmend.quality().statistics.n_bad < 20 < before.n_bad
+    now = better.cells_dict[10]
+    for label in (1, 2):
+        assert volumes(better.points, now[better.cell_data["material"][1:] == label]).sum() == pytest.approx(1)
+    assert np.allclose(better.point_data["linear"], better.points @ [1.0, 2.0, 3.0]) and better.field_data["note"] == ["mine"]
+    assert len(better.cells_dict[5]) == 1

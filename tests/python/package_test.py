@@ -1,0 +1,420 @@
+# SPDX-License-Identifier: MIT
+"""The package: arrays in and out, errors with their place, threads, signals, and the same bytes as the command line."""
+
+import ast
+import concurrent.futures
+import doctest
+import importlib
+import json
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+import tetmend
+from conftest import BUILD, MATERIALS, SOURCE
+from tetmend import _core
+
+TET = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+
+
+def volumes(points, tets):
+    a, b, c, d = (points[tets[:, k]] for k in range(4))
+    return np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)) / 6
+
+
+# --- arrays
+
+
+@pytest.mark.parametrize("integer", [np.int32, np.int64, np.uint32, np.uint64, np.int16])
+def test_arrays_come_back_contiguous_and_of_the_type_that_was_given(arrays, integer):
+    result = tetmend.improve(arrays["points"], arrays["tets"].astype(integer), labels=arrays["labels"])
+    assert result.tets.dtype == integer and result.tets.shape[1] == 4 and result.tets.flags.c_contiguous
+    assert result.points.dtype == np.float64 and result.points.flags.c_contiguous
+    assert result.labels.shape == (len(result.tets),)
+    assert result.ending == "finished" and result.after.n_bad == 0 < result.before.n_bad
+    assert result.tets.max() < len(result.points)
+
+
+def test_what_goes_in_stays_as_it_is_and_what_comes_out_cannot_be_written(arrays):
+    before = {name: values.copy() for name, values in arrays.items()}
+    result = tetmend.improve(**arrays)
+    assert all(np.array_equal(before[name], arrays[name]) for name in arrays)
+    with pytest.raises(ValueError, match="read-only"):
+        result.points[0, 0] = 1
+
+
+def test_arrays_outlive_their_mesh(arrays):
+    points = tetmend.improve(**arrays).points
+    assert np.isfinite(points).all() and len(points) > 1000
+
+
+def test_strided_and_small_types_are_read(arrays):
+    wide = np.zeros((len(arrays["points"]), 6))
+    wide[:, ::2] = arrays["points"]
+    reversed_bytes = arrays["tets"].astype(">i4")
+    ours = tetmend.improve(wide[:, ::2], reversed_bytes, labels=arrays["labels"].astype(np.int8))
+    assert np.array_equal(ours.points, tetmend.improve(**arrays).points)
+
+
+def test_maps_say_where_points_and_tets_are(arrays):
+    result = tetmend.improve(**arrays)
+    kept = result.vertex_map >= 0
+    assert (np.diff(result.vertex_map[kept]) > 0).all() and result.vertex_map.min() >= -1
+    faces = np.sort(np.concatenate([arrays["tets"][:, k] for k in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]), axis=1)
+    rows, counts = np.unique(faces, axis=0, return_counts=True)
+    surface = np.unique(rows[counts == 1])
+    assert np.array_equal(result.points[result.vertex_map[surface]], arrays["points"][surface])
+    stays = result.tet_map >= 0
+    assert 0 < stays.sum() < len(stays)
+    assert np.array_equal(np.sort(result.vertex_map[arrays["tets"][stays]], axis=1),
+                          np.sort(result.tets[result.tet_map[stays]], axis=1))
+
+
+def test_labels_keep_their_volumes(arrays):
+    result = tetmend.improve(**arrays)
+    for label in np.unique(arrays["labels"]):
+        then = volumes(arrays["points"], arrays["tets"])[arrays["labels"] == label].sum()
+        now = volumes(result.points, result.tets)[result.labels == label].sum()
+        assert now == pytest.approx(then, rel=1e-12)
+
+
+def test_data_come_over_in_their_form(arrays):
+    x = arrays["points"]
+    result = tetmend.improve(
+        **arrays, point_data={"linear": x @ [1.0, 2.0, 3.0], "tensor": np.tile(np.eye(3), (len(x), 1, 1)), "flag": x[:, 0] > 0},
+        cell_data={"material": arrays["labels"].astype(np.uint8), "heat": np.ones(len(arrays["tets"]), np.float32)})
+    assert np.allclose(result.point_data["linear"], result.points @ [1.0, 2.0, 3.0], atol=1e-10)
+    assert result.point_data["tensor"].shape == (len(result.points), 3, 3)
+    assert np.allclose(result.point_data["tensor"], np.eye(3))
+    assert result.point_data["flag"].dtype == bool
+    assert result.cell_data["material"].dtype == np.uint8 and np.array_equal(result.cell_data["material"], result.labels)
+    assert result.cell_data["heat"].dtype == np.float32 and (result.cell_data["heat"] == 1).all()
+    assert {each["name"] for each in result.figures["data"]} == {"linear", "tensor", "flag", "material", "heat"}
+
+
+def test_constraints_and_groups_come_back(arrays, materials):
+    held = np.zeros(len(arrays["points"]), bool)
+    held[np.unique(arrays["tets"])[::7]] = True
+    inlet = np.arange(10)
+    result = tetmend.improve(**arrays, triangles=materials.triangles, triangle_labels=materials.triangle_labels, required=held,
+                             groups=[tetmend.Group(2, 5, "inlet", inlet), tetmend.Group(3, int(arrays["labels"][0]), "core")])
+    assert len(result.triangles) == len(materials.triangles)
+    assert np.array_equal(np.sort(result.triangle_labels), np.sort(materials.triangle_labels))
+    assert (result.vertex_map[held] >= 0).all()
+    assert np.array_equal(result.points[result.vertex_map[held]], arrays["points"][held])
+    found = {group.name: group for group in result.groups}
+    assert found["inlet"].number == 5 and len(found["inlet"].members) == 10
+    assert np.array_equal(np.sort(result.vertex_map[materials.triangles[inlet]], axis=1),
+                          np.sort(result.triangles[found["inlet"].members], axis=1))
+    assert np.array_equal(found["core"].members, np.flatnonzero(result.labels == arrays["labels"][0]))
+
+
+def test_parts_keep_regions_apart_that_labels_do_not(arrays):
+    parts = arrays.pop("labels")
+    result = tetmend.improve(**arrays, parts=parts)
+    for part in np.unique(parts):
+        then = volumes(arrays["points"], arrays["tets"])[parts == part].sum()
+        assert volumes(result.points, result.tets)[result.parts == part].sum() == pytest.approx(then, rel=1e-12)
+
+
+# --- errors
+
+
+def changed(array, place, value):
+    array = np.array(array, dtype=float if isinstance(value, float) else None)
+    array[place] = value
+    return array
+
+
+@pytest.mark.parametrize(("points", "tets", "more", "message"), [
+    (TET[0], [[0, 1, 2, 4]], {}, "tets[0, 3] is 4, but there are 4 points"),
+    (TET[0], [[0, 1, -2, 3]], {}, "tets[0, 2] is -2, but numbers begin with 0"),
+    (TET[0], np.array([[0, 1, 2, 2**40]]), {}, "tets[0, 3] is 1099511627776, but there are 4 points"),
+    (TET[0], [[0, 1, 2, 2]], {}, "tets[0]: (0, 1, 2, 2): the same vertex twice, counted from 0"),
+    (TET[0], [[0, 1, 2]], {}, "tets has shape (1, 3), but (n, 4) is wanted"),
+    (TET[0], [0, 1, 2, 3], {}, "tets has shape (4,), but (n, 4) is wanted"),
+    (TET[0], [[0.0, 1.0, 2.0, 3.0]], {}, "tets has type float64, but integers are wanted"),
+    (TET[0], [["a", "b", "c", "d"]], {}, "tets has type <U1, but integers are wanted"),
+    (changed(TET[0], (2, 1), np.nan), TET[1], {}, "points[2, 1] is nan"),
+    (changed(TET[0], (3, 0), -np.inf), TET[1], {}, "points[3, 0] is -inf"),
+    ([[0, 0], [1, 0]], TET[1], {}, "points has shape (2, 2), but (n, 3) is wanted"),
+    (np.array(TET[0]) * 1j, TET[1], {}, "points has type complex128, but real numbers are wanted"),
+    (*TET, {"labels": [1, 2]}, "labels has 2 numbers, but 1 are wanted"),
+    (*TET, {"labels": [2**31]}, "labels[0] is 2147483648, which is no integer of 32 bits"),
+    (*TET, {"labels": [1.5]}, "labels has type float64, but integers are wanted"),
+    (*TET, {"triangles": [[0, 1, 7]]}, "triangles[0, 2] is 7, but there are 4 points"),
+    (*TET, {"edges": [[0, 9]]}, "edges[0, 1] is 9, but there are 4 points"),
+    (*TET, {"required": [0, 4]}, "required[1] is 4, but there are 4 points"),
+    (*TET, {"required": [True, False]}, "required has shape (2,), but a mask of 4 points is wanted"),
+    (*TET, {"point_data": {"u": [1.0]}}, "point_data['u'] has shape (1,), but there are 4 of them"),
+    (*TET, {"cell_data": {"u": ["x"]}}, "cell_data['u'] has type <U1, but real numbers of up to 64 bits are wanted"),
+    (*TET, {"groups": [tetmend.Group(2, 1, "g", [0])]}, "groups[0].members[0] is 0, but there are 0 triangles"),
+    (*TET, {"groups": [tetmend.Group(4)]}, "groups[0]: dimension 4, expected 0 to 3"),
+])
+def test_what_is_wrong_with_arrays_is_a_value_error_with_its_place(points, tets, more, message):
+    with pytest.raises(ValueError) as caught:
+        tetmend.improve(points, tets, **more)
+    assert str(caught.value) == message and isinstance(caught.value, tetmend.Error)
+
+
+@pytest.mark.parametrize(("options", "message"), [
+    ({"goal": 80}, "goal"), ({"threads": 0}, "threads"), ({"threads": "many"}, "threads"), ({"time_limit": -1}, "time_limit"),
+    ({"schedule": "quick"}, "quick"), ({"protect": "colour:3"}, "protect"), ({"set": {"nothing": 1}}, "nothing"),
+    ({"goal": [1, 2, 3]}, "goal"), ({"measure": object()}, "measure"), ({"conserve": "heat"}, "conserve")])
+def test_what_is_wrong_with_options_is_a_value_error_that_names_them(options, message):
+    with pytest.raises(ValueError, match=message):
+        tetmend.improve(*TET, **options)
+
+
+def test_unknown_options_and_mixed_calls_are_type_errors(materials):
+    with pytest.raises(TypeError, match="did you mean 'schedule'"):
+        tetmend.improve(*TET, shedule="shell")
+    with pytest.raises(TypeError, match="has its own labels"):
+        tetmend.improve(materials, labels=[1])
+    with pytest.raises(TypeError, match="points and tets"):
+        tetmend.improve(TET[0])
+
+
+def test_files_that_cannot_be_read_or_written_are_named(tmp_path, materials):
+    with pytest.raises(ValueError, match="nowhere.mesh"):
+        tetmend.load(tmp_path / "nowhere.mesh")
+    with pytest.raises(ValueError, match="mesh.xyz"):
+        materials.save(tmp_path / "mesh.xyz")
+    assert list(tmp_path.iterdir()) == []
+
+
+# --- options
+
+
+def test_options_are_those_of_the_library():
+    from tetmend._options import Options
+    known = {name.replace("-", "_") for name, _, _ in _core.option_forms()}
+    assert known == set(Options.__annotations__) | {"tets"}
+
+
+def test_options_do_what_they_say(materials):
+    free = tetmend.improve(materials)
+    assert tetmend.improve(materials, tets="0%").after.tets <= materials.tets.shape[0]
+    label = int(materials.labels[0])
+    held = tetmend.improve(materials, protect=[f"label:{label}"], goal=(20, 160), threads=2, maps=False, rulers=False)
+    assert held.figures["protected"]["tets"] == (materials.labels == label).sum()
+    assert held.goal == (20, 160) and "rulers" not in held.after and len(held.vertex_map) == 0
+    assert free.figures["protected"]["tets"] == 0 and free.after.rulers["mean_ratio"]["worst"] > 0
+    spoken = []
+    script = "begin_round()\nlocal_reconnection{}\nlog('that is all')"
+    assert tetmend.improve(materials, script=script, note=spoken.append).ending == "finished"
+    assert any("that is all" in line for line in spoken)
+
+
+# --- the same as the command line
+
+
+def test_the_bytes_are_those_of_the_command_line(tmp_path, command_line):
+    command_line("improve", MATERIALS, "-o", tmp_path / "theirs.mesh", "--schedule", "thorough", "--goal", "32,145", "-q")
+    result = tetmend.improve(tetmend.load(MATERIALS), schedule="thorough", goal=(32, 145), threads=3)
+    assert result.save(tmp_path / "ours.mesh") == []
+    assert (tmp_path / "ours.mesh").read_bytes() == (tmp_path / "theirs.mesh").read_bytes()
+
+
+def test_arrays_give_the_bytes_that_the_file_gives(tmp_path, materials):
+    names = ("points", "tets", "labels", "triangles", "triangle_labels", "edges", "edge_labels", "required")
+    given = {name: getattr(materials, name) for name in names}
+    tetmend.improve(**given).save(tmp_path / "arrays.mesh")
+    tetmend.improve(materials).save(tmp_path / "file.mesh")
+    assert (tmp_path / "arrays.mesh").read_bytes() == (tmp_path / "file.mesh").read_bytes()
+
+
+def test_the_report_has_the_figures_and_names_of_the_command_line(tmp_path, command_line, materials):
+    command_line("improve", MATERIALS, "-o", tmp_path / "a.mesh", "--report", tmp_path / "a.json")
+    theirs = json.loads((tmp_path / "a.json").read_text())
+    ours = json.loads(json.dumps(tetmend.improve(materials, limit=True).report, allow_nan=False))
+    for of_time in ("tets_per_second", "seconds"):
+        assert ours.pop(of_time).__class__ is theirs.pop(of_time).__class__
+    for report in (ours, theirs):
+        for each in report["passes"]:
+            each.update(seconds=0, seconds_in_scans=0, seconds_in_blocks=0)
+    assert set(theirs) - set(ours) == {"arguments", "input", "output", "peak_memory_bytes"}
+    assert {name: ours[name] for name in ours} == {name: theirs[name] for name in ours}
+
+
+def test_quality_is_that_of_the_command_line(tmp_path, command_line, materials):
+    command_line("improve", MATERIALS, "-o", tmp_path / "a.mesh", "--report", tmp_path / "a.json")
+    found = tetmend.quality(materials, measures=["mean_ratio"], limit=True, bad_tets=True)
+    before = json.loads((tmp_path / "a.json").read_text())["before"]
+    assert {**found.statistics} == before
+    assert len(found.bad_tets) == found.statistics.n_bad == sum(found.limit["bad"].values())
+    assert set(found.measures) == {"mean_ratio"}
+
+
+@pytest.mark.parametrize("words", [{"preset": "openfoam"}, {"min_dihedral": 15, "no_inverted": True}, {"measure": {"mean_ratio": 0.1}}])
+def test_check_is_that_of_the_command_line(tmp_path, materials, words):
+    better = tetmend.improve(materials)
+    better.save(tmp_path / "better.mesh")
+    options = {"preset": "--for=openfoam", "min_dihedral": "--min-dihedral=15", "no_inverted": "--no-inverted",
+               "measure": "--measure=mean_ratio=0.1"}
+    for file, mesh in ((MATERIALS, materials), (tmp_path / "better.mesh", better.mesh)):
+        done = subprocess.run([BUILD / "bin/tetmend", "check", file, "--json", *(options[name] for name in words)],
+                              capture_output=True, text=True)
+        ours = tetmend.check(mesh, **words)
+        assert done.returncode == ours.status
+        assert json.loads(done.stdout)["facts"] == [vars(fact) for fact in ours.facts]
+    compared = tetmend.check(MATERIALS, tmp_path / "better.mesh")
+    assert compared and compared.status == 0 and "surface" in [fact.name for fact in compared.facts]
+    assert tetmend.check(tmp_path / "better.mesh", MATERIALS).status == 3
+    with pytest.raises(ValueError, match="nothing to check"):
+        tetmend.check(materials)
+    with pytest.raises(ValueError, match="preset"):
+        tetmend.check(materials, preset="solver")
+
+
+def test_schedules_and_operators_are_those_of_the_command_line(command_line):
+    names = [schedule.name for schedule in tetmend.schedules()]
+    listed = command_line("schedules")
+    assert names[0] == "shell" and all(name in listed for name in names)
+    assert "local_reconnection" in tetmend.schedules()[0].source
+    shell = {parameter.name: parameter for parameter in tetmend.schedules()[0].parameters}
+    assert shell["max_rounds"].low <= shell["max_rounds"].default <= shell["max_rounds"].high
+    assert all(operator.name in command_line("operators") for operator in tetmend.operators())
+    with pytest.raises(ValueError, match="none.so"):
+        tetmend.operators(["none.so"])
+
+
+def test_a_plugin_finds_the_library(materials):
+    plugin = BUILD / "tests/plugins/odt_smoothing.so"
+    if not plugin.exists():
+        pytest.skip("the plugins of the tests are not built")
+    assert tetmend.operators([plugin])[-1].name == "odt_smoothing"
+    result = tetmend.improve(materials, plugin=plugin, script="begin_round()\napply{'odt_smoothing'}")
+    assert [each.name for each in result.passes] and sum(each.accepted for each in result.passes) > 0
+
+
+# --- running
+
+
+def test_progress_is_told_and_may_stop_the_run(materials):
+    seen = []
+    finished = tetmend.improve(materials, progress=seen.append)
+    assert finished.ending == "finished" and {moment.stage for moment in seen} >= {"building", "improving"}
+    stopped = tetmend.improve(materials, progress=lambda moment: moment.stage != "improving")
+    assert stopped.ending == "cancelled" and stopped.report["interrupted"]
+    assert stopped.after.n_bad > finished.after.n_bad
+    limited = tetmend.improve(tetmend.load(SOURCE / "assets/meshes/bracket.meshb"), schedule="thorough", time_limit=0.001)
+    assert limited.ending == "time_limit" and limited.report["out_of_time"]
+
+
+def test_what_progress_raises_comes_out(materials):
+    def fail(moment):
+        raise KeyError(moment.stage)
+    with pytest.raises(KeyError, match="building"):
+        tetmend.improve(materials, progress=fail)
+    with pytest.raises(ZeroDivisionError):
+        tetmend.improve(materials, script="log('x')", note=lambda text: 1 / 0)
+
+
+def test_ctrl_c_stops_the_run_and_is_raised():
+    mesh = tetmend.load(SOURCE / "assets/meshes/bracket.meshb")
+    seen = []
+
+    def interrupt(moment):
+        if not seen:
+            signal.raise_signal(signal.SIGINT)
+        seen.append(moment)
+        time.sleep(0.01)
+    whole = []
+    tetmend.improve(mesh, progress=whole.append)
+    with pytest.raises(KeyboardInterrupt):
+        tetmend.improve(mesh, progress=interrupt)
+    assert len(seen) < len(whole)
+
+
+def test_other_threads_run_meanwhile():
+    mesh = tetmend.load(SOURCE / "assets/meshes/bracket.meshb")
+    count, stop = [0], threading.Event()
+
+    def work():
+        while not stop.wait(0.001):
+            count[0] += 1
+    thread = threading.Thread(target=work)
+    thread.start()
+    before = count[0]
+    tetmend.improve(mesh)
+    after = count[0]
+    stop.set()
+    thread.join()
+    assert after - before > 5
+
+
+def test_two_threads_improve_at_once_as_each_alone(arrays, materials):
+    jobs = [lambda: tetmend.improve(**arrays, threads=2), lambda: tetmend.improve(materials, schedule="thorough")] * 2
+    alone = [job() for job in jobs]
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        together = [future.result() for future in [pool.submit(job) for job in jobs]]
+    for one, other in zip(alone, together):
+        assert one.points.tobytes() == other.points.tobytes() and one.tets.tobytes() == other.tets.tobytes()
+
+
+# --- traces
+
+
+def test_a_trace_tells_what_the_command_line_tells(tmp_path, materials, command_line):
+    file = tmp_path / "run.trace"
+    result = tetmend.improve(materials, trace=file, set={"max_rounds": 1})
+    trace = tetmend.Trace(file)
+    assert trace.damage == "" and trace.schedule == "shell" and trace.settings["max_rounds"] == "1"
+    assert trace.summary() == command_line("trace", file)
+    assert trace.tree(0) == command_line("trace", file, "--tree", 0) and trace.dot(0) == command_line("trace", file, "--dot", 0)
+    assert trace.slices() == json.loads(command_line("trace", file, "--slices"))
+    calls = list(trace.calls())
+    assert len(calls) == trace.call_count == max(call["number"] for call in calls) + 1
+    outermost = list(trace.calls(outermost=True))
+    assert all(call["depth"] == 0 for call in outermost) and 0 < len(outermost) < len(calls)
+    assert sum(call["accepted"] for call in calls) > 0
+    events = list(trace.events())
+    assert len(events) == trace.event_count
+    assert sum(event["kind"] == "attempt begins" for event in events) == len(calls)
+    assert len(list(trace.visits())) > 0
+    assert [each["name"] for each in trace.passes()] == [each.name for each in result.passes]
+    assert len(trace.mesh_at(0).tets) == len(materials.tets)
+    assert len(trace.mesh_at(trace.event_count).tets) == len(result.tets)
+    with pytest.raises(ValueError, match="there is no call"):
+        trace.call(trace.call_count)
+    with pytest.raises(ValueError):
+        tetmend.Trace(MATERIALS)
+
+
+# --- what is shown
+
+
+def test_notebooks_show_a_table_of_before_and_after(materials):
+    result = tetmend.improve(materials)
+    shown = result._repr_html_()
+    assert f"<td>{result.before.tets:,}</td><td>{result.after.tets:,}</td>" in shown
+    assert f"<td>{result.before.n_bad:,}</td><td>0</td>" in shown
+    spoken = tetmend.improve(materials, script="log('<script>')")
+    assert "<script>" not in spoken._repr_html_() and ("&lt;script&gt;" in spoken._repr_html_()) == ("<script>" in str(spoken.notes))
+    assert "cancelled" in tetmend.improve(materials, progress=lambda moment: False)._repr_html_()
+
+
+@pytest.mark.parametrize("name", ["_arrays", "_catalogue", "_check", "_figures", "_html", "_improve", "_mesh", "_options", "_quality"])
+def test_examples_in_docstrings_print_what_they_say(name):
+    outcome = doctest.testmod(importlib.import_module(f"tetmend.{name}"), optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
+    assert outcome.failed == 0 < outcome.attempted
+
+
+def test_the_stub_has_the_names_of_the_extension():
+    tree = ast.parse((SOURCE / "bindings/python/tetmend/_core.pyi").read_text())
+    kinds = (ast.FunctionDef, ast.ClassDef)
+    names = {node.name for node in tree.body if isinstance(node, kinds)}
+    assert names == {name for name in dir(_core) if not name.startswith("__")}
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef) and node.name in ("Mesh", "Trace", "Progress"):
+            members = {each.name for each in node.body if isinstance(each, kinds)} - {"__init__"}
+            assert members == {name for name in dir(getattr(_core, node.name)) if not name.startswith("_")}
+
+
+def test_all_that_is_public_has_a_docstring():
+    for name in tetmend.__all__:
+        assert name == "__version__" or name in ("Error", "OptionError") or getattr(tetmend, name).__doc__, name
