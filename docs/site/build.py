@@ -21,13 +21,13 @@ NAVIGATION: dict[str, list[str]] = {
     "index": ["start", "howto", "choosing", "report", "troubleshooting", "extending", "overview",
               "reliability", "results", "reference"],
     "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
-              "howto/others", "library", "howto/ci", "layers", "viewer", "examples"],
+              "howto/others", "python", "library", "c", "howto/ci", "layers", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing"],
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",
                 "results/tangled", "results/renumbered", "results/reconnection", "results/angles",
                 "results/constraints", "results/cores", "results/growth", "results/files", "results/parts"],
-    "reliability": ["results/faults"],
+    "reliability": ["results/faults", "results/fuzzing"],
     "reference": ["command-line", "formats", "cpp", "dependencies", "changes"],
 }
 # Files outside of docs/ that are pages of the site.

@@ -18,10 +18,10 @@ struct Fact {
   using Number =
       std::variant<std::monostate, std::uint64_t, double>;  ///< nothing, a count, a value
   std::string name;                                         ///< for programs
-  bool holds = true;
-  std::string text;  ///< for people
-  Number value;
-  Number wanted;
+  bool holds = true;                                        ///< else the check has failed
+  std::string text;                                         ///< for people
+  Number value;                                             ///< of the mesh
+  Number wanted;                                            ///< the threshold
 };
 
 /// Thresholds and presets; the options of `tetmend check` have the same names.
@@ -52,8 +52,9 @@ TETMEND_API std::vector<Fact> check(const Mesh& mesh, const CheckOptions& option
 /// @throws Error as measure(). Cost: n log n.
 TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1);
 
+/// What one solver asks of a mesh.
 struct CheckPreset {
-  std::string_view name;
+  std::string_view name;    ///< of the solver: "calculix"
   std::string_view source;  ///< who asks for it
 };
 /// What CheckOptions::preset can name; all of them ask for no inverted tet.

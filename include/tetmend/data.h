@@ -16,16 +16,16 @@ namespace tetmend {
 /// first, then for the second, and so on. A number that is missing is NaN.
 struct TETMEND_API DataArray {
   using Values = std::variant<std::vector<std::int32_t>, std::vector<std::int64_t>,
-                              std::vector<float>, std::vector<double>>;
-  std::string name = {};
-  std::size_t components = 1;
-  Values values = {};
+                              std::vector<float>, std::vector<double>>;  ///< one of four types
+  std::string name = {};                                                 ///< as a file has it
+  std::size_t components = 1;  ///< numbers of one point or element
+  Values values = {};          ///< of all of them
 
   /// Numbers in all.
   std::size_t size() const {
     return std::visit([](const auto& numbers) { return numbers.size(); }, values);
   }
-  friend bool operator==(const DataArray&, const DataArray&) = default;
+  friend bool operator==(const DataArray&, const DataArray&) = default;  ///< NaN equals none
 };
 
 /// A named or numbered set of points or elements. One of them may be in several.
@@ -36,7 +36,7 @@ struct TETMEND_API Group {
   std::vector<std::int32_t> parts = {};     ///< all elements of these parts, see MeshArrays; or
   std::vector<std::uint32_t> members = {};  ///< these points or elements; or, if both are empty,
                                             ///< all elements with the label `number`
-  friend bool operator==(const Group&, const Group&) = default;
+  friend bool operator==(const Group&, const Group&) = default;  ///< all of it
 };
 
 }  // namespace tetmend

@@ -30,45 +30,52 @@ class TETMEND_API Trace {
  public:
   /// From the event that begins something to the one after the event that ends it.
   struct Range {
-    std::uint64_t begin = 0, end = 0;
-    double begin_seconds = 0, end_seconds = 0;  ///< since the trace began
+    std::uint64_t begin = 0;   ///< its number
+    std::uint64_t end = 0;     ///< likewise
+    double begin_seconds = 0;  ///< since the trace began
+    double end_seconds = 0;    ///< likewise
   };
 
+  /// A pass of the schedule.
   struct Pass {
-    std::string_view name;
-    unsigned round = 0;
-    Range events;
-    std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
-    QualityIndicators after;
+    std::string_view name;         ///< as in the report
+    unsigned round = 0;            ///< of the schedule; 0 before its main loop
+    Range events;                  ///< all of it
+    std::uint32_t first_call = 0;  ///< its calls begin with this
+    std::uint32_t last_call = 0;   ///< and end before this
+    QualityIndicators after;       ///< of the mesh
   };
 
   /// A tet that a pass wanted to get rid of.
   struct Visit {
-    Range events;
+    Range events;                    ///< all of it
     std::vector<std::uint32_t> tet;  ///< its four vertices
-    double quality = 0;
-    std::uint32_t first_call = 0, last_call = 0;  ///< as of a pass
+    double quality = 0;              ///< of the tet, when the visit began
+    std::uint32_t first_call = 0;    ///< as of a pass
+    std::uint32_t last_call = 0;     ///< likewise
   };
 
   /// One attempt of an operator. Those that it makes, directly or not, have the numbers from its own
   /// + 1 up to before subtree_end.
   struct Call {
-    std::string_view operator_name;
-    std::string_view settings;
-    Range events;
-    std::optional<std::uint32_t> parent;
-    std::uint32_t subtree_end = 0;
-    unsigned level = 0;  ///< of recursion, as the operator counts it
-    unsigned depth = 0;  ///< number of calls around it
-    unsigned edits = 0;  ///< made by itself; also those undone
+    std::string_view operator_name;       ///< "smoothing"
+    std::string_view settings;            ///< its parameters where they differ from the defaults
+    Range events;                         ///< all of it
+    std::optional<std::uint32_t> parent;  ///< the call that made it
+    std::uint32_t subtree_end = 0;        ///< the next call that it has not made
+    unsigned level = 0;                   ///< of recursion, as the operator counts it
+    unsigned depth = 0;                   ///< number of calls around it
+    unsigned edits = 0;                   ///< made by itself; also those undone
     std::vector<std::uint32_t>
         target;                ///< a vertex, two of an edge, three of a face, four of a tet
     std::string_view verdict;  ///< "accepted", ...; "cut off" if the trace ends before
     std::string_view reason;   ///< in a sentence
-    bool accepted = false;
-    double worst_before = 0, worst_after = 0;  ///< quality; refused: of what was tried
+    bool accepted = false;     ///< by its own verdict
+    double worst_before = 0;   ///< quality of the worst tet that it changed
+    double worst_after = 0;    ///< likewise; refused: of what was tried
   };
 
+  /// One event.
   struct Event {
     std::string_view kind;          ///< "pass begins", "cavity replaced", ...
     std::string name;               ///< of the pass or operator, where one begins
@@ -76,7 +83,8 @@ class TETMEND_API Trace {
     std::vector<std::uint32_t>
         vertices;              ///< of the target or visited tet, or the one vertex edited
     std::string_view verdict;  ///< where an attempt ends
-    std::size_t removed = 0, created = 0;  ///< tets, where a cavity is replaced
+    std::size_t removed = 0;   ///< tets, where a cavity is replaced
+    std::size_t created = 0;   ///< likewise
   };
 
   /// Reads all events once. A trace that is cut off or damaged is opened up to there: see damage().
@@ -84,8 +92,8 @@ class TETMEND_API Trace {
   /// event makes no sense: with byte, event and reason. Cost: about 0.3 s for a million events.
   explicit Trace(const std::filesystem::path& file);
   ~Trace();
-  Trace(Trace&& other) noexcept;
-  Trace& operator=(Trace&& other) noexcept;
+  Trace(Trace&& other) noexcept;             ///< what was moved from can only be assigned to
+  Trace& operator=(Trace&& other) noexcept;  ///< likewise
 
   const std::string& program() const;                                        ///< "tetmend 0.1.0"
   const std::string& input() const;                                          ///< file of the mesh
@@ -95,14 +103,14 @@ class TETMEND_API Trace {
   const std::string& damage() const;  ///< how far it can be read and why; empty: it is complete
   bool limit_reached() const;         ///< the trace ends before the run, for its size
 
-  std::uint64_t event_count() const;
-  std::uint32_t call_count() const;
-  std::size_t visit_count() const;
-  std::size_t pass_count() const;
-  // Preconditions: the number is less than the count. @throws Error otherwise.
+  std::uint64_t event_count() const;  ///< of all kinds
+  std::uint32_t call_count() const;   ///< attempts of operators
+  std::size_t visit_count() const;    ///< of bad tets
+  std::size_t pass_count() const;     ///< of the schedule
+  /// @throws Error unless the number is less than the count; also the next two.
   Call call(std::uint32_t number) const;
-  Visit visit(std::size_t number) const;
-  Pass pass(std::size_t number) const;
+  Visit visit(std::size_t number) const;  ///< by its number
+  Pass pass(std::size_t number) const;    ///< by its number
   /// The events from one up to before the other. @throws Error when there are not so many.
   /// Cost: the events, and up to a millisecond.
   std::vector<Event> events(std::uint64_t first, std::uint64_t last) const;
@@ -111,11 +119,12 @@ class TETMEND_API Trace {
   /// many. Cost: a microsecond for each of them.
   Mesh mesh_at(std::uint64_t n) const;
 
-  // What `tetmend trace` prints: in numbers; a call and all in it, as text and for Graphviz; all of
-  // it as JSON for Perfetto and chrome://tracing, handed over piece by piece.
-  std::string summary() const;
-  std::string tree(std::uint32_t call) const;
-  std::string dot(std::uint32_t call) const;
+  // What `tetmend trace` prints.
+
+  std::string summary() const;                 ///< in numbers
+  std::string tree(std::uint32_t call) const;  ///< a call and all in it
+  std::string dot(std::uint32_t call) const;   ///< the same for Graphviz
+  /// All of it as JSON for Perfetto and chrome://tracing, handed over piece by piece.
   void write_slices(const std::function<void(std::string_view)>& write) const;
 
  private:
