@@ -190,7 +190,8 @@ DIRECTIVES = {"enum": "doxygenenum", "variable": "doxygenvariable", "define": "d
 
 def declarations(xml: Path, header: Path) -> list[str]:
     """A directive of Breathe for each declaration of a header, in its order."""
-    file = ElementTree.parse(xml / f"{header.stem}_8h.xml").find("compounddef")
+    name = header.stem.replace("_", "__")  # as Doxygen writes it
+    file = ElementTree.parse(xml / f"{name}_8h.xml").find("compounddef")
     space = ElementTree.parse(xml / "namespacetetmend.xml").find("compounddef")
     found: list[tuple[int, str, str]] = []
     for inner in file.findall("innerclass"):
@@ -224,6 +225,7 @@ def write_cpp(pages: Path, xml: Path) -> None:
     rows = []
     (pages / "cpp").mkdir()
     headers = sorted((ROOT / "include" / "tetmend").glob("*.h"))
+    headers = [header for header in headers if header.name not in ("api.h", "tetmend.h")]  # a mark; for C
     for header in headers:
         text = purpose_of(header)
         parts = [f"# {header.name}\n", f"{text}\n", f"```cpp\n#include <tetmend/{header.name}>\n```\n"]

@@ -40,7 +40,7 @@ ELSEWHERE = {
 # A line that begins so is a command, and belongs into a block `sh`.
 COMMAND = re.compile(r"^(?:\$ )?(?:tetmend(?:-view)? [a-z-]|script/\w|cmake |ctest |build/\w|gmsh |ccx |python3 )")
 # Besides `sh`, and what has no language.
-KNOWN_KIND = re.compile(r"output|cpp|cmake|lua|(python|lua) \w+\.(py|lua)")
+KNOWN_KIND = re.compile(r"output|c|cpp|fortran|cmake|lua|(python|lua) \w+\.(py|lua)")
 
 GEOMETRY = """SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};
