@@ -52,6 +52,7 @@ def gmsh():
     library.option.setNumber("General.Terminal", 0)
     library.option.setNumber("Mesh.Optimize", 0)
     library.option.setNumber("Mesh.MeshSizeMax", 0.2)
+    library.option.setNumber("Mesh.Binary", 1)  # text would round coordinates
     yield library
     library.finalize()
 
