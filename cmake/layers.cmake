@@ -13,8 +13,10 @@ function(tetmend_layer folder below)
   # The same objects make the shared library, which shows what is marked TETMEND_API.
   set_target_properties(tetmend_${name} PROPERTIES
     LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
-  # Part of another project: four sources are compiled as one, in a third of the time.
+  # In another project four sources are compiled as one, which takes less time. Not those that have the same names inside.
   if(NOT PROJECT_IS_TOP_LEVEL)
+    list(FILTER sources INCLUDE REGEX "/ops/|_(reader|writer)\\.cpp$|/(medit_binary|lua_library|schedule_parameter)\\.cpp$")
+    set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     set_target_properties(tetmend_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
   endif()
 endfunction()

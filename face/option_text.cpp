@@ -100,7 +100,7 @@ constexpr Row kRows[] = {
      [](Options& o, std::string_view text) {
        o.time_limit = read_number(text, 1e-3, 1e9, "a number of seconds");
      }},
-    {{"plugin", "FILE.so", kAdds},
+    {{"plugin", "FILE", kAdds},
      [](Options& o, std::string_view text) { o.plugin.emplace_back(text); }},
     {{"check-operators", kSwitch},
      [](Options& o, std::string_view text) { o.check_operators = read_switch(text); }},
@@ -154,8 +154,8 @@ void set_option(Options& options, std::string_view name, std::string_view value)
   if (row == std::end(kRows)) {
     std::vector<std::string_view> names;
     for (const Row& each : kRows) names.push_back(each.form.name);
-    throw OptionError(std::string(name), fmt::format("{}: there is no such option: expected {}",
-                                                     name, fmt::join(names, ", ")));
+    throw OptionError(
+        "", fmt::format("there is no option '{}': expected {}", name, fmt::join(names, ", ")));
   }
   try {
     row->read(options, value);

@@ -24,8 +24,8 @@ TETMEND_API std::vector<OptionForm> option_forms();
 
 /// Sets an option like `--NAME VALUE` of `tetmend improve`. A switch takes "true", "false" or "",
 /// which is true as well.
-/// @throws OptionError for an unknown name, and for a value of another form. The other mistakes are
-/// found by check() and improve().
+/// @throws OptionError for an unknown name, which option() leaves empty, and for a value of another
+/// form. The other mistakes are found by check() and improve().
 TETMEND_API void set_option(Options& options, std::string_view name, std::string_view value);
 
 /// The message of an error about an option, with the name that it has on the command line:

@@ -22,7 +22,6 @@
 
 #include <stddef.h>
 #include <stdint.h>
-
 #include <tetmend/api.h>
 
 #ifdef __cplusplus
@@ -215,8 +214,8 @@ typedef struct tetmend_statistics {
   double q_worst; /* minimum sine of the worst tet */
   double q_mean;
   size_t n_bad;
-  double q_aver;                         /* mean minimum sine of the bad tets */
-  size_t histogram[TETMEND_BINS];        /* dihedral angles in bins of 5 degrees */
+  double q_aver;                        /* mean minimum sine of the bad tets */
+  size_t histogram[TETMEND_BINS];       /* dihedral angles in bins of 5 degrees */
   tetmend_ruler rulers[TETMEND_RULERS]; /* see tetmend_ruler_name() */
   double shortest_edge;
   size_t faces_above_70; /* inner faces of more than 70 degrees non-orthogonality */

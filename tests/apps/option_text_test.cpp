@@ -72,7 +72,9 @@ TEST_CASE("of a wrong value the command line says what the library says") {
       {"trace-depth", "-1"},   {"trace-depth", "1001"},  {"trace-limit", "5Q"},
       {"trace-limit", "0"}};
   const TempFolder folder;
-  for (const auto& [name, value] : wrong) {
+  for (const auto& entry : wrong) {
+    const std::string& name = entry[0];
+    const std::string& value = entry[1];
     CAPTURE(name);
     CAPTURE(value);
     const std::string expected = message_of_library(name, value);

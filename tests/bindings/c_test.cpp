@@ -306,7 +306,7 @@ TEST_CASE("in C: a progress function sees the run and stops it") {
 TEST_CASE("in C: options are told apart, added to, and reset") {
   const Handle mesh = two_tets_in();
   CHECK(tetmend_set(mesh.get(), "time_limit", "5") == TETMEND_WRONG_OPTION);
-  CHECK(error_of(mesh).starts_with("time_limit: there is no such option: expected schedule, "));
+  CHECK(error_of(mesh).starts_with("there is no option 'time_limit': expected schedule, "));
   CHECK(tetmend_set(mesh.get(), "time-limit", "five") == TETMEND_WRONG_OPTION);
   CHECK(error_of(mesh).starts_with("time-limit: 'five' is not a number"));
   CHECK(tetmend_set(mesh.get(), "protect", "label:7") == TETMEND_OK);

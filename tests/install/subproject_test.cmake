@@ -12,7 +12,8 @@ foreach(kind IN ITEMS shared static)
   endif()
   execute_process(
     COMMAND ${CMAKE_COMMAND} -S ${SOURCE}/tests/install/subproject_user -B ${WORK}/${kind} -G ${GENERATOR} ${option}
-            -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DFETCHCONTENT_SOURCE_DIR_TETMEND=${SOURCE}
+            -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+            -DTETMEND_ARCHIVE=tetmend.tar.gz -DFETCHCONTENT_SOURCE_DIR_TETMEND=${SOURCE}
     RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${output}")
