@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MIT
+"""Runs the commands of docs/python.md, in its order, in a folder of their own.
+
+    python_page_test.py SOURCE BUILD PYTHON
+
+Commands stand in blocks `sh`; a block `output` below has lines that they printed, blanks do not count; a block `python NAME` is a file.
+Exit status 77: a module that the page imports is not installed.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SOURCE, BUILD, PYTHON = (Path(word).absolute() for word in sys.argv[1:4])
+BLOCK = re.compile(r"^```([^\n`]*)\n(.*?)^```", re.M | re.S)
+# What a test with a build of its own does.
+ELSEWHERE = {"python3 -m venv --system-site-packages ~/mesh", "~/mesh/bin/pip install --no-build-isolation ."}
+TEST = "Python: a wheel made without a network installs and runs"
+
+GEOMETRY = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Box(2) = {1, 0, 0, 1, 1, 1};
+BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+Physical Volume("steel", 1) = {1};
+Physical Volume("copper", 2) = {2};
+inlet() = Surface In BoundingBox {-0.1, -1, -1, 0.1, 2, 2};
+walls() = Abs(CombinedBoundary{ Volume{1}; Volume{2}; });
+walls() -= inlet();
+Physical Surface("inlet", 3) = inlet();
+Physical Surface("wall", 4) = walls();
+Mesh.MeshSizeMax = 0.25;
+Mesh.Optimize = 0;
+"""
+
+
+def squeezed(line: str) -> str:
+    return " ".join(line.split())
+
+
+def main() -> int:
+    blocks = [(kind.strip(), text) for kind, text in BLOCK.findall((SOURCE / "docs/python.md").read_text())]
+    environment = dict(os.environ, PYTHONPATH=str(BUILD / "python"), PATH=f"{BUILD / 'bin'}:{os.environ['PATH']}")
+    for module in ("numpy", "gmsh"):
+        if subprocess.run([PYTHON, "-c", f"import {module}"], capture_output=True).returncode != 0:
+            print(f"skipped: {module} is not installed for {PYTHON}")
+            return 77
+    assert TEST in (SOURCE / "tests/CMakeLists.txt").read_text()
+    elsewhere, ran, wrong, printed = set(), 0, 0, ""
+    with tempfile.TemporaryDirectory() as name:
+        work = Path(name)
+        (work / "part.geo").write_text(GEOMETRY)
+        subprocess.run([BUILD / "bin/tetmend", "convert", SOURCE / "assets/meshes/bracket.meshb", work / "part.mesh"], check=True,
+                       capture_output=True)
+        for kind, text in blocks:
+            if kind.startswith("python "):
+                (work / kind.split()[1]).write_text(text)
+            elif kind == "sh":
+                printed = ""
+                for command in text.splitlines():
+                    if command in ELSEWHERE:
+                        elsewhere.add(command)
+                        continue
+                    done = subprocess.run(re.sub(r"^python3 ", f"{PYTHON} ", command), shell=True, cwd=work, env=environment,
+                                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
+                    printed += done.stdout
+                    ran += 1
+                    if done.returncode != 0:
+                        wrong += 1
+                        print(f"{command}: status {done.returncode}\n{done.stdout}")
+            elif kind == "output":
+                lines = {squeezed(line) for line in printed.splitlines()}
+                for line in text.splitlines():
+                    if squeezed(line) not in lines:
+                        wrong += 1
+                        print(f"nobody printed: {line}\n{printed}")
+            else:
+                wrong += 1
+                print(f"a block of unknown kind: {kind}")
+    print(f"{ran} commands run, {len(elsewhere)} elsewhere")
+    return 1 if wrong or ran < 5 or elsewhere != ELSEWHERE else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
