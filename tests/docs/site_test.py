@@ -137,6 +137,8 @@ class Files(unittest.TestCase):
 
     def test_each_header_of_the_library_has_a_page_with_what_it_declares(self) -> None:
         for header in (SOURCE / "include/tetmend").glob("*.h"):
+            if header.name in ("api.h", "tetmend.h"):  # a mark; for C
+                continue
             anchors = pages()[f"cpp/{header.stem}.html"].anchors
             for name in re.findall(r"^(?:struct|class|enum class)(?: TETMEND_API)? (\w+)", header.read_text(), re.M):
                 has_name = any(anchor.endswith(f"{len(name)}{name}E") for anchor in anchors)  # a mangled one
