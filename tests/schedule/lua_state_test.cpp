@@ -194,7 +194,9 @@ TEST_CASE("what words hold outside of the interpreter has one budget") {
   lua.add_word("need", [](WordCall& call) { call.hold_in_call(std::size_t{600} << 10); });
   CHECK_NOTHROW(lua.run("for i = 1, 100 do need() end", "test.lua"));
   CHECK_NOTHROW(lua.run("for i = 1, 4 do keep() need() end", "test.lua"));
-  CHECK_THROWS_WITH_AS(lua.run("keep()\nneed()", "test.lua"),
-                       "test.lua:2: arguments, notes, descriptions and records of passes take more than 1 MB", Error);
+  CHECK_THROWS_WITH_AS(
+      lua.run("keep()\nneed()", "test.lua"),
+      "test.lua:2: arguments, notes, descriptions and records of passes take more than 1 MB",
+      Error);
   CHECK_THROWS_AS(lua.run("for i = 1, 100 do keep() end", "test.lua"), Error);
 }
