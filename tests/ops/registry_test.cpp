@@ -74,8 +74,8 @@ TEST_CASE("registering a name twice is an error that gives the name") {
 }
 
 TEST_CASE("an operator knows the plugin that it comes from, and a clash names both sides") {
-  static const OperatorInfo kInfo = {
-      "polish", TargetKind::vertex, "help", {}, smoothing_info().make};
+  static const OperatorInfo kInfo = {"polish", TargetKind::vertex, "help",
+                                     smoothing_info().parameters, smoothing_info().make};
   static const OperatorInfo kSame = kInfo;
   Registry registry = Registry::builtin();
   registry.add(kInfo, "a.so");
