@@ -1,0 +1,180 @@
+// What the picture has to show at a step: faces, lines and names. Both renderers draw it.
+
+const FACES = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+const EDGES = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+const BEST_QUALITY = 2;  // of the scale of colours; 1 is the goal
+// Dark red for the worst, blue for the best; bad tets have a red of their own.
+const EMBER = [[122, 24, 70], [196, 58, 62], [238, 124, 60], [250, 196, 104], [206, 222, 158], [112, 182, 180], [48, 112, 164]];
+const BAD = [222, 32, 38];
+
+function colourOfQuality(quality) {
+  if (quality < 1) return BAD;
+  const x = Math.min(Math.max(quality / BEST_QUALITY, 0), 1) * (EMBER.length - 1);
+  const i = Math.min(Math.floor(x), EMBER.length - 2);
+  return EMBER[i].map((c, n) => Math.round(c + (EMBER[i + 1][n] - c) * (x - i)));
+}
+
+const cssColours = new Map();
+/** A variable of the style sheet as red, green, blue. */
+function colourOf(name) {
+  if (!cssColours.has(name)) {
+    const text = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    const n = parseInt(text.slice(1), 16);
+    cssColours.set(name, [n >> 16 & 255, n >> 8 & 255, n & 255]);
+  }
+  return cssColours.get(name);
+}
+const inCss = (colour) => `rgb(${colour.join(" ")})`;
+
+/** Places of vertices by number: as in these tets, the later ones first. */
+function placesIn(...sets) {
+  const places = new Map();
+  for (const set of sets) {
+    for (const tet of set) {
+      for (const corner of tets[tet].corners) {
+        const {vertex, place} = points[corner];
+        if (!places.has(vertex)) places.set(vertex, place);
+      }
+    }
+  }
+  return places;
+}
+
+/** The tets in full and those around them. */
+function tetsShown(step, when) {
+  const call = callOf(step);
+  if (!call || !call.before) return {full: [...present.tets], around: []};
+  if (when === "before") return {full: call.before, around: []};
+  if (when === "after") return {full: call.after, around: []};
+  const own = tetsOf(call);
+  const full = [...present.tets].filter((tet) => own.has(tet));
+  return {full, around: [...present.tets].filter((tet) => !own.has(tet))};
+}
+
+/** The edges that calls around this one are to remove, innermost first. */
+function ancestorsOf(step) {
+  const stack = stackOf(step);
+  const call = stack.pop();
+  if (!call || call.level === 0) return [];
+  let level = call.level;
+  const edges = [];
+  for (const caller of stack.reverse()) {
+    if (caller.name !== "recursion" || caller.level >= level) continue;
+    edges.push(caller.target);
+    level = caller.level;
+  }
+  return edges;
+}
+
+/** The face that the call is to remove from the shell of its caller: its edge and the caller's share a vertex. */
+function faceToRemove(step) {
+  const call = callOf(step);
+  const [edge] = ancestorsOf(step);
+  if (!call || !edge || call.target.length !== 2) return null;
+  const corners = new Set([...edge, ...call.target]);
+  return corners.size === 3 ? [...corners] : null;
+}
+
+/** Lines of the polygon of the call: the ring, and what the covering makes of it once it is there. */
+function ringLines(shell, position, line) {
+  const m = shell.ring.length;
+  shell.ring.forEach((vertex, i) => line(vertex, shell.ring[(i + 1) % m], "skirt", 2.5));
+  if (!shell.covering || position < shell.first_edit) return;
+  for (const [i, k, j] of shell.covering.triangles) {
+    for (const [from, to] of [[i, k], [k, j], [j, i]]) line(shell.ring[from], shell.ring[to], "chord", 3);
+  }
+  if (shell.covering.triangles.length > 0) {
+    for (const [from, to] of shell.covering.core) line(shell.ring[from], shell.ring[to], "core", 5);
+  }
+}
+
+function makeScene(step, cell, when, apart, showAround) {
+  const scene = {faces: [], lines: [], names: [], shown: 0, kinds: new Set(), places: []};
+  const call = callOf(step);
+  const {full, around} = tetsShown(step, when);
+  const places = placesIn(full, call?.before ?? [], present.tets);
+  scene.shown = full.length;
+  for (const tet of full) {
+    const {corners, quality} = tets[tet];
+    const at = corners.map((corner) => points[corner].place);
+    scene.places.push(...at);
+    const centre = scale(at.reduce(add), 1 / 4);
+    const shrunk = at.map((p) => mix(p, centre, apart));
+    const colour = colourOfQuality(quality);
+    for (const face of FACES) scene.faces.push({corners: face.map((i) => shrunk[i]), colour, opacity: full.length > 60 ? 0.85 : 0.5});
+    for (const [i, j] of EDGES) scene.lines.push({from: shrunk[i], to: shrunk[j], colour: colourOf("skirt"), width: 1.1, opacity: 0.55});
+    if (quality < 1) scene.kinds.add("bad");
+  }
+  if (showAround && around.length > 0) {
+    const seen = new Set();
+    for (const tet of around) {
+      const {corners} = tets[tet];
+      for (const [i, j] of EDGES) {
+        const key = [corners[i], corners[j]].sort().join();
+        if (seen.has(key) || seen.size > 4000) continue;
+        seen.add(key);
+        scene.lines.push({from: points[corners[i]].place, to: points[corners[j]].place, colour: colourOf("ghost"), width: 1, opacity: 0.45});
+      }
+    }
+    scene.kinds.add("ghost");
+  }
+  const line = (a, b, kind, width, dashed = false) => {
+    if (!places.has(a) || !places.has(b)) return;
+    scene.lines.push({from: places.get(a), to: places.get(b), colour: colourOf(kind), width, opacity: 1, dashed, top: true});
+    scene.kinds.add(kind);
+  };
+  const named = new Map();
+  if (call) {
+    const [a, b] = call.shell ? [call.shell.a, call.shell.b] : call.target;
+    if (call.shell) ringLines(call.shell, when === "before" ? call.begin : step.position, line);
+    if (when === "now") markFace(scene, faceToRemove(step), places);
+    for (const [from, to] of ancestorsOf(step)) line(from, to, "ancestor", 4, true);
+    if (cell && call.shell) markCell(scene, call.shell, cell, places);
+    const edgeIsThere = full.some((tet) => [a, b].every((v) => tets[tet].corners.some((corner) => points[corner].vertex === v)));
+    if (call.target.length === 2 || call.shell) line(a, b, "edge", 4.5, !edgeIsThere);
+    if (call.target.length > 2 && !call.shell) {
+      call.target.forEach((v, i) => call.target.slice(i + 1).forEach((w) => line(v, w, "edge", 3.5)));
+    }
+    call.target.forEach((vertex) => named.set(vertex, {text: `${vertex}`, end: true}));
+    if (call.shell) {
+      named.set(a, {text: `${a} = a`, end: true});
+      named.set(b, {text: `${b} = b`, end: true});
+      call.shell.ring.forEach((vertex) => { if (!named.has(vertex)) named.set(vertex, {text: `${vertex}`}); });
+    }
+  }
+  const all = full.length <= 60;
+  for (const tet of full) {
+    for (const corner of tets[tet].corners) {
+      const {vertex} = points[corner];
+      if (!named.has(vertex) && all) named.set(vertex, {text: `${vertex}`, quiet: Boolean(call?.shell)});
+    }
+  }
+  for (const [vertex, name] of named) {
+    if (places.has(vertex)) scene.names.push({...name, vertex, place: places.get(vertex)});
+  }
+  return scene;
+}
+
+function markFace(scene, face, places) {
+  if (!face || !face.every((v) => places.has(v))) return;
+  scene.faces.push({corners: face.map((v) => places.get(v)), colour: colourOf("face"), opacity: 0.45, flat: true});
+  scene.kinds.add("face");
+}
+
+/** The pocket of a cell, and the triangle that its M_k chooses with the tets on both sides of it. */
+function markCell(scene, shell, cell, places) {
+  const k = tableApex(shell, cell.i, cell.j);
+  const at = (i) => places.get(shell.ring[i]);
+  const line = (from, to, width) => {
+    if (from && to) scene.lines.push({from, to, colour: colourOf("cell"), width, opacity: 1, top: true});
+  };
+  scene.kinds.add("cell");
+  line(at(cell.i), at(cell.j), 4.5);
+  if (k >= shell.ring.length) return;
+  for (const apex of [shell.a, shell.b]) {
+    const corners = [at(cell.i), at(k), at(cell.j), places.get(apex)];
+    if (corners.some((p) => !p)) return;
+    for (const face of FACES) scene.faces.push({corners: face.map((i) => corners[i]), colour: colourOf("cell"), opacity: 0.22, flat: true});
+    for (const [i, j] of EDGES) line(corners[i], corners[j], 2);
+  }
+}

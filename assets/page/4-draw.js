@@ -1,0 +1,169 @@
+// Two renderers of a scene: WebGL 2, and SVG for print and where there is no WebGL.
+
+const FACE_SHADER = `#version 300 es
+uniform mat4 matrix; uniform vec3 towards;
+in vec3 place; in vec3 normal; in vec4 colour; out vec4 shade;
+void main() {
+  gl_Position = matrix * vec4(place, 1);
+  float light = 0.66 + 0.34 * abs(dot(normal, towards));
+  shade = vec4(colour.rgb * light, colour.a);
+}`;
+// Each line is a strip of two triangles, as wide on the screen as it is to be.
+const LINE_SHADER = `#version 300 es
+uniform mat4 matrix; uniform vec2 size;
+in vec2 corner; in vec3 from; in vec3 to; in vec4 colour; in vec2 look;
+out vec4 shade; out float along; flat out float dashes;
+void main() {
+  vec4 p = matrix * vec4(from, 1); vec4 q = matrix * vec4(to, 1);
+  vec2 direction = (q.xy / q.w - p.xy / p.w) * size;
+  float pixels = max(length(direction), 0.001);
+  vec2 across = vec2(-direction.y, direction.x) / pixels;
+  vec4 at = mix(p, q, corner.x);
+  at.xy += across * corner.y * look.x / size * at.w;
+  at.z -= 0.0005 * at.w;
+  gl_Position = at;
+  shade = colour; along = corner.x * pixels / 2.0; dashes = look.y;
+}`;
+const PAINT = `#version 300 es
+precision mediump float; in vec4 shade; out vec4 pixel;
+void main() { pixel = vec4(shade.rgb * shade.a, shade.a); }`;
+const PAINT_LINE = `#version 300 es
+precision mediump float; in vec4 shade; in float along; flat in float dashes; out vec4 pixel;
+void main() { if (dashes > 0.0 && mod(along, 2.0 * dashes) > dashes) discard; pixel = vec4(shade.rgb * shade.a, shade.a); }`;
+
+class WebGlPainter {
+  /** Null where the browser has no WebGL 2. */
+  static on(canvas) {
+    const gl = canvas.getContext("webgl2", {antialias: true, alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true});
+    return gl ? new WebGlPainter(gl) : null;
+  }
+
+  constructor(gl) {
+    this.gl = gl;
+    this.faces = this.program(FACE_SHADER, PAINT);
+    this.lines = this.program(LINE_SHADER, PAINT_LINE);
+    this.buffer = gl.createBuffer();
+    this.corners = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]), gl.STATIC_DRAW);
+  }
+
+  program(vertex, fragment) {
+    const {gl} = this;
+    const program = gl.createProgram();
+    for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, text);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
+    return program;
+  }
+
+  /** Parts of each vertex, or of each line, in a row of floats. */
+  attributes(program, parts, perLine) {
+    const {gl} = this;
+    const stride = 4 * parts.reduce((sum, [, count]) => sum + count, 0);
+    let offset = 0;
+    for (const [name, count] of parts) {
+      const at = gl.getAttribLocation(program, name);
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, count, gl.FLOAT, false, stride, offset);
+      gl.vertexAttribDivisor(at, perLine);
+      offset += 4 * count;
+    }
+  }
+
+  draw(scene, camera, size, ratio) {
+    const {gl} = this;
+    const {canvas} = gl;
+    const [width, height] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    const matrix = camera.matrix(size);
+    this.drawFaces(scene, camera, matrix);
+    this.drawLines(scene.lines.filter((line) => !line.top), matrix, size, ratio);
+    this.drawLines(scene.lines.filter((line) => line.top), matrix, size, ratio);
+  }
+
+  drawFaces(scene, camera, matrix) {
+    const {gl} = this;
+    const data = [];
+    for (const face of sortedFaces(scene, camera)) {
+      const [p, q, r] = face.corners;
+      const normal = unit(cross(subtract(q, p), subtract(r, p)));
+      for (const corner of face.corners) data.push(...corner, ...normal, ...face.colour.map((c) => c / 255), face.opacity);
+    }
+    gl.useProgram(this.faces);
+    gl.uniformMatrix4fv(gl.getUniformLocation(this.faces, "matrix"), false, matrix);
+    gl.uniform3fv(gl.getUniformLocation(this.faces, "towards"), camera.towards);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
+    this.attributes(this.faces, [["place", 3], ["normal", 3], ["colour", 4]], 0);
+    gl.drawArrays(gl.TRIANGLES, 0, data.length / 10);
+  }
+
+  drawLines(lines, matrix, size, ratio) {
+    const {gl} = this;
+    const data = [];
+    for (const line of lines) {
+      data.push(...line.from, ...line.to, ...line.colour.map((c) => c / 255), line.opacity, line.width * ratio, line.dashed ? 7 * ratio : 0);
+    }
+    gl.useProgram(this.lines);
+    gl.uniformMatrix4fv(gl.getUniformLocation(this.lines, "matrix"), false, matrix);
+    gl.uniform2f(gl.getUniformLocation(this.lines, "size"), size.width * ratio, size.height * ratio);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
+    this.attributes(this.lines, [["corner", 2]], 0);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(data), gl.DYNAMIC_DRAW);
+    this.attributes(this.lines, [["from", 3], ["to", 3], ["colour", 4], ["look", 2]], 1);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, lines.length);
+  }
+}
+
+/** The farthest first: faces let each other shine through. */
+function sortedFaces(scene, camera) {
+  const depth = (face) => dot(add(add(face.corners[0], face.corners[1]), face.corners[2]), camera.towards);
+  return scene.faces.map((face) => [depth(face), face]).sort((x, y) => x[0] - y[0]).map(([, face]) => face);
+}
+
+function svgElement(name, attributes, text) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  if (text !== undefined) element.textContent = text;
+  return element;
+}
+
+/** The scene as SVG, with the names. */
+function drawFlat(svg, scene, camera, size) {
+  svg.setAttribute("viewBox", `0 0 ${size.width} ${size.height}`);
+  svg.setAttribute("preserveAspectRatio", "xMidYMid meet");
+  const at = (p) => camera.project(p, size).slice(0, 2).map((x) => x.toFixed(1)).join();
+  const parts = [];
+  for (const face of sortedFaces(scene, camera)) {
+    const [p, q, r] = face.corners;
+    const normal = unit(cross(subtract(q, p), subtract(r, p)));
+    const light = 0.66 + 0.34 * Math.abs(dot(normal, camera.towards));
+    parts.push(svgElement("polygon", {points: face.corners.map(at).join(" "), fill: inCss(face.colour.map((c) => Math.round(c * light))), "fill-opacity": face.opacity}));
+  }
+  for (const top of [false, true]) {
+    for (const line of scene.lines.filter((l) => Boolean(l.top) === top)) {
+      const [x1, y1] = camera.project(line.from, size);
+      const [x2, y2] = camera.project(line.to, size);
+      parts.push(svgElement("line", {x1: x1.toFixed(1), y1: y1.toFixed(1), x2: x2.toFixed(1), y2: y2.toFixed(1), stroke: inCss(line.colour), "stroke-width": line.width,
+        "stroke-opacity": line.opacity, "stroke-linecap": "round", "stroke-dasharray": line.dashed ? "7 7" : "none"}));
+    }
+  }
+  for (const name of scene.names) {
+    const [x, y] = camera.project(name.place, size);
+    parts.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-weight": name.quiet ? 400 : 700, "font-size": Math.max(size.height / 30, 11),
+      fill: inCss(colourOf(name.end ? "edge" : "ink")), stroke: inCss(colourOf("card")), "stroke-width": 3, "paint-order": "stroke"}, name.text));
+  }
+  svg.replaceChildren(...parts);
+}

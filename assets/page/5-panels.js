@@ -1,0 +1,309 @@
+// What stands beside the picture: ring, tables, chords, algorithm, calls.
+
+const byId = (id) => document.getElementById(id);
+
+/** An element with attributes, and with texts or elements in it. Texts are never markup. */
+function make(name, attributes = {}, ...content) {
+  const element = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key === "onclick") element.addEventListener("click", value); else element.setAttribute(key, value);
+  }
+  element.append(...content);
+  return element;
+}
+
+const four = (quality) => quality.toFixed(4);
+const three = (quality) => quality.toFixed(3);
+
+// --- the ring ---
+
+/** Places of the ring in the unit circle, the first on top, counterclockwise; SVG has y downwards. */
+function ringPlace(shell, i, radius = 0.74) {
+  const angle = 2 * Math.PI * i / shell.ring.length;
+  return [-radius * Math.sin(angle), -radius * Math.cos(angle)];
+}
+
+function stageOfRing(call, position) {
+  let [, name, caption] = call.shell.stages[0];
+  for (const [from, later, text] of call.shell.stages) if (from <= position) [name, caption] = [later, text];
+  return {name, caption};
+}
+
+const qualityFill = (quality) => inCss(colourOfQuality(quality));
+
+class RingDrawing {
+  constructor(svg, shell) {
+    this.svg = svg;
+    this.shell = shell;
+    this.parts = [];
+    this.labels = [];
+    const m = shell.ring.length;
+    this.text = m > 10 ? 0.058 : 0.078;
+  }
+
+  at(i) { return ringPlace(this.shell, i); }
+
+  stroke(from, to, kind, width, {dashed = false, opacity = 1, tip = ""} = {}) {
+    const line = svgElement("line", {x1: from[0], y1: from[1], x2: to[0], y2: to[1], stroke: inCss(colourOf(kind)), "stroke-width": width * 0.006, "stroke-opacity": opacity,
+      "stroke-linecap": "round", "stroke-dasharray": dashed ? "0.03 0.03" : "none", "data-kind": kind});
+    if (tip) line.append(svgElement("title", {}, tip));
+    this.parts.push(line);
+  }
+
+  area(corners, fill, opacity) {
+    this.parts.push(svgElement("polygon", {points: corners.map((p) => p.join()).join(" "), fill, "fill-opacity": opacity}));
+  }
+
+  label([x, y], text, strong, kind = "number") {
+    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : this.text,
+      "font-weight": strong ? 700 : 600, fill: inCss(colourOf("ink")), stroke: inCss(colourOf("card")), "stroke-width": 0.022, "paint-order": "stroke", "data-kind": kind}, text));
+  }
+
+  outline() {
+    this.shell.ring.forEach((vertex, i) => {
+      this.stroke(this.at(i), this.at((i + 1) % this.shell.ring.length), "skirt", 3);
+      this.label(ringPlace(this.shell, i, 0.9), `${vertex}`, true, "corner");
+    });
+  }
+
+  chords() {
+    for (const [i, j, on, back] of [...this.shell.chords].reverse()) {  // the best on top
+      const usable = Math.max(on, back) > this.shell.floor;
+      this.stroke(this.at(i), this.at(j), "chord", 1.6, {dashed: !usable, opacity: usable ? 0.9 : 0.45,
+        tip: `chord ${this.shell.ring[i]} - ${this.shell.ring[j]}: worst quality of its pockets ${four(on)} and ${four(back)}${usable ? "" : "; not better than the old tets"}`});
+    }
+  }
+
+  covering({triangles, core}, dashed) {
+    if (core.length >= 3) this.core(core);
+    for (const [i, k, j, quality] of triangles) {
+      const corners = [i, k, j].map((n) => this.at(n));
+      this.area(corners, qualityFill(quality), dashed ? 0.35 : 0.7);
+      corners.forEach((p, n) => this.stroke(p, corners[(n + 1) % 3], "chord", 2.2, {dashed}));
+      this.label(scale(corners.map((p) => [...p, 0]).reduce(add), 1 / 3), three(quality));
+    }
+    if (triangles.length === 0) return;
+    for (const [i, j, quality] of core) {
+      this.stroke(this.at(i), this.at(j), "core", 4.5, {dashed, tip: `side of the core ${this.shell.ring[i]} - ${this.shell.ring[j]}: ${four(quality)}`});
+    }
+  }
+
+  /** Each side of the core with the edge ab, a tet, is a slice from its middle. */
+  core(core) {
+    const middle = scale(core.map(([i]) => [...this.at(i), 0]).reduce(add), 1 / core.length).slice(0, 2);
+    for (const [i, j, quality] of core) {
+      this.area([middle, this.at(i), this.at(j)], qualityFill(quality), 0.7);
+      this.stroke(middle, this.at(i), "skirt", 1, {opacity: 0.6});
+      const side = mix([...this.at(i), 0], [...this.at(j), 0], 0.5);
+      this.label(mix([...middle, 0], side, 0.7), three(quality));
+    }
+    this.label(middle, "ab", true, "edge");
+  }
+
+  cell(cell) {
+    const k = tableApex(this.shell, cell.i, cell.j);
+    if (k < this.shell.ring.length) {
+      this.area([cell.i, k, cell.j].map((n) => this.at(n)), inCss(colourOf("cell")), 0.28);
+      this.stroke(this.at(cell.i), this.at(k), "cell", 2);
+      this.stroke(this.at(k), this.at(cell.j), "cell", 2);
+    }
+    this.stroke(this.at(cell.i), this.at(cell.j), "cell", 4);
+  }
+
+  finish() { this.svg.replaceChildren(...this.parts, ...this.labels); }
+}
+
+function showRing(call, position, cell) {
+  const shell = call?.shell;
+  byId("ring-card").hidden = !shell;
+  if (!shell) return;
+  const {name, caption} = stageOfRing(call, position);
+  byId("caption").textContent = caption;
+  const drawing = new RingDrawing(byId("ring"), shell);
+  drawing.outline();
+  if (name === "made") {
+    drawing.covering(shell.covering, false);
+  } else if (name === "full") {
+    drawing.chords();
+    drawing.covering(shell.full, true);
+  } else {
+    drawing.covering(shell.before, false);
+    drawing.chords();
+  }
+  if (cell) drawing.cell(cell);
+  drawing.finish();
+}
+
+// --- chords and tables ---
+
+function showChords(call) {
+  const shell = call?.shell;
+  byId("chords-card").hidden = !shell;
+  if (!shell) return;
+  byId("locks").textContent = shell.locks;
+  const body = [];
+  const none = !shell.searched ? "too many corners to be searched" : shell.chords.length === 0 ? "no chord has a pocket" : "";
+  if (none) {
+    body.push(make("tr", {}, make("td", {class: "quiet"}, none)));
+  } else {
+    body.push(make("thead", {}, make("tr", {}, make("th", {}, "chord, best first"), make("th", {}, "worst q, one side"), make("th", {}, "other side"))));
+    for (const [i, j, on, back] of shell.chords) {
+      const quality = (q) => q <= 0 ? make("td", {class: "quiet"}, "none")
+        : q > shell.floor ? make("td", {class: "better"}, `${four(q)}, better`) : make("td", {class: "quiet"}, four(q));
+      body.push(make("tr", {}, make("td", {}, `${shell.ring[i]} - ${shell.ring[j]}`), quality(on), quality(back)));
+    }
+  }
+  byId("chords").replaceChildren(...body);
+}
+
+/** The tables up to a cell; `filled` is the number of cells that are. */
+function showTables(call, filled, isFilling) {
+  const shell = call?.shell?.tables && call.name !== "recursion" ? call.shell : null;
+  byId("tables-card").hidden = !shell;
+  if (!shell) return;
+  const cells = cellsOf(shell);
+  const here = isFilling && filled > 0 ? cells[filled - 1] : null;
+  const number = new Map(cells.map((cell, n) => [`${cell.i} ${cell.j}`, n]));
+  const used = new Set();
+  if (here) for (const {k} of choicesOf(shell, here)) used.add(`${here.i} ${k}`).add(`${k} ${here.j}`);
+  const table = (caption, entry) => {
+    const m = shell.ring.length;
+    const head = make("tr", {}, make("th", {}, "i \\ j"), ...shell.ring.map((v) => make("th", {scope: "col"}, `${v}`)));
+    const rows = shell.ring.map((v, i) => make("tr", {}, make("th", {scope: "row"}, `${v}`), ...shell.ring.map((w, j) => {
+      if (i === j) return make("td", {class: "none"}, "\u00b7");
+      const isSide = j === (i + 1) % m;
+      const key = `${i} ${j}`;
+      const isFilled = isSide || number.get(key) < filled;
+      const classes = [isSide ? "side" : isFilled ? "" : "open", here && key === `${here.i} ${here.j}` ? "here" : "", used.has(key) ? "used" : ""];
+      const cell = make("td", {"data-cell": `${i},${j}`}, isFilled ? entry(i, j, classes) : "");
+      cell.className = classes.filter(Boolean).join(" ");
+      return cell;
+    })));
+    return [make("caption", {}, caption), make("thead", {}, head), make("tbody", {}, ...rows)];
+  };
+  byId("table-q").replaceChildren(...table("M_q: quality of the pocket", (i, j, classes) => {
+    const q = tableQuality(shell, i, j);
+    if (q === Infinity) return "\u221e";
+    classes.push(q <= 0 ? "none" : q > shell.floor ? "better" : "");
+    return q <= 0 ? "none" : three(q);
+  }));
+  byId("table-k").replaceChildren(...table("M_k: its third corner", (i, j) => {
+    const k = tableApex(shell, i, j);
+    return k < shell.ring.length ? `${shell.ring[k]}` : "\u2013";
+  }));
+  byId("cell-text").textContent = tableText(shell, filled, here, isFilling);
+  const code = recording.codes[TABLE_CODE];
+  byId("fill-code").hidden = !isFilling;
+  if (isFilling) listLines(byId("fill-code"), code.lines, here ? [12, 13, 14] : [1]);
+}
+
+function tableText(shell, filled, here, isFilling) {
+  const name = (i) => shell.ring[i];
+  if (!isFilling) return `Filled. Bold: better than the old tets, whose worst quality is ${four(shell.floor)}.`;
+  const total = cellsOf(shell).length;
+  if (!here) return `A row and a column for each corner of the ring. The pocket from i on to j is triangulated in the best way. Step into the table, or over it: ${total} cells.`;
+  const choices = choicesOf(shell, here).map(({k, quality}) => `k = ${name(k)} gives ${quality > 0 ? four(quality) : "none"}`);
+  const best = tableApex(shell, here.i, here.j);
+  const result = best < shell.ring.length ? `M_q = ${four(tableQuality(shell, here.i, here.j))}, M_k = ${name(best)}.`
+    : shell.locks && choices.some((choice) => !choice.endsWith("none")) ? "Locked: none." : "No triangulation.";
+  return `Cell ${filled} of ${total}, pocket from ${name(here.i)} to ${name(here.j)}: ${choices.join("; ")}. ${result}`;
+}
+
+// --- the algorithm ---
+
+function listLines(list, lines, here) {
+  list.replaceChildren(...lines.map((text, n) => make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, text)));
+}
+
+function showCode(step) {
+  const stack = stackOf(step);
+  const codeOf = (n) => {
+    const call = stack[n];
+    const line = step.lines[n];
+    return call && call.code >= 0 ? {...recording.codes[call.code], line} : null;
+  };
+  const pass = step.passLine > 0 ? {...recording.codes[PASS_CODE], line: step.passLine} : null;
+  const here = stack.length > 0 ? codeOf(stack.length - 1) : pass;
+  const caller = stack.length > 1 ? codeOf(stack.length - 2) : stack.length === 1 ? pass : null;
+  byId("code-title").textContent = here ? here.title : stack.length > 0 ? "An operator that is not described" : "No call here";
+  listLines(byId("code"), here ? here.lines : [], here ? [here.line] : []);
+  byId("caller").replaceChildren();
+  if (!caller || caller.line === 0) return;
+  byId("caller").append(`called from line ${caller.line} of ${caller.title.split(":")[0]}: `, make("b", {}, caller.lines[caller.line - 1].trim()));
+}
+
+// --- the calls ---
+
+const folds = new Map();  // by number: open or not, as the reader wants it
+
+/** Rows of the tree: those of the stack are open, and those that the reader opened. */
+function rowsOfTree(step) {
+  const stack = new Set(stackOf(step).map((call) => call.number));
+  const rows = [];
+  for (const call of [...calls.values()].sort((x, y) => x.number - y.number)) {
+    if (call.begin >= steps[steps.length - 1].position) continue;
+    let isHidden = false;
+    for (let up = call.parent === null ? null : calls.get(call.parent); up; up = up.parent === null ? null : calls.get(up.parent)) {
+      if (!(folds.get(up.number) ?? stack.has(up.number))) isHidden = true;
+    }
+    if (!isHidden) rows.push({call, hasCalls: call.last > call.number + 1, isOpen: folds.get(call.number) ?? stack.has(call.number)});
+  }
+  return rows;
+}
+
+function showTree(step, enter, redraw) {
+  const least = Math.min(...[...calls.values()].map((call) => call.depth));
+  const here = step.call;
+  const rows = rowsOfTree(step).map(({call, hasCalls, isOpen}) => {
+    const outcome = outcomeOf(call, step.position);
+    const dot = make("span", {class: "dot", style: isDone(call, step.position) ? `background: var(--${outcome})` : `box-shadow: inset 0 0 0 0.16em var(--${call.outcome})`});
+    const fold = hasCalls ? make("button", {type: "button", class: "fold", "aria-expanded": String(isOpen), "aria-label": `calls in call ${call.number}`,
+      onclick: () => { folds.set(call.number, !isOpen); redraw(); }}, isOpen ? "\u25be" : "\u25b8") : make("span", {class: "fold", style: "display: inline-block; min-width: 1.5rem"});
+    const row = make("button", {type: "button", class: "row", title: `call ${call.number}, ${call.operator}${call.settings ? ` {${call.settings}}` : ""}: ${call.verdict}`,
+      onclick: () => enter(call)}, dot, `${call.level} ${call.name} ${call.target.join("-")}`);
+    const first = make("td", {}, fold, row);
+    first.style.paddingLeft = `${0.8 * (call.depth - least)}rem`;
+    return make("tr", {class: call.number === here ? "here" : "", "data-call": call.number, ...(call.number === here ? {"aria-current": "true"} : {})},
+      first, make("td", {}, call.degrees), make("td", {}, call.qualities));
+  });
+  byId("tree").replaceChildren(make("thead", {}, make("tr", {}, make("th", {}, "level, operator, target"), make("th", {}, "degree"), make("th", {}, "worst q"))), make("tbody", {}, ...rows));
+  const box = byId("tree-scroll");
+  const row = byId("tree").querySelector("tr.here");
+  if (row && (row.offsetTop < box.scrollTop + row.offsetHeight || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)) {
+    box.scrollTop = row.offsetTop - box.clientHeight / 3;
+  }
+}
+
+function showTold(step, enter) {
+  const stack = stackOf(step);
+  const call = stack[stack.length - 1];
+  byId("crumbs").replaceChildren(...stack.flatMap((c, n) => {
+    const button = make("button", {type: "button", onclick: () => enter(c)}, `${c.name} ${c.place}`);
+    if (n === stack.length - 1) button.setAttribute("aria-current", "true");
+    return n === 0 ? [button] : ["\u203a", button];
+  }));
+  if (stack.length === 0) byId("crumbs").textContent = "outside of all calls";
+  byId("event").textContent = step.event;
+  byId("verdict").textContent = call ? verdictOf(call, step.position) : "";
+  byId("verdict").style.color = call ? `var(--${outcomeOf(call, step.position)})` : "";
+  byId("reason").textContent = call && isDone(call, step.position) ? call.reason ?? "" : "";
+}
+
+const LEGEND = [["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
+  ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
+
+function showLegend(scene) {
+  const items = LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(([kind, text, width, dashes]) => {
+    const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
+    svg.append(svgElement("line", {x1: 1, y1: 4.5, x2: 21, y2: 4.5, stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
+    return make("li", {}, svg, text);
+  });
+  const swatch = (colours) => {
+    const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
+    colours.forEach((colour, n) => svg.append(svgElement("rect", {x: n * 22 / colours.length, y: 0, width: 22 / colours.length + 0.2, height: 9, fill: inCss(colour)})));
+    return svg;
+  };
+  if (scene.kinds.has("face")) items.push(make("li", {}, swatch([colourOf("face")]), "face f that is to go"));
+  if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "q from 1 to 2"));
+  byId("legend").replaceChildren(...items);
+}

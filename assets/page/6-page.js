@@ -1,0 +1,427 @@
+// The page: where it is, and what leads on from there.
+
+const place = {step: 0, cell: 0};
+const view = {when: "now", apart: 0.1, around: true};
+const camera = new Camera();
+const canvas = byId("canvas");
+const flat = byId("flat");
+const painter = WebGlPainter.on(canvas);
+const stage = byId("stage");
+let scene = makeScene(steps[0], null, "now", 0, true);
+
+if (!painter) {
+  canvas.hidden = true;
+  flat.removeAttribute("hidden");
+}
+
+// --- the picture ---
+
+/** The place moved inside of 0 to `size` by `half`; null far outside. */
+function within(place, half, size) {
+  const far = 30;
+  return place < -far || place > size + far ? null : Math.min(Math.max(place, half), size - half);
+}
+
+function drawPicture() {
+  const size = {width: stage.clientWidth, height: stage.clientHeight};
+  if (size.width === 0 || size.height === 0) return;
+  if (painter && !painter.gl.isContextLost()) painter.draw(scene, camera, size, Math.min(window.devicePixelRatio, 3));
+  else drawFlat(flat, scene, camera, size);
+  const names = scene.names.map((name) => ({...name, at: camera.project(name.place, size)}));
+  byId("names").replaceChildren(...names.sort((x, y) => x.at[2] - y.at[2]).map((name) => {
+    const span = make("span", {"data-vertex": name.vertex, class: `${name.end ? "end" : ""} ${name.quiet ? "quiet" : ""}`}, name.text);
+    // Whole where its place is near the border; gone where that is far outside, as of a caller's edge.
+    const half = [8 + 5 * name.text.length, 12];
+    const [x, y] = [0, 1].map((axis) => within(name.at[axis], half[axis], axis === 0 ? size.width : size.height));
+    span.hidden = x === null || y === null;
+    if (span.hidden) span.classList.add("quiet");
+    span.style.left = `${x}px`;
+    span.style.top = `${y}px`;
+    return span;
+  }));
+}
+
+let frame = 0;
+function redrawPicture() {
+  if (frame) return;
+  frame = requestAnimationFrame(() => { frame = 0; drawPicture(); });
+}
+
+/** For paper, and for a browser without WebGL. */
+function drawForPrint() {
+  drawFlat(flat, scene, camera, {width: 640, height: 440});
+}
+
+/** The axis of the picture: the edge of the call. */
+function axisOf(call) {
+  const ends = call?.shell ? [call.shell.a, call.shell.b] : call?.target ?? [];
+  if (ends.length !== 2) return null;
+  const places = placesIn(call.before ?? [], present.tets);
+  const [a, b] = ends.map((vertex) => places.get(vertex));
+  return a && b ? unit(subtract(b, a)) : null;
+}
+
+/** From the side and a little from above; the corner of the ring that is farthest out comes to the front. */
+function lookFromSide(call) {
+  const axis = axisOf(call);
+  if (!axis) return camera.look([0.5, -0.8, 0.35], [0, 0, 1]);
+  const across = unit(cross(axis, Math.abs(axis[2]) < 0.8 ? [0, 0, 1] : [0.35, 0.94, 0]));
+  camera.look(add(scale(across, 0.9), scale(axis, 0.42)), axis);
+}
+
+function lookAlong(call) {
+  const axis = axisOf(call);
+  if (axis) camera.look(scale(axis, -1), camera.up);
+}
+
+let flight = 0;
+function goToBall({centre, radius}, isSudden) {
+  cancelAnimationFrame(flight);
+  const from = {centre: camera.centre, radius: camera.radius};
+  const isStill = isSudden || matchMedia("(prefers-reduced-motion: reduce)").matches || document.hidden;
+  const begin = performance.now();
+  const fly = (now) => {
+    const t = isStill ? 1 : Math.min((now - begin) / 320, 1);
+    const s = t * t * (3 - 2 * t);
+    camera.centre = mix(from.centre, centre, s);
+    camera.radius = from.radius + (radius - from.radius) * s;
+    drawPicture();
+    if (t < 1) flight = requestAnimationFrame(fly);
+  };
+  fly(begin);
+}
+
+// --- steps ---
+
+const lesson = recording.lesson ?? null;
+let inView = {call: undefined, ball: null};
+
+function lessonStep(position) {
+  let found = -1;
+  lesson.steps.forEach((step, n) => { if (step.at <= position) found = n; });
+  return found;
+}
+
+function show(isSudden = false) {
+  const step = steps[place.step];
+  present.goTo(place.step);
+  const call = callOf(step);
+  const filling = shellBeingFilled(step);
+  const total = call?.shell?.tables ? cellsOf(call.shell).length : 0;
+  place.cell = filling ? Math.min(place.cell, total) : 0;
+  const cell = filling && place.cell > 0 ? cellsOf(filling)[place.cell - 1] : null;
+  scene = makeScene(step, cell, view.when, view.apart, view.around);
+  showTold(step, enter);
+  showCode(step);
+  showRing(call, step.position, cell);
+  showTables(call, filling ? place.cell : total, Boolean(filling));
+  showChords(call);
+  const main = document.querySelector("main");
+  main.classList.toggle("no-shell", !call?.shell);
+  main.classList.toggle("no-tables", Boolean(call?.shell) && byId("tables-card").hidden);
+  showTree(step, enter, show);
+  showLegend(scene);
+  showLesson(step);
+  showPlace(step, filling ? total : 0);
+  for (const button of document.querySelectorAll("[data-when]")) button.setAttribute("aria-pressed", String(button.dataset.when === view.when));
+  byId("along").disabled = axisOf(call) === null;
+  const after = document.querySelector("[data-when=after]");
+  after.textContent = call?.undone ? "Tried" : "After";
+  after.disabled = !call?.after?.length;
+  document.querySelector("[data-when=before]").disabled = !call?.before?.length;
+  const words = call ? `${call.name} ${call.place}: ${scene.shown} tets` : `${scene.shown} tets`;
+  canvas.setAttribute("aria-label", words);
+  flat.setAttribute("aria-label", words);
+  // The camera follows the call, and stays while the call does.
+  const places = scene.places.length > 0 ? scene.places : [...placesIn(call?.before ?? [], present.tets).values()];
+  const ball = ballInView(call, places);
+  if (inView.call !== step.call || !inView.ball) {
+    if (inView.call === undefined) lookFromSide(call ?? calls.values().next().value);
+    inView = {call: step.call, ball};
+    goToBall(ball, isSudden);
+  } else {
+    drawPicture();
+  }
+  Object.assign(document.body.dataset, {position: step.position, cell: place.cell, shown: scene.shown, call: step.call ?? ""});
+}
+
+/** The tets of the call, and those of its caller where they are about as large: both shells are to be seen. */
+function ballInView(call, places) {
+  const all = call ? [...placesIn(tetsOf(call)).values()] : places;
+  if (all.length === 0) return ballAround(places.length > 0 ? places : [[0, 0, 0]]);
+  const own = ballAround(all);
+  const caller = call && call.parent !== null ? calls.get(call.parent) : null;
+  if (!caller?.before) return own;
+  const both = ballInView(caller, places);
+  return both.radius < 2.2 * own.radius ? both : own;
+}
+
+function showPlace(step, cells) {
+  byId("slider").value = place.step;
+  byId("count").textContent = `step ${step.position}${cells ? `, cell ${place.cell}/${cells}` : ""} of ${steps[steps.length - 1].position}`;
+  const isFirst = place.step === 0 && place.cell === 0;
+  const isLast = place.step === steps.length - 1;
+  for (const button of document.querySelectorAll("nav button")) button.disabled = button.dataset.step.startsWith("back") ? isFirst : isLast;
+  const hash = `#step=${step.position}${place.cell ? `.${place.cell}` : ""}`;
+  if (location.hash !== hash) history.replaceState(null, "", hash);
+}
+
+function showLesson(step) {
+  if (!lesson) return;
+  const n = lessonStep(step.position);
+  byId("lesson-text").textContent = n < 0 ? lesson.title : lesson.steps[n].text;
+  byId("lesson-count").textContent = `${n + 1} of ${lesson.steps.length}`;
+  byId("lesson-back").disabled = n <= 0 && step.position <= lesson.steps[0].at;
+  byId("lesson-next").disabled = n === lesson.steps.length - 1;
+}
+
+function goTo(number, cell = 0) {
+  place.step = Math.min(Math.max(number, 0), steps.length - 1);
+  place.cell = cell;
+  view.when = "now";
+  show();
+}
+
+function enter(call) { goTo(stepAfter(call.begin + 1)); }
+
+/** As the debugger steps; into and over go through the tables as well, cell by cell and diagonal by diagonal. */
+function move(way) {
+  const step = steps[place.step];
+  const filling = shellBeingFilled(step);
+  const cells = filling ? cellsOf(filling) : [];
+  const [over, out, backOver, backOut] = step.ways;
+  switch (way) {
+    case "into":
+      if (place.cell < cells.length) return goTo(place.step, place.cell + 1);
+      return goTo(place.step + 1);
+    case "over": {
+      if (place.cell === 0) return goTo(stepAfter(over));
+      const next = cells.findIndex((cell, n) => n >= place.cell && cell.d > cells[place.cell - 1].d);
+      return next < 0 ? goTo(place.step + 1) : goTo(place.step, next + 1);
+    }
+    case "out":
+      return goTo(stepAfter(out));
+    case "back-into":
+      if (place.cell > 0) return goTo(place.step, place.cell - 1);
+      return goTo(place.step - 1, placeOfLastCell(place.step - 1));
+    case "back-over":
+      return place.cell > 0 ? goTo(place.step, 0) : goTo(stepBefore(backOver));
+    default:
+      return goTo(stepBefore(backOut));
+  }
+}
+
+/** Backwards, a table is full before it is emptied. */
+function placeOfLastCell(number) {
+  const filling = number >= 0 ? shellBeingFilled(steps[number]) : null;
+  return filling ? cellsOf(filling).length : 0;
+}
+
+function moveInLesson(by) {
+  if (!lesson) return;
+  const position = steps[place.step].position;
+  const n = lessonStep(position);
+  const next = by < 0 && n >= 0 && lesson.steps[n].at < position ? n : n + by;
+  if (next >= 0 && next < lesson.steps.length) goTo(stepAfter(lesson.steps[next].at));
+}
+
+function goToCall(holds, by) {
+  const {position} = steps[place.step];
+  const ends = [...calls.values()].filter((call) => holds(call) && call.reason !== undefined).map((call) => call.end).sort((x, y) => x - y);
+  const found = by > 0 ? ends.find((end) => end > position) : ends.filter((end) => end < position).pop();
+  if (found !== undefined) goTo(stepBefore(found));
+}
+
+function goToDeepest() {
+  const all = [...calls.values()].filter((call) => call.reason !== undefined);
+  if (all.length > 0) enter(all.reduce((x, y) => (y.depth > x.depth ? y : x)));
+}
+
+function goToHash() {
+  const found = /^#step=(\d+)(?:\.(\d+))?$/.exec(location.hash);
+  if (!found) return false;
+  goTo(stepAfter(Number(found[1])), Number(found[2] ?? 0));
+  return true;
+}
+
+let playing = 0;
+function play() {
+  if (playing) { clearInterval(playing); playing = 0; return say("stopped"); }
+  say("plays; Space stops");
+  playing = setInterval(() => {
+    if (place.step === steps.length - 1) { clearInterval(playing); playing = 0; } else { move("into"); }
+  }, 900);
+}
+
+function say(text) {
+  byId("said").textContent = text;
+  byId("said").classList.add("on");
+  setTimeout(() => byId("said").classList.remove("on"), 1800);
+}
+
+// --- looks ---
+
+function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  byId("theme").textContent = theme === "dark" ? "Light" : "Dark";
+  cssColours.clear();
+}
+
+function toggleTheme() {
+  setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+  show();
+}
+
+function toggleSize() {
+  const isLarge = document.documentElement.dataset.size !== "large";
+  document.documentElement.dataset.size = isLarge ? "large" : "";
+  byId("text-size").setAttribute("aria-pressed", String(isLarge));
+  show();
+}
+
+function copyLink() {
+  const said = () => say("The link to this step is copied");
+  const shown = () => say(location.hash);
+  if (navigator.clipboard) navigator.clipboard.writeText(location.href).then(said, shown); else shown();
+}
+
+function showWhen(when) {
+  if (document.querySelector(`[data-when=${when}]`).disabled) return;
+  view.when = when;
+  show();
+}
+
+// --- keys, mouse and touch ---
+
+const KEYS = [
+  [["ArrowRight"], "One step on, into a call and through the tables", () => move("into")],
+  [["ArrowLeft"], "One step back", () => move("back-into")],
+  [["ArrowDown"], "On, over a whole call or a diagonal of the tables", () => move("over")],
+  [["ArrowUp"], "Back, over a whole call", () => move("back-over")],
+  [["PageDown"], "To the end of the call", () => move("out")],
+  [["PageUp"], "To before the call", () => move("back-out")],
+  [["Home"], "To the first step", () => goTo(0)],
+  [["End"], "To the last step", () => goTo(steps.length - 1)],
+  [["n", "L"], "Next step of the lesson", () => moveInLesson(1)],
+  [["b", "K"], "Step of the lesson before", () => moveInLesson(-1)],
+  [[" "], "Play, or stop playing", play],
+  [["j"], "To the next accepted call", () => goToCall((call) => call.outcome === "accepted", 1)],
+  [["J"], "To the accepted call before", () => goToCall((call) => call.outcome === "accepted", -1)],
+  [["u"], "To the next refused call", () => goToCall((call) => call.outcome !== "accepted", 1)],
+  [["U"], "To the refused call before", () => goToCall((call) => call.outcome !== "accepted", -1)],
+  [["d"], "To the deepest call", goToDeepest],
+  [["1"], "The tets now", () => showWhen("now")],
+  [["2"], "The tets as the call found them", () => showWhen("before")],
+  [["3"], "The tets as the call left or tried them", () => showWhen("after")],
+  [["a"], "Look along the edge", () => { lookAlong(callOf(steps[place.step])); redrawPicture(); }],
+  [["h"], "Look from the side", () => { camera.zoom = 1; lookFromSide(callOf(steps[place.step])); goToBall(inView.ball, true); }],
+  [["t"], "Light or dark", toggleTheme],
+  [["g"], "Large text, for a projector", toggleSize],
+  [["c"], "Copy a link to this step", copyLink],
+  [["?"], "These keys", () => byId("keys").showModal()],
+];
+const KEY_NAMES = {ArrowRight: "Right", ArrowLeft: "Left", ArrowDown: "Down", ArrowUp: "Up", PageDown: "Page Down", PageUp: "Page Up", " ": "Space", L: "Shift+L", K: "Shift+K", J: "Shift+J", U: "Shift+U"};
+
+document.addEventListener("keydown", (event) => {
+  const isTyping = event.target.matches("input[type=range]") && event.key.startsWith("Arrow");
+  const isPressing = event.target.matches("button, input") && event.key === " ";
+  if (isTyping || isPressing || event.ctrlKey || event.altKey || event.metaKey || byId("keys").open) return;
+  if (event.target === canvas && event.shiftKey && event.key.startsWith("Arrow")) {
+    const turns = {ArrowLeft: [-0.12, 0], ArrowRight: [0.12, 0], ArrowUp: [0, -0.12], ArrowDown: [0, 0.12]};
+    camera.turn(...turns[event.key]);
+    event.preventDefault();
+    return redrawPicture();
+  }
+  const found = KEYS.find(([keys]) => keys.includes(event.key));
+  if (!found) return;
+  event.preventDefault();
+  found[2]();
+});
+
+const pointers = new Map();
+stage.addEventListener("pointerdown", (event) => {
+  pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  stage.setPointerCapture(event.pointerId);
+});
+stage.addEventListener("pointermove", (event) => {
+  const before = pointers.get(event.pointerId);
+  if (!before) return;
+  const now = [event.clientX, event.clientY];
+  if (pointers.size === 2) {
+    const [other] = [...pointers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+    const apart = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
+    camera.zoom = Math.min(Math.max(camera.zoom * apart(now) / Math.max(apart(before), 1), 0.3), 12);
+  } else {
+    const turn = 5.5 / Math.max(stage.clientWidth, 200);
+    camera.turn((now[0] - before[0]) * turn, (now[1] - before[1]) * turn);
+  }
+  pointers.set(event.pointerId, now);
+  redrawPicture();
+});
+for (const end of ["pointerup", "pointercancel"]) {
+  stage.addEventListener(end, (event) => pointers.delete(event.pointerId));
+}
+stage.addEventListener("wheel", (event) => {
+  event.preventDefault();
+  camera.zoom = Math.min(Math.max(camera.zoom * Math.exp(-0.0014 * event.deltaY), 0.3), 12);
+  redrawPicture();
+}, {passive: false});
+canvas.addEventListener("webglcontextlost", (event) => {
+  event.preventDefault();
+  canvas.hidden = true;
+  flat.removeAttribute("hidden");
+  redrawPicture();
+});
+
+// --- the beginning ---
+
+function describeOrigin() {
+  const {mesh, schedule, recorder, program, damage, filter, calls: count} = recording.origin;
+  const parts = [];
+  if (mesh) parts.push(`mesh ${mesh}`);
+  if (schedule) parts.push(`schedule ${schedule}`);
+  parts.push(`goal ${recording.goal}`, `${count} call${count === 1 ? "" : "s"}`);
+  if (recorder) parts.push(`recorded by ${recorder}`);
+  if (program && program !== recorder) parts.push(`page by ${program}`);
+  if (filter) parts.push(`recorded without ${filter}`);
+  if (damage) parts.push(damage);
+  if (recording.deepest !== undefined) parts.push(`calls with more than ${recording.deepest} calls around them are one step each, to keep the page small`);
+  byId("origin").textContent = parts.join(" \u00b7 ");
+}
+
+function begin() {
+  setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  describeOrigin();
+  byId("lesson").hidden = !lesson;
+  byId("slider").max = steps.length - 1;
+  byId("slider").addEventListener("input", () => goTo(Number(byId("slider").value)));
+  for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => move(button.dataset.step));
+  for (const button of document.querySelectorAll("[data-when]")) button.addEventListener("click", () => showWhen(button.dataset.when));
+  byId("lesson-next").addEventListener("click", () => moveInLesson(1));
+  byId("lesson-back").addEventListener("click", () => moveInLesson(-1));
+  byId("apart").addEventListener("input", () => { view.apart = byId("apart").value / 100; show(); });
+  byId("around").addEventListener("change", () => { view.around = byId("around").checked; show(); });
+  const keyFor = (key) => KEYS.find(([keys]) => keys.includes(key))[2];
+  byId("along").addEventListener("click", keyFor("a"));
+  byId("home").addEventListener("click", keyFor("h"));
+  byId("theme").addEventListener("click", toggleTheme);
+  byId("text-size").addEventListener("click", toggleSize);
+  byId("copy-link").addEventListener("click", copyLink);
+  byId("show-keys").addEventListener("click", keyFor("?"));
+  byId("key-list").replaceChildren(...KEYS.map(([keys, help]) => make("tr", {}, make("td", {}, ...keys.flatMap((key, n) => [n ? " " : "", make("kbd", {}, KEY_NAMES[key] ?? key)])), make("td", {}, help))),
+    make("tr", {}, make("td", {}, "drag, pinch, wheel"), make("td", {}, "Turn and zoom the picture; Shift and arrows turn it when it has the focus")));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => { setTheme(event.matches ? "dark" : "light"); show(); });
+  // Paper is white.
+  let screenTheme = "light";
+  matchMedia("print").addEventListener("change", (event) => {
+    if (event.matches) screenTheme = document.documentElement.dataset.theme;
+    setTheme(event.matches ? "light" : screenTheme);
+    show(true);
+    if (event.matches) drawForPrint();
+  });
+  addEventListener("hashchange", goToHash);
+  new ResizeObserver(redrawPicture).observe(stage);
+  if (!goToHash()) show(true);
+}
+
+begin();
