@@ -34,6 +34,11 @@ std::string counted_from(std::int32_t first) {
   return ", counted from " + std::to_string(first);
 }
 
+/// "there are 12"
+std::string there_are(std::size_t count) {
+  return (count == 1 ? "there is " : "there are ") + std::to_string(count);
+}
+
 std::string place(const char* list, std::size_t i, std::int32_t first) {
   return std::string(list) + "[" + std::to_string(i + static_cast<std::size_t>(first)) + "]: ";
 }
@@ -46,8 +51,8 @@ std::uint32_t read_number(std::int32_t number, std::size_t points, const std::st
   if (index >= 0 && index < static_cast<std::int64_t>(points)) {
     return static_cast<std::uint32_t>(index);
   }
-  throw Error(where + "no point " + std::to_string(number) + ", there are " +
-              std::to_string(points) + counted_from(first));
+  throw Error(where + "no point " + std::to_string(number) + ", " + there_are(points) +
+              counted_from(first));
 }
 
 template <std::size_t N>
@@ -91,7 +96,7 @@ std::vector<std::int32_t> read_labels(const std::int32_t* labels, std::size_t n)
   return {labels, labels + n};
 }
 
-/// One kind of element into the draft; its data, which belonged to the old ones, go.
+/// One kind of element into the draft; its data and groups, which belonged to the old ones, go.
 template <std::size_t N>
 void set_elements(tetmend_mesh& handle, const char* name, const std::int32_t* numbers,
                   std::size_t n, const std::int32_t* labels,
@@ -106,6 +111,8 @@ void set_elements(tetmend_mesh& handle, const char* name, const std::int32_t* nu
   draft.*label_list = std::move(made_labels);
   (draft.*data).clear();
   (draft.*parts).clear();
+  std::erase_if(draft.groups,
+                [](const Group& group) { return group.dimension == static_cast<int>(N) - 1; });
   handle.result.reset();
 }
 
@@ -153,6 +160,38 @@ std::size_t count_of(const tetmend_mesh& handle, tetmend_place place) {
                                             : std::array{mesh.point_count(), mesh.edge_count(),
                                                          mesh.triangle_count(), mesh.tet_count()};
   return counts[static_cast<std::size_t>(place)];
+}
+
+const std::vector<Group>& groups_of(const tetmend_mesh& handle) {
+  return handle.is_draft ? handle.draft.groups : handle.mesh.groups();
+}
+
+const Group& group_of(const tetmend_mesh& handle, std::size_t i) {
+  const std::vector<Group>& groups = groups_of(handle);
+  if (i < groups.size()) return groups[i];
+  throw WrongCall("no group " + std::to_string(i) + ", " + there_are(groups.size()) +
+                  ", counted from 0");
+}
+
+/// @throws Error with the place
+std::vector<std::uint32_t> read_members(const int32_t* members, std::size_t n, std::size_t count,
+                                        tetmend_place of, std::int32_t first) {
+  std::vector<std::uint32_t> made(n);
+  std::vector<bool> is_in(count, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int64_t index = std::int64_t{members[i]} - first;
+    if (index < 0 || index >= static_cast<std::int64_t>(count)) {
+      throw Error(place("members", i, first) + "no " + std::to_string(members[i]) + " of the " +
+                  name_of(of) + ", " + there_are(count) + counted_from(first));
+    }
+    if (is_in[static_cast<std::size_t>(index)]) {
+      throw Error(place("members", i, first) + std::to_string(members[i]) + " twice" +
+                  counted_from(first));
+    }
+    is_in[static_cast<std::size_t>(index)] = true;
+    made[i] = static_cast<std::uint32_t>(index);
+  }
+  return made;
 }
 
 template <class Value>
@@ -275,6 +314,32 @@ tetmend_status tetmend_set_data(tetmend_mesh* mesh, tetmend_place place, const c
   });
 }
 
+tetmend_status tetmend_set_group(tetmend_mesh* mesh, tetmend_place place, int32_t number,
+                                 const char* name, const int32_t* members, size_t n) {
+  return guarded(mesh, [&](tetmend_mesh& handle) {
+    check(place);
+    need(name, "name");
+    need(members, "members", n > 0);
+    MeshArrays& draft = draft_of(handle);
+    Group made;
+    made.dimension = static_cast<int>(place);
+    made.number = number;
+    made.name = name;
+    made.members = read_members(members, n, count_of(handle, place), place, handle.first_number);
+    for (Group& group : draft.groups) {
+      if (group.dimension != made.dimension || group.number != number) continue;
+      if (group.name == made.name) {
+        group = std::move(made);
+        return;
+      }
+      if (number == 0) continue;
+      throw Error("group '" + made.name + "': number " + std::to_string(number) +
+                  " is that of group '" + group.name + "'");
+    }
+    draft.groups.push_back(std::move(made));
+  });
+}
+
 size_t tetmend_count(const tetmend_mesh* mesh, tetmend_place place) {
   if (mesh == nullptr || place < TETMEND_POINTS || place > TETMEND_TETS) return 0;
   return count_of(*mesh, place);
@@ -341,8 +406,8 @@ tetmend_status tetmend_data_info(tetmend_mesh* mesh, tetmend_place place, size_t
     check(place);
     const std::vector<DataArray>& list = data_of(handle, place);
     if (i >= list.size()) {
-      throw WrongCall("no array " + std::to_string(i) + " of " + name_of(place) + ", there are " +
-                      std::to_string(list.size()) + ", counted from 0");
+      throw WrongCall("no array " + std::to_string(i) + " of " + name_of(place) + ", " +
+                      there_are(list.size()) + ", counted from 0");
     }
     if (name != nullptr) *name = list[i].name.c_str();
     if (type != nullptr) *type = static_cast<tetmend_type>(list[i].values.index());
@@ -373,5 +438,33 @@ tetmend_status tetmend_get_data(tetmend_mesh* mesh, tetmend_place place, const c
           }
         },
         array->values);
+  });
+}
+
+size_t tetmend_group_count(const tetmend_mesh* mesh) {
+  return mesh == nullptr ? 0 : groups_of(*mesh).size();
+}
+
+tetmend_status tetmend_group_info(tetmend_mesh* mesh, size_t i, tetmend_place* place,
+                                  int32_t* number, const char** name, size_t* count) {
+  return guarded(mesh, [&](tetmend_mesh& handle) {
+    const Mesh& settled = settle(handle);
+    const Group& group = group_of(handle, i);
+    if (place != nullptr) *place = static_cast<tetmend_place>(group.dimension);
+    if (number != nullptr) *number = group.number;
+    if (name != nullptr) *name = group.name.c_str();
+    if (count != nullptr) *count = settled.members(group).size();
+  });
+}
+
+tetmend_status tetmend_get_group(tetmend_mesh* mesh, size_t i, int32_t* members, size_t n) {
+  return guarded(mesh, [&](tetmend_mesh& handle) {
+    const Mesh& settled = settle(handle);
+    const std::vector<std::uint32_t> found = settled.members(group_of(handle, i));
+    need_room(n, found.size());
+    need(members, "members", !found.empty());
+    std::transform(found.begin(), found.end(), members, [&](std::uint32_t member) {
+      return static_cast<std::int32_t>(member) + handle.first_number;
+    });
   });
 }

@@ -110,8 +110,8 @@ inline void need(const void* pointer, const char* name, bool is_needed = true) {
 /// @throws WrongCall unless there is room for `count`
 inline void need_room(std::size_t room, std::size_t count) {
   if (room < count) {
-    throw WrongCall("room for " + std::to_string(room) + ", but there are " +
-                    std::to_string(count));
+    throw WrongCall("room for " + std::to_string(room) + ", but there " +
+                    (count == 1 ? "is " : "are ") + std::to_string(count));
   }
   if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw WrongCall("there are more than 2^31 - 1");

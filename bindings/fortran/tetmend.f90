@@ -99,6 +99,9 @@ module tetmend
     procedure, private :: get_integer_data
     generic, public :: set_data => set_real_data, set_integer_data
     generic, public :: get_data => get_real_data, get_integer_data
+    procedure, public :: set_group
+    procedure, public :: group_count
+    procedure, public :: get_group
     procedure, public :: count => count_of
     procedure, public :: get_points
     procedure, public :: get_tets
@@ -298,6 +301,41 @@ module tetmend
       character(kind=c_char), intent(in) :: name(*)
       integer(c_int), value :: type
       type(c_ptr), value :: values
+      integer(c_size_t), value :: n
+      integer(c_int) :: status
+    end function
+    function c_set_group(handle, place, number, name, members, n) &
+        bind(c, name='tetmend_set_group') result(status)
+      import :: c_ptr, c_int, c_int32_t, c_char, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_int), value :: place
+      integer(c_int32_t), value :: number
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), value :: members
+      integer(c_size_t), value :: n
+      integer(c_int) :: status
+    end function
+    function c_group_count(handle) bind(c, name='tetmend_group_count') result(n)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t) :: n
+    end function
+    function c_group_info(handle, i, place, number, name, n) bind(c, name='tetmend_group_info') &
+        result(status)
+      import :: c_ptr, c_int, c_int32_t, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: i
+      integer(c_int), intent(out) :: place
+      integer(c_int32_t), intent(out) :: number
+      type(c_ptr), intent(out) :: name
+      integer(c_size_t), intent(out) :: n
+      integer(c_int) :: status
+    end function
+    function c_get_group(handle, i, members, n) bind(c, name='tetmend_get_group') result(status)
+      import :: c_ptr, c_int, c_int32_t, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: i
+      integer(c_int32_t), intent(out) :: members(*)
       integer(c_size_t), value :: n
       integer(c_int) :: status
     end function
@@ -573,6 +611,7 @@ contains
                         c_loc(copy))
   end function
 
+  ! values(components, n)
   function set_integer_data(self, place, name, values) result(status)
     class(tetmend_mesh), intent(in) :: self
     integer(c_int), intent(in) :: place
@@ -669,6 +708,7 @@ contains
                         size(values, kind=c_size_t))
   end function
 
+  ! values(components, n)
   function get_integer_data(self, place, name, values) result(status)
     class(tetmend_mesh), intent(in) :: self
     integer(c_int), intent(in) :: place
@@ -681,6 +721,53 @@ contains
     if (size(values) > 0) address = c_loc(values)
     status = c_get_data(self%handle, place, to_c(name), type_int32, address, &
                         size(values, kind=c_size_t))
+  end function
+
+  ! Without members: all with the label `number`.
+  function set_group(self, place, number, name, members) result(status)
+    class(tetmend_mesh), intent(in) :: self
+    integer(c_int), intent(in) :: place
+    integer(c_int32_t), intent(in) :: number
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in), optional :: members(:)
+    integer(c_int32_t), allocatable, target :: copy(:)
+    type(c_ptr) :: address
+    integer(c_size_t) :: n
+    integer(c_int) :: status
+    address = c_null_ptr
+    n = 0
+    if (present(members)) then
+      n = size(members, kind=c_size_t)
+      allocate (copy(n))
+      copy = members
+      if (n > 0) address = c_loc(copy)
+    end if
+    status = c_set_group(self%handle, place, number, to_c(name), address, n)
+  end function
+
+  ! How many groups there are.
+  function group_count(self) result(n)
+    class(tetmend_mesh), intent(in) :: self
+    integer :: n
+    n = int(c_group_count(self%handle))
+  end function
+
+  ! Group i, from 1, as it was set: members(n).
+  function get_group(self, i, place, number, name, members) result(status)
+    class(tetmend_mesh), intent(in) :: self
+    integer, intent(in) :: i
+    integer(c_int), intent(out) :: place
+    integer(c_int32_t), intent(out) :: number
+    character(len=:), allocatable, intent(out) :: name
+    integer(c_int32_t), allocatable, intent(out) :: members(:)
+    integer(c_size_t) :: n
+    type(c_ptr) :: text
+    integer(c_int) :: status
+    status = c_group_info(self%handle, int(i - 1, c_size_t), place, number, text, n)
+    if (status /= tetmend_ok) return
+    name = to_fortran(text)
+    allocate (members(n))
+    status = c_get_group(self%handle, int(i - 1, c_size_t), members, n)
   end function
 
   ! map(n) with room for the points of the old mesh; 0: gone

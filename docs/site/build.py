@@ -12,34 +12,37 @@ import tempfile
 from pathlib import Path
 from xml.etree import ElementTree
 
+from c_pages import write_c
+from failure import Failure
+from fortran_pages import write_fortran
+from python_pages import write_python
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
 # What stands under each page, in this order. A new page of docs/ gets its place here: how to call tetmend from
 # another language beside "library", all that there is to call beside "cpp".
 NAVIGATION: dict[str, list[str]] = {
-    "index": ["start", "howto", "choosing", "report", "troubleshooting", "extending", "overview",
-              "reliability", "results", "reference"],
+    "index": ["start", "install", "howto", "choosing", "report", "troubleshooting", "extending",
+              "overview", "reliability", "results", "reference"],
     "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
               "howto/others", "python", "library", "c", "howto/ci", "layers", "viewer", "examples"],
-    "extending": ["operators", "schedules", "trace", "contributing"],
+    "extending": ["operators", "schedules", "trace", "contributing", "portability"],
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",
                 "results/tangled", "results/renumbered", "results/reconnection", "results/angles",
                 "results/constraints", "results/cores", "results/growth", "results/files", "results/parts"],
     "reliability": ["results/faults", "results/fuzzing"],
-    "reference": ["command-line", "formats", "cpp", "dependencies", "changes"],
+    "reference": ["command-line", "formats", "cpp", "python-reference", "c-reference", "fortran-reference",
+                  "dependencies", "changes"],
 }
 # Files outside of docs/ that are pages of the site.
 OUTSIDE = {"CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md", "README.md": "index.md"}
-# Pages that are not in docs/: what they say is said by the program and the headers.
-GENERATED = {"docs/command-line.md", "docs/cpp.md"}
-COMMANDS = ["improve", "quality", "check", "convert", "surface", "operators", "schedules", "trace",
+# Pages that are not in docs/: what they say is said by the program, the headers and the bindings.
+GENERATED = {"docs/command-line.md", "docs/cpp.md", "docs/python-reference.md", "docs/c-reference.md",
+             "docs/fortran-reference.md"}
+COMMANDS = ["improve", "quality", "check", "convert", "surface", "operators", "schedules", "trace", "lesson",
             "check-plugin"]
-
-
-class Failure(Exception):
-    """One line for the user."""
 
 
 # --- pages that are written by hand
@@ -174,6 +177,16 @@ def section(title: str, text: str) -> str:
     return "\n".join(out)
 
 
+def options_of(program: Path, command: str) -> dict[str, str]:
+    """What it says of its options, by their names with _ for -."""
+    found = {}
+    for names, words in entries_of([line[2:] if line.startswith("    -") else line for line in help_of(program, command).splitlines()]):
+        long_name = re.search(r"--([a-z-]+)", names)
+        if long_name and names.startswith("-"):
+            found[long_name[1].replace("-", "_")] = escaped(words)
+    return found
+
+
 def write_command_line(page: Path, program: Path) -> None:
     parts = ["# The command line\n",
              "What each command says with `--help`. This page is made from that.\n",
@@ -237,8 +250,9 @@ def write_cpp(pages: Path, xml: Path) -> None:
         "[The C++ library](library.md) is the place to begin.\n\n| Header | Content |\n|---|---|\n" + "".join(rows))
 
 
-def run_doxygen(folder: Path) -> None:
-    settings = (HERE / "Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {folder}\n"
+def run_doxygen(folder: Path, more_settings: str = "") -> None:
+    folder.mkdir(exist_ok=True)
+    settings = (HERE / "Doxyfile").read_text() + f"\nOUTPUT_DIRECTORY = {folder}\n{more_settings}"
     done = subprocess.run(["doxygen", "-"], input=settings, cwd=ROOT, capture_output=True, text=True)
     if done.returncode != 0:
         raise Failure("Doxygen: " + (done.stderr.strip().splitlines() or ["failed"])[0])
@@ -249,9 +263,18 @@ def run_doxygen(folder: Path) -> None:
 # --- the whole
 
 
-def run_sphinx(pages: Path, output: Path, xml: Path) -> None:
+# tetmend.h has another language than the other headers.
+FOR_C = """INPUT = include/tetmend/tetmend.h
+EXCLUDE =
+OPTIMIZE_OUTPUT_FOR_C = YES
+TYPEDEF_HIDES_STRUCT = YES
+"""
+
+
+def run_sphinx(pages: Path, output: Path, work: Path) -> None:
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE),
-               "-d", str(pages.parent / "doctrees"), "-D", f"breathe_projects.tetmend={xml}", str(pages), str(output)]
+               "-d", str(work / "doctrees"), "-D", f"breathe_projects.tetmend={work / 'xml'}",
+               "-D", f"breathe_projects.tetmend_c={work / 'c' / 'xml'}", str(pages), str(output)]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         sys.stderr.write(done.stderr.replace(f"{pages}/", ""))
@@ -293,9 +316,13 @@ def build(output: Path, program: Path) -> int:
         gather(pages)
         write_command_line(pages / "command-line.md", program)
         run_doxygen(work)
+        run_doxygen(work / "c", FOR_C)
         write_cpp(pages, work / "xml")
+        write_python(pages / "python-reference.md", options_of(program, "improve"))
+        write_c(pages / "c-reference.md", work / "c" / "xml")
+        write_fortran(pages / "fortran-reference.md")
         add_navigation(pages)
-        run_sphinx(pages, work / "html", work / "xml")
+        run_sphinx(pages, work / "html", work)
         complete_theme(work / "html" / "_static")
         for unused in ["objects.inv", ".buildinfo"]:
             (work / "html" / unused).unlink(missing_ok=True)

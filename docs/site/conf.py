@@ -1,11 +1,19 @@
 # SPDX-License-Identifier: MIT
 """How Sphinx makes the site; build.py calls it with the pages that it has gathered."""
 
+import sys
+from pathlib import Path
+
+from sphinx.ext.autodoc.mock import mock
+
+sys.path.insert(0, str(Path(__file__).parent))
+import python_pages  # noqa: E402
+
 project = "tetmend"
 author = "The tetmend authors"
 copyright = author  # noqa: A001
 
-extensions = ["myst_parser", "breathe"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 myst_heading_anchors = 4
 myst_enable_extensions = ["deflist"]
 # Texts as they are written: -- is an option, not a dash.
@@ -15,7 +23,17 @@ primary_domain = "cpp"
 breathe_default_project = "tetmend"
 breathe_default_members = ("members",)
 breathe_domain_by_extension = {"h": "cpp"}
-cpp_id_attributes = ["TETMEND_API"]
+breathe_domain_by_file_pattern = {"*/tetmend.h": "c"}
+cpp_id_attributes = c_id_attributes = ["TETMEND_API"]
+
+# Python: the package as it lies in the sources.
+autodoc_mock_imports = ["pyvista", *(["numpy"] if python_pages.is_missing("numpy") else [])]
+autodoc_member_order = "bysource"
+autodoc_class_signature = "separated"
+autodoc_typehints_format = "short"
+default_role = "literal"
+with mock(autodoc_mock_imports):
+    python_pages.load_package()
 
 html_theme = "furo"
 html_title = "tetmend"
@@ -42,3 +60,10 @@ html_theme_options = {
         "color-highlight-on-target": "#333300", "color-highlighted-background": "#083563",
     },
 }
+
+
+def setup(app: object) -> None:
+    def rewrite(_app: object, _what: str, _name: str, _object: object, _options: object, lines: list[str]) -> None:
+        lines[:] = python_pages.as_rst(lines)
+
+    app.connect("autodoc-process-docstring", rewrite)

@@ -43,6 +43,10 @@ struct MeshArrays {
   std::vector<std::int32_t> triangle_parts = {};  ///< likewise
   std::vector<std::int32_t> edge_parts = {};      ///< likewise
   std::vector<Group> groups = {};                 ///< named sets of points and elements
+  /// Of a mesh of second order: {end, end, node} of each edge of its tets, in any order. The node is
+  /// a point that no tet has for a vertex, in the middle of the edge or beside it. Triangles and edges
+  /// all of whose edges are named here are of second order, too.
+  std::vector<std::array<std::uint32_t, 3>> mid_nodes = {};
 };
 
 /// A mesh, as it was loaded, made of arrays, or improved. Its coordinates are finite and its
@@ -56,7 +60,8 @@ class TETMEND_API Mesh {
   /// Move the arrays in where they are not needed any more.
   /// @throws Error when a coordinate is NaN or infinite, when a vertex number is out of range or
   /// twice in an element, when an array of labels, parts or data has another length than its
-  /// entities, or when a group contradicts itself. The message begins with the place: "tets[7]: ",
+  /// entities, when a group contradicts itself, or when mid-side nodes do: each edge of a tet has one
+  /// or none has. The message begins with the place: "tets[7]: ",
   /// counted from 0.
   explicit Mesh(MeshArrays arrays);
   ~Mesh();
@@ -108,6 +113,11 @@ class TETMEND_API Mesh {
   const std::vector<DataArray>& edge_data() const;
   /// Named sets of points and elements.
   const std::vector<Group>& groups() const;
+  /// {end, end, node} of each edge of an element of second order, once.
+  std::span<const std::array<std::uint32_t, 3>> mid_nodes() const;
+
+  /// Points or elements of one of its groups, whether it names them itself, by parts or by a label.
+  std::vector<std::uint32_t> members(const Group& group) const;
 
   /// All of it; the first call also copies data, parts and groups.
   const MeshArrays& arrays() const;

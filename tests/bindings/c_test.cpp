@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // <tetmend/tetmend.h>: arrays in and out, errors with their place, and the same work as in C++.
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
 #include <cstring>
@@ -222,6 +223,74 @@ TEST_CASE("in C: data of every type go in, come out, and come over to the improv
   CHECK(tetmend_get_data(mesh.get(), TETMEND_TETS, "order", TETMEND_INT64, order_out.data(), 2) ==
         TETMEND_OK);
   CHECK(order_out == order);
+}
+
+TEST_CASE("in C: groups go in, come out, and come over to the improved mesh") {
+  for (const std::int32_t first : {0, 1}) {
+    const Handle mesh = two_tets_in(first);
+    const std::vector<std::int32_t> upper = {first + 1};
+    const std::vector<std::int32_t> ends = {first + 4, first};
+    CHECK(tetmend_set_group(mesh.get(), TETMEND_TETS, 3, "upper", upper.data(), 1) == TETMEND_OK);
+    for (int twice = 0; twice < 2; ++twice) {
+      CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 0, "ends", ends.data(), 2) == TETMEND_OK);
+    }
+    CHECK(tetmend_set_group(mesh.get(), TETMEND_TETS, 7, "lower", nullptr, 0) == TETMEND_OK);
+    CHECK(tetmend_group_count(mesh.get()) == 3);
+    CHECK(tetmend_improve(mesh.get()) == TETMEND_OK);
+    REQUIRE(tetmend_group_count(mesh.get()) == 3);
+    tetmend_place place = TETMEND_EDGES;
+    std::int32_t number = -1;
+    const char* name = nullptr;
+    size_t count = 0;
+    CHECK(tetmend_group_info(mesh.get(), 1, &place, &number, &name, &count) == TETMEND_OK);
+    CHECK(place == TETMEND_POINTS);
+    CHECK(number == 0);
+    CHECK(std::string(name) == "ends");
+    REQUIRE(count == 2);
+    std::vector<std::int32_t> members(2);
+    CHECK(tetmend_get_group(mesh.get(), 1, members.data(), 2) == TETMEND_OK);
+    std::sort(members.begin(), members.end());
+    CHECK(members == std::vector<std::int32_t>{first, first + 4});
+    CHECK(tetmend_get_group(mesh.get(), 1, members.data(), 1) == TETMEND_WRONG_CALL);
+    CHECK(error_of(mesh) == "room for 1, but there are 2");
+    std::vector<std::int32_t> labels(2), tets(8);
+    CHECK(tetmend_get_tets(mesh.get(), tets.data(), labels.data(), 2) == TETMEND_OK);
+    CHECK(tetmend_get_group(mesh.get(), 0, members.data(), 2) == TETMEND_OK);
+    CHECK(labels[static_cast<std::size_t>(members[0] - first)] == 8);
+    CHECK(tetmend_get_group(mesh.get(), 2, members.data(), 2) == TETMEND_OK);
+    CHECK(labels[static_cast<std::size_t>(members[0] - first)] == 7);
+    CHECK(tetmend_group_info(mesh.get(), 2, nullptr, nullptr, nullptr, &count) == TETMEND_OK);
+    CHECK(count == 1);
+  }
+}
+
+TEST_CASE(
+    "in C: what is wrong with a group is told with its place, and groups go with their tets") {
+  const Handle mesh = two_tets_in();
+  const std::vector<std::int32_t> tets = {1, 2, 1};
+  const std::int32_t point = 5;
+  const auto set = [&](std::int32_t number, const char* name, std::size_t from, std::size_t n) {
+    return tetmend_set_group(mesh.get(), TETMEND_TETS, number, name, tets.data() + from, n);
+  };
+  CHECK(set(1, "one", 0, 1) == TETMEND_OK);
+  CHECK(set(1, "two", 0, 1) == TETMEND_WRONG_INPUT);
+  CHECK(error_of(mesh) == "group 'two': number 1 is that of group 'one'");
+  CHECK(set(2, "two", 0, 2) == TETMEND_WRONG_INPUT);
+  CHECK(error_of(mesh) == "members[1]: no 2 of the tets, there are 2, counted from 0");
+  const std::vector<std::int32_t> same = {0, 0};
+  CHECK(tetmend_set_group(mesh.get(), TETMEND_TETS, 2, "two", same.data(), 2) ==
+        TETMEND_WRONG_INPUT);
+  CHECK(error_of(mesh) == "members[1]: 0 twice, counted from 0");
+  CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 2, "p", &point, 1) == TETMEND_WRONG_INPUT);
+  CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 2, nullptr, &point, 1) == TETMEND_WRONG_CALL);
+  CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 2, "p", nullptr, 1) == TETMEND_WRONG_CALL);
+  CHECK(tetmend_group_info(mesh.get(), 1, nullptr, nullptr, nullptr, nullptr) ==
+        TETMEND_WRONG_CALL);
+  CHECK(error_of(mesh) == "no group 1, there is 1, counted from 0");
+  CHECK(tetmend_set_tets(mesh.get(), kTets.data(), 1, nullptr) == TETMEND_OK);
+  CHECK(tetmend_group_count(mesh.get()) == 0);
+  CHECK(tetmend_group_count(nullptr) == 0);
+  CHECK(tetmend_get_group(nullptr, 0, nullptr, 0) == TETMEND_WRONG_CALL);
 }
 
 TEST_CASE("in C: improving is that of C++: bytes, figures, maps and notes") {

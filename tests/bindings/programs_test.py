@@ -102,6 +102,12 @@ class Examples(unittest.TestCase):
             outputs.add((WORK / "before.mesh").read_bytes() + expected)
         self.assertEqual(len(outputs), 1, "C and Fortran make different meshes")
 
+    def test_groups_go_through_the_fortran_module(self) -> None:
+        if not shutil.which("gfortran"):
+            self.skipTest("gfortran is not installed")
+        run = call(build_fortran(SOURCE / "tests/bindings/groups.f90"))
+        self.assertEqual((run.returncode, run.stdout), (0, "ok\n"), run.stdout + run.stderr)
+
     def test_a_mistake_is_told_in_one_line(self) -> None:
         for program in programs("improve_file"):
             for words, reason in [(["missing.mesh", "out.mesh"], "missing.mesh"),

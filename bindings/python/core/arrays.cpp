@@ -66,14 +66,17 @@ template <class Integer>
   if (std::is_signed_v<Integer> && static_cast<std::int64_t>(number) < 0) {
     throw Error(text + ", but numbers begin with 0");
   }
-  throw Error(text + ", but there are " + std::to_string(count) + " " + of);
+  std::string things = of;
+  if (count == 1) things.pop_back();  // one point
+  throw Error(text + ", but there " + (count == 1 ? "is " : "are ") + std::to_string(count) + " " +
+              things);
 }
 
 std::string place_of(py::ssize_t i) {
-  return "[" + std::to_string(i) + "]";
+  return std::string("[") + std::to_string(i) + "]";
 }
 std::string place_of(py::ssize_t i, py::ssize_t k) {
-  return "[" + std::to_string(i) + ", " + std::to_string(k) + "]";
+  return std::string("[") + std::to_string(i) + ", " + std::to_string(k) + "]";
 }
 
 template <class Value>
@@ -134,6 +137,8 @@ template std::vector<std::array<std::uint32_t, 3>> read_elements<3>(const char*,
                                                                     std::size_t);
 template std::vector<std::array<std::uint32_t, 4>> read_elements<4>(const char*, const py::array&,
                                                                     std::size_t);
+template std::vector<std::array<std::uint32_t, 10>> read_elements<10>(const char*, const py::array&,
+                                                                      std::size_t);
 
 std::vector<std::uint32_t> read_indices(const std::string& name, const py::array& indices,
                                         std::size_t count, const char* of) {

@@ -79,13 +79,72 @@ Group to_group(const py::tuple& given, std::size_t i, const MeshArrays& arrays) 
   return group;
 }
 
+/// Ends of the edges of a tet of second order, in the order of their nodes: that of VTK.
+constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// (m, 4), or (m, 10) of second order.
+void read_tets(const py::array& tets, std::size_t points, MeshArrays& arrays) {
+  if (tets.ndim() != 2 || tets.shape(1) != 10) {
+    arrays.tets = read_elements<4>("tets", tets, points);
+    return;
+  }
+  const auto rows = read_elements<10>("tets", tets, points);
+  arrays.tets.reserve(rows.size());
+  arrays.mid_nodes.reserve(6 * rows.size());
+  for (const auto& row : rows) {
+    arrays.tets.push_back({row[0], row[1], row[2], row[3]});
+    for (std::size_t e = 0; e < kEdges.size(); ++e) {
+      const auto [a, b] = std::minmax(row[kEdges[e][0]], row[kEdges[e][1]]);
+      arrays.mid_nodes.push_back({a, b, row[4 + e]});
+    }
+  }
+}
+
+using SecondOrderTets = std::vector<std::array<std::uint32_t, 10>>;
+
+/// The nodes of all tets, in VTK's order; empty unless each of their edges has one.
+SecondOrderTets with_mid_nodes(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> edges(mesh.mid_nodes().begin(), mesh.mid_nodes().end());
+  for (auto& edge : edges) {
+    if (edge[0] > edge[1]) std::swap(edge[0], edge[1]);
+  }
+  std::sort(edges.begin(), edges.end());
+  SecondOrderTets made;
+  made.reserve(mesh.tet_count());
+  for (const auto& tet : mesh.tets()) {
+    auto& row = made.emplace_back();
+    std::copy(tet.begin(), tet.end(), row.begin());
+    for (std::size_t e = 0; e < kEdges.size(); ++e) {
+      const auto [a, b] = std::minmax(tet[kEdges[e][0]], tet[kEdges[e][1]]);
+      const std::array<std::uint32_t, 3> first = {a, b, 0};
+      const auto found = std::lower_bound(edges.begin(), edges.end(), first);
+      if (found == edges.end() || (*found)[0] != a || (*found)[1] != b) return {};
+      row[4 + e] = (*found)[2];
+    }
+  }
+  return made;
+}
+
+/// The form in which tets are given and taken: (m, 4), or (m, 10) of second order.
+py::array tets_of(const Mesh& mesh, const py::object& self) {
+  if (mesh.mid_nodes().empty()) return view(mesh.tets(), self);
+  auto kept = std::make_unique<SecondOrderTets>(with_mid_nodes(mesh));
+  if (kept->empty()) return view(mesh.tets(), self);
+  const std::span<const std::array<std::uint32_t, 10>> rows = *kept;
+  const py::capsule owner(kept.release(), [](void* memory) {
+    const std::unique_ptr<SecondOrderTets> last(static_cast<SecondOrderTets*>(memory));
+  });
+  return view(rows, owner);
+}
+
 /// Copies all arrays, once.
 std::shared_ptr<Mesh> make_mesh(const py::array& points, const py::array& tets, const Arrays& given,
                                 const std::vector<py::tuple>& groups) {
   MeshArrays arrays;
   arrays.points = read_points(points);
   const std::size_t n = arrays.points.size();
-  arrays.tets = read_elements<4>("tets", tets, n);
+  read_tets(tets, n, arrays);
   arrays.tet_labels = labels_of(given, "labels", arrays.tets.size());
   arrays.tet_parts = labels_of(given, "parts", arrays.tets.size());
   arrays.point_labels = labels_of(given, "point_labels", n);
@@ -123,30 +182,12 @@ py::dict view_data(const std::vector<DataArray>& list, const py::handle& owner) 
   return made;
 }
 
-/// As (dimension, number, name, members or None), members by label or part worked out.
+/// As (dimension, number, name, members), those by label or part worked out.
 py::list groups_of(const Mesh& mesh) {
   py::list made;
-  if (mesh.groups().empty()) return made;
-  const MeshArrays& arrays = mesh.arrays();
-  const std::array parts = {static_cast<const std::vector<std::int32_t>*>(nullptr),
-                            &arrays.edge_parts, &arrays.triangle_parts, &arrays.tet_parts};
-  const std::array labels = {&arrays.point_labels, &arrays.edge_labels, &arrays.triangle_labels,
-                             &arrays.tet_labels};
   for (const Group& group : mesh.groups()) {
-    std::vector<std::uint32_t> members = group.members;
-    const auto d = static_cast<std::size_t>(group.dimension);
-    if (members.empty()) {
-      const bool by_part = !group.parts.empty() && parts[d] != nullptr;
-      const std::vector<std::int32_t>& words = by_part ? *parts[d] : *labels[d];
-      for (std::size_t i = 0; i < words.size(); ++i) {
-        const bool is_in = by_part ? std::find(group.parts.begin(), group.parts.end(), words[i]) !=
-                                         group.parts.end()
-                                   : words[i] == group.number && group.parts.empty();
-        if (is_in) members.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
     made.append(
-        py::make_tuple(group.dimension, group.number, group.name, to_array(std::move(members))));
+        py::make_tuple(group.dimension, group.number, group.name, to_array(mesh.members(group))));
   }
   return made;
 }
@@ -168,8 +209,7 @@ void add_views(py::class_<Mesh, std::shared_ptr<Mesh>>& type) {
     return view(py::dtype::of<double>(), {static_cast<py::ssize_t>(points.size()), 3},
                 points.data(), self);
   });
-  add_view(type, "tets",
-           [](const Mesh& m, const py::object& self) { return view(m.tets(), self); });
+  add_view(type, "tets", [](const Mesh& m, const py::object& self) { return tets_of(m, self); });
   add_view(type, "triangles",
            [](const Mesh& m, const py::object& self) { return view(m.triangles(), self); });
   add_view(type, "edges",

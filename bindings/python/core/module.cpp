@@ -2,7 +2,6 @@
 // tetmend._core: what the package tetmend is written on. Users see the package.
 #include <string>
 
-#include <dlfcn.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -11,6 +10,7 @@
 
 #include "bindings/python/core/figures.h"
 #include "bindings/python/core/mesh.h"
+#include "platform/platform.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -20,9 +20,7 @@ namespace {
 /// Plugins take their code from libtetmend.so. Python loads the extension, and with it the library,
 /// for itself alone; this shows the library's names to all that is loaded later.
 void show_library_to_plugins() {
-  Dl_info library{};
-  if (::dladdr(reinterpret_cast<const void*>(&tetmend::version), &library) == 0) return;
-  ::dlopen(library.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);  // stays: never closed
+  tetmend::platform::show_names_of_library(reinterpret_cast<const void*>(&tetmend::version));
 }
 
 }  // namespace
@@ -31,7 +29,16 @@ PYBIND11_MODULE(_core, module) {
   using namespace tetmend::python;
   show_library_to_plugins();
   const auto error = py::register_exception<tetmend::Error>(module, "Error", PyExc_ValueError);
-  py::register_exception<tetmend::OptionError>(module, "OptionError", error);
+  error.doc() =
+      "Something is wrong with an array, a file, a mesh or an option. Its text is one line, with "
+      "the "
+      "place.";
+  const auto option_error =
+      py::register_exception<tetmend::OptionError>(module, "OptionError", error);
+  option_error.doc() =
+      "Something is wrong with an option of `improve()`: its value, or a schedule or plugin that "
+      "it "
+      "names.";
   add_mesh(module);
   add_improve(module);
   add_trace(module);

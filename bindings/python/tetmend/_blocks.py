@@ -19,12 +19,14 @@ _LABEL_NAMES = (
     "cellentityids", "label", "labels", "medit:ref", "gmsh:physical", "tetgen:ref", "region", "regionid", "region_id",
     "modelregionid", "material", "materialids", "materialid", "material_id", "mat_id", "matid", "mat", "physicalids", "physical",
     "tag", "tags", "cell_tags", "cell_scalars", "domain", "subdomain", "geometryids", "geometry", "gmsh:geometrical")
-_SECOND_ORDER = ("tetra10", "tetra11", "tetra20", "tetra35")
+_WIDTHS = {"tetra": 4, "tetra10": 10}  # what is improved
+_CONSTRAINTS = {"triangle": 3, "triangle6": 3, "line": 2, "line3": 2}  # corners, which come first
+_OTHER_TETS = ("tetra11", "tetra20", "tetra35")
 
 
 @dataclass(frozen=True)
 class Block:
-    """Cells of one kind, "tetra" or what meshio calls it; `marks` are columns of further borders that stay."""
+    """Cells of one kind, "tetra", "tetra10" or what meshio calls it; `marks` are columns of further borders that stay."""
 
     kind: str
     cells: NDArray[Any]
@@ -42,9 +44,10 @@ class Improved:
     point_data: dict[str, NDArray[Any]]
 
 
-def _joined(blocks: Sequence[Block], kind: str, width: int) -> NDArray[Any] | None:
-    found = [block.cells for block in blocks if block.kind == kind]
-    return np.concatenate(found).reshape(-1, width) if found else None
+def _corners(blocks: Sequence[Block], width: int) -> NDArray[Any] | None:
+    """Of triangles (3) or edges (2) of either order."""
+    found = [block.cells[:, :width] for block in blocks if _CONSTRAINTS.get(block.kind) == width]
+    return np.concatenate(found) if found else None
 
 
 def _data_of(blocks: Sequence[Block], kind: str) -> dict[str, NDArray[Any]]:
@@ -54,13 +57,16 @@ def _data_of(blocks: Sequence[Block], kind: str) -> dict[str, NDArray[Any]]:
     return {name: np.concatenate([block.data[name] for block in found]) for name in names}
 
 
-def _check_kinds(blocks: Sequence[Block]) -> None:
-    kinds = [block.kind for block in blocks]
-    for kind in kinds:
-        if kind in _SECOND_ORDER:
-            raise Error(f"cells of kind {kind!r}: arrays hold tets of first order; improve a file of them with tetmend.load()")
-    if "tetra" not in kinds:
-        raise Error(f"there are no tets, only cells of kinds {sorted(set(kinds))}")
+def _kind_of_tets(blocks: Sequence[Block]) -> str:
+    kinds = {block.kind for block in blocks}
+    for kind in kinds.intersection(_OTHER_TETS):
+        raise Error(f"cells of kind {kind!r}: tets of first and second order are improved, 'tetra' or 'tetra10'")
+    found = kinds.intersection(_WIDTHS)
+    if not found:
+        raise Error(f"there are no tets, only cells of kinds {sorted(kinds)}")
+    if len(found) > 1:
+        raise Error("there are cells of kinds 'tetra' and 'tetra10': tets of one order are improved")
+    return found.pop()
 
 
 def _labels_of(data: Mapping[str, NDArray[Any]], label_array: str | None) -> NDArray[Any] | None:
@@ -79,7 +85,7 @@ def _label_arrays(data: Mapping[str, NDArray[Any]]) -> list[str]:
 
 def _parts_of(blocks: Sequence[Block], data: Mapping[str, NDArray[Any]]) -> NDArray[np.int64]:
     """One number for each tet; different for those that a block, a label of any tool or a mark tells apart."""
-    tets = [(i, block) for i, block in enumerate(blocks) if block.kind == "tetra"]
+    tets = [(i, block) for i, block in enumerate(blocks) if block.kind in _WIDTHS]
     columns = [np.concatenate([np.full(len(block.cells), i) for i, block in tets])]
     columns += [data[name] for name in _label_arrays(data)]
     if all(block.marks is not None for _, block in tets):
@@ -91,22 +97,23 @@ def _parts_of(blocks: Sequence[Block], data: Mapping[str, NDArray[Any]]) -> NDAr
 def improve_blocks(points: ArrayLike, blocks: Sequence[Block], point_data: Mapping[str, ArrayLike], label_array: str | None,
                    options: Mapping[str, Any]) -> Improved:
     """Triangles and edges become constraints, the points of all other cells are required."""
-    _check_kinds(blocks)
-    data = _data_of(blocks, "tetra")
+    tets = _kind_of_tets(blocks)
+    data = _data_of(blocks, tets)
     parts = _parts_of(blocks, data)
-    others = [block.cells.reshape(-1) for block in blocks if block.kind not in ("tetra", "triangle", "line")]
-    result = improve(points, _joined(blocks, "tetra", 4), labels=_labels_of(data, label_array), parts=parts,
-                     triangles=_joined(blocks, "triangle", 3), edges=_joined(blocks, "line", 2),
+    others = [block.cells.reshape(-1) for block in blocks if block.kind not in (tets, *_CONSTRAINTS)]
+    result = improve(points, np.concatenate([block.cells for block in blocks if block.kind == tets]).reshape(-1, _WIDTHS[tets]),
+                     labels=_labels_of(data, label_array), parts=parts,
+                     triangles=_corners(blocks, 3), edges=_corners(blocks, 2),
                      required=np.unique(np.concatenate(others)) if others else None,
                      point_data=point_data, cell_data=data, **{**options, "maps": True})
     # A part lies in one block.
     block_of_part = np.zeros(int(parts.max()) + 1, dtype=np.int64)
-    block_of_part[parts] = np.concatenate([np.full(len(block.cells), i) for i, block in enumerate(blocks) if block.kind == "tetra"])
+    block_of_part[parts] = np.concatenate([np.full(len(block.cells), i) for i, block in enumerate(blocks) if block.kind == tets])
     block_of_tet = block_of_part[result.parts]
     marks_of_part = _marks_of_parts(blocks, parts)
     made = []
     for i, block in enumerate(blocks):
-        if block.kind == "tetra":
+        if block.kind == tets:
             here = block_of_tet == i
             carried = {name: values[here].astype(block.data[name].dtype) for name, values in result.cell_data.items()}
             marks = None if marks_of_part is None else marks_of_part[result.parts[here]]
@@ -117,7 +124,7 @@ def improve_blocks(points: ArrayLike, blocks: Sequence[Block], point_data: Mappi
 
 
 def _marks_of_parts(blocks: Sequence[Block], parts: NDArray[Any]) -> NDArray[Any] | None:
-    tets = [block.marks for block in blocks if block.kind == "tetra"]
+    tets = [block.marks for block in blocks if block.kind in _WIDTHS]
     if any(marks is None for marks in tets):
         return None
     joined = np.concatenate([marks for marks in tets if marks is not None])

@@ -14,7 +14,7 @@ from tetmend._blocks import Block, improve_blocks
 from tetmend._core import Error
 from tetmend._improve import Result
 
-_KINDS = {1: "vertex", 3: "line", 5: "triangle", 10: "tetra", 24: "tetra10"}
+_KINDS = {1: "vertex", 3: "line", 5: "triangle", 10: "tetra", 21: "line3", 22: "triangle6", 24: "tetra10"}
 _POLYHEDRON = 42
 
 

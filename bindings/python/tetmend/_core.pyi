@@ -7,22 +7,34 @@ from numpy.typing import NDArray
 
 __version__: str
 
-class Error(ValueError): ...
-class OptionError(Error): ...
+class Error(ValueError):
+    """Something is wrong with an array, a file, a mesh or an option. Its text is one line, with the place."""
+
+class OptionError(Error):
+    """Something is wrong with an option of `improve()`: its value, or a schedule or plugin that it names."""
+
 
 class Progress:
+    """How far a run has come: what a progress function is called with."""
+
     @property
-    def stage(self) -> str: ...
+    def stage(self) -> str:
+        """'building', 'measuring' or 'improving'."""
     @property
-    def phase(self) -> str: ...
+    def phase(self) -> str:
+        """Name of the pass, while improving."""
     @property
-    def round(self) -> int: ...
+    def round(self) -> int:
+        """Of the schedule; 0 before its main loop."""
     @property
-    def share(self) -> float: ...
+    def share(self) -> float:
+        """Of the phase that is done, 0 to 1."""
     @property
-    def n_bad(self) -> int: ...
+    def n_bad(self) -> int:
+        """Bad tets after the pass before."""
     @property
-    def q_worst(self) -> float: ...
+    def q_worst(self) -> float:
+        """Worst quality after the pass before; 1: the goal is just met."""
 
 class Mesh:
     def __init__(self, points: NDArray[Any], tets: NDArray[Any], arrays: Mapping[str, Any],

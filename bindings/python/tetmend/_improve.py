@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -61,7 +62,7 @@ class Result:
 
     @property
     def tets(self) -> NDArray[Any]:
-        """(m, 4), of the type of integers that was given."""
+        """(m, 4), or (m, 10) of second order, of the type of integers that was given."""
         return self.mesh.tets
 
     @property
@@ -173,10 +174,12 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     improve(points, tets, ...) takes arrays, as Mesh does; improve(mesh, ...) takes a Mesh. With a Mesh, `tets` is the option of
     that name: how far the mesh may grow, "10%" or "500000".
 
-    progress is called several times a second with a Progress, by any thread; the run stops if it returns False.
-    note is called with what the schedule has to say. maps, rulers: False saves their time and memory.
+    progress      a function, called several times a second with a Progress, by any thread; the run stops if it returns False
+    note          a function, called with what the schedule has to say
+    maps, rulers  False saves their time and memory
+
     The other options have the names of the command line: schedule="shell", goal=(30, 150), threads=1, time_limit=None,
-    trace="run.trace", set={"max_rounds": 2}, protect=["label:3"], ...; docs/library.md lists them.
+    trace="run.trace", set={"max_rounds": 2}, protect=["label:3"], ...; the Python reference lists them.
 
     Other threads of Python run meanwhile. Ctrl-C stops the run soon; KeyboardInterrupt is raised then.
 
@@ -210,6 +213,8 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
         _core.check_options(settings)
         mesh, core = points, points._core.copy()
     else:
+        if isinstance(points, (str, os.PathLike)):
+            raise TypeError(f"improve() takes points and tets, or a Mesh: tetmend.load({os.fspath(points)!r}) gives one")
         if tets is None or isinstance(tets, str):
             raise TypeError("improve() takes points and tets, or a Mesh")
         _core.check_options(settings)

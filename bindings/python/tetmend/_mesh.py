@@ -61,7 +61,8 @@ class Mesh:
     Arguments and attributes, for n points and m tets:
 
     points            (n, 3), real
-    tets              (m, 4), integers; which way round does not matter
+    tets              (m, 4), integers; which way round does not matter. (m, 10): of second order, corners first, then the nodes of
+                      the edges 01, 12, 20, 03, 13, 23, as VTK, meshio and Abaqus have them
     labels            (m,), integers: regions. A face between two labels stays
     parts             (m,), integers, or None: what labels do not tell apart. A face between two parts stays
     triangles, edges  (k, 3) and (k, 2): those of the surface with a name, and constraints inside. They stay
@@ -119,7 +120,7 @@ class Mesh:
 
     @cached_property
     def tets(self) -> NDArray[Any]:
-        """(m, 4), of the type of integers that was given; int32 for a mesh from a file."""
+        """(m, 4), or (m, 10) of second order, of the type of integers that was given; int32 for a mesh from a file."""
         return self._integers(self._core.tets)
 
     @cached_property
@@ -201,7 +202,7 @@ def load(file: PathLike, *, threads: int = 1, label_array: str = "") -> Mesh:
     """Reads a mesh; the format follows from the extension, see formats().
 
     label_array: the array over cells that holds their labels; empty: the one with a name that mesh tools use.
-    Raises Error, "FILE:LINE: reason", for a file that cannot be read. `Mesh.notes` names what of it is not kept.
+    Raises Error, ``FILE:LINE: reason``, for a file that cannot be read. `Mesh.notes` names what of it is not kept.
     """
     return Mesh._of(_core.load(os.fspath(file), threads, label_array))
 

@@ -53,7 +53,8 @@ def improve(mesh: meshio.Mesh, *, label_array: str | None = None, **options: Any
     Blocks of tets stay apart, as do regions by `gmsh:physical`, `medit:ref` and the like, and the members of each cell set. Cells of
     other kinds keep their points. point_data, cell_data, cell_sets, point_sets and field_data come over. The Result is the
     attribute `tetmend_result` of the new mesh. For labels in options such as protect="label:3", label_array names the cell
-    data they stand in. Raises Error where there are no tets, or tets of second order.
+    data they stand in. Tets of second order are improved, too. Raises Error where there are no
+    tets, or tets of both orders.
     """
     import meshio as library
 

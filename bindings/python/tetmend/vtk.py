@@ -45,8 +45,8 @@ def improve(grid: vtkUnstructuredGrid, *, label_array: str | None = None, **opti
 
     Triangles and lines are constraints, cells of other kinds keep their points. Point, cell and field data come over; cells are
     sorted by type. Points are of double precision, for new ones would be moved by rounding. label_array names the cell data
-    that tell regions apart; left out, the names that mesh tools use. Raises Error where there are no tets, or tets of second
-    order.
+    that tell regions apart; left out, the names that mesh tools use. Tets of second order are
+    improved, too. Raises Error where there are no tets, or tets of both orders.
     """
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
