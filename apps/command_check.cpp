@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // tetmend check: does a mesh keep what a solver, or its input, asks of it?
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/threads.h"
+#include "kernel/from_chars.h"
 
 namespace tetmend::apps {
 namespace {
@@ -39,7 +39,7 @@ std::pair<std::string, double> to_threshold(const std::string& text) {
   double value = 0;
   if (equals != std::string::npos) {
     const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + equals + 1, end, value);
+    const auto [stop, error] = from_chars(text.data() + equals + 1, end, value);
     const std::string name = text.substr(0, equals);
     const bool is_known = std::any_of(kRulers.begin(), kRulers.end(),
                                       [&](const RulerInfo& ruler) { return ruler.name == name; });

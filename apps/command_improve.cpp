@@ -13,7 +13,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 #include <tetmend/catalogue.h>
 #include <tetmend/improve.h>
 #include <tetmend/option_text.h>
@@ -28,6 +27,7 @@
 #include "apps/standard_streams.h"
 #include "face/recorded.h"
 #include "kernel/formats/output_file.h"
+#include "platform/platform.h"
 
 namespace tetmend::apps {
 namespace {
@@ -108,12 +108,6 @@ void write_report(const std::filesystem::path& file, const ImproveReport& report
   out.commit();
 }
 
-std::size_t peak_memory() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
 /// What went wrong; empty: nothing. Null: there is no trace.
 std::string finish(TraceRecorder* trace) {
   try {
@@ -146,7 +140,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
     progress.show(fmt::format("writing {}", options.output.string()));
     save(options.output, mesh, threads, options.carry.variant);
   }
-  report.peak_memory = peak_memory();
+  report.peak_memory = platform::peak_memory();
   if (!options.report.empty()) write_report(options.report, report);
   invocation.wrote_files = true;
   const std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little

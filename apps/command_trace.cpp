@@ -8,15 +8,19 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tetmend/catalogue.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "explain/lesson_guide.h"
+#include "explain/page.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtk_legacy.h"
 #include "trace/call_extract.h"
 #include "trace/call_script.h"
 #include "trace/call_tree.h"
+#include "trace/history.h"
 #include "trace/replay.h"
 #include "trace/trace_file.h"
 #include "trace/trace_summary.h"
@@ -31,7 +35,10 @@ struct Options {
   std::optional<std::uint32_t> dot;
   std::optional<std::uint64_t> at;
   std::optional<std::uint32_t> extract;
+  std::string history;
   bool slices = false;
+  bool html = false;
+  std::vector<std::uint32_t> html_call;  // at most one
 };
 
 void check_call(const TraceFile& file, std::uint32_t call) {
@@ -91,6 +98,16 @@ void write_mesh_at(const Options& options, const TraceFile& file) {
   formats::write_vtk_legacy(options.output, MeshView(data), {&field, 1});
 }
 
+std::string history(const Options& options, const TraceFile& file) {
+  Replay replay(file, 0);
+  const HistorySubject subject = find_subject(file, replay, options.history);
+  try {
+    return history_text(file, history_of(file, replay, subject));
+  } catch (const Error& error) {
+    throw Error(fmt::format("--history {}: {}", options.history, error.what()));
+  }
+}
+
 void write_text(const std::filesystem::path& file, std::string_view text) {
   OutputFile out(file);
   out.put(text);
@@ -100,8 +117,8 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
 /// The name of a file, fit for a comment of one line.
 std::string name_of(const std::filesystem::path& file) {
   std::string name = file.filename().string();
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  std::replace_if(name.begin(), name.end(), is_control, '?');
   return name;
 }
 
@@ -135,6 +152,39 @@ void write_extract(const Options& options, const TraceFile& file) {
                          call_tree_text(file, kit.call)));
 }
 
+/// A call, or the whole trace with the lesson that may lie beside it.
+void write_html(const Options& options, const TraceFile& file) {
+  constexpr std::uint64_t kMostEvents = 30000;
+  std::optional<Lesson> lesson;
+  explain::PageRequest request{.title = name_of(file.header().input),
+                               .range = {0, file.event_count()},
+                               .program = fmt::format("tetmend {}", version())};
+  if (!options.html_call.empty()) {
+    const std::uint32_t call = options.html_call.front();
+    check_call(file, call);
+    request.title = explain::title_of_call(file, call);
+    request.range = explain::range_of_call(file, call);
+  } else if ((lesson = explain::lesson_of(options.file, file.event_count()))) {
+    request.title = lesson->title;
+    request.lesson = &*lesson;
+  }
+  if (request.range.end - request.range.begin > kMostEvents) {
+    throw Error(
+        fmt::format("{} events are too many for a page, which has {} at most: choose a call; "
+                    "the largest are {}",
+                    request.range.end - request.range.begin, kMostEvents,
+                    fmt::join(summarize(file).largest, ", ")));
+  }
+  Replay replay(file);
+  const explain::Page page = explain::write_page(file, replay, request);
+  if (page.deepest) {
+    complain(kSuccess, fmt::format("note: calls with more than {} calls around them are one step "
+                                   "each, to keep the page below {} MB",
+                                   *page.deepest, explain::kLargestPage / 1'000'000));
+  }
+  put_text(options, page.html);
+}
+
 int run_trace(const Options& options) {
   if (options.at) {
     if (options.output.empty()) throw UsageError("--at needs -o, a file for the mesh");
@@ -159,6 +209,10 @@ int run_trace(const Options& options) {
     write_mesh_at(options, file);
   } else if (options.extract) {
     write_extract(options, file);
+  } else if (!options.history.empty()) {
+    put_text(options, history(options, file));
+  } else if (options.html) {
+    write_html(options, file);
   } else if (options.slices) {
     write_slices(options, file);
   } else if (options.tree) {
@@ -187,17 +241,29 @@ void add_trace(CLI::App& app, Invocation& invocation) {
   what->add_option("--tree", options->tree, "A call and all calls in it, as text")
       ->type_name("CALL");
   what->add_option("--dot", options->dot, "The same as a graph for Graphviz")->type_name("CALL");
+  CLI::Option* html =
+      what->add_option("--html", options->html_call,
+                       "A page for a browser that steps through a call, or\nthrough all of a small "
+                       "trace")
+          ->type_name("[CALL]")
+          ->expected(0, 1);
   what->add_flag("--slices", options->slices,
                  "The whole trace as JSON for Perfetto and\nchrome://tracing");
   what->add_option("--at", options->at, "Mesh after the first N events; needs -o")->type_name("N");
   what->add_option("--extract", options->extract,
                    "A folder (-o) with a small mesh and a schedule\nthat repeat a call")
       ->type_name("CALL");
+  what->add_option("--history", options->history,
+                   "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
+      ->type_name("WHAT");
   what->require_option(0, 1);
   command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
 events are counted from 0; vertices are named by their handle numbers. Of
 --at N -o mesh.vtk the field 'cavity' is 1 for tets that event N - 1 created, 2
-for those that event N removes, 3 for both. A trace that is cut off or damaged
+for those that event N removes, 3 for both. WHAT is tet:N, tet:worst, edge:A,B,
+face:A,B,C or vertex:N, in the numbers of the trace at its end, or with @MESH
+behind in those of the file that the run wrote or read, counted from 1; of a tet
+that is gone, tet:A,B,C,D. A trace that is cut off or damaged
 is read up to there, with a warning.
 
 Examples:
@@ -205,13 +271,18 @@ Examples:
   tetmend trace run.trace
   tetmend trace run.trace --tree 17
   tetmend trace run.trace --dot 17 | dot -Tsvg -o call.svg
+  tetmend trace run.trace --html 17 -o call.html
   tetmend trace run.trace --slices -o run.json
   tetmend trace run.trace --at 1200 -o then.vtk
   tetmend trace run.trace --extract 17 -o report
+  tetmend trace run.trace --history tet:worst
+  tetmend trace run.trace --history tet:1234@better.mesh
 
 Exit status: 0 success, 1 the work failed, 2 wrong usage)");
-  command->callback(
-      [options, &invocation] { invocation.action = [options] { return run_trace(*options); }; });
+  command->callback([options, html, &invocation] {
+    options->html = html->count() > 0;
+    invocation.action = [options] { return run_trace(*options); };
+  });
 }
 
 }  // namespace tetmend::apps

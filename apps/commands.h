@@ -42,6 +42,7 @@ void add_convert(CLI::App& app, Invocation& invocation);
 void add_operators(CLI::App& app, Invocation& invocation);
 void add_schedules(CLI::App& app, Invocation& invocation);
 void add_check_plugin(CLI::App& app, Invocation& invocation);
+void add_lesson(CLI::App& app, Invocation& invocation);
 void add_surface(CLI::App& app, Invocation& invocation);
 void add_trace(CLI::App& app, Invocation& invocation);
 

@@ -18,6 +18,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/pending_file.h"
 #include "kernel/formats/standard_stream.h"
+#include "platform/platform.h"
 
 namespace tetmend::apps {
 
@@ -119,7 +120,7 @@ void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile
 }
 
 void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
-  ignore_broken_pipes();
+  platform::ignore_broken_pipes();
   check_distinct(inputs, outputs);
   for (const NamedFile& output : outputs) {
     if (!output.file.empty()) check_writable(output.file);

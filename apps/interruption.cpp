@@ -2,12 +2,12 @@
 // What a signal from outside does: it ends the program without remains, or asks the work to stop.
 #include "apps/interruption.h"
 
+#include <cstdlib>
 #include <exception>
-
-#include <unistd.h>
 
 #include "apps/commands.h"
 #include "kernel/formats/temporary_names.h"
+#include "platform/platform.h"
 
 namespace tetmend::apps {
 namespace {
@@ -19,7 +19,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not
 
 extern "C" void on_signal(int number) {
   if (stops_in_order && !signalled.exchange(true)) return;
-  if (stops_in_order && number == SIGXCPU) return;  // comes again every second
+  if (stops_in_order && platform::comes_again(number)) return;
   formats::end_by_signal(number);
 }
 
@@ -36,24 +36,15 @@ extern "C" void on_signal(int number) {
   } catch (...) {
     complain(kFailed, "unexpected failure");
   }
-  ::_exit(kFailed);
+  std::_Exit(kFailed);
 }
 
 }  // namespace
 
 void end_without_remains() {
   std::set_terminate(on_terminate);
-  ::signal(SIGXFSZ, SIG_IGN);
-  // What terminals send, and batch systems when the time of a job is nearly over.
-  for (const int number : {SIGHUP, SIGINT, SIGTERM, SIGXCPU, SIGUSR1, SIGUSR2, SIGALRM}) {
-    struct sigaction action {};
-    ::sigaction(number, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;
-    action = {};
-    action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;
-    ::sigaction(number, &action, nullptr);
-  }
+  platform::ignore_file_limits();
+  platform::on_end_signals(platform::EndSignals::batch, on_signal);
 }
 
 Interruption::Interruption() {

@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <csignal>
-#include <memory>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "apps/commands.h"
 #include "kernel/formats/temporary_names.h"
 #include "ops/attempt_watch.h"
+#include "platform/platform.h"
 
 namespace tetmend::apps {
 namespace {
@@ -36,7 +35,7 @@ class PlainLine {
     add({digits.data(), static_cast<std::size_t>(end - digits.data())});
   }
   void write() const {
-    if (::write(STDERR_FILENO, text_.data(), size_) < 0) return;
+    static_cast<void>(platform::write_fully(platform::kStandardError, {text_.data(), size_}));
   }
 
  private:
@@ -44,10 +43,11 @@ class PlainLine {
   std::size_t size_ = 0;
 };
 
-extern "C" void on_crash(int number) {
+extern "C" void on_crash(int) {
   if (const AttemptMark* mark = own_pending_attempt(); mark != nullptr) {
     PlainLine line;
-    if (::isatty(STDERR_FILENO) == 1) line.add("\n");  // below the line of the progress
+    if (platform::is_terminal(platform::kStandardError))
+      line.add("\n");  // below the line of the progress
     line.add("tetmend: crashed in operator '");
     line.add(mark->op().info().name);
     line.add("' of ");
@@ -60,42 +60,13 @@ extern "C" void on_crash(int number) {
     line.write();
   }
   formats::remove_temporaries(formats::Remains::of_use);
-  ::raise(number);  // SA_RESETHAND: acts as it would have, when the handler returns
-}
-
-/// A handler needs a stack where an endless recursion has used up that of the thread.
-class AlternateStack {
- public:
-  AlternateStack() : memory_(std::make_unique<char[]>(kSize)) {
-    stack_t stack{};
-    stack.ss_sp = memory_.get();
-    stack.ss_size = kSize;
-    ::sigaltstack(&stack, &before_);
-  }
-  ~AlternateStack() { ::sigaltstack(&before_, nullptr); }
-  AlternateStack(const AlternateStack&) = delete;
-  AlternateStack& operator=(const AlternateStack&) = delete;
-
- private:
-  static constexpr std::size_t kSize = 1 << 16;
-  std::unique_ptr<char[]> memory_;
-  stack_t before_{};
-};
-
-void provide_alternate_stack() {
-  thread_local const AlternateStack kStack;
 }
 
 }  // namespace
 
 void note_crashes() {
-  set_attempt_thread_hook(provide_alternate_stack);
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
-    struct sigaction action {};
-    action.sa_handler = on_crash;
-    action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
-    ::sigaction(number, &action, nullptr);
-  }
+  set_attempt_thread_hook(platform::provide_crash_stack);
+  platform::on_crashes(on_crash);
 }
 
 PluginWatch::PluginWatch(double attempt_limit, double time_limit, Tell tell)
@@ -155,7 +126,7 @@ void PluginWatch::look(Clock::time_point now) {
 void PluginWatch::end(std::string_view what) const {
   tell_(fmt::format("{} has not come back, and the time limit is over: no mesh was written", what));
   formats::remove_temporaries(formats::Remains::of_use);
-  ::_exit(kFailed);
+  std::_Exit(kFailed);
 }
 
 }  // namespace tetmend::apps

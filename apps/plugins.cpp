@@ -3,7 +3,6 @@
 #include "apps/plugins.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,6 +11,8 @@
 #include <fmt/format.h>
 #include <tetmend/error.h>
 
+#include "platform/platform.h"
+
 namespace tetmend::apps {
 namespace {
 
@@ -19,7 +20,7 @@ using std::filesystem::path;
 
 constexpr const char* kVariable = "TETMEND_PLUGIN_PATH";
 
-/// The file itself, or the *.so of a folder by name.
+/// The file itself, or the libraries of a folder by name.
 std::vector<path> list_plugins(const path& place) {
   std::error_code error;
   const auto status = std::filesystem::status(place, error);
@@ -30,7 +31,7 @@ std::vector<path> list_plugins(const path& place) {
   std::vector<path> files;
   try {
     for (const auto& entry : std::filesystem::directory_iterator(place)) {
-      if (entry.path().extension() == ".so") files.push_back(entry.path());
+      if (platform::is_library_name(entry.path())) files.push_back(entry.path());
     }
   } catch (const std::filesystem::filesystem_error& failure) {
     throw Error(fmt::format("{}: {}: {}", kVariable, place.string(), failure.code().message()));
@@ -41,10 +42,10 @@ std::vector<path> list_plugins(const path& place) {
 
 std::vector<path> plugins_of_environment() {
   std::vector<path> files;
-  const char* variable = ::secure_getenv(kVariable);
-  std::string_view rest = variable == nullptr ? "" : variable;
+  const std::string variable = platform::trusted_variable(kVariable);
+  std::string_view rest = variable;
   while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const std::size_t end = std::min(rest.find(platform::kPathSeparator), rest.size());
     if (end > 0) {
       const std::vector<path> more = list_plugins(rest.substr(0, end));
       files.insert(files.end(), more.begin(), more.end());

@@ -6,10 +6,9 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include "apps/standard_streams.h"
+#include "platform/platform.h"
 
 namespace tetmend::apps {
 namespace {
@@ -17,14 +16,14 @@ namespace {
 /// Asked for each time: the user may resize the window. One column stays free, else some terminals
 /// would begin a new line.
 std::size_t terminal_width() {
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return 79;
-  return size.ws_col - 1u;
+  const std::size_t columns = platform::terminal_columns();
+  return columns < 2 ? 79 : columns - 1;
 }
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool wanted) : active_(wanted && ::isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(bool wanted)
+    : active_(wanted && platform::is_terminal(platform::kStandardError)) {}
 
 void ProgressLine::show(std::string_view phase) {
   if (active_) draw(std::string(phase));

@@ -6,22 +6,28 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 #include <tetmend/catalogue.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
+#include <tetmend/check.h>
+#include <tetmend/io.h>
+#include <tetmend/measure.h>
+#include <tetmend/rulers.h>
 
 #include "apps/commands.h"
+#include "apps/description.h"
 #include "apps/files.h"
 #include "apps/help_formatter.h"
 #include "apps/interruption.h"
 #include "apps/standard_streams.h"
+#include "kernel/quality.h"
+#include "platform/platform.h"
 
 namespace tetmend::apps {
 
@@ -51,12 +57,40 @@ interrupted)",
   add_quality(*app, invocation);
   add_check(*app, invocation);
   add_convert(*app, invocation);
+  add_lesson(*app, invocation);
   add_surface(*app, invocation);
   add_operators(*app, invocation);
   add_schedules(*app, invocation);
   add_trace(*app, invocation);
   add_check_plugin(*app, invocation);
   return app;
+}
+
+/// The words that some options take as values, by what they are, for completions.
+nlohmann::json words_of_the_library() {
+  nlohmann::json words;
+  std::set<std::string> settings;
+  for (const ScheduleInfo& schedule : schedules()) {
+    words["schedule"].push_back(schedule.name);
+    for (const ScheduleParameter& parameter : schedule.parameters) settings.insert(parameter.name);
+  }
+  words["setting"] = settings;
+  for (const auto terms : {Standard::Terms::sine_and_length, Standard::Terms::sine}) {
+    words["objective"].push_back(to_string(terms));
+  }
+  for (const OperatorDescription& each : operators()) words["operator"].push_back(each.name);
+  for (const CheckPreset& preset : check_presets()) words["preset"].push_back(preset.name);
+  for (const RulerInfo& ruler : kRulers) words["ruler"].push_back(ruler.name);
+  for (const Measure& measure : measures()) words["measure"].push_back(measure.name);
+  for (const FileFormat& format : file_formats()) words["extension"].push_back(format.extension);
+  for (const std::string_view variant : file_variants("x.msh")) words["variant"].push_back(variant);
+  return words;
+}
+
+void print_description(const CLI::App& app) {
+  nlohmann::json description = describe(app, version());
+  description["words"] = words_of_the_library();
+  fmt::print("{}\n", description.dump(1));
 }
 
 /// The parser's own messages come from another check first where a word is unknown, and do not say
@@ -87,10 +121,16 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
 }
 
 int run(int argc, char** argv, Invocation& invocation) {
-  invocation.arguments.assign(argv + std::min(argc, 1), argv + argc);
+  invocation.arguments = platform::arguments(argc, argv);
+  if (!invocation.arguments.empty()) invocation.arguments.erase(invocation.arguments.begin());
   const auto app = make_parser(invocation);
+  if (invocation.arguments == std::vector<std::string>{std::string(kDescribe)}) {
+    print_description(*app);
+    return kSuccess;
+  }
   try {
-    app->parse(argc, argv);
+    using Words = std::vector<std::string>;
+    app->parse(Words(invocation.arguments.rbegin(), invocation.arguments.rend()));  // last first
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);  // prints help or version
     return complain(kWrongUsage, describe(error, *app, invocation));
@@ -129,17 +169,15 @@ int run_and_catch(int argc, char** argv) {
 /// with each one that is freed. Of a mesh of a million tets, 16 bytes a tet would never be given
 /// back.
 void give_back_memory() {
-#ifdef __GLIBC__
   constexpr int kFrom = 1 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, kFrom);
-#endif
+  platform::give_back_blocks_from(kFrom);
 }
 
 }  // namespace
 }  // namespace tetmend::apps
 
 int main(int argc, char** argv) {
-  tetmend::apps::reserve_standard_streams();
+  tetmend::platform::reserve_standard_streams();
   tetmend::apps::end_without_remains();
   tetmend::apps::give_back_memory();
   return tetmend::apps::run_and_catch(argc, argv);

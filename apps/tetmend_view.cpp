@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The viewer: reads the command line, then shows a window, draws a picture or runs a script.
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -10,10 +9,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/description.h"
 #include "apps/standard_streams.h"
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/temporary_names.h"
+#include "platform/platform.h"
 #include "viewer/commands/script.h"
 #include "viewer/ui/headless.h"
 #include "viewer/ui/window.h"
@@ -107,11 +108,40 @@ int complain(Status status, const std::string& message) {
   return status;
 }
 
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("FILE", options.file, "Mesh or trace to open")->type_name("");
+  app.add_option("--before", options.before, "Mesh whose statistics are shown beside")
+      ->type_name("MESH");
+  app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display")
+      ->type_name("FILE.png");
+  app.add_option("--script", options.script, "Run a Lua script and exit; needs no display")
+      ->type_name("FILE.lua");
+  app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT")
+      ->type_name("SIZE");
+  app.add_option("--view", options.view, "Settings of the view as JSON: what Ctrl+C copies")
+      ->type_name("JSON");
+  app.add_option("--at", options.at, "Of a trace: show the mesh after so many events")
+      ->type_name("N");
+  app.add_option("--scale", options.scale,
+                 "Size of text and panels, 0.5 to 4; 1 is usual, 2 for 4K")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.5, 4.0).description(""));
+  app.add_option("--report", options.report, "Write the last state as JSON on leaving")
+      ->type_name("FILE.json");
+  app.add_flag("--panels", options.panels, "Draw the panels into pictures, too");
+  app.add_flag("--keys", options.keys, "Print all keys and script words");
+  app.footer(R"(Examples:
+  tetmend-view part.mesh
+  tetmend-view --before part.mesh better.mesh
+  tetmend-view run.trace
+  tetmend-view --render part.png --size 1200x900 part.mesh
+
+Exit status: 0 success, 1 the work failed, 2 wrong usage)");
+}
+
 /// The trace of a run that is under way is unfinished.
 void end_without_remains() {
-  for (const int number : {SIGHUP, SIGINT, SIGTERM}) {
-    if (std::signal(number, formats::end_by_signal) == SIG_IGN) std::signal(number, SIG_IGN);
-  }
+  platform::on_end_signals(platform::EndSignals::terminal, formats::end_by_signal);
 }
 
 }  // namespace
@@ -119,25 +149,18 @@ void end_without_remains() {
 
 int main(int argc, char** argv) {
   using namespace tetmend::apps;
-  reserve_standard_streams();
+  tetmend::platform::reserve_standard_streams();
   end_without_remains();
   Options options;
   CLI::App app(
       "tetmend-view shows a tetrahedral mesh and where it is bad, or a recorded run step by step.",
       "tetmend-view");
   app.set_version_flag("--version", "tetmend " TETMEND_VERSION);
-  app.add_option("FILE", options.file, "Mesh or trace to open");
-  app.add_option("--before", options.before, "Mesh whose statistics are shown beside");
-  app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display");
-  app.add_option("--script", options.script, "Run a Lua script and exit; needs no display");
-  app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT");
-  app.add_option("--view", options.view, "Settings of the view as JSON: what Ctrl+C copies");
-  app.add_option("--at", options.at, "Of a trace: show the mesh after so many events");
-  app.add_option("--scale", options.scale, "Size of text and panels; 1 is usual, 2 for 4K")
-      ->check(CLI::Range(0.5, 4.0));
-  app.add_option("--report", options.report, "Write the last state as JSON on leaving");
-  app.add_flag("--panels", options.panels, "Draw the panels into pictures, too");
-  app.add_flag("--keys", options.keys, "Print all keys and script words");
+  add_options(app, options);
+  if (argc == 2 && argv[1] == kDescribe) {
+    fmt::print("{}\n", describe(app, TETMEND_VERSION).dump(1));
+    return kSuccess;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -5,29 +5,32 @@
 # For each room: what its files may include, besides itself. Folders that are no rooms (tests, bench, plugins, python)
 # may include anything.
 # What users see, include/tetmend, is divided among the layers, and includes nothing but itself and the standard library.
-# Bindings include what users see, and nothing else of ours.
+# Bindings include what users see, and nothing else of ours but platform.
+# platform alone includes headers of the system.
 cmake_minimum_required(VERSION 3.21)
 if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(rooms kernel trace search ops contract schedule face bindings apps
+set(rooms platform kernel trace search explain ops contract schedule face bindings apps
           viewer viewer/mesh viewer/debugger viewer/live viewer/commands viewer/gl viewer/ui)
-set(below_kernel "")
-set(below_trace kernel)
-set(below_search kernel)
-set(below_ops kernel trace search)
-set(below_contract kernel trace search ops)
-set(below_schedule kernel trace search ops)
-set(below_face kernel trace search ops contract schedule)
-set(below_bindings "")
-set(below_viewer/mesh kernel)
-set(below_viewer/debugger kernel trace search viewer/mesh)
-set(below_viewer/live kernel trace schedule viewer/mesh)
-set(below_viewer kernel viewer/mesh viewer/debugger viewer/live)
-set(below_viewer/commands kernel schedule viewer/mesh viewer/debugger viewer/live viewer)
-set(below_viewer/gl kernel viewer/mesh viewer)
-set(below_viewer/ui kernel viewer/mesh viewer/debugger viewer/live viewer viewer/commands viewer/gl)
+set(below_platform "")
+set(below_kernel platform)
+set(below_trace platform kernel)
+set(below_search platform kernel)
+set(below_explain platform kernel trace search)
+set(below_ops platform kernel trace search)
+set(below_contract platform kernel trace search ops)
+set(below_schedule platform kernel trace search ops)
+set(below_face platform kernel trace search ops contract schedule)
+set(below_bindings platform)
+set(below_viewer/mesh platform kernel)
+set(below_viewer/debugger platform kernel trace search explain viewer/mesh)
+set(below_viewer/live platform kernel trace schedule viewer/mesh)
+set(below_viewer platform kernel explain viewer/mesh viewer/debugger viewer/live)
+set(below_viewer/commands platform kernel explain schedule viewer/mesh viewer/debugger viewer/live viewer)
+set(below_viewer/gl platform kernel viewer/mesh viewer)
+set(below_viewer/ui platform kernel explain viewer/mesh viewer/debugger viewer/live viewer viewer/commands viewer/gl)
 set(below_apps ${rooms})
 
 set(public_of_kernel api curved data error goal rulers statistics)
@@ -35,6 +38,11 @@ set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
 set(public_of_face check improve io measure mesh option_text trace)
 set(public_of_bindings tetmend)
+
+# <NAME.h> is a header of the system, unless it belongs to a library.
+set(headers_of_libraries imgui.h imgui_stdlib.h stb_image_write.h zlib.h zstd.h)
+set(system_headers "^(csignal|(sys|mach|mach-o|linux|net|netinet|arpa|asm)/.*|[^/]+\\.h)$")
+set(system_names "(_WIN32|__APPLE__|__linux__|__GLIBC__)")
 
 set(violations "")
 
@@ -85,6 +93,9 @@ foreach(layer IN LISTS layers)
     set(allowed ${room} ${below_${room}})
     file(READ "${SOURCE_DIR}/${source}" content)
     set(content "\n${content}")
+    if(NOT room STREQUAL "platform" AND content MATCHES "\n[ \t]*#[^\n]*${system_names}")
+      report(${source} "${content}" "${CMAKE_MATCH_0}" "only platform asks for the system: ${CMAKE_MATCH_1}")
+    endif()
     string(REGEX MATCHALL "\n[ \t]*#[ \t]*include[ \t]*[\"<][^\">\n]+[\">]" includes "${content}")
     list(REMOVE_DUPLICATES includes)
     foreach(include IN LISTS includes)
@@ -101,6 +112,9 @@ foreach(layer IN LISTS layers)
         continue()  # it is for C
       elseif(source MATCHES "^include/" AND (path MATCHES "/|\\.h" OR quote STREQUAL "\""))
         report(${source} "${content}" "${include}" "users are not to see ${path}")
+      elseif(NOT room STREQUAL "platform" AND quote STREQUAL "<" AND path MATCHES "${system_headers}"
+             AND NOT path IN_LIST headers_of_libraries)
+        report(${source} "${content}" "${include}" "only platform includes ${path}, a header of the system")
       endif()
       if(other IN_LIST allowed AND path MATCHES "/" AND NOT path MATCHES "/\\.\\./")
         continue()

@@ -1,11 +1,14 @@
 # What is installed: the library, its headers, how others find it, and the licences.
 #   find_package(tetmend)   the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin
 #   pkg-config tetmend      the same for other build tools; with --static what a static libtetmend needs
+# The components are those of the packages that cmake/packages.cmake makes: program, viewer, library, development, python.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tetmend)
 
 install(TARGETS tetmend_library EXPORT tetmendTargets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/tetmend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/bindings/fortran/tetmend.f90 DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tetmend)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -1,8 +1,10 @@
 # tetmend::tetmend, what users link: all layers as one library, a shared one unless BUILD_SHARED_LIBS is off. What it is made
 # with is its own affair: users see include/tetmend and need nothing else.
-set(tetmend_layers kernel trace search ops contract schedule face bindings_c)
+set(tetmend_layers platform kernel trace search ops contract schedule face bindings_c)
 
-if(NOT DEFINED BUILD_SHARED_LIBS)
+if(WIN32)
+  set(BUILD_SHARED_LIBS OFF)  # a DLL shows nothing that is not marked for it
+elseif(NOT DEFINED BUILD_SHARED_LIBS)
   set(BUILD_SHARED_LIBS ON)
 endif()
 add_library(tetmend_library)
@@ -20,9 +22,11 @@ target_compile_features(tetmend_library INTERFACE cxx_std_20)
 target_link_libraries(tetmend_library PRIVATE $<BUILD_INTERFACE:tetmend_bindings_c> $<BUILD_INTERFACE:tetmend_flags>)
 set_target_properties(tetmend_library PROPERTIES OUTPUT_NAME tetmend EXPORT_NAME tetmend LINKER_LANGUAGE CXX)
 if(BUILD_SHARED_LIBS)
-  target_link_options(tetmend_library PRIVATE
-    -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,-Bsymbolic-functions -Wl,--as-needed)
-  if(NOT TETMEND_SANITIZE)
+  if(NOT APPLE)
+    target_link_options(tetmend_library PRIVATE
+      -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,-Bsymbolic-functions -Wl,--as-needed)
+  endif()
+  if(NOT APPLE AND NOT TETMEND_SANITIZE)
     target_link_options(tetmend_library PRIVATE -Wl,--no-undefined)  # sanitizers are in the program
   endif()
   set_target_properties(tetmend_library PROPERTIES

@@ -25,10 +25,18 @@ target_link_libraries(tetmend_plugin INTERFACE Eigen3::Eigen)
 set_target_properties(tetmend_plugin PROPERTIES EXPORT_NAME plugin)
 
 add_library(tetmend_plugin_host INTERFACE)
-target_link_libraries(tetmend_plugin_host INTERFACE tetmend_ops ${CMAKE_DL_LIBS})
+target_link_libraries(tetmend_plugin_host INTERFACE tetmend_ops)
 set(whole_libraries "")
 foreach(layer IN ITEMS ops search trace kernel)
-  string(APPEND whole_libraries " $<TARGET_FILE:tetmend_${layer}>")
+  if(APPLE)
+    string(APPEND whole_libraries " -Wl,-force_load,$<TARGET_FILE:tetmend_${layer}>")
+  else()
+    string(APPEND whole_libraries " $<TARGET_FILE:tetmend_${layer}>")
+  endif()
 endforeach()
-target_link_options(tetmend_plugin_host INTERFACE
-  -rdynamic "SHELL:-Wl,--whole-archive${whole_libraries} -Wl,--no-whole-archive")
+if(APPLE)
+  target_link_options(tetmend_plugin_host INTERFACE -Wl,-export_dynamic "SHELL:${whole_libraries}")
+elseif(NOT WIN32)  # a DLL cannot take its code from the program: there are no plugins
+  target_link_options(tetmend_plugin_host INTERFACE
+    -rdynamic "SHELL:-Wl,--whole-archive${whole_libraries} -Wl,--no-whole-archive")
+endif()

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -70,7 +71,9 @@ struct Wall {
   std::array<Bits, 3> corners{};
   std::array<Label, 2> labels{};
   bool is_boundary = true;
-  friend auto operator<=>(const Wall&, const Wall&) = default;
+  auto all() const { return std::tie(corners, labels, is_boundary); }
+  friend bool operator==(const Wall& a, const Wall& b) { return a.all() == b.all(); }
+  friend bool operator<(const Wall& a, const Wall& b) { return a.all() < b.all(); }
 };
 
 Bits bits_of(const Point& p) {

@@ -2,11 +2,11 @@
 #include "face/growth.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "kernel/from_chars.h"
 #include "kernel/star.h"
 #include "kernel/workspace.h"
 
@@ -19,7 +19,7 @@ constexpr std::size_t kSample = 20'000;
 template <class Number>
 std::optional<Number> read_whole(std::string_view text) {
   Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
 }

@@ -13,9 +13,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <tetmend/improve.h>
 
 #include "contract/inspector.h"
@@ -38,6 +35,7 @@
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
+#include "platform/platform.h"
 #include "schedule/limit/surface_limit.h"
 
 namespace tetmend {
@@ -58,14 +56,6 @@ class Stopwatch {
   double& seconds_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// What the run and the measuring have freed lies in pieces of the heap. Given back, it makes room
-/// for the arrays: about 10 bytes a tet less at the peak.
-void trim_heap() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-}
 
 Schedule find_schedule(const Options& options) {
   if (!options.script.empty()) return {"script", options.script};
@@ -409,7 +399,9 @@ void Improvement::give_back() {
 }
 
 void Improvement::give_back_improved() {
-  trim_heap();
+  // What the run and the measuring have freed lies in pieces of the heap. Given back, it makes room
+  // for the arrays: about 10 bytes a tet less at the peak.
+  platform::trim_heap();
   if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
   MeshData data = std::move(mesh_).to_data();
   if (carries_) {

@@ -13,6 +13,7 @@
 
 #include "face/mesh_access.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/second_order.h"
 
 namespace tetmend {
 
@@ -21,6 +22,11 @@ namespace {
 template <class T>
 void release(std::vector<T>& values) {
   std::vector<T>().swap(values);
+}
+
+/// "there are 12"
+std::string there_are(std::size_t count) {
+  return fmt::format("there {} {}", count == 1 ? "is" : "are", count);
 }
 
 /// One kind of entity, in the words of MeshArrays.
@@ -60,7 +66,7 @@ void check_members(const Group& group, std::size_t i, const Kind& kind) {
       throw Error(fmt::format("groups[{}].members[{}]: {}, counted from 0", i, k, reason));
     };
     if (member >= kind.count) {
-      fail(fmt::format("no {} {}, there are {}", kind.singular, member, kind.count));
+      fail(fmt::format("no {} {}, {}", kind.singular, member, there_are(kind.count)));
     }
     if (is_in[member]) fail(fmt::format("{} {} twice", kind.singular, member));
     is_in[member] = true;
@@ -105,10 +111,63 @@ void check_vertices(std::string_view name,
     if (v.back() < points && !repeated) continue;
     const std::string reason = v.back() < points
                                    ? "the same vertex twice"
-                                   : fmt::format("no point {}, there are {}", v.back(), points);
+                                   : fmt::format("no point {}, {}", v.back(), there_are(points));
     throw Error(fmt::format("{}[{}]: ({}): {}, counted from 0", name, i,
                             fmt::join(elements[i], ", "), reason));
   }
+}
+
+/// Each node is a point of its own.
+void check_nodes_of_edges(const MeshArrays& arrays) {
+  constexpr std::uint8_t kCorner = 1;
+  constexpr std::uint8_t kMiddle = 2;
+  std::vector<std::uint8_t> use(arrays.points.size(), 0);
+  for (const auto& tet : arrays.tets) {
+    for (const std::uint32_t v : tet) use[v] = kCorner;
+  }
+  for (const auto& [a, b, node] : arrays.mid_nodes) {
+    if (use[node] == 0) {
+      use[node] = kMiddle;
+      continue;
+    }
+    throw Error(fmt::format(
+        "mid_nodes: point {}, counted from 0, is the node of an edge and {}: expected nodes of "
+        "their own",
+        node, use[node] == kCorner ? "a vertex of a tet" : "that of another edge"));
+  }
+}
+
+/// Each edge of a tet has one.
+void check_all_tets_have_nodes(const MeshArrays& arrays) {
+  const MidNodes mid_nodes(arrays.mid_nodes);
+  for (std::size_t i = 0; i < arrays.tets.size(); ++i) {
+    const auto& tet = arrays.tets[i];
+    for (const auto& [a, b] : kMidNodeEdges) {
+      if (mid_nodes.of(tet[a], tet[b]) != kNoMidNode) continue;
+      throw Error(fmt::format("tets[{}]: its edge ({}, {}) has no mid-side node, counted from 0", i,
+                              tet[a], tet[b]));
+    }
+  }
+}
+
+/// Leaves each edge once, its smaller end first.
+/// Precondition: all numbers are those of points.
+void tidy_mid_nodes(MeshArrays& arrays) {
+  auto& all = arrays.mid_nodes;
+  if (all.empty()) return;
+  for (auto& [a, b, node] : all) {
+    if (a > b) std::swap(a, b);
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i][0] != all[i - 1][0] || all[i][1] != all[i - 1][1]) continue;
+    throw Error(fmt::format(
+        "mid_nodes: the edge ({}, {}) has two nodes, {} and {}: expected one, counted from 0",
+        all[i][0], all[i][1], all[i - 1][2], all[i][2]));
+  }
+  check_nodes_of_edges(arrays);
+  check_all_tets_have_nodes(arrays);
 }
 
 void check(const MeshArrays& arrays) {
@@ -117,10 +176,11 @@ void check(const MeshArrays& arrays) {
   check_vertices("tets", arrays.tets, n);
   check_vertices("triangles", arrays.triangles, n);
   check_vertices("edges", arrays.edges, n);
+  check_vertices("mid_nodes", arrays.mid_nodes, n);
   for (std::size_t i = 0; i < arrays.required_vertices.size(); ++i) {
     if (arrays.required_vertices[i] < n) continue;
-    throw Error(fmt::format("required_vertices[{}]: no point {}, there are {}, counted from 0", i,
-                            arrays.required_vertices[i], n));
+    throw Error(fmt::format("required_vertices[{}]: no point {}, {}, counted from 0", i,
+                            arrays.required_vertices[i], there_are(n)));
   }
   const std::array<Kind, 4> kinds = {
       {{"points", "point", n, arrays.point_data},
@@ -164,6 +224,7 @@ void unpack(const std::vector<Element>& elements, std::vector<Vertices>& vertice
 
 MeshData pack(MeshArrays arrays) {
   check(arrays);
+  tidy_mid_nodes(arrays);
   MeshData data;
   data.points.reserve(arrays.points.size());
   for (const auto& p : arrays.points) data.points.emplace_back(p[0], p[1], p[2]);
@@ -183,6 +244,7 @@ MeshData pack(MeshArrays arrays) {
   data.triangle_parts = std::move(arrays.triangle_parts);
   data.edge_parts = std::move(arrays.edge_parts);
   data.groups = std::move(arrays.groups);
+  data.mid_nodes = std::move(arrays.mid_nodes);
   return data;
 }
 
@@ -207,6 +269,33 @@ void unpack_rest(const MeshData& data, MeshArrays& arrays) {
   arrays.triangle_parts = data.triangle_parts;
   arrays.edge_parts = data.edge_parts;
   arrays.groups = data.groups;
+  arrays.mid_nodes = data.mid_nodes;
+}
+
+/// Numbers of the elements that a group means by parts or by its label.
+template <class Element>
+std::vector<std::uint32_t> named_by(const Group& group, const std::vector<Element>& elements,
+                                    const std::vector<Label>& parts) {
+  std::vector<std::int32_t> wanted = group.parts;
+  std::sort(wanted.begin(), wanted.end());
+  const auto is_in = [&](std::uint32_t i) {
+    if (wanted.empty()) return elements[i].label == group.number;
+    return !parts.empty() && std::binary_search(wanted.begin(), wanted.end(), parts[i]);
+  };
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < elements.size(); ++i) {
+    if (is_in(i)) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<std::uint32_t> points_named_by(const Group& group, const MeshData& data) {
+  std::vector<std::uint32_t> found;
+  if (!group.parts.empty()) return found;
+  for (std::uint32_t i = 0; i < data.point_labels.size(); ++i) {
+    if (data.point_labels[i] == group.number) found.push_back(i);
+  }
+  return found;
 }
 
 }  // namespace
@@ -265,6 +354,27 @@ const std::vector<DataArray>& Mesh::edge_data() const {
 }
 const std::vector<Group>& Mesh::groups() const {
   return content().data.groups;
+}
+
+std::span<const std::array<std::uint32_t, 3>> Mesh::mid_nodes() const {
+  return content().data.mid_nodes;
+}
+
+std::vector<std::uint32_t> Mesh::members(const Group& group) const {
+  if (!group.members.empty()) return group.members;
+  const MeshData& data = content().data;
+  switch (group.dimension) {
+    case 0:
+      return points_named_by(group, data);
+    case 1:
+      return named_by(group, data.edges, data.edge_parts);
+    case 2:
+      return named_by(group, data.triangles, data.triangle_parts);
+    case 3:
+      return named_by(group, data.tets, data.tet_parts);
+    default:
+      return {};
+  }
 }
 
 const MeshArrays& Mesh::elements() const {

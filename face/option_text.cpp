@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Options as text, as the command line takes them: one row for each.
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tetmend/option_text.h>
+
+#include "kernel/from_chars.h"
 
 namespace tetmend {
 
@@ -25,7 +26,7 @@ struct Row {
 template <class Number>
 Number read_number(std::string_view text, Number low, Number high, std::string_view what) {
   Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   if (is_number && number >= low && number <= high) return number;
   throw Error(fmt::format("'{}' is not {} from {} to {}", text, what, low, high));
@@ -49,7 +50,7 @@ std::pair<std::string, std::string> read_setting(std::string_view text) {
 Goal read_goal(std::string_view text) {
   const auto read = [&](std::string_view part) {
     double angle = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), angle);
+    const auto [end, error] = from_chars(part.data(), part.data() + part.size(), angle);
     if (error != std::errc() || end != part.data() + part.size()) {
       throw Error(fmt::format("'{}' is not of the form MIN or MIN,MAX", text));
     }
@@ -78,7 +79,7 @@ std::uint64_t read_size(std::string_view text) {
     for (std::size_t k = 0; k <= i; ++k) unit *= 1000;
   }
   std::uint64_t count = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+  const auto [end, error] = from_chars(digits.data(), digits.data() + digits.size(), count);
   if (error != std::errc() || end != digits.data() + digits.size() || count == 0 ||
       count > std::uint64_t{1} << 50) {
     throw Error(fmt::format("'{}' is not a size such as 500M (K, M or G)", text));

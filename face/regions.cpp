@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <set>
 #include <span>
@@ -17,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/boundary_layers.h"
+#include "kernel/from_chars.h"
 
 namespace tetmend::face {
 
@@ -52,7 +52,7 @@ std::optional<std::vector<Number>> parse_list(std::string_view text) {
   for (;;) {
     const std::string_view word = text.substr(0, text.find(','));
     Number number{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
     numbers.push_back(number);
     if (word.size() == text.size()) return numbers;

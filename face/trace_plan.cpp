@@ -3,7 +3,6 @@
 #include "face/trace_plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <type_traits>
 
@@ -11,6 +10,7 @@
 #include <tetmend/catalogue.h>
 
 #include "kernel/formats/pending_file.h"
+#include "kernel/from_chars.h"
 
 namespace tetmend::face {
 
@@ -25,7 +25,7 @@ OptionError around_error(std::string_view reason) {
 template <class T>
 T read_number(std::string_view text) {
   T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   bool good = error == std::errc() && end == text.data() + text.size();
   if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
   if (good) return value;

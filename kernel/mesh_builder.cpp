@@ -577,13 +577,13 @@ std::vector<HalfFace> MeshBuilder::unnamed_faces() const {
 
 /// The tet of a vertex is the last one in the file.
 void MeshBuilder::link_vertices() {
-  std::vector<std::uint32_t> last(mesh_.points_.size(), 0);  // number in the file, plus 1
+  std::vector<std::atomic<std::uint32_t>> last(mesh_.points_.size());  // number in the file, plus 1
   const std::size_t n = mesh_.cells_.size();
   for_chunks(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = end; t-- > begin;) {
       const std::uint32_t number = file_tet(t) + 1;
       for (const VertexHandle v : mesh_.cells_[t].vertices) {
-        const std::atomic_ref<std::uint32_t> latest(last[v.index()]);
+        std::atomic<std::uint32_t>& latest = last[v.index()];
         std::uint32_t seen = latest.load(std::memory_order_relaxed);
         while (seen < number &&
                !latest.compare_exchange_weak(seen, number, std::memory_order_relaxed)) {
@@ -594,7 +594,7 @@ void MeshBuilder::link_vertices() {
   for_chunks(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       for (const VertexHandle v : mesh_.cells_[t].vertices) {
-        if (last[v.index()] == file_tet(t) + 1) {
+        if (last[v.index()].load(std::memory_order_relaxed) == file_tet(t) + 1) {
           mesh_.vertex_tet_[v.index()] = TetHandle(static_cast<std::uint32_t>(t));
         }
       }

@@ -52,9 +52,10 @@ TETMEND_WIDE_INLINE WideVector magnitude(const WideVector& p) {
 
 // For functions on WideVectors: a version for processors that have wide registers, chosen at run
 // time; the same operations in the same order everywhere.
-// clang 14 cannot pass these vectors in such versions, sanitizers do not stand the choice.
-#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
+// Only ELF files can choose; clang 14 cannot pass these vectors in such versions, sanitizers do not
+// stand the choice.
+#if defined(__x86_64__) && defined(__ELF__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TETMEND_WIDE __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define TETMEND_WIDE

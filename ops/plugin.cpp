@@ -3,35 +3,30 @@
 //   that to the host's
 #include "ops/plugin.h"
 
-#include <memory>
 #include <new>
 #include <string>
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "ops/plugin_abi.h"
+#include "platform/platform.h"
 
 namespace tetmend {
 
 namespace {
 
-struct Closer {
-  void operator()(void* library) const { ::dlclose(library); }
-};
-using Library = std::unique_ptr<void, Closer>;
+using platform::SharedLibrary;
 
 /// What the dynamic linker has to say, without the name of the file in front.
 std::string linker_message(const std::string& file) {
-  const char* text = ::dlerror();
-  std::string message = text == nullptr ? "unknown reason" : text;
+  std::string message = platform::loading_error();
   if (message.starts_with(file + ": ")) message.erase(0, file.size() + 2);
   return message;
 }
 
-void* find(const Library& library, const std::string& file, const char* symbol) {
-  void* found = ::dlsym(library.get(), symbol);
+void* find(const SharedLibrary& library, const std::string& file, const char* symbol) {
+  void* found = library.find(symbol);
   if (found == nullptr) {
     throw Error(
         fmt::format("{}: not a plugin of tetmend: it has no symbol {} (see "
@@ -49,12 +44,11 @@ void check_abi(const PluginAbi& abi, const std::string& file) {
                   file, abi.version, abi.layout, kPluginAbi.version, kPluginAbi.layout));
 }
 
-/// Opens the library with everything bound, so that nothing is found missing later. Its initialisers
-/// run then, so what the file says of its ABI is looked at before.
-Library open(const std::string& file) {
+/// Its initialisers run when it is opened, so what the file says of its ABI is looked at before.
+SharedLibrary open(const std::string& file) {
   if (const auto abi = read_plugin_abi(file)) check_abi(*abi, file);
-  Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
-  if (!library) {
+  SharedLibrary library(file);
+  if (!library.is_open()) {
     throw Error(fmt::format("{}: cannot be loaded as a plugin: {}", file, linker_message(file)));
   }
   check_abi(*static_cast<const PluginAbi*>(find(library, file, "tetmend_plugin_abi")), file);
@@ -66,10 +60,10 @@ Library open(const std::string& file) {
 Plugin load_plugin(const std::filesystem::path& path, Registry& registry) {
   // Absolute, for a bare name would be searched for in the folders of the system.
   const std::string file = std::filesystem::absolute(path).string();
-  const Library library = open(file);
+  const SharedLibrary library = open(file);
   const auto enter =
       reinterpret_cast<void (*)(Registry&)>(find(library, file, "tetmend_plugin_register"));
-  const Library pinned(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE));
+  library.pin();
 
   try {
     Registry own;

@@ -37,7 +37,8 @@ std::vector<std::uint8_t> touched_vertices(const TraceFile& file, std::uint32_t 
 }
 
 bool touches(const SlotMesh& mesh, TetHandle t, const std::vector<std::uint8_t>& marked) {
-  return std::ranges::any_of(mesh.vertices(t), [&](VertexHandle v) {
+  const TetVertices& vertices = mesh.vertices(t);
+  return std::any_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
     return v.index() < marked.size() && marked[v.index()] != 0;
   });
 }
@@ -50,7 +51,9 @@ std::array<Point, 4> corners(const SlotMesh& mesh, TetHandle t) {
 /// Null for a call outside of visits.
 const Visit* visit_of(const TraceFile& file, std::uint32_t call) {
   const std::span<const Visit> visits = file.visits();
-  const auto after = std::ranges::upper_bound(visits, call, {}, &Visit::first_call);
+  const auto after =
+      std::upper_bound(visits.begin(), visits.end(), call,
+                       [](std::uint32_t c, const Visit& visit) { return c < visit.first_call; });
   if (after == visits.begin() || call >= (after - 1)->last_call) return nullptr;
   return &*(after - 1);
 }
@@ -65,9 +68,9 @@ std::array<double, 5> figures(const std::array<Point, 4>& p) {
     shortest = std::min(shortest, length2);
     longest = std::max(longest, length2);
   }
-  return {*std::ranges::min_element(angles), -*std::ranges::max_element(angles),
-          volume_length(p[0], p[1], p[2], p[3]), radius_ratio(p[0], p[1], p[2], p[3]),
-          -longest / shortest};
+  const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
+  return {*least, -*most, volume_length(p[0], p[1], p[2], p[3]),
+          radius_ratio(p[0], p[1], p[2], p[3]), -longest / shortest};
 }
 
 /// Adds those tets of the mesh, apart from the others, by which it bounds every new tet.
@@ -104,7 +107,7 @@ std::optional<Label> mark_frozen(std::span<const std::uint32_t> frozen,
   ++label;
   bool found = false;
   for (std::size_t k = 0; k < tets.size(); ++k) {
-    if (!std::ranges::binary_search(frozen, tets[k].index())) continue;
+    if (!std::binary_search(frozen.begin(), frozen.end(), tets[k].index())) continue;
     data.tets[k].label = label;
     found = true;
   }

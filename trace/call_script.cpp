@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "kernel/formats/input_file.h"
+#include "kernel/from_chars.h"
 
 namespace tetmend {
 
@@ -49,7 +49,8 @@ class SettingsReader {
     if (left_.empty() || !is_letter(left_.front())) return take_value(depth);
     const std::string_view word = take_word();
     if (take('=')) return take_value(depth);
-    return std::ranges::count(kCompositions, word) > 0 && take_table(depth);
+    const auto end = kCompositions.end();
+    return std::find(kCompositions.begin(), end, word) != end && take_table(depth);
   }
   bool take_value(int depth) {
     skip_spaces();
@@ -72,15 +73,15 @@ class SettingsReader {
     const std::size_t sign = left_.front() == '-' ? 1 : 0;
     if (left_.size() <= sign || !is_digit(left_[sign])) return false;
     double value = 0;
-    const auto [end, failed] = std::from_chars(left_.data(), left_.data() + left_.size(), value);
+    const auto [end, failed] = from_chars(left_.data(), left_.data() + left_.size(), value);
     if (failed != std::errc()) return false;
     left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
     return true;
   }
   std::string_view take_word() {
-    const auto end =
-        std::ranges::find_if_not(left_, [](char c) { return is_letter(c) || is_digit(c); });
-    const std::string_view word(left_.begin(), end);
+    const auto end = std::find_if_not(left_.begin(), left_.end(),
+                                      [](char c) { return is_letter(c) || is_digit(c); });
+    const std::string_view word = left_.substr(0, static_cast<std::size_t>(end - left_.begin()));
     left_.remove_prefix(word.size());
     return word;
   }

@@ -19,7 +19,8 @@ namespace {
 std::filesystem::path file_of(const nlohmann::json& json, const char* member,
                               const std::filesystem::path& folder) {
   const std::filesystem::path name = json.at(member).get<std::string>();
-  if (name.empty() || name.is_absolute() || std::ranges::find(name, "..") != name.end()) {
+  if (name.empty() || name.is_absolute() ||
+      std::find(name.begin(), name.end(), "..") != name.end()) {
     throw Error(fmt::format("'{}' leads out of its folder", member));
   }
   return folder / name;
@@ -36,7 +37,10 @@ Lesson from_json(const nlohmann::json& json, const std::filesystem::path& folder
     lesson.steps.push_back({at.get<std::uint64_t>(), step.at("text").get<std::string>()});
   }
   if (lesson.steps.empty()) throw Error("has no steps");
-  if (!std::ranges::is_sorted(lesson.steps, {}, &LessonStep::at)) throw Error("a step goes back");
+  const auto is_before = [](const LessonStep& a, const LessonStep& b) { return a.at < b.at; };
+  if (!std::is_sorted(lesson.steps.begin(), lesson.steps.end(), is_before)) {
+    throw Error("a step goes back");
+  }
   return lesson;
 }
 
@@ -59,7 +63,7 @@ std::vector<std::filesystem::path> list_lessons(const std::filesystem::path& fol
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
-  std::ranges::sort(files);
+  std::sort(files.begin(), files.end());
   return files;
 }
 

@@ -123,7 +123,7 @@ void Playback::log_star(const TraceEvent& event) {
   for (const TetHandle t : event.removed) {
     check_live(mesh_, t);
     const TetVertices& vertices = mesh_.vertices(t);
-    if (std::ranges::count(vertices, v) == 0) {
+    if (std::count(vertices.begin(), vertices.end(), v) == 0) {
       throw ByteReader::Damage(
           fmt::format("vertex {} moves, and tet {} is not of its star", v.index(), t.index()));
     }

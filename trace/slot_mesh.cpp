@@ -88,7 +88,7 @@ void decode_named(ByteReader& in, const SlotMesh& mesh, std::vector<Element>& el
       }
     }
     for (const std::uint32_t v : element.vertices) {
-      if (std::ranges::count(element.vertices, v) == 1) continue;
+      if (std::count(element.vertices.begin(), element.vertices.end(), v) == 1) continue;
       throw ByteReader::Damage(fmt::format("a triangle or edge with vertex {} twice", v));
     }
     element.label = decode_label(in, 0);
@@ -171,7 +171,8 @@ MeshData SlotMesh::extract(std::span<const TetHandle> tets,
   const auto take = [&](const auto& elements, auto& out) {
     for (auto element : elements) {
       for (std::uint32_t& v : element.vertices) v = number[v];
-      if (std::ranges::count(element.vertices, kNowhere) == 0) out.push_back(element);
+      const auto& vertices = element.vertices;
+      if (std::count(vertices.begin(), vertices.end(), kNowhere) == 0) out.push_back(element);
     }
   };
   take(triangles_, data.triangles);
@@ -290,7 +291,7 @@ SlotMesh SlotMesh::decode(ByteReader& in) {
   decode_named(in, mesh, mesh.edges_);
   mesh.required_vertices_ = decode_slots(in, mesh.points_.size());
   mesh.frozen_tets_ = decode_slots(in, mesh.tets_.size());
-  if (!std::ranges::is_sorted(mesh.frozen_tets_)) {
+  if (!std::is_sorted(mesh.frozen_tets_.begin(), mesh.frozen_tets_.end())) {
     throw ByteReader::Damage("frozen tets are not in order");
   }
   if (!in.at_end()) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -100,11 +101,13 @@ class TetFaces {
   Entry& probe(const Key& key) { return entries_[place_of(key)]; }
   std::uint32_t sides_of(const Key& key) const { return entries_[place_of(key)].sides; }
   std::size_t count_open() const {
-    return static_cast<std::size_t>(std::ranges::count_if(entries_, &Entry::is_open));
+    return static_cast<std::size_t>(
+        std::count_if(entries_.begin(), entries_.end(), std::mem_fn(&Entry::is_open)));
   }
   void make_room() {
-    const auto live = static_cast<std::size_t>(std::ranges::count_if(
-        entries_, [](const Entry& entry) { return entry.sides != 0 && entry.sides != kFree; }));
+    const auto live = static_cast<std::size_t>(
+        std::count_if(entries_.begin(), entries_.end(),
+                      [](const Entry& entry) { return entry.sides != 0 && entry.sides != kFree; }));
     rehash(2 * live > entries_.size() ? 2 * entries_.size() : entries_.size());
   }
   /// Forgets the faces without a tet.

@@ -13,6 +13,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "viewer/debugger/call_highlight.h"
+#include "viewer/debugger/flat_drawing.h"
 #include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {

@@ -5,10 +5,12 @@
 //   make_lessons OUTDIR
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "contract/zoo.h"
+#include "explain/call_study.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/shell.h"
@@ -105,6 +109,64 @@ MeshData pieces() {
   return mesh;
 }
 
+/// A ring of six around an edge that passes close to one of its sides: all pockets have
+/// triangulations, and the best one of the whole ring is no fan.
+MeshData shell_beside_axis() {
+  MeshData mesh;
+  add_piece(mesh, 0,
+            {{-0.28, -0.47, -1.13},
+             {-0.04, -0.58, 1.17},
+             {1.26, -0.13, 0.16},
+             {0.43, 0.85, -0.06},
+             {-0.49, 0.59, 0.04},
+             {-1.1, 0.12, -0.13},
+             {-0.52, -0.51, 0.06},
+             {0.25, -0.6, 0.14}},
+            {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 5, 6}, {0, 1, 6, 7}, {0, 1, 7, 2}});
+  return mesh;
+}
+
+/// Side by side: the two shells of the second lesson (0 to 6), two flat tets on one face (7 to 11),
+/// and a flat tet by itself (12 to 15), which nothing can help.
+MeshData three_cures() {
+  MeshData mesh = two_shells();
+  add_piece(mesh, 3.2, {{1, 0, 0}, {-0.5, 0.87, 0}, {-0.5, -0.87, 0}, {0, 0, 0.25}, {0, 0, -0.25}},
+            {{0, 1, 2, 3}, {1, 0, 2, 4}});
+  add_piece(mesh, 5.4, {{1, 0, 0}, {-0.5, 0.87, 0}, {-0.5, -0.87, 0}, {0, 0, 0.2}}, {{0, 1, 2, 3}});
+  return mesh;
+}
+
+/// A ball around vertex 6, which is off its middle.
+MeshData lopsided_ball() {
+  MeshData mesh;
+  add_piece(mesh, 0,
+            {{1, 0, 0},
+             {-1, 0, 0},
+             {0, 1.1, 0},
+             {0, -1, 0.1},
+             {0, 0, 1.2},
+             {0.1, 0, -1},
+             {0.42, 0.3, 0.28}},
+            {{6, 0, 2, 4},
+             {6, 2, 1, 4},
+             {6, 1, 3, 4},
+             {6, 3, 0, 4},
+             {6, 2, 0, 5},
+             {6, 1, 2, 5},
+             {6, 3, 1, 5},
+             {6, 0, 3, 5}});
+  return mesh;
+}
+
+/// Eleven random points: places with three digits, as the file has them.
+MeshData eleven_points() {
+  constexpr std::uint64_t kSeed = 1;
+  constexpr double kDigits = 1000;
+  MeshData mesh = contract::delaunay_ball(11, kSeed);
+  for (Point& p : mesh.points) p = (p * kDigits).array().round() / kDigits;
+  return mesh;
+}
+
 // --- the texts -----------------------------------------------------------------------------------
 
 /// Collects the steps of a lesson while the trace is played.
@@ -113,6 +175,7 @@ class LessonWriter {
   explicit LessonWriter(const TraceFile& file) : file_(file), replay_(file) {}
 
   const std::vector<LessonStep>& steps() const { return steps_; }
+  const TraceFile& file() const { return file_; }
   const Call& call(std::uint32_t number) const { return file_.calls()[number]; }
 
   void say(std::uint64_t at, std::string text) { steps_.push_back({at, std::move(text)}); }
@@ -192,6 +255,18 @@ std::vector<std::uint32_t> without(const std::vector<std::uint32_t>& all,
 std::string qualities(const Call& c) {
   return fmt::format("the worst quality among the tets that changed was {:.4f} and is {:.4f}",
                      c.worst_before, c.worst_after);
+}
+
+std::string numbers(const Call& c) {
+  std::vector<std::uint32_t> vertices;
+  for (const VertexHandle v : c.target()) vertices.push_back(v.index());
+  return join(vertices);
+}
+
+/// As the beginning of a sentence.
+std::string capital(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
 }
 
 void write_core(LessonWriter& lesson) {
@@ -330,6 +405,188 @@ void write_refusals(LessonWriter& lesson) {
   }
 }
 
+/// Entries of the tables of a call, by vertices.
+struct Tables {
+  Tables(const TraceFile& file, std::uint32_t call) {
+    Replay replay(file);
+    picture = *explain::study_call(file, replay, call).picture;
+  }
+  std::size_t place(std::uint32_t v) const {
+    return static_cast<std::size_t>(std::ranges::find(picture.ring, VertexHandle(v)) -
+                                    picture.ring.begin());
+  }
+  Quality q(std::uint32_t i, std::uint32_t j) const { return picture.tables.q(place(i), place(j)); }
+  std::uint32_t k(std::uint32_t i, std::uint32_t j) const {
+    return picture.ring[picture.tables.k(place(i), place(j))].index();
+  }
+  explain::ShellPicture picture;
+};
+
+void write_tables(LessonWriter& lesson) {
+  const Call& call = lesson.call(0);
+  const Tables tables(lesson.file(), 0);
+  const auto& ring = tables.picture.ring;
+  const std::uint32_t first = ring.front().index();
+  const std::uint32_t second = ring[1].index();
+  const std::uint32_t third = ring[2].index();
+  const std::uint32_t last = ring.back().index();
+  const std::uint64_t found = lesson.after(call, EventKind::candidate_found);
+  const std::uint64_t replaced = lesson.after(call, EventKind::replace_cavity);
+  const std::uint32_t apex = tables.k(first, last);
+  lesson.say(0, fmt::format("{} tets share the edge a b, and its skirt polygon has {} corners. The "
+                            "edge passes close to a side of it: the worst tet has quality {:.4f}. "
+                            "How many ways are there to fill the shell without this edge? The "
+                            "tables of Algorithms 1 and 2 find the best without trying all.",
+                            ring.size(), ring.size(), tables.picture.floor));
+  lesson.say(
+      call.events.begin + 1,
+      fmt::format("A pocket goes along the polygon from p_i on to p_j, and the chord p_i p_j "
+                  "closes it. M_q(i, j) is the worst quality of its best triangulation, "
+                  "M_k(i, j) the third corner of the triangle at the chord. A side is an "
+                  "empty pocket: nothing is worse, so infinity. The smallest true pockets "
+                  "have one triangle: from {} to {} the third corner can only be {}.",
+                  first, third, second));
+  lesson.say(found,
+             fmt::format("The tables are filled, diagonal by diagonal: each larger pocket is a "
+                         "triangle and two smaller ones that are known. Algorithm 1 fills the half "
+                         "above the diagonal, which has the pocket from {} to {}: the whole "
+                         "polygon. Algorithm 2 fills both halves, as a pocket may pass from the "
+                         "last corner on to the first. M_q of the whole polygon is {:.4f}.",
+                         first, last, tables.q(first, last)));
+  lesson.say(replaced,
+             fmt::format("M_k leads back to the triangles. The whole polygon, from {0} to {1}, has "
+                         "the third corner {2}: a triangle {0} {2} {1}. What it leaves are the "
+                         "pockets from {0} to {2} and from {2} to {1}, and so on. Each triangle "
+                         "gives a tet with a and one with b: {3} tets instead of {4}.",
+                         first, last, apex, lesson.cavity(replaced).created.size(), ring.size()));
+  lesson.say(call.events.end,
+             fmt::format("No core was better than that, so the edge is gone: full reduction. {} "
+                         "Algorithm 3 has come to its end, line 8.",
+                         capital(qualities(call)) + "."));
+}
+
+void write_reconnection(LessonWriter& lesson) {
+  const TraceFile& file = lesson.file();
+  lesson.say(0,
+             "Three pieces with bad tets: the two shells of the second lesson, two flat tets that "
+             "share a face, and a flat tet by itself. Algorithm 5 wants all of them gone.");
+  const auto begins = file.passes().front().events.begin + 1;
+  lesson.say(begins, "The bad tets are queued, those of lowest quality first.");
+  for (std::size_t i = 0; i < file.visits().size(); ++i) {
+    const Visit& visit = file.visits()[i];
+    std::vector<std::uint32_t> corners;
+    for (const VertexHandle v : visit.tet) corners.push_back(v.index());
+    std::string then;
+    if (visit.first_call == visit.last_call) {
+      then = "All of its edges and faces lie on the boundary, and none may be removed.";
+    } else {
+      const Call& call = lesson.call(visit.first_call);
+      then = fmt::format("{} at {} {} comes first.",
+                         call.algorithm == Algorithm::recursion ? "Algorithm 4" : "Face removal",
+                         call.target_size == 2 ? "edge" : "face", numbers(call));
+    }
+    lesson.say(visit.events.begin + 1,
+               fmt::format("The first tet of the queue has the vertices {} and quality {:.4f}. {}",
+                           join(corners), visit.quality, then));
+    for (std::uint32_t c = visit.first_call; c < visit.last_call; c = lesson.call(c).subtree_end) {
+      const Call& call = lesson.call(c);
+      if (call.accepted()) {
+        lesson.say(call.events.end,
+                   fmt::format("It works: {}. The tet is gone, so nothing else is tried at it.",
+                               qualities(call)));
+      }
+    }
+  }
+  const auto& end = file.passes().front().now;
+  lesson.say(file.event_count(),
+             fmt::format("The queue is empty. {} bad tet{} left, of quality {:.4f}: its edges and "
+                         "faces are those of the boundary, and local reconnection keeps the "
+                         "boundary. Other operators have to help there, or none can.",
+                         end.n_bad, end.n_bad == 1 ? " is" : "s are", end.q_worst));
+}
+
+void write_smoothing(LessonWriter& lesson) {
+  const Call& call = lesson.call(0);
+  const std::uint64_t moved = lesson.after(call, EventKind::move_vertex);
+  lesson.say(0,
+             fmt::format("{} tets share vertex 6: its ball. The vertex is not where it should be, "
+                         "and the worst tet has quality {:.4f}. Nothing needs to be connected in "
+                         "another way: it is enough to move the vertex.",
+                         lesson.file().initial_mesh().tet_count(), lesson.worst(0)));
+  lesson.say(
+      call.events.begin + 1,
+      "Smoothing first tries the mean of the neighbours, which costs next to nothing. If the "
+      "worst tet of the ball is better there, the vertex begins from there. If a tet is bad "
+      "still, it climbs: in each step it moves in the direction in which the worst tets "
+      "become better together, until there is none.");
+  lesson.say(lesson.after(call, EventKind::candidate_found),
+             "A better place is found. All other vertices stay where they are.");
+  lesson.say(moved,
+             fmt::format("The vertex has moved, and all {} tets of its ball with it. Compare "
+                         "Before and After.",
+                         lesson.cavity(moved).created.size()));
+  lesson.say(call.events.end, fmt::format("The ball is better as a whole, so the change stays: {}.",
+                                          qualities(call)));
+}
+
+void write_cavity(LessonWriter& lesson) {
+  const Call& call = lesson.call(0);
+  const std::uint64_t replaced = lesson.after(call, EventKind::replace_cavity);
+  const Cavity cavity = lesson.cavity(replaced);
+  lesson.say(0, fmt::format("{} tets between {} points. Some places have too few vertices for good "
+                            "tets, however they are connected. A new vertex may help: where, and "
+                            "which tets must give way to it?",
+                            lesson.file().initial_mesh().tet_count(),
+                            lesson.file().initial_mesh().vertex_count()));
+  lesson.say(
+      call.events.begin + 1,
+      fmt::format("Insertion by cavity works on the tet {}. The centroids of the tet, of its "
+                  "faces and of its edges are tried as places for a vertex. At each, the "
+                  "cavity grows: the tet itself, then those neighbours whose removal makes "
+                  "the worst of the new tets better.",
+                  numbers(call)));
+  lesson.say(lesson.after(call, EventKind::candidate_found),
+             "A place is found that promises enough. The vertex has been moved to where the worst "
+             "new tet is best, and the cavity was chosen once more for that place.");
+  lesson.say(
+      replaced,
+      fmt::format("{} tets are taken out. The outer faces of the cavity stay, and each of them "
+                  "makes a tet with the new vertex: {} tets.",
+                  cavity.removed.size(), cavity.created.size()));
+  lesson.say(
+      call.events.end,
+      fmt::format("There are more tets than before, but they are better: {}.", qualities(call)));
+}
+
+void write_polyhedron(LessonWriter& lesson) {
+  const Call& call = lesson.call(0);
+  const std::uint64_t replaced = lesson.after(call, EventKind::replace_cavity);
+  const Cavity cavity = lesson.cavity(replaced);
+  std::set<VertexHandle> corners;
+  for (const CavityTet& tet : cavity.removed)
+    corners.insert(tet.vertices.begin(), tet.vertices.end());
+  lesson.say(0,
+             "The mesh of the lesson before, without a new vertex. A shell is the neighbourhood of "
+             "an edge, and a search over it finds the best covering. What if no edge has a "
+             "neighbourhood that helps?");
+  lesson.say(call.events.begin + 1,
+             fmt::format("Small polyhedron reconnection begins with the tet {}. It adds a vertex, "
+                         "with all tets between its vertices, and looks for the best of all "
+                         "tetrahedralisations of the polyhedron so far. If none is better, it adds "
+                         "the next vertex.",
+                         numbers(call)));
+  lesson.say(
+      replaced,
+      fmt::format("With {} vertices there is a better one. {} tets give way to {} that fill "
+                  "the same polyhedron: its outer faces and its vertices are what they were.",
+                  corners.size(), cavity.removed.size(), cavity.created.size()));
+  lesson.say(call.events.end,
+             fmt::format("The change stays: {}. The price is time: the search grows "
+                         "fast with the number of vertices, so it is for the worst "
+                         "tets, after everything else.",
+                         qualities(call)));
+}
+
 // --- runs ----------------------------------------------------------------------------------------
 
 struct Recipe {
@@ -382,6 +639,37 @@ std::vector<Recipe> recipes() {
        "attempt({'recursive_shell_transformation', max_level = 0}, {12, 13})\n"
        "attempt({'recursive_shell_transformation', budget = 1}, {12, 13})\n",
        [](Run& run) { attempt_without(run, 9); }, write_refusals},
+      {"4-tables",
+       "Algorithms 1 to 3: the tables M_q and M_k",
+       shell_beside_axis(),
+       "attempt('shell_transformation', {0, 1})\n",
+       {},
+       write_tables},
+      {"5-reconnection",
+       "Algorithm 5: local reconnection",
+       three_cures(),
+       "local_reconnection{edges = {'recursive_shell_transformation', max_level = 1}, sweeps = "
+       "1}\n",
+       {},
+       write_reconnection},
+      {"6-smoothing",
+       "Smoothing: the best place for a vertex",
+       lopsided_ball(),
+       "attempt('smoothing', {6})\n",
+       {},
+       write_smoothing},
+      {"7-cavity",
+       "Insertion by cavity: room for a vertex",
+       eleven_points(),
+       "attempt({'cavity_insertion', relax = false}, {5, 4, 7, 10})\n",
+       {},
+       write_cavity},
+      {"8-polyhedron",
+       "Small polyhedra: all ways to fill them",
+       eleven_points(),
+       "attempt({'polyhedron_reconnection', relax = false}, {5, 4, 7, 10})\n",
+       {},
+       write_polyhedron},
   };
 }
 

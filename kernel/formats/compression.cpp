@@ -55,12 +55,12 @@ Inflated inflate_gzip(std::string_view bytes) {
   Inflater inflater;
   z_stream& stream = inflater.get();
   std::size_t capacity = std::max(kLeast, 4 * bytes.size());
-  Inflated result{std::make_unique_for_overwrite<char[]>(capacity + 1), 0};
+  Inflated result{std::unique_ptr<char[]>(new char[capacity + 1]), 0};
   int status = Z_OK;
   while (status != Z_STREAM_END || !bytes.empty()) {
     if (status == Z_STREAM_END) ::inflateReset(&stream);
     if (result.size == capacity) {
-      auto larger = std::make_unique_for_overwrite<char[]>(2 * capacity + 1);
+      std::unique_ptr<char[]> larger(new char[2 * capacity + 1]);
       std::memcpy(larger.get(), result.bytes.get(), result.size);
       result.bytes = std::move(larger);
       capacity *= 2;
@@ -88,15 +88,20 @@ Inflated inflate_gzip(std::string_view bytes) {
 }
 
 bool inflate_block(std::string_view block, char* to, std::size_t size) {
-  uLongf got = size;
-  return ::uncompress(as_bytes(to), &got, as_bytes(block.data()), block.size()) == Z_OK &&
+  const std::size_t packed = block.size();
+  // zlib's numbers have 32 bits on Windows.
+  if (!std::in_range<uLong>(size) || !std::in_range<uLong>(packed)) return false;
+  auto got = static_cast<uLongf>(size);
+  return ::uncompress(as_bytes(to), &got, as_bytes(block.data()), static_cast<uLong>(packed)) ==
+             Z_OK &&
          got == size;
 }
 
 std::string deflate_block(std::string_view bytes) {
-  uLongf size = ::compressBound(bytes.size());
+  const auto plain = static_cast<uLong>(bytes.size());  // what we write is cut into small blocks
+  uLongf size = ::compressBound(plain);
   std::string block(size, '\0');
-  if (::compress2(as_bytes(block.data()), &size, as_bytes(bytes.data()), bytes.size(), 1) != Z_OK) {
+  if (::compress2(as_bytes(block.data()), &size, as_bytes(bytes.data()), plain, 1) != Z_OK) {
     throw std::bad_alloc();
   }
   block.resize(size);

@@ -93,17 +93,34 @@ class Maker {
       deck_.pieces.back().text += '\n';
   }
 
-  /// Comments and empty lines among the data, before the first of which nothing stands or behind.
+  static bool is_comment(std::string_view line) {
+    const std::string_view content = trimmed(line);
+    return content.empty() || content.starts_with("**");
+  }
+
+  /// Comments and empty lines among the data: those before the first of it, or the others. Where
+  /// there is no data, all are others, so that they stay behind the line of the keyword.
   void add_comments(const InpBlock& block, bool leading) {
-    bool before = true;
-    std::string_view rest(block.data, static_cast<std::size_t>(block.end - block.data));
+    const std::string_view data(block.data, static_cast<std::size_t>(block.end - block.data));
+    bool before = has_data(data);
+    for_each_line(data, [&](std::string_view line) {
+      const bool is_text = is_comment(line);
+      before = before && is_text;
+      if (is_text && before == leading) add_text(line);
+    });
+  }
+
+  static bool has_data(std::string_view lines) {
+    bool found = false;
+    for_each_line(lines, [&](std::string_view line) { found = found || !is_comment(line); });
+    return found;
+  }
+
+  template <class Function>
+  static void for_each_line(std::string_view rest, Function&& visit) {
     while (!rest.empty()) {
       const std::size_t length = std::min(rest.find('\n'), rest.size() - 1) + 1;
-      const std::string_view line = rest.substr(0, length);
-      const std::string_view content = trimmed(line);
-      const bool is_comment = content.empty() || content.starts_with("**");
-      before = before && is_comment;
-      if (is_comment && before == leading) add_text(line);
+      visit(rest.substr(0, length));
       rest.remove_prefix(length);
     }
   }
@@ -114,7 +131,21 @@ class Maker {
     for (const InpBlock::Parameter& parameter : block.parameters) {
       if (!without.contains(parameter.name)) line += fmt::format(", {}", parameter.text);
     }
-    return line + '\n';
+    return ended(line);
+  }
+
+  /// A line of a keyword that data may follow: after a comma they would be read as its parameters.
+  static std::string ended(std::string_view line) {
+    while (!line.empty() && (line.back() == ',' || trimmed(line.substr(line.size() - 1)).empty())) {
+      line.remove_suffix(1);
+    }
+    return std::string(line) + '\n';
+  }
+
+  /// Byte for byte, but where data could not follow.
+  static std::string as_it_stands(const InpBlock& block) {
+    const std::string_view text = block.keyword_text();
+    return text.ends_with('\n') && !trimmed(text).ends_with(',') ? std::string(text) : ended(text);
   }
 
   InpPiece& add_piece(InpPieceKind kind, std::string text) {
@@ -144,9 +175,8 @@ class Maker {
     add_comments(block, true);
     if (home_done_.insert(home).second) {
       const bool as_is = block.input == nullptr;
-      InpPiece& piece = add_piece(InpPieceKind::elements, as_is ? std::string(block.keyword_text())
-                                                                : keyword_line(block, {"INPUT"}));
-      if (piece.text.back() != '\n') piece.text += '\n';
+      InpPiece& piece = add_piece(InpPieceKind::elements,
+                                  as_is ? as_it_stands(block) : keyword_line(block, {"INPUT"}));
       piece.type = in_.mesh.blocks[number].name;
       piece.block = static_cast<Label>(home);
       const InpSet* set = in_.homes[home - 1].set;
@@ -177,9 +207,8 @@ class Maker {
       add_text(load->second);
     }
     for (const InpFaceUse* use : uses_of_[&block]) {
-      InpPiece& piece = use->is_surface
-                            ? add_piece(InpPieceKind::surface, std::string(block.keyword_text()))
-                            : add_piece(InpPieceKind::face_load, use->rest);
+      InpPiece& piece = use->is_surface ? add_piece(InpPieceKind::surface, as_it_stands(block))
+                                        : add_piece(InpPieceKind::face_load, use->rest);
       piece.groups = {{2, use->number}};
       piece.type = use->prefix;
       piece.suffix = use->suffix;

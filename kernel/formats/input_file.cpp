@@ -5,34 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <span>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/standard_stream.h"
+#include "platform/platform.h"
 
 namespace tetmend::formats {
 namespace {
-
-class Descriptor {
- public:
-  explicit Descriptor(const char* path) : fd_(::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 [[noreturn]] void fail_to_read(const std::string& name, int error) {
   throw Error(fmt::format("{}: cannot be read: {}", name, std::generic_category().message(error)));
@@ -42,11 +27,10 @@ std::string read_standard_input(const std::string& name) {
   std::string content;
   std::array<char, 1 << 16> buffer;
   for (;;) {
-    const ssize_t got = ::read(STDIN_FILENO, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_to_read(name, errno);
-    if (got == 0) return content;
-    content.append(buffer.data(), static_cast<std::size_t>(got));
+    const auto got = platform::read_some(platform::kStandardInput, buffer);
+    if (!got) fail_to_read(name, got.error);
+    if (got.value == 0) return content;
+    content.append(buffer.data(), got.value);
   }
 }
 
@@ -65,26 +49,27 @@ void InputFile::copy_standard_input() {
   name_ = "standard input";
   static const std::string kContent = read_standard_input(name_);  // it cannot be read again
   size_ = kContent.size();
-  bytes_ = std::make_unique_for_overwrite<char[]>(size_ + 1);
+  bytes_.reset(new char[size_ + 1]);
   std::copy_n(kContent.c_str(), size_ + 1, bytes_.get());
 }
 
 void InputFile::read_file(const std::filesystem::path& path) {
-  const Descriptor file(path.c_str());
-  struct stat info {};
-  if (file.get() < 0 || ::fstat(file.get(), &info) != 0) fail_to_read(name_, errno);
-  if (S_ISDIR(info.st_mode)) fail_to_read(name_, EISDIR);
-  if (!S_ISREG(info.st_mode)) {
+  const auto file = platform::open_to_read(path);
+  if (!file) fail_to_read(name_, file.error);
+  const auto facts = platform::look_at(file.value.number());
+  if (!facts) fail_to_read(name_, facts.error);
+  if (facts.value.kind == platform::FileKind::folder) fail_to_read(name_, EISDIR);
+  if (facts.value.kind != platform::FileKind::regular) {
     throw Error(fmt::format("{}: cannot be read: not a regular file", name_));
   }
-  const auto wanted = static_cast<std::size_t>(info.st_size);
-  bytes_ = std::make_unique_for_overwrite<char[]>(wanted + 1);
+  const auto wanted = static_cast<std::size_t>(facts.value.size);
+  bytes_.reset(new char[wanted + 1]);
   while (size_ < wanted) {
-    const ssize_t got = ::read(file.get(), bytes_.get() + size_, wanted - size_);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_to_read(name_, errno);
-    if (got == 0) break;  // shortened meanwhile
-    size_ += static_cast<std::size_t>(got);
+    const std::span rest(bytes_.get() + size_, wanted - size_);
+    const auto got = platform::read_some(file.value.number(), rest);
+    if (!got) fail_to_read(name_, got.error);
+    if (got.value == 0) break;  // shortened meanwhile
+    size_ += got.value;
   }
   bytes_[size_] = '\0';
 }

@@ -174,16 +174,20 @@ class Reader {
                       "Vertices, Triangles, Tetrahedra or End",
                       in_quotes(name)));
     }
-    if (contains(kEptSections, name) || find_medit_elements(name) != nullptr) {
+    const bool is_mark = find_mark(name) != nullptr || is_medit_vectors(name);
+    const bool is_kept = contains(kEptSections, name) || find_medit_elements(name) != nullptr;
+    if (is_mark || is_kept) {
       if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
       seen_.push_back(name);
+    }
+    if (is_kept) {
       if (name != "Vertices" && !seen("Vertices")) {
         postponed_.push_back({name, text_.position()});
         pass_over(name);
       } else {
         read_kept_section(name);
       }
-    } else if (find_mark(name) != nullptr || is_medit_vectors(name)) {
+    } else if (is_mark) {
       marks_.push_back({name, text_.position()});
       pass_over(name);
     } else {

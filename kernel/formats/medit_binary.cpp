@@ -99,7 +99,8 @@ class Reader {
                                    next, begin, bytes_.size()));
       }
       const auto same = [=](const Section& section) { return section.keyword == keyword; };
-      if (is_kept(keyword) && std::any_of(sections_.begin(), sections_.end(), same)) {
+      if ((is_kept(keyword) || is_mark(keyword)) &&
+          std::any_of(sections_.begin(), sections_.end(), same)) {
         bytes_.fail_at(at, fmt::format("the keyword {} appears for the second time", keyword));
       }
       sections_.push_back({keyword, begin, end - begin});
@@ -107,6 +108,10 @@ class Reader {
     }
   }
 
+  static bool is_mark(std::int32_t keyword) {
+    return std::any_of(kMeditMarks.begin(), kMeditMarks.end(),
+                       [&](const MeditMark& mark) { return mark.keyword == keyword; });
+  }
   static bool is_kept(std::int32_t keyword) {
     return keyword == dimension || keyword == vertices || keyword == edges ||
            keyword == triangles || keyword == tetrahedra || keyword == required_vertices ||

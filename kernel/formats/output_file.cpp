@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <system_error>
 #include <utility>
@@ -12,11 +11,9 @@
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include "kernel/error.h"
 #include "kernel/first_failure.h"
@@ -40,15 +37,16 @@ void OutputBuffer::put_real(double value) {
 void OutputBuffer::grow(std::size_t size) {
   constexpr std::size_t kLeast = std::size_t{1} << 16;
   capacity_ = std::max({kLeast, 2 * capacity_, used_ + size});
-  auto larger = std::make_unique_for_overwrite<char[]>(capacity_);
+  std::unique_ptr<char[]> larger(new char[capacity_]);
   std::copy_n(bytes_.get(), used_, larger.get());
   bytes_ = std::move(larger);
 }
 
 OutputFile::OutputFile(const std::filesystem::path& target) {
   if (formats::is_standard_stream(target)) {
-    memory_ = ::memfd_create("tetmend", MFD_CLOEXEC);
-    if (memory_ < 0) fail_stream(errno);
+    auto made = platform::create_nameless();
+    if (!made) fail_stream(made.error);
+    memory_ = std::move(made.value);
   } else {
     file_.emplace(target);
   }
@@ -58,9 +56,7 @@ OutputFile::OutputFile(const std::filesystem::path& target) {
   }
 }
 
-OutputFile::~OutputFile() {
-  if (memory_ >= 0) ::close(memory_);
-}
+OutputFile::~OutputFile() = default;
 
 void OutputFile::put(std::string_view text) {
   if (text.size() < kFull) return buffer_.put(text), flush_if_full();
@@ -139,21 +135,21 @@ void OutputFile::write_out(std::string_view bytes) {
 
 void OutputFile::write_raw(std::string_view bytes) {
   if (file_) return file_->write(bytes);
-  if (const int error = formats::write_fully(memory_, bytes); error != 0) fail_stream(error);
+  const int error = platform::write_fully(memory_.number(), bytes);
+  if (error != 0) fail_stream(error);
 }
 
 void OutputFile::copy_to_standard_output() {
   std::array<char, 1 << 16> buffer;
-  off_t place = 0;
+  std::uint64_t place = 0;
   for (;;) {
-    const ssize_t got = ::pread(memory_, buffer.data(), buffer.size(), place);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_stream(errno);
-    if (got == 0) return;
-    const std::string_view bytes(buffer.data(), static_cast<std::size_t>(got));
-    const int error = formats::write_fully(STDOUT_FILENO, bytes);
+    const auto got = platform::read_at(memory_.number(), place, buffer);
+    if (!got) fail_stream(got.error);
+    if (got.value == 0) return;
+    const std::string_view bytes(buffer.data(), got.value);
+    const int error = platform::write_fully(platform::kStandardOutput, bytes);
     if (error != 0) fail_stream(error);
-    place += got;
+    place += got.value;
   }
 }
 

@@ -15,6 +15,7 @@
 #include <type_traits>
 
 #include "kernel/formats/pending_file.h"
+#include "platform/platform.h"
 
 namespace tetmend {
 
@@ -106,7 +107,7 @@ class OutputFile {
   std::optional<formats::PendingFile> file_;  // nothing: standard output
   OutputBuffer buffer_;
   std::unique_ptr<formats::GzipWriter> gzip_;  // null: not packed
-  int memory_ = -1;                            // what is to go to standard output
+  platform::Descriptor memory_;                // what is to go to standard output
   bool is_finished_ = false;
 };
 

@@ -6,25 +6,12 @@
 #include <memory>
 #include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "kernel/error.h"
 
 namespace tetmend::formats {
 namespace {
-
-constexpr mode_t kPermissions = 0777;  // not setuid and its like: the content is another
-
-/// Some file systems know no fsync: then there is nothing to wait for.
-bool is_on_disk(int fd) {
-  while (::fsync(fd) != 0) {
-    if (errno == EINTR) continue;
-    return errno == EINVAL || errno == ENOTSUP || errno == ENOSYS || errno == EROFS;
-  }
-  return true;
-}
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
@@ -32,23 +19,10 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 /// The new names survive a loss of power. As far as possible: the files have their names already.
 void sync_folder(const std::filesystem::path& file) {
-  const int fd = ::open(folder_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  static_cast<void>(is_on_disk(fd));
-  ::close(fd);
+  platform::synchronise_folder(folder_of(file));
 }
 
 }  // namespace
-
-int write_fully(int fd, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
 
 PendingFile::PendingFile(const std::filesystem::path& target, Name name)
     : name_(target.string()), target_(target) {
@@ -57,15 +31,15 @@ PendingFile::PendingFile(const std::filesystem::path& target, Name name)
   try {
     if (has_older_) keep_owner();
   } catch (...) {  // no destructor runs for half an object
-    ::close(fd_);
-    ::unlink(temporary_.c_str());
+    file_.close();
+    platform::remove_file(temporary_.c_str());
     throw;
   }
 }
 
 PendingFile::~PendingFile() {
-  if (fd_ >= 0) ::close(fd_);
-  if (!committed_) ::unlink(temporary_.c_str());
+  file_.close();
+  if (!committed_) platform::remove_file(temporary_.c_str());
 }
 
 void PendingFile::find_target() {
@@ -79,75 +53,70 @@ void PendingFile::find_target() {
     if (error) fail(error.value());
     target_ = real;
   }
-  if (::stat(target_.c_str(), &older_) != 0) return;
+  const auto older = platform::look_at(target_);
+  if (!older) return;
   has_older_ = true;
-  if (S_ISDIR(older_.st_mode)) fail(EISDIR);
-  if (!S_ISREG(older_.st_mode)) {
+  older_ = older.value;
+  if (older_.kind == platform::FileKind::folder) fail(EISDIR);
+  if (older_.kind != platform::FileKind::regular) {
     throw Error(fmt::format("{}: cannot be written: not a regular file", name_));
   }
   // A rename would get past the write protection of the file, which asks the folder only.
-  if (::access(target_.c_str(), W_OK) != 0) fail(errno);
-  if (older_.st_nlink > 1) {
-    notes_.push_back(fmt::format("has {} names: only this one gets the new content",
-                                 static_cast<std::size_t>(older_.st_nlink)));
+  if (const int refusal = platform::may_write(target_); refusal != 0) fail(refusal);
+  if (older_.names > 1) {
+    notes_.push_back(fmt::format("has {} names: only this one gets the new content", older_.names));
   }
 }
 
 std::filesystem::path PendingFile::beside(std::string_view suffix, int attempt) const {
   // The name does not contain the target's, which may have the greatest length allowed.
-  return target_.parent_path() / fmt::format(".tetmend-{}-{}.{}", ::getpid(), attempt, suffix);
+  return target_.parent_path() /
+         fmt::format(".tetmend-{}-{}.{}", platform::process_number(), attempt, suffix);
 }
 
 void PendingFile::make_temporary(Name name) {
-  const mode_t mode = has_older_ ? 0600 : 0666;  // no one else reads what was private
+  using platform::Access;
+  const Access access =
+      has_older_ ? Access::owner_only : Access::as_usual;  // what was private stays so
   const EndDelay delay;
-  for (int attempt = 0; fd_ < 0; ++attempt) {
+  for (int attempt = 0; !file_.is_open(); ++attempt) {
     if (name == Name::part) {
       temporary_ = target_;
       temporary_ += attempt == 0 ? ".part" : fmt::format(".part{}", attempt);
     } else {
       temporary_ = beside("tmp", attempt);
     }
-    fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
-    if (fd_ >= 0 || errno == EEXIST) continue;
-    if (errno != ENAMETOOLONG || name == Name::hidden) fail(errno);
+    auto made = platform::create(temporary_, access);
+    file_ = std::move(made.value);
+    if (made || made.error == EEXIST) continue;
+    if (made.error != ENAMETOOLONG || name == Name::hidden) fail(made.error);
     name = Name::hidden;
   }
   registered_.remember(temporary_, name == Name::part);
 }
 
 void PendingFile::keep_owner() {
-  struct stat mine {};
-  if (::fstat(fd_, &mine) != 0) fail(errno);
-  mode_t mode = older_.st_mode & kPermissions;
-  constexpr auto kSame = static_cast<uid_t>(-1);
-  if (mine.st_gid != older_.st_gid && ::fchown(fd_, kSame, older_.st_gid) != 0) {
-    // What its group may do is not for another group.
-    mode = (mode & ~mode_t{070}) | ((mode & 007) << 3);
-    notes_.push_back("its group cannot be kept");
-  }
-  if (mine.st_uid != older_.st_uid && ::fchown(fd_, older_.st_uid, static_cast<gid_t>(-1)) != 0) {
-    notes_.push_back("its owner cannot be kept");
-  }
-  if (::fchmod(fd_, mode) != 0 && (mine.st_mode & kPermissions) != mode) {
-    notes_.push_back("its permissions cannot be kept");
-  }
+  const auto mine = platform::look_at(file_.number());
+  if (!mine) fail(mine.error);
+  const platform::OwnerLoss loss = platform::keep_owner(file_.number(), mine.value, older_);
+  if (loss.group) notes_.push_back("its group cannot be kept");
+  if (loss.owner) notes_.push_back("its owner cannot be kept");
+  if (loss.permissions) notes_.push_back("its permissions cannot be kept");
 }
 
 void PendingFile::write(std::string_view bytes) {
-  if (const int error = write_fully(fd_, bytes); error != 0) fail(error);
+  if (const int error = platform::write_fully(file_.number(), bytes); error != 0) fail(error);
 }
 
 void PendingFile::finish() {
-  if (fd_ < 0) return;
-  int error = is_on_disk(fd_) ? 0 : errno;
-  if (::close(fd_) != 0 && error == 0) error = errno;
-  fd_ = -1;
-  if (error != 0) fail(error);
+  if (!file_.is_open()) return;
+  const int sync_error = platform::synchronise(file_.number());
+  const int close_error = file_.close();
+  if (sync_error != 0 || close_error != 0) fail(sync_error != 0 ? sync_error : close_error);
 }
 
 void PendingFile::take_name() {
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (const int error = platform::rename(temporary_, target_); error != 0) fail(error);
   committed_ = true;
   registered_.forget();
 }
@@ -172,28 +141,31 @@ class PendingFile::Replacement {
     is_made_ = true;
   }
   void accept() {
-    if (has_aside_) ::unlink(aside_.c_str());
+    if (has_aside_) platform::remove_file(aside_.c_str());
   }
   /// Where the older file is, if it could not get its name back; else empty.
   std::filesystem::path undo() {
     if (!has_aside_) {
-      if (is_made_) ::unlink(file_.target_.c_str());
+      if (is_made_) platform::remove_file(file_.target_.c_str());
       return {};
     }
     if (!is_made_ && !was_moved_) return accept(), std::filesystem::path();
-    if (::rename(aside_.c_str(), file_.target_.c_str()) == 0) return {};
+    if (platform::rename(aside_, file_.target_) == 0) return {};
     return std::move(aside_);
   }
 
  private:
   void keep_older() {
-    struct stat now {};
-    if (::lstat(file_.target_.c_str(), &now) != 0) return;
-    if (!S_ISREG(now.st_mode)) file_.fail(S_ISDIR(now.st_mode) ? EISDIR : EEXIST);
+    using platform::FileKind;
+    const auto now = platform::look_at_name(file_.target_);
+    if (!now) return;
+    const FileKind kind = now.value.kind;
+    if (kind != FileKind::regular) file_.fail(kind == FileKind::folder ? EISDIR : EEXIST);
     for (int attempt = 0; !has_aside_; ++attempt) {
       aside_ = file_.beside("old", attempt);
-      has_aside_ = ::link(file_.target_.c_str(), aside_.c_str()) == 0;
-      if (has_aside_ || errno == EEXIST) continue;
+      const int error = platform::add_name(file_.target_, aside_);
+      has_aside_ = error == 0;
+      if (has_aside_ || error == EEXIST) continue;
       return move_older();
     }
   }
@@ -201,13 +173,12 @@ class PendingFile::Replacement {
   void move_older() {
     for (int attempt = 0; !has_aside_; ++attempt) {
       aside_ = file_.beside("old", attempt);
-      const int fd = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
-      if (fd < 0 && errno == EEXIST) continue;
-      if (fd < 0) file_.fail(errno);
-      ::close(fd);
+      const auto made = platform::create(aside_, platform::Access::owner_only);
+      if (made.error == EEXIST) continue;
+      if (!made) file_.fail(made.error);
       has_aside_ = true;
     }
-    if (::rename(file_.target_.c_str(), aside_.c_str()) != 0) file_.fail(errno);
+    if (const int error = platform::rename(file_.target_, aside_); error != 0) file_.fail(error);
     was_moved_ = true;
   }
 

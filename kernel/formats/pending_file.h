@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include <sys/stat.h>
-
 #include "kernel/formats/temporary_names.h"
+#include "platform/platform.h"
 
 namespace tetmend::formats {
 
@@ -66,13 +65,10 @@ class PendingFile {
   std::filesystem::path temporary_;
   TemporaryName registered_;
   std::vector<std::string> notes_;
-  struct stat older_ {};
+  platform::FileFacts older_;
   bool has_older_ = false;
   bool committed_ = false;
-  int fd_ = -1;
+  platform::Descriptor file_;
 };
-
-/// Writes all of it, however often that is interrupted. The error number, or 0.
-int write_fully(int fd, std::string_view bytes);
 
 }  // namespace tetmend::formats

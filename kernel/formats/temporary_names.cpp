@@ -2,23 +2,23 @@
 // A handler may neither allocate nor lock: hence fixed room and atomics.
 #include "kernel/formats/temporary_names.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
-#include <climits>
-#include <csignal>
-#include <cstring>
 
-#include <unistd.h>
+#include "platform/platform.h"
 
 namespace tetmend::formats {
 namespace {
+
+constexpr std::size_t kLongest = 4096;  // no system takes a longer path
 
 enum class State : unsigned char { free, filling, in_use };
 
 struct Slot {
   std::atomic<State> state{State::free};
   std::atomic<bool> of_use{false};
-  std::array<char, PATH_MAX> name;
+  std::array<std::filesystem::path::value_type, kLongest> name;
 };
 
 // A signal handler can reach nothing but globals.
@@ -29,19 +29,18 @@ static_assert(std::atomic<State>::is_always_lock_free && std::atomic<int>::is_al
 
 void end_now(int number) noexcept {
   remove_temporaries();
-  ::signal(number, SIG_DFL);
-  ::raise(number);  // in a handler it takes effect when that returns
+  platform::end_by_default(number);
 }
 
 }  // namespace
 
 void TemporaryName::remember(const std::filesystem::path& file, bool of_use) {
-  const std::string& name = file.native();
-  if (name.size() >= PATH_MAX) return;
+  const auto& name = file.native();
+  if (name.size() >= kLongest) return;
   for (std::size_t i = 0; i < slots.size(); ++i) {
     State expected = State::free;
     if (!slots[i].state.compare_exchange_strong(expected, State::filling)) continue;
-    std::memcpy(slots[i].name.data(), name.c_str(), name.size() + 1);
+    std::copy_n(name.c_str(), name.size() + 1, slots[i].name.data());
     slots[i].of_use = of_use;
     slots[i].state = State::in_use;
     slot_ = i;
@@ -68,7 +67,7 @@ EndDelay::~EndDelay() {
 void remove_temporaries(Remains remains) noexcept {
   for (Slot& slot : slots) {
     if (slot.state != State::in_use || (slot.of_use && remains == Remains::of_use)) continue;
-    ::unlink(slot.name.data());
+    platform::remove_file(slot.name.data());
   }
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/byte_reader.h"
+#include "kernel/from_chars.h"
 
 namespace tetmend::formats {
 namespace {
@@ -96,7 +96,7 @@ double parse_real(TextReader& text) {
   const char* before = text.position();
   const std::string_view word = text.expect_word(kWhat);
   double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc{} && end == word.data() + word.size()) return value;
   text.seek(before);
   return text.real(kWhat);

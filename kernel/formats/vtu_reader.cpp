@@ -34,6 +34,7 @@
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_cells.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/from_chars.h"
 
 namespace tetmend::formats {
 namespace {
@@ -393,7 +394,7 @@ class Reader {
       while (at < end && is_space(*at)) ++at;
       if (at == end) break;
       Value value{};
-      const auto [stop, error] = std::from_chars(at, end, value);
+      const auto [stop, error] = from_chars(at, end, value);
       if (error != std::errc() || (stop < end && !is_space(*stop))) {
         const char* word_end = std::find_if(at, end, is_space);
         fail(node, fmt::format("{} is not a value of the type: expected a number",

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -176,7 +177,9 @@ struct SharpWall {
   double angle = 0;  ///< of the smallest sector
   WallName name;
   HalfFace wall;
-  friend auto operator<=>(const SharpWall&, const SharpWall&) = default;
+  friend bool operator<(const SharpWall& a, const SharpWall& b) {
+    return std::tie(a.angle, a.name, a.wall) < std::tie(b.angle, b.name, b.wall);
+  }
 };
 
 /// The sharpest first, which bound most.

@@ -24,13 +24,19 @@ struct Outcome {
   std::string err;
 };
 
+/// TETMEND_TEST_PROGRAM may name another: a wrapper that runs it on another system.
+inline const char* program() {
+  const char* other = std::getenv("TETMEND_TEST_PROGRAM");
+  return other == nullptr ? TETMEND_PROGRAM : other;
+}
+
 /// The program as a child process; stdout goes to a file, stderr to an open file descriptor.
 class Program {
  public:
   /// @param in what the child reads from standard input; empty: what the test has
   Program(const std::vector<std::string>& arguments, const std::filesystem::path& out, int err,
           const std::filesystem::path& in = {}) {
-    std::vector<char*> words = {const_cast<char*>(TETMEND_PROGRAM)};
+    std::vector<char*> words = {const_cast<char*>(program())};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
     pid_ = ::fork();
@@ -40,7 +46,7 @@ class Program {
     if (!in.empty() && ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO) < 0) ::_exit(127);
     const int file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (file >= 0 && ::dup2(file, STDOUT_FILENO) >= 0 && ::dup2(err, STDERR_FILENO) >= 0) {
-      ::execv(TETMEND_PROGRAM, words.data());
+      ::execv(program(), words.data());
     }
     ::_exit(127);
   }

@@ -86,6 +86,7 @@ TEST_CASE("wrong settings and limits are wrong usage, before any work") {
       {{"--set", "=1"}, "'=1' is not of the form NAME=VALUE"},
       {{"--time-limit", "0"}, "--time-limit"},
       {{"--time-limit", "soon"}, "--time-limit"},
+      {{"--attempt-limit", "nan"}, "--attempt-limit: 'nan' is not a number of seconds from 0"},
   };
   for (const auto& [options, message] : wrong) {
     const Outcome outcome = bench.improve(script, options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces from the command line: recording, filters, exports, damaged files.
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,25 @@ TEST_CASE("a call is shown as a tree, as a graph and as slices") {
   const Outcome none = bench.look({"--tree", "99999999"});
   CHECK(none.status == 1);
   CHECK(contains(none.err, "there is no call 99999999"));
+}
+
+TEST_CASE("the history of a tet is told by its number in the file that the run wrote") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const Outcome told = bench.look({"--history", "tet:1@" + bench.out});
+  REQUIRE(told.status == 0);
+  REQUIRE(told.out.starts_with("Tet "));
+  // Its vertices, as the answer names them.
+  std::istringstream words(told.out.substr(4));
+  std::string a, b, c, d;
+  words >> a >> b >> c >> d;
+  const std::string by_vertices = "tet:" + a + "," + b + "," + c + "," + d;
+  CHECK(bench.look({"--history", by_vertices}).out == told.out);
+  CHECK(bench.look({"--history", "tet:worst"}).status == 0);
+  const Outcome wrong = bench.look({"--history", "tet:1@"});
+  CHECK(wrong.status == 1);
+  CHECK(contains(wrong.err, "'tet:1@' names nothing in a trace: expected tet:N"));
+  CHECK(bench.look({"--history", "tet:1", "--tree", "1"}).status == 2);
 }
 
 TEST_CASE("the mesh at an event is written, with the cavity as a field of a VTK file") {

@@ -83,11 +83,11 @@ TEST_CASE("inspected attempts in blocks leave the same mesh as others, and are a
       local_reconnection(run, {});
       insert_points(run, {});
       const Composition plugin = {.operator_name = "odt_smoothing"};
-      apply(run, {.what = plugin, .on = {.below = 1.2}});
+      apply(run, {.what = plugin, .on = {.below = 1.2F}});
       // As what follows an opening, in a transaction that is undone or kept.
       apply(run, {.what = {.kind = Composition::Kind::sequence,
                            .parts = {{.operator_name = "edge_split"}, plugin}},
-                  .on = {.below = 0.7}});
+                  .on = {.below = 0.7F}});
       REQUIRE(run.records.size() == 4);
       CHECK(run.records[2].accepted() > 0);
       for (const PassRecord& record : run.records) accepted += record.accepted();

@@ -7,21 +7,21 @@ A command whose program is not installed is named and passed over.
 """
 
 import os
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
+from page_blocks import blocks, commands_of
+
 SOURCE, PREFIX = (Path(word).resolve() for word in sys.argv[1:3])
 
 
 def main() -> int:
-    page = (SOURCE / "docs/c.md").read_text()
-    programs = {"part.c": re.findall(r"```c\n(.*?)```", page, re.S),
-                "part.f90": re.findall(r"```fortran\n(.*?)```", page, re.S)}
-    commands = [line for block in re.findall(r"```sh\n(.*?)```", page, re.S) for line in block.splitlines()]
+    page = blocks(SOURCE / "docs/c.md")
+    programs = {file: [text for kind, text in page if kind == language] for file, language in (("part.c", "c"), ("part.f90", "fortran"))}
+    commands = [command for kind, text in page if kind == "sh" for command, _ in commands_of(text)]
     if len(commands) != 4 or any(len(found) != 1 for found in programs.values()):
         print("docs/c.md has other programs and commands")
         return 1

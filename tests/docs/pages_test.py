@@ -19,14 +19,19 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
 from pathlib import Path
+
+from page_blocks import GEOMETRY, blocks, commands_of, not_printed, write_files
 
 SKIPPED = 77
 DEBIAN_PYTHON = "/usr/bin/python3"
 
 # Commands that build something, and the test that does the same with a build of its own.
 ELSEWHERE = {
+    "cmake -S . -B build/prefix -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=$HOME/tetmend -DTETMEND_BUILD_TESTS=OFF":
+        "a plugin and a program are built against an installed tetmend, and run",
+    "cmake --build build/prefix": "a plugin and a program are built against an installed tetmend, and run",
+    "cmake --install build/prefix": "a plugin and a program are built against an installed tetmend, and run",
     "cmake --build build/release --target make_lessons && build/release/bin/make_lessons assets/lessons":
         "lesson_tests",
     "cmake -S plugins -B build/plugins -DCMAKE_PREFIX_PATH=~/tetmend":
@@ -42,20 +47,6 @@ COMMAND = re.compile(r"^(?:\$ )?(?:tetmend(?:-view)? [a-z-]|script/\w|cmake |cte
 # Besides `sh`, and what has no language.
 KNOWN_KIND = re.compile(r"output|c|cpp|fortran|cmake|lua|(python|lua) \w+\.(py|lua)")
 
-GEOMETRY = """SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 1};
-Box(2) = {1, 0, 0, 1, 1, 1};
-BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
-Physical Volume("steel", 1) = {1};
-Physical Volume("copper", 2) = {2};
-inlet() = Surface In BoundingBox {-0.1, -1, -1, 0.1, 2, 2};
-walls() = Abs(CombinedBoundary{ Volume{1}; Volume{2}; });
-walls() -= inlet();
-Physical Surface("inlet", 3) = inlet();
-Physical Surface("wall", 4) = walls();
-Mesh.MeshSizeMax = 0.25;
-Mesh.Optimize = 0;
-"""
 CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
 application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
 writeControl timeStep; writeInterval 1;
@@ -67,23 +58,6 @@ STEP = "*STEP\n*STATIC\n*BOUNDARY\ninlet, 1, 3\n*DLOAD\n*NODE PRINT, NSET=inlet,
 
 
 # --- what a page has
-
-FENCE = re.compile(r"^```([^\n`]*)\n(.*?)^```", re.M | re.S)
-
-
-def blocks(page: Path) -> list[tuple[str, str]]:
-    """Language (or what stands in its place) and content."""
-    return [(language.strip(), content) for language, content in FENCE.findall(page.read_text())]
-
-
-def commands_of(block: str) -> Iterator[tuple[str, int]]:
-    """One from each line, without its comment, and the status with which it ends."""
-    for line in block.splitlines():
-        command, _, comment = line.partition(" # ")
-        status = re.search(r"\bstatus (\d)", comment)
-        if command.strip() and not command.startswith("#"):
-            yield command.strip(), int(status[1]) if status else 0
-
 
 def pages_of(source: Path) -> list[Path]:
     return [source / "README.md", source / "CONTRIBUTING.md",
@@ -220,10 +194,6 @@ def outputs_of(command: str) -> list[str]:
     return named + [f"{case}/constant/polyMesh" for case in re.findall(r"^gmshToFoam .*-case (\w+)", command)]
 
 
-def squeezed(line: str) -> str:
-    return " ".join(line.split())
-
-
 class Trial:
     """The commands of one page."""
 
@@ -273,17 +243,12 @@ class Trial:
 
     def compare(self, quoted: str) -> None:
         """With what the last command that ran printed."""
-        printed = {squeezed(line) for line in (self.printed or "").splitlines()}
-        for line in quoted.splitlines():
-            if self.printed is not None and squeezed(line) not in printed:
-                self.tell("FAIL", f"nobody printed: {line}")
+        for line in not_printed(quoted, self.printed) if self.printed is not None else []:
+            self.tell("FAIL", f"nobody printed: {line}")
 
     def run(self) -> None:
         last = None
-        for language, content in blocks(self.page):
-            kind, _, name = language.partition(" ")
-            if kind in ("python", "lua") and name:
-                (self.shop.work / name).write_text(content)
+        write_files(self.page, self.shop.work)
         for language, content in blocks(self.page):
             if language == "sh":
                 for command, status in commands_of(content):

@@ -14,34 +14,16 @@ import sys
 import tempfile
 from pathlib import Path
 
+from page_blocks import GEOMETRY, blocks, commands_of, not_printed, write_files
+
 SOURCE, BUILD, PYTHON = (Path(word).absolute() for word in sys.argv[1:4])
-BLOCK = re.compile(r"^```([^\n`]*)\n(.*?)^```", re.M | re.S)
 # What a test with a build of its own does.
-ELSEWHERE = {"python3 -m venv --system-site-packages ~/mesh", "~/mesh/bin/pip install --no-build-isolation ."}
+ELSEWHERE = {"python3 -m venv --system-site-packages ~/mesh", ". ~/mesh/bin/activate", "pip install --no-build-isolation ."}
 TEST = "Python: a wheel made without a network installs and runs"
-
-GEOMETRY = """SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 1, 1, 1};
-Box(2) = {1, 0, 0, 1, 1, 1};
-BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; }
-Physical Volume("steel", 1) = {1};
-Physical Volume("copper", 2) = {2};
-inlet() = Surface In BoundingBox {-0.1, -1, -1, 0.1, 2, 2};
-walls() = Abs(CombinedBoundary{ Volume{1}; Volume{2}; });
-walls() -= inlet();
-Physical Surface("inlet", 3) = inlet();
-Physical Surface("wall", 4) = walls();
-Mesh.MeshSizeMax = 0.25;
-Mesh.Optimize = 0;
-"""
-
-
-def squeezed(line: str) -> str:
-    return " ".join(line.split())
 
 
 def main() -> int:
-    blocks = [(kind.strip(), text) for kind, text in BLOCK.findall((SOURCE / "docs/python.md").read_text())]
+    page = SOURCE / "docs/python.md"
     environment = dict(os.environ, PYTHONPATH=str(BUILD / "python"), PATH=f"{BUILD / 'bin'}:{os.environ['PATH']}")
     for module in ("numpy", "gmsh"):
         if subprocess.run([PYTHON, "-c", f"import {module}"], capture_output=True).returncode != 0:
@@ -54,12 +36,11 @@ def main() -> int:
         (work / "part.geo").write_text(GEOMETRY)
         subprocess.run([BUILD / "bin/tetmend", "convert", SOURCE / "assets/meshes/bracket.meshb", work / "part.mesh"], check=True,
                        capture_output=True)
-        for kind, text in blocks:
-            if kind.startswith("python "):
-                (work / kind.split()[1]).write_text(text)
-            elif kind == "sh":
+        write_files(page, work)
+        for kind, text in blocks(page):
+            if kind == "sh":
                 printed = ""
-                for command in text.splitlines():
+                for command, status in commands_of(text):
                     if command in ELSEWHERE:
                         elsewhere.add(command)
                         continue
@@ -67,16 +48,14 @@ def main() -> int:
                                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
                     printed += done.stdout
                     ran += 1
-                    if done.returncode != 0:
+                    if done.returncode != status:
                         wrong += 1
                         print(f"{command}: status {done.returncode}\n{done.stdout}")
             elif kind == "output":
-                lines = {squeezed(line) for line in printed.splitlines()}
-                for line in text.splitlines():
-                    if squeezed(line) not in lines:
-                        wrong += 1
-                        print(f"nobody printed: {line}\n{printed}")
-            else:
+                for line in not_printed(text, printed):
+                    wrong += 1
+                    print(f"nobody printed: {line}\n{printed}")
+            elif not kind.startswith("python "):
                 wrong += 1
                 print(f"a block of unknown kind: {kind}")
     print(f"{ran} commands run, {len(elsewhere)} elsewhere")

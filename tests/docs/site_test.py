@@ -137,12 +137,43 @@ class Files(unittest.TestCase):
 
     def test_each_header_of_the_library_has_a_page_with_what_it_declares(self) -> None:
         for header in (SOURCE / "include/tetmend").glob("*.h"):
-            if header.name in ("api.h", "tetmend.h"):  # a mark; for C
+            if header.name in ("api.h", "tetmend.h"):  # a mark; for C, below
                 continue
             anchors = pages()[f"cpp/{header.stem}.html"].anchors
             for name in re.findall(r"^(?:struct|class|enum class)(?: TETMEND_API)? (\w+)", header.read_text(), re.M):
                 has_name = any(anchor.endswith(f"{len(name)}{name}E") for anchor in anchors)  # a mangled one
                 self.assertTrue(has_name, f"{header.name}: {name}")
+
+    def test_all_that_the_python_package_offers_is_in_its_reference(self) -> None:
+        page = pages()["python-reference.html"]
+        package = SOURCE / "bindings/python/tetmend"
+        [names] = re.findall(r"__all__ = \[(.*?)\]", (package / "__init__.py").read_text(), re.S)
+        for name in set(re.findall(r'"(\w+)"', names)) - {"__version__"}:
+            self.assertIn(f"tetmend.{name}", page.anchors)
+        for name in ("Result.vertex_map", "Mesh.points", "Progress.share", "Trace.calls", "gmsh.improve", "pyvista.Accessor.quality"):
+            self.assertIn(f"tetmend.{name}", page.anchors)
+        options = (package / "_options.py").read_text().partition("class Options")[2].partition("\n\n\n")[0]
+        text = (SITE / "python-reference.html").read_text()
+        for name in re.findall(r"^    (\w+): ", options, re.M):
+            self.assertRegex(text, rf"<dt>(<p>)?<code[^>]*><span class=\"pre\">{name}</span>", name)
+
+    def test_all_that_tetmend_h_declares_is_in_the_reference_of_c(self) -> None:
+        anchors = pages()["c-reference.html"].anchors
+        functions = (SOURCE / "bindings/c/names.txt").read_text().split()
+        types = re.findall(r"^} (tetmend_\w+);", (SOURCE / "include/tetmend/tetmend.h").read_text(), re.M)
+        self.assertGreater(len(types), 7)
+        for name in [*functions, *types, "tetmend_progress_function", "tetmend_statistics.n_bad", "TETMEND_RULERS"]:
+            self.assertIn(f"c.{name}", anchors)
+
+    def test_all_procedures_of_the_fortran_module_are_in_its_reference(self) -> None:
+        anchors = pages()["fortran-reference.html"].anchors
+        names = re.findall(r"^    (?:procedure|generic), public :: (\w+)", (SOURCE / "bindings/fortran/tetmend.f90").read_text(), re.M)
+        self.assertGreater(len(names), 25)
+        for name in names:
+            self.assertIn(name.replace("_", "-"), anchors)
+        text = (SITE / "fortran-reference.html").read_text()
+        for call in ("mesh%create()", "tetmend_set_group()"):
+            self.assertIn(call, re.sub(r"<[^>]*>", "", text))
 
     def test_each_option_of_the_command_line_has_an_anchor(self) -> None:
         anchors = pages()["command-line.html"].anchors

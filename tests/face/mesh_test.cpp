@@ -33,6 +33,7 @@ void check_equal(const MeshArrays& a, const MeshArrays& b) {
   CHECK(a.triangle_parts == b.triangle_parts);
   CHECK(a.edge_parts == b.edge_parts);
   CHECK(a.groups == b.groups);
+  CHECK(a.mid_nodes == b.mid_nodes);
 }
 
 using Integers = std::vector<std::int32_t>;
@@ -89,6 +90,59 @@ TEST_CASE("data, parts and groups come out of a mesh as they went in") {
   check_equal(mesh.arrays(), with_data());
   check_equal(Mesh(mesh).arrays(), with_data());
   check_equal(std::move(mesh).take_arrays(), with_data());
+}
+
+TEST_CASE("a mesh tells who is in a group, however the group names them") {
+  MeshArrays arrays = with_data();
+  arrays.tet_labels = {5, 6};
+  arrays.point_labels = {0, 8, 8, 0, 0};
+  arrays.groups.push_back({.dimension = 3, .number = 5, .name = "by label"});
+  arrays.groups.push_back({.dimension = 0, .number = 8, .name = "points by label"});
+  arrays.groups.push_back({.dimension = 1, .number = 2, .name = "an edge", .parts = {4}});
+  const Mesh mesh(arrays);
+  using Numbers = std::vector<std::uint32_t>;
+  const std::vector<Numbers> expected = {{1}, {1}, {0}, {4, 0}, {0}, {1, 2}, {0}};
+  REQUIRE(mesh.groups().size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CAPTURE(i);
+    CHECK(mesh.members(mesh.groups()[i]) == expected[i]);
+  }
+}
+
+TEST_CASE("mid-side nodes that contradict themselves are an error") {
+  using Mid = std::vector<std::array<std::uint32_t, 3>>;
+  MeshArrays arrays;
+  arrays.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  arrays.tets = {{0, 1, 2, 3}};
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}) {
+    const auto& [p, q] = std::pair(arrays.points[std::size_t(a)], arrays.points[std::size_t(b)]);
+    arrays.mid_nodes.push_back(
+        {std::uint32_t(a), std::uint32_t(b), std::uint32_t(4 + arrays.mid_nodes.size())});
+    arrays.points.push_back({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+  }
+  const Mesh sound(arrays);
+  CHECK(sound.mid_nodes().size() == 6);
+  CHECK(std::vector(sound.mid_nodes().begin(), sound.mid_nodes().end()) ==
+        sound.arrays().mid_nodes);
+  const auto complaint_of = [&](const Mid& more, std::size_t kept) {
+    MeshArrays damaged = arrays;
+    damaged.mid_nodes.resize(kept);
+    damaged.mid_nodes.insert(damaged.mid_nodes.end(), more.begin(), more.end());
+    return message_of([&] { Mesh(std::move(damaged)); });
+  };
+  CHECK(complaint_of({{1, 0, 4}}, 6).empty());
+  CHECK(complaint_of({{1, 0, 9}}, 6) ==
+        "mid_nodes: the edge (0, 1) has two nodes, 4 and 9: expected one, counted from 0");
+  CHECK(complaint_of({}, 5) == "tets[0]: its edge (2, 3) has no mid-side node, counted from 0");
+  CHECK(complaint_of({{2, 3, 8}}, 5) ==
+        "mid_nodes: point 8, counted from 0, is the node of an edge and that of another edge: "
+        "expected nodes of their own");
+  CHECK(
+      complaint_of({{2, 3, 1}}, 5) ==
+      "mid_nodes: point 1, counted from 0, is the node of an edge and a vertex of a tet: expected "
+      "nodes of their own");
+  CHECK(complaint_of({{2, 3, 10}}, 5) ==
+        "mid_nodes[5]: (2, 3, 10): no point 10, there are 10, counted from 0");
 }
 
 TEST_CASE("labels that are not given are 0, and points without any have no array of them") {

@@ -52,6 +52,24 @@ void check_second_order(const MeshData& data) {
 
 }  // namespace
 
+TEST_CASE("a mesh of second order made of arrays is improved like the one that they are from") {
+  const MeshData given = test::second_order(contract::delaunay_ball(350, 1), 0.1);
+  Mesh original = MeshAccess::make(given);
+  Mesh made(MeshArrays(original.arrays()));
+  CHECK(made.mid_nodes().size() == given.mid_nodes.size());
+  improve(original);
+  const Result result = improve(made);
+  CHECK(result.after.n_bad < result.before.n_bad);
+  REQUIRE(result.curved_after.has_value());
+  CHECK(result.curved_after->curved > 100);
+  CHECK(made.arrays().points == original.arrays().points);
+  CHECK(made.arrays().tets == original.arrays().tets);
+  auto mid_nodes = std::pair(made.arrays().mid_nodes, original.arrays().mid_nodes);
+  std::sort(mid_nodes.first.begin(), mid_nodes.first.end());
+  std::sort(mid_nodes.second.begin(), mid_nodes.second.end());
+  CHECK(mid_nodes.first == mid_nodes.second);
+}
+
 TEST_CASE("a curved surface keeps its nodes, no tet is nearer to turning over") {
   for (const double strength : {0.02, 0.1, 0.25}) {
     for (const unsigned seed : {1u, 2u}) {

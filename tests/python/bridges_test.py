@@ -240,11 +240,33 @@ def test_meshio_files_of_gmsh_come_back_whole(tmp_path, boxes):
         {key: value for key, value in before.items() if key[0] == 3}
 
 
+def test_meshio_has_tets_of_second_order_improved(boxes, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    import tetmend.meshio
+    boxes.model.mesh.setOrder(2)
+    boxes.write(str(tmp_path / "curved.msh"))
+    mesh = meshio.read(tmp_path / "curved.msh")
+    kinds = [block.type for block in mesh.cells]
+    assert {"tetra10", "triangle6"} <= set(kinds)
+    better = tetmend.meshio.improve(mesh)
+    assert [block.type for block in better.cells] == kinds
+    result = better.tetmend_result
+    assert result.after.n_bad < result.before.n_bad and result.after.second_order["mid_nodes"] > 0
+    for old, new in zip(mesh.cells, better.cells):
+        if new.type == "tetra10":
+            ends = better.points[new.data[:, [2, 3]]].mean(axis=1)
+            assert np.allclose(better.points[new.data[:, 9]], ends)
+        elif new.type == "triangle6":
+            assert np.array_equal(better.points[new.data], mesh.points[old.data])
+
+
 def test_meshio_refuses_what_it_cannot_keep():
     meshio = pytest.importorskip("meshio")
     import tetmend.meshio
-    with pytest.raises(ValueError, match="tetra10"):
-        tetmend.meshio.improve(meshio.Mesh(np.random.rand(10, 3), [("tetra10", [range(10)])]))
+    with pytest.raises(ValueError, match="tetra20"):
+        tetmend.meshio.improve(meshio.Mesh(np.random.rand(20, 3), [("tetra20", [range(20)])]))
+    with pytest.raises(ValueError, match="of one order"):
+        tetmend.meshio.improve(meshio.Mesh(np.random.rand(10, 3), [("tetra10", [range(10)]), ("tetra", [range(4)])]))
     with pytest.raises(ValueError, match="no tets"):
         tetmend.meshio.improve(meshio.Mesh(np.random.rand(3, 3), [("triangle", [[0, 1, 2]])]))
     with pytest.raises(ValueError, match="label_array"):

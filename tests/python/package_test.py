@@ -51,6 +51,53 @@ def test_arrays_outlive_their_mesh(arrays):
     assert np.isfinite(points).all() and len(points) > 1000
 
 
+def of_second_order(points, tets):
+    """The same with a node in the middle of each edge."""
+    ends = np.sort(np.concatenate([tets[:, pair] for pair in ([0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3])]), axis=1)
+    edges, number = np.unique(ends, axis=0, return_inverse=True)
+    nodes = len(points) + number.reshape(6, -1).T
+    return np.concatenate([points, points[edges].mean(axis=1)]), np.concatenate([tets, nodes], axis=1)
+
+
+def test_rows_of_ten_are_tets_of_second_order_and_come_back_so(arrays, tmp_path):
+    points, tets = of_second_order(arrays["points"], arrays["tets"])
+    faces = np.sort(tets[:, [0, 1, 2]], axis=1)
+    every = np.sort(np.concatenate([tets[:, corners] for corners in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]), axis=1)
+    unique, count = np.unique(every, axis=0, return_counts=True)
+    outer = {tuple(face) for face in unique[count == 1]}
+    on_surface = next(row[4] for row, face in zip(tets, faces) if tuple(face) in outer)
+    points[on_surface] += 1e-3  # curves the surface there
+    result = tetmend.improve(points, tets, labels=arrays["labels"], point_data={"x": points[:, 0]})
+    assert result.tets.shape == (result.after.tets, 10) and result.tets.dtype == tets.dtype
+    assert result.after.n_bad < result.before.n_bad
+    assert result.before.second_order["curved"] > 0 < result.after.second_order["curved"]
+    assert np.array_equal(result.points[result.vertex_map[on_surface]], points[on_surface])
+    assert result.vertex_map.shape == (len(points),) and result.tets.max() == len(result.points) - 1
+    assert np.allclose(result.points[result.tets[:, 4]], result.points[result.tets[:, :2]].mean(axis=1), atol=2e-3)
+    assert np.allclose(result.points[result.tets[:, 9]], result.points[result.tets[:, 2:4]].mean(axis=1), atol=2e-3)
+    assert np.allclose(result.point_data["x"], result.points[:, 0], atol=2e-3)
+    # The same by way of a file.
+    tetmend.Mesh(points, tets, labels=arrays["labels"]).save(tmp_path / "curved.vtu")
+    loaded = tetmend.load(tmp_path / "curved.vtu")
+    assert loaded.tets.shape == tets.shape
+    again = tetmend.improve(loaded)
+    assert np.array_equal(again.points, result.points) and np.array_equal(again.tets, result.tets)
+
+
+def test_a_file_given_to_improve_is_told_how_to_become_a_mesh():
+    with pytest.raises(TypeError, match=r"tetmend.load\('part.mesh'\) gives one"):
+        tetmend.improve("part.mesh")
+
+
+def test_nodes_of_second_order_in_another_order_are_refused(arrays):
+    points, tets = of_second_order(arrays["points"], arrays["tets"])
+    with pytest.raises(ValueError, match="has two nodes"):
+        tetmend.improve(points, tets[:, [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]])
+    tets[5, 7] = len(points)
+    with pytest.raises(ValueError, match=rf"tets\[5, 7\] is {len(points)}, but there are"):
+        tetmend.improve(points, tets)
+
+
 def test_strided_and_small_types_are_read(arrays):
     wide = np.zeros((len(arrays["points"]), 6))
     wide[:, ::2] = arrays["points"]
@@ -152,6 +199,7 @@ def changed(array, place, value):
     (*TET, {"point_data": {"u": [1.0]}}, "point_data['u'] has shape (1,), but there are 4 of them"),
     (*TET, {"cell_data": {"u": ["x"]}}, "cell_data['u'] has type <U1, but real numbers of up to 64 bits are wanted"),
     (*TET, {"groups": [tetmend.Group(2, 1, "g", [0])]}, "groups[0].members[0] is 0, but there are 0 triangles"),
+    ([[0, 0, 0]], [[0, 1, 2, 3]], {}, "tets[0, 1] is 1, but there is 1 point"),
     (*TET, {"groups": [tetmend.Group(4)]}, "groups[0]: dimension 4, expected 0 to 3"),
 ])
 def test_what_is_wrong_with_arrays_is_a_value_error_with_its_place(points, tets, more, message):
@@ -415,6 +463,18 @@ def test_the_stub_has_the_names_of_the_extension():
             assert members == {name for name in dir(getattr(_core, node.name)) if not name.startswith("_")}
 
 
+def test_the_stub_says_of_public_classes_what_the_extension_says():
+    tree = ast.parse((SOURCE / "bindings/python/tetmend/_core.pyi").read_text())
+    public = [node for node in tree.body if isinstance(node, ast.ClassDef) and getattr(tetmend, node.name, None) is getattr(_core, node.name)]
+    assert {node.name for node in public} == {"Error", "OptionError", "Progress"}
+    for node in public:
+        found = getattr(_core, node.name)
+        assert ast.get_docstring(node) == found.__doc__
+        for member in node.body:
+            if isinstance(member, ast.FunctionDef):
+                assert ast.get_docstring(member) == getattr(found, member.name).__doc__, member.name
+
+
 def test_all_that_is_public_has_a_docstring():
     for name in tetmend.__all__:
-        assert name == "__version__" or name in ("Error", "OptionError") or getattr(tetmend, name).__doc__, name
+        assert name == "__version__" or getattr(tetmend, name).__doc__, name

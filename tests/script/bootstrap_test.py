@@ -34,7 +34,7 @@ def listed() -> str:
 
 
 def packages() -> set[str]:
-    groups = {"build", "surface", "viewer", "test", "bench", "check", "site"}
+    groups = {"build", "surface", "viewer", "test", "bench", "check", "site", "package"}
     return {word for line in listed().splitlines() for i, word in enumerate(line.split())
             if not (i == 0 and line[0] != " " and word in groups)}
 

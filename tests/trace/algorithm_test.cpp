@@ -16,7 +16,7 @@ TEST_CASE("each algorithm that a trace can explain is an operator of its name") 
     CHECK(registry.find(name).name == name);
     CHECK(operator_name(algorithm_of(name)) == name);
   }
-  CHECK(algorithm_of("smoothing") == Algorithm::other);
+  CHECK(algorithm_of("vertex_removal") == Algorithm::other);
   CHECK(algorithm_of("") == Algorithm::other);
 }
 

@@ -2,8 +2,10 @@
 // The place in a trace as JSON, for scripts and tests.
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "explain/paper_lines.h"
 #include "viewer/commands/commands.h"
-#include "viewer/debugger/paper_lines.h"
 
 namespace tetmend::viewer {
 
@@ -41,6 +43,16 @@ json shell_state(const CallStudy& study) {
                       {"back", chord.back[0]}});
   }
   result["chords"] = chords;
+  json tables = json::object();
+  for (std::size_t i = 0; i < s.tables.size; ++i) {
+    for (std::size_t j = 0; j < s.tables.size; ++j) {
+      const auto k = s.tables.k(i, j);
+      if (k >= s.tables.size) continue;
+      tables[fmt::format("{} {}", s.ring[i].index(), s.ring[j].index())] = {
+          {"q", s.tables.q(i, j)}, {"k", s.ring[k].index()}};
+    }
+  }
+  result["tables"] = tables;
   if (study.covering) result["covering"] = covering_state(*study.covering);
   return result;
 }
@@ -77,22 +89,29 @@ json trace_state_of(Document& document) {
   for (const Breakpoint& b : debugger.breakpoints) breakpoints.push_back(to_text(b.condition));
   json bookmarks = json::array();
   for (const auto& mark : debugger.bookmarks) bookmarks.push_back(mark.first);
-  json result = {{"position", debugger.position()},
-                 {"events", debugger.end()},
-                 {"calls", debugger.file().calls().size()},
-                 {"event", debugger.last_event()},
-                 {"stack", stack},
-                 {"call", stack.empty() ? json() : stack.back()},
-                 {"breakpoints", breakpoints},
-                 {"bookmarks", bookmarks},
-                 {"bad", sample.n_bad},
-                 {"q_worst", sample.q_worst}};
+  json result = {
+      {"position", debugger.position()},
+      {"events", debugger.end()},
+      {"calls", debugger.file().calls().size()},
+      {"event", debugger.last_event()},
+      {"stack", stack},
+      {"call", stack.empty() ? json() : stack.back()},
+      {"pass_line", pass_place(debugger.file(), debugger.stack(), debugger.position()).line},
+      {"breakpoints", breakpoints},
+      {"bookmarks", bookmarks},
+      {"bad", sample.n_bad},
+      {"q_worst", sample.q_worst}};
   const CallStudy* study = debugger.study();
   if (study == nullptr) return result;
   result["tets_before"] = study->before.size();
   result["tets_after"] = study->after.size();
   result["undone"] = study->undone;
   result["reason"] = explain_end(debugger.file(), *study);
+  if (study->picture && study->picture->ring.size() >= 3) {
+    const Call& call = debugger.file().calls()[study->call];
+    const bool refused = !call.accepted() && debugger.position() >= call.events.end;
+    result["caption"] = caption_of(*study, stage_of(*study, debugger.position(), refused));
+  }
   if (study->picture) result["shell"] = shell_state(*study);
   return result;
 }

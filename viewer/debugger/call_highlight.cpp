@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kernel/workspace.h"
+#include "viewer/mesh/visibility.h"
 
 namespace tetmend::viewer {
 
@@ -13,7 +14,7 @@ namespace {
 std::optional<glm::dvec3> corner_of(const std::vector<LocalTet>& tets, VertexHandle v) {
   for (const LocalTet& tet : tets) {
     for (unsigned i = 0; i < 4; ++i) {
-      if (tet.vertices[i] == v) return tet.corners[i];
+      if (tet.vertices[i] == v) return to_glm(tet.corners[i]);
     }
   }
   return std::nullopt;

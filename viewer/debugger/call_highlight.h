@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "viewer/debugger/call_study.h"
+#include "explain/call_study.h"
+#include "viewer/debugger/explained.h"
 #include "viewer/mesh/selection.h"
 
 namespace tetmend::viewer {

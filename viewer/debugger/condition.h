@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "viewer/debugger/stepper.h"
+#include "explain/stepper.h"
+#include "viewer/debugger/explained.h"
 
 namespace tetmend::viewer {
 

@@ -6,10 +6,6 @@
 #include <cmath>
 #include <fstream>
 
-#include <fmt/format.h>
-
-#include "trace/traced_standard.h"
-
 namespace tetmend::viewer {
 
 Debugger::Debugger(const std::filesystem::path& file)
@@ -17,40 +13,6 @@ Debugger::Debugger(const std::filesystem::path& file)
       replay_(file_),
       timeline_(make_timeline(file_, replay_)),
       lesson_(lesson_of(file, file_.event_count())) {}
-
-std::string Debugger::last_event() const {
-  if (position() == 0) return "the trace begins";
-  EventCursor cursor(file_);
-  cursor.move_to(position() - 1);
-  const TraceEvent& event = cursor.next();
-  std::string text(to_string(event.kind));
-  switch (event.kind) {
-    case EventKind::pass_begins:
-      return fmt::format("pass {} begins, round {}", file_.name(event.name), event.number);
-    case EventKind::visit_begins:
-      return fmt::format("a bad tet is visited, quality {:.4f}", event.quality);
-    case EventKind::attempt_begins:
-      return fmt::format("call {} begins", call());
-    case EventKind::attempt_ends:
-      return fmt::format("call {} ends: {}", call(), to_string(event.verdict));
-    case EventKind::replace_cavity:
-      return fmt::format("{} tets are replaced by {}", event.removed.size(), event.created.size());
-    case EventKind::move_vertex:
-    case EventKind::add_vertex:
-    case EventKind::remove_vertex:
-      return fmt::format("{}: {}", text, event.vertices.front().index());
-    case EventKind::undo:
-      return "the last edit is undone";
-    case EventKind::candidate_found:
-      return "a candidate is found";
-    case EventKind::standard_changes:
-      return fmt::format("the goal becomes {}", describe(event.standard));
-    case EventKind::pass_ends:
-    case EventKind::visit_ends:
-      break;
-  }
-  return text;
-}
 
 void Debugger::seek(std::uint64_t position) {
   const std::uint32_t before = call();

@@ -8,14 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "explain/call_facts.h"
+#include "explain/call_study.h"
+#include "explain/event_text.h"
+#include "explain/lesson_guide.h"
+#include "explain/stepper.h"
 #include "kernel/tet_mesh.h"
 #include "trace/replay.h"
-#include "viewer/debugger/call_facts.h"
 #include "viewer/debugger/call_list.h"
-#include "viewer/debugger/call_study.h"
 #include "viewer/debugger/condition.h"
-#include "viewer/debugger/lesson_guide.h"
-#include "viewer/debugger/stepper.h"
+#include "viewer/debugger/explained.h"
 #include "viewer/debugger/timeline.h"
 
 namespace tetmend::viewer {
@@ -35,7 +37,7 @@ class Debugger {
   std::uint64_t position() const { return replay_.position(); }
   std::uint64_t end() const { return file_.event_count(); }
   /// What happened last, in words; at the beginning of the trace says so.
-  std::string last_event() const;
+  std::string last_event() const { return event_text(file_, position()); }
   /// The call that the last event belongs to, and those around it, outermost first.
   const std::vector<std::uint32_t>& stack() const { return stack_; }
   /// The innermost of them, or kNoCall.

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "viewer/debugger/call_highlight.h"
 #include "viewer/mesh/tet_values.h"
+#include "viewer/mesh/visibility.h"
 
 namespace tetmend::viewer {
 
@@ -17,6 +18,10 @@ namespace {
 
 constexpr double kRadius = 0.76;  // of the polygon
 constexpr double kNames = 0.9;    // of the circle on which the names of its corners are
+
+glm::dvec2 in_plane(const Eigen::Vector2d& place) {
+  return {place.x(), place.y()};
+}
 
 Colour colour_of(Quality quality, const ColourMap& map) {
   if (quality < kBadThreshold) return kBadColour;
@@ -42,7 +47,7 @@ class PolygonDrawer {
       const std::size_t j = (i + 1) % size_;
       drawing_.strokes.push_back({place(i), place(j), kSkirtColour, 3, false, {}});
       drawing_.labels.push_back(
-          {kNames * shell_.place(i), fmt::format("{}", shell_.ring[i].index()), true});
+          {kNames * in_plane(shell_.place(i)), fmt::format("{}", shell_.ring[i].index()), true});
     }
   }
 
@@ -78,7 +83,7 @@ class PolygonDrawer {
   }
 
  private:
-  glm::dvec2 place(std::size_t i) const { return kRadius * shell_.place(i); }
+  glm::dvec2 place(std::size_t i) const { return kRadius * in_plane(shell_.place(i)); }
 
   /// Each side of the core with the edge ab, a tet, is a slice from its middle.
   void core(const FlatCovering& covering) {
@@ -119,26 +124,22 @@ FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool re
                          const ColourMap& map) {
   PolygonDrawer drawer(study, map);
   const ShellPicture& shell = *study.picture;
-  std::string caption;
+  const PolygonStage stage = stage_of(study, position, refused);
   drawer.outline();
-  if (study.covering && position >= study.first_edit) {
-    const FlatCovering& made = *study.covering;
-    drawer.covering(made, false);
-    caption =
-        fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}", study.undone ? "tried" : "made",
-                    shell.ring.size(), made.core.size(), shell.floor, made.worst);
-  } else if (refused && !study.covering && !shell.full.triangles.empty()) {
-    drawer.chords();
-    drawer.covering(shell.full, true);
-    caption = fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
-                          shell.floor);
-  } else {
-    drawer.covering(shell.before, false);
-    drawer.chords();
-    caption = fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
-                          shell.ring.size(), shell.floor);
+  switch (stage) {
+    case PolygonStage::made:
+      drawer.covering(*study.covering, false);
+      break;
+    case PolygonStage::best_triangulation:
+      drawer.chords();
+      drawer.covering(shell.full, true);
+      break;
+    case PolygonStage::before:
+      drawer.covering(shell.before, false);
+      drawer.chords();
+      break;
   }
-  return drawer.take(std::move(caption));
+  return drawer.take(caption_of(study, stage));
 }
 
 FlatDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, const Ball& ball,
@@ -151,11 +152,11 @@ FlatDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, cons
   std::vector<std::pair<double, FlatDrawing::Area>> areas;  // by depth
   for (const LocalTet& tet : tets) {
     const glm::dvec3 centre =
-        std::accumulate(tet.corners.begin(), tet.corners.end(), glm::dvec3(0)) / 4.0;
+        to_glm((tet.corners[0] + tet.corners[1] + tet.corners[2] + tet.corners[3]) / 4);
     for (const auto& face : kFaceVertices) {
       std::array<glm::dvec3, 3> c;
       for (unsigned i = 0; i < 3; ++i) {
-        c[i] = glm::mix(tet.corners[face[i]], centre, kShrink) - ball.centre;
+        c[i] = glm::mix(to_glm(tet.corners[face[i]]), centre, kShrink) - ball.centre;
       }
       const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
       const double towards = -glm::dot(normal, forward) / std::max(glm::length(normal), 1e-300);
@@ -175,6 +176,21 @@ FlatDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, cons
   FlatDrawing drawing;
   for (auto& entry : areas) drawing.areas.push_back(std::move(entry.second));
   return drawing;
+}
+
+std::optional<Ball> ball_around(const CallStudy& study) {
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high = -low;
+  for (const auto* tets : {&study.before, &study.after}) {
+    for (const LocalTet& tet : *tets) {
+      for (const Point& corner : tet.corners) {
+        low = glm::min(low, to_glm(corner));
+        high = glm::max(high, to_glm(corner));
+      }
+    }
+  }
+  if (study.before.empty() && study.after.empty()) return std::nullopt;
+  return Ball{(low + high) / 2.0, std::max(glm::distance(low, high) / 2, 1e-12)};
 }
 
 }  // namespace tetmend::viewer

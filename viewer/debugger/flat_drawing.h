@@ -3,11 +3,13 @@
 // whoever shows them chooses place and size.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "viewer/debugger/call_study.h"
+#include "explain/call_study.h"
+#include "viewer/debugger/explained.h"
 #include "viewer/mesh/camera.h"
 #include "viewer/mesh/colour_map.h"
 
@@ -48,5 +50,8 @@ FlatDrawing draw_polygon(const CallStudy& study, std::uint64_t position, bool re
 /// the others by quality. `opacity` from 0 to 1.
 FlatDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, const Ball& ball,
                       const ColourMap& map, double opacity);
+
+/// Ball around the corners of the tets; nothing without tets.
+std::optional<Ball> ball_around(const CallStudy& study);
 
 }  // namespace tetmend::viewer

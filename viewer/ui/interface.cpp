@@ -8,8 +8,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "explain/lesson_guide.h"
 #include "kernel/error.h"
-#include "viewer/debugger/lesson_guide.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 

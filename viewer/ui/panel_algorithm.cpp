@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The algorithm of the paper that the call at hand follows, with its line.
+#include <string>
+
 #include <imgui.h>
 
-#include "viewer/debugger/paper_lines.h"
+#include "explain/paper_lines.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -36,17 +38,19 @@ void draw_algorithm_panel(Session& session) {
   const auto place_of = [&](std::size_t i) {
     return code_place(debugger.file(), stack, i, debugger.position());
   };
-  const CodePlace here = stack.empty() ? CodePlace() : place_of(stack.size() - 1);
+  const CodePlace pass = pass_place(debugger.file(), stack, debugger.position());
+  const CodePlace here = stack.empty() ? pass : place_of(stack.size() - 1);
   if (here.code == nullptr) {
-    ImGui::TextDisabled(stack.empty() ? "no call here"
-                                      : "not an operator of the paper's algorithms");
+    ImGui::TextDisabled(stack.empty() ? "no call here" : "an operator that is not described");
     return;
   }
   show_code(*here.code, here.line);
-  if (stack.size() < 2) return;
-  const CodePlace caller = place_of(stack.size() - 2);
+  if (stack.empty()) return;
+  const CodePlace caller = stack.size() > 1 ? place_of(stack.size() - 2) : pass;
   if (caller.code == nullptr) return;
-  ImGui::TextDisabled("called from line %u of Algorithm 4:", caller.line);
+  const std::string_view title = caller.code->title;
+  const std::string name(title.substr(0, title.find(':')));
+  ImGui::TextDisabled("called from line %u of %s:", caller.line, name.c_str());
   ImGui::TextWrapped("%s", caller.code->lines[caller.line - 1].data());
 }
 

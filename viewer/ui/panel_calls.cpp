@@ -2,23 +2,13 @@
 // The tree of calls: level, target, degree, quality, and how each ended, as a colour.
 #include <fmt/format.h>
 
+#include "viewer/debugger/outcome_colour.h"
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
 
 namespace {
-
-std::string quality_text(const Call& call, const CallFacts& facts) {
-  if (call.accepted() && call.worst_before != 0) {
-    return fmt::format("{:.3f} -> {:.3f}", call.worst_before, call.worst_after);
-  }
-  if (facts.degree_after == 0) return fmt::format("{:.3f} -> gone", facts.quality_before);
-  if (facts.quality_before == facts.quality_after) {
-    return fmt::format("{:.3f}", facts.quality_before);
-  }
-  return fmt::format("{:.3f} -> {:.3f}", facts.quality_before, facts.quality_after);
-}
 
 /// The target without its kind, which follows from the operator.
 std::string numbers_of(const Call& call) {
@@ -27,11 +17,6 @@ std::string numbers_of(const Call& call) {
     text += fmt::format("{}{}", text.empty() ? "" : "-", v.index());
   }
   return text;
-}
-
-std::string degree_text(const CallFacts& facts) {
-  if (facts.degree_before == facts.degree_after) return fmt::format("{}", facts.degree_before);
-  return fmt::format("{} -> {}", facts.degree_before, facts.degree_after);
 }
 
 /// A dot in the colour of the outcome; hollow while the call is under way.

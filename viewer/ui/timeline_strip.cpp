@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "viewer/debugger/icicle.h"
+#include "viewer/debugger/outcome_colour.h"
 #include "viewer/ui/flat_canvas.h"
 
 namespace tetmend::viewer::ui {

@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -144,11 +145,13 @@ inline bool extras_are_sound(const MeshData& mesh) {
   one_for_each(mesh.tet_parts, counts[3]);
   one_for_each(mesh.triangle_parts, counts[2]);
   one_for_each(mesh.edge_parts, counts[1]);
-  std::set<std::pair<int, Label>> groups;
+  std::set<std::tuple<int, Label, std::string>> groups;  // 0 is no number: told apart by names
   std::set<std::pair<int, Label>> entities;
   for (const Group& group : mesh.groups) {
     if (group.dimension < 0 || group.dimension > 3) return false;
-    sound = sound && groups.insert({group.dimension, group.number}).second;
+    sound =
+        sound &&
+        groups.insert({group.dimension, group.number, group.number == 0 ? group.name : ""}).second;
     for (const auto member : group.members) {
       sound = sound && member < counts[static_cast<std::size_t>(group.dimension)];
     }

@@ -309,6 +309,31 @@ TEST_CASE("a set whose name begins like that of a label is none") {
   }
 }
 
+TEST_CASE("a comment under a set of nothing stays there, however often the deck is written") {
+  const TempFolder folder;
+  write_mesh(folder / "b.inp", read_text(folder,
+                                         "*NODE\n1, 0, 0, 0\n*NSET, NSET=none\n"
+                                         "*NSET, NSET=nor\n** here\n*NSET, NSET=one\n"
+                                         "** above\n1\n"));
+  const std::string once = read_text(folder / "b.inp");
+  CHECK(once.find("NSET=nor\n** here\n** above\n*NSET, NSET=one\n") != once.npos);
+  write_mesh(folder / "c.inp", read_mesh(folder / "b.inp"));
+  CHECK(read_text(folder / "c.inp") == once);
+}
+
+TEST_CASE("data never become parameters of a keyword whose line ended with a comma") {
+  const TempFolder folder;
+  const MeshData mesh = read_text(
+      folder,
+      "*NODE, \"a,\n*X\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n"
+      "*ELEMENT, TYPE=C3D4,\n*X\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n");
+  REQUIRE(mesh.tets.size() == 2);
+  write_mesh(folder / "b.inp", mesh);
+  const MeshData again = read_mesh(folder / "b.inp");
+  CHECK(same_points(again, mesh));
+  CHECK(again.tets.size() == 2);
+}
+
 TEST_CASE("types of elements have the nodes that their names say") {
   const auto type = [](std::string_view name) { return formats::inp_type(name); };
   CHECK(type("c3d4").vtk_type == 10);

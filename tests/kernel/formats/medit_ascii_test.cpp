@@ -126,6 +126,8 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
       {"no tets", kHead + kPoints + "End\n", ":9: ", "the section Tetrahedra is missing"},
       {"twice", kHead + kPoints + kPoints + kTets,
        ":9: ", "'Vertices' appears for the second time"},
+      {"marks twice", kHead + kPoints + "Corners 1 1\nCorners 1 2\n" + kTets,
+       ":10: ", "'Corners' appears for the second time"},
       {"too many rows", replaced(good, "Tetrahedra\n1\n", "Tetrahedra\n1\n4 3 2 1 0\n"),
        ":12: ", "'1' is not expected here"},
       {"too few rows", replaced(good, "Vertices\n4", "Vertices\n5"),

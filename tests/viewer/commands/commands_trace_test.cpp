@@ -2,8 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
+#include "tests/support/example_traces.h"
 #include "tests/viewer/session.h"
-#include "tests/viewer/traces.h"
 #include "viewer/commands/script.h"
 
 using namespace tetmend;

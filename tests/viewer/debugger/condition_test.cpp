@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
-#include "tests/viewer/traces.h"
+#include "tests/support/example_traces.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;

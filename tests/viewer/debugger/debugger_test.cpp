@@ -5,7 +5,7 @@
 
 #include "kernel/error.h"
 #include "kernel/integrity.h"
-#include "tests/viewer/traces.h"
+#include "tests/support/example_traces.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;

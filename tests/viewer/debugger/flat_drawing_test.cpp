@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "tests/viewer/traces.h"
+#include "tests/support/example_traces.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;
@@ -91,10 +91,10 @@ TEST_CASE("after a refusal without a candidate the best complete triangulation i
 
 TEST_CASE("bad tets are drawn red, the nearer ones last, and only sides that face the camera") {
   LocalTet good{TetHandle(0), {}, {}, 1.8F};
-  good.corners = {glm::dvec3(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  good.corners = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
   LocalTet bad = good;
   bad.quality = 0.1F;
-  for (auto& p : bad.corners) p.z += 2;
+  for (auto& p : bad.corners) p.z() += 2;
   Camera camera;
   camera.look_from("+z");  // the bad one is nearer
   const Ball ball{{0, 0, 1}, 3};
@@ -104,4 +104,20 @@ TEST_CASE("bad tets are drawn red, the nearer ones last, and only sides that fac
   const Colour& last = drawing.areas.back().colour;
   CHECK(last.red > 2 * last.green);
   CHECK(drawing.areas.front().colour.red <= 2 * drawing.areas.front().colour.green);
+}
+
+TEST_CASE("the ball around a call holds its tets") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  const CallStudy study = study_call(file, replay, 0);
+  const auto ball = ball_around(study);
+  REQUIRE(ball);
+  for (const LocalTet& tet : study.before) {
+    for (const Point& p : tet.corners) {
+      CHECK(glm::distance(glm::dvec3(p.x(), p.y(), p.z()), ball->centre) <=
+            ball->radius * 1.000001);
+    }
+  }
+  CHECK_FALSE(ball_around(CallStudy()));
 }

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/viewer/traces.h"
+#include "tests/support/example_traces.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;

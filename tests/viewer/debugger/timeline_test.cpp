@@ -4,8 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "kernel/statistics.h"
-#include "tests/viewer/traces.h"
+#include "tests/support/example_traces.h"
 #include "trace/traced_standard.h"
+#include "viewer/debugger/debugger.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;

@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/example_traces.h"
 #include "tests/viewer/png.h"
-#include "tests/viewer/traces.h"
+#include "viewer/debugger/debugger.h"
 
 using namespace tetmend;
 using namespace tetmend::test;

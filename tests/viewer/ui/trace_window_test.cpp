@@ -2,7 +2,7 @@
 // Stepping through a trace in a window, with real keys and mouse events.
 #include <doctest/doctest.h>
 
-#include "tests/viewer/traces.h"
+#include "tests/support/example_traces.h"
 #include "tests/viewer/window.h"
 
 using namespace tetmend;

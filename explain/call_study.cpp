@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "explain/call_study.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace tetmend::explain {
+
+namespace {
+
+LocalTet local_tet(const SlotMesh& mesh, TetHandle t) {
+  LocalTet tet{t, mesh.vertices(t), {}, mesh.quality(t)};
+  for (unsigned i = 0; i < 4; ++i) tet.corners[i] = mesh.point(tet.vertices[i]);
+  return tet;
+}
+
+/// Puts the replay back where it was.
+class Excursion {
+ public:
+  explicit Excursion(Replay& replay) : replay_(replay), home_(replay.position()) {}
+  ~Excursion() { replay_.seek(home_); }
+  Excursion(const Excursion&) = delete;
+  Excursion& operator=(const Excursion&) = delete;
+
+ private:
+  Replay& replay_;
+  std::uint64_t home_;
+};
+
+/// Where the call and those in it edit, and what it does itself.
+struct Edits {
+  std::vector<std::uint64_t> all;  // positions after them, undoes included
+  std::vector<std::uint64_t> own;  // without undoes
+  bool last_is_undo = false;
+};
+
+Edits edits_of(const TraceFile& file, const Call& call) {
+  Edits edits;
+  EventCursor cursor(file);
+  cursor.move_to(call.events.begin);
+  int depth = 0;
+  while (cursor.position() < call.events.end) {
+    const TraceEvent& event = cursor.next();
+    if (event.kind == EventKind::attempt_begins) ++depth;
+    if (event.kind == EventKind::attempt_ends) --depth;
+    if (!changes_mesh(event.kind)) continue;
+    edits.all.push_back(cursor.position());
+    edits.last_is_undo = event.kind == EventKind::undo;
+    if (depth == 1 && !edits.last_is_undo) edits.own.push_back(cursor.position());
+  }
+  return edits;
+}
+
+/// Position after the last edit that is not an undo, before the undoes at the end.
+std::uint64_t last_try(const TraceFile& file, const Edits& edits) {
+  EventCursor cursor(file);
+  for (std::size_t i = edits.all.size(); i-- > 0;) {
+    cursor.move_to(edits.all[i] - 1);
+    if (cursor.next().kind != EventKind::undo) return edits.all[i];
+  }
+  return 0;
+}
+
+class Study {
+ public:
+  Study(const TraceFile& file, Replay& replay, std::uint32_t call)
+      : file_(file), replay_(replay), call_(file.calls()[call]) {
+    study_.call = call;
+  }
+
+  CallStudy make() {
+    const Excursion excursion(replay_);
+    const Edits edits = edits_of(file_, call_);
+    replay_.seek(call_.events.begin);
+    draw_shell();
+    take_before(edits);
+    if (!edits.all.empty()) take_after(edits);
+    if (!edits.own.empty()) find_covering(edits.own.front());
+    return std::move(study_);
+  }
+
+ private:
+  const SlotMesh& mesh() const { return replay_.mesh(); }
+
+  void draw_shell() {
+    const auto target = call_.target();
+    for (const VertexHandle v : target) {
+      if (mesh().is_deleted(v)) return;
+    }
+    around_ = tets_around(mesh(), target);
+    if (target.size() == 2) {
+      const SlotShell shell = find_slot_shell(mesh(), target[0], target[1]);
+      const bool drawable =
+          shell.closed && shell.ring.size() >= 3 && shell.ring.size() <= kMostDrawn;
+      if (drawable) study_.picture = picture_of_shell(mesh(), shell, ancestors());
+    }
+    if (target.size() == 3 && around_.size() == 2) draw_sandwich();
+  }
+
+  /// The edges that the recursive calls around this one are to remove, if it is a step of theirs.
+  std::vector<std::array<VertexHandle, 2>> ancestors() const {
+    std::vector<std::array<VertexHandle, 2>> edges;
+    unsigned level = call_.level;
+    for (std::uint32_t c = call_.parent; c != kNoCall && level > 0; c = file_.calls()[c].parent) {
+      const Call& caller = file_.calls()[c];
+      if (caller.algorithm != Algorithm::recursion || caller.level >= level) continue;
+      edges.push_back({caller.target()[0], caller.target()[1]});
+      level = caller.level;
+    }
+    return edges;
+  }
+
+  void draw_sandwich() {
+    const auto target = call_.target();
+    const auto apex = [&](TetHandle t) {
+      const TetVertices& tet = mesh().vertices(t);
+      return *std::find_if(tet.begin(), tet.end(), [&](VertexHandle v) {
+        return std::find(target.begin(), target.end(), v) == target.end();
+      });
+    };
+    sandwich_a_ = apex(around_[0]);
+    sandwich_b_ = apex(around_[1]);
+    const std::array<std::array<VertexHandle, 3>, 1> triangle = {
+        others(mesh().vertices(around_[0]), sandwich_a_)};
+    study_.picture = picture_of_sandwich(mesh(), sandwich_a_, sandwich_b_, triangle);
+  }
+
+  /// The slots that the call changes, for good or not.
+  void take_before(const Edits& edits) {
+    for (const TetHandle t : around_) touched_.insert(t);
+    for (const std::uint64_t position : edits.all) {
+      replay_.seek(position);
+      const Cavity cavity = replay_.cavity();
+      for (const CavityTet& tet : cavity.removed) touched_.insert(tet.tet);
+      for (const CavityTet& tet : cavity.created) touched_.insert(tet.tet);
+    }
+    replay_.seek(call_.events.begin);
+    study_.before = touched_tets();
+  }
+
+  void take_after(const Edits& edits) {
+    replay_.seek(call_.events.end);
+    study_.after = touched_tets();
+    study_.undone = edits.last_is_undo && is_same(study_.before, study_.after);
+    if (!study_.undone) return;
+    replay_.seek(last_try(file_, edits));
+    study_.after = touched_tets();
+  }
+
+  std::vector<LocalTet> touched_tets() const {
+    std::vector<LocalTet> tets;
+    for (const TetHandle t : touched_) {
+      if (!mesh().is_deleted(t)) tets.push_back(local_tet(mesh(), t));
+    }
+    return tets;
+  }
+
+  static bool is_same(const std::vector<LocalTet>& x, const std::vector<LocalTet>& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [](const LocalTet& s, const LocalTet& t) {
+                        return s.vertices == t.vertices && s.corners == t.corners;
+                      });
+  }
+
+  /// What the first edit of the call makes of the polygon.
+  void find_covering(std::uint64_t position) {
+    if (!study_.picture) return;
+    replay_.seek(position);
+    const Cavity cavity = replay_.cavity();
+    if (cavity.created.empty() || !cavity.vertices.empty()) return;
+    if (sandwich_a_.is_valid()) grow_sandwich(cavity);
+    ShellPicture& picture = *study_.picture;
+    std::vector<TetVertices> tets;
+    for (const CavityTet& tet : cavity.created) tets.push_back(tet.vertices);
+    for (const TetHandle t : tets_around(mesh(), std::array{picture.a, picture.b})) {
+      const auto made = [&](const CavityTet& tet) { return tet.tet == t; };
+      if (std::any_of(cavity.created.begin(), cavity.created.end(), made)) continue;
+      tets.push_back(mesh().vertices(t));  // stays as it is
+    }
+    FlatCovering covering = covering_of(mesh(), picture, tets);
+    if (covering.triangles.empty() && covering.core.empty()) return;
+    study_.covering = std::move(covering);
+    study_.first_edit = position;
+  }
+
+  /// All faces between the two vertices that the call took together.
+  void grow_sandwich(const Cavity& cavity) {
+    std::vector<std::array<VertexHandle, 3>> triangles;
+    for (const CavityTet& tet : cavity.removed) {
+      if (contains(tet.vertices, sandwich_a_)) {
+        triangles.push_back(others(tet.vertices, sandwich_a_));
+      }
+    }
+    const std::uint64_t here = replay_.position();
+    replay_.seek(call_.events.begin);
+    ShellPicture grown = picture_of_sandwich(mesh(), sandwich_a_, sandwich_b_, triangles);
+    if (grown.ring.size() >= 3) study_.picture = std::move(grown);
+    replay_.seek(here);
+  }
+
+  const TraceFile& file_;
+  Replay& replay_;
+  const Call& call_;
+  CallStudy study_;
+  std::vector<TetHandle> around_;  // the target
+  std::set<TetHandle> touched_;
+  VertexHandle sandwich_a_, sandwich_b_;
+};
+
+Quality worst_of(const std::vector<LocalTet>& tets) {
+  Quality worst = std::numeric_limits<Quality>::infinity();
+  for (const LocalTet& tet : tets) worst = std::min(worst, tet.quality);
+  return worst;
+}
+
+/// What the search had to offer at best.
+std::string explain_search(const ShellPicture& s) {
+  if (s.pockets.empty()) return "";
+  const std::string locks = locks_text(s);
+  return fmt::format("{}{} {}", locks.empty() ? "" : " ", locks,
+                     s.full.triangles.empty()
+                         ? "No complete triangulation of the polygon gives positive tets."
+                         : fmt::format("The best complete triangulation has worst quality {:.4f}, "
+                                       "the old tets {:.4f}.",
+                                       s.full.worst, s.floor));
+}
+
+}  // namespace
+
+PolygonStage stage_of(const CallStudy& study, std::uint64_t position, bool refused) {
+  const bool has_full = !study.picture->full.triangles.empty();
+  if (study.covering && position >= study.first_edit) return PolygonStage::made;
+  return refused && !study.covering && has_full ? PolygonStage::best_triangulation
+                                                : PolygonStage::before;
+}
+
+std::string caption_of(const CallStudy& study, PolygonStage stage) {
+  const ShellPicture& shell = *study.picture;
+  switch (stage) {
+    case PolygonStage::made:
+      return fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}",
+                         study.undone ? "tried" : "made", shell.ring.size(),
+                         study.covering->core.size(), shell.floor, study.covering->worst);
+    case PolygonStage::best_triangulation:
+      return fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
+                         shell.floor);
+    case PolygonStage::before:
+      break;
+  }
+  return fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
+                     shell.ring.size(), shell.floor);
+}
+
+CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call) {
+  return Study(file, replay, call).make();
+}
+
+std::string explain_end(const TraceFile& file, const CallStudy& study) {
+  const Call& call = file.calls()[study.call];
+  std::string text(file.reason(call));
+  if (text.empty()) return text;
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  text += '.';
+  if (call.accepted() && call.worst_before != 0) {
+    text +=
+        fmt::format(" Worst quality {:.4f}, before {:.4f}.", call.worst_after, call.worst_before);
+  } else if (study.undone) {
+    const bool has_vectors = call.worst_before != 0;
+    text += fmt::format(" Tried: worst quality {:.4f}, as against {:.4f}. Undone.",
+                        has_vectors ? call.worst_after : worst_of(study.after),
+                        has_vectors ? call.worst_before : worst_of(study.before));
+  } else if (call.verdict == Verdict::no_improvement && !call.candidate_found &&
+             searches_covering(call.algorithm) && study.picture) {
+    text += explain_search(*study.picture);
+  }
+  return text;
+}
+
+}  // namespace tetmend::explain

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// One call of a trace, looked at closely: the tets before and after it, and its shell drawn flat.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explain/shell_picture.h"
+#include "trace/replay.h"
+
+namespace tetmend::explain {
+
+/// A tet that needs no mesh.
+struct LocalTet {
+  TetHandle tet;
+  TetVertices vertices;
+  std::array<Point, 4> corners;
+  Quality quality = 0;
+};
+
+struct CallStudy {
+  std::uint32_t call = kNoCall;
+  /// The tets around the target, and those that the call changes, as it found them.
+  std::vector<LocalTet> before;
+  /// What fills the same place afterwards, or would have: see `undone`. Empty if nothing was tried.
+  std::vector<LocalTet> after;
+  bool undone = false;  ///< `after` was tried, and was not good enough
+  /// Of an edge that has a closed shell, or of faces between two vertices.
+  std::optional<ShellPicture> picture;
+  /// The covering that the call itself made or tried, and the position right after that.
+  std::optional<FlatCovering> covering;
+  std::uint64_t first_edit = 0;
+};
+
+/// Leaves the replay where it was. Precondition: there is such a call.
+/// Cost: replay of the call, and a few passes over the tets.
+CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call);
+
+/// What the drawing of a polygon shows.
+enum class PolygonStage {
+  before,             ///< the old tets, and the chords that the search may use
+  made,               ///< the covering that the call made or tried
+  best_triangulation  ///< after a refusal without a candidate: dashed, with the chords
+};
+/// Precondition of both: the study has a picture. `refused`: the call has ended, and not well.
+PolygonStage stage_of(const CallStudy& study, std::uint64_t position, bool refused);
+std::string caption_of(const CallStudy& study, PolygonStage stage);
+
+/// Why the call ended as it did, in sentences with the numbers of its shell.
+std::string explain_end(const TraceFile& file, const CallStudy& study);
+
+}  // namespace tetmend::explain

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "explain/lesson_guide.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "platform/platform.h"
+
+namespace tetmend::explain {
+
+namespace {
+
+std::filesystem::path lessons_folder() {
+  if (const char* folder = std::getenv("TETMEND_LESSONS")) return folder;  // NOLINT: one thread
+  std::error_code ignored;
+  for (std::filesystem::path up = std::filesystem::current_path(ignored);; up = up.parent_path()) {
+    const std::filesystem::path folder = up / "assets/lessons";
+    if (std::filesystem::is_directory(folder, ignored)) return folder;
+    if (up == up.parent_path()) break;
+  }
+  return platform::program_file().parent_path().parent_path() / "share/tetmend/lessons";
+}
+
+}  // namespace
+
+std::optional<Lesson> lesson_of(const std::filesystem::path& trace, std::uint64_t event_count) {
+  std::filesystem::path file = trace;
+  file.replace_extension(".json");
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  Lesson lesson = read_lesson(file);
+  const std::uint64_t last = lesson.steps.back().at;
+  if (last > event_count) {
+    throw Error(fmt::format("{}: a step is at {}, but the trace has {} events", file.string(), last,
+                            event_count));
+  }
+  return lesson;
+}
+
+std::optional<std::size_t> step_at(const Lesson& lesson, std::uint64_t position) {
+  const auto after =
+      std::upper_bound(lesson.steps.begin(), lesson.steps.end(), position,
+                       [](std::uint64_t p, const LessonStep& step) { return p < step.at; });
+  if (after == lesson.steps.begin()) return std::nullopt;
+  return static_cast<std::size_t>(after - lesson.steps.begin()) - 1;
+}
+
+std::vector<std::filesystem::path> find_lessons() {
+  return list_lessons(lessons_folder());
+}
+
+}  // namespace tetmend::explain

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "explain/page.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "explain/call_facts.h"
+#include "explain/page_parts.h"
+#include "explain/stepper.h"
+#include "kernel/error.h"
+
+namespace tetmend::explain {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Text as text, between tags and in quotes.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+/// JSON that nothing in it can end: no tag begins in it. Bytes that are no UTF-8 are replaced.
+std::string in_script(const Json& json) {
+  std::string result;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      result += "\\u003c";
+    } else if (c == '&') {
+      result += "\\u0026";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+/// UTF-8, whatever the text was.
+std::string sound(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+/// Replaces each @NAME@ once. What is put in is not looked at again.
+std::string fill_in(std::string_view form,
+                    const std::vector<std::pair<std::string_view, std::string>>& values) {
+  std::string result;
+  while (!form.empty()) {
+    const std::size_t at = form.find('@');
+    result += form.substr(0, at);
+    if (at == std::string_view::npos) break;
+    form.remove_prefix(at);
+    const auto named = std::find_if(values.begin(), values.end(), [&](const auto& value) {
+      return form.starts_with(value.first);
+    });
+    if (named == values.end()) {
+      result += '@';
+      form.remove_prefix(1);
+    } else {
+      result += named->second;
+      form.remove_prefix(named->first.size());
+    }
+  }
+  return result;
+}
+
+Json origin_of(const TraceFile& file, const PageRequest& request) {
+  const TraceHeader& header = file.header();
+  Json settings = Json::array();
+  for (const auto& [name, value] : header.settings) settings.push_back(name + " = " + value);
+  return {{"title", request.title},
+          {"mesh", header.input},
+          {"schedule", header.schedule},
+          {"settings", settings},
+          {"recorder", header.program},
+          {"program", request.program},
+          {"damage", file.damage()},
+          {"filter", header.filter},
+          {"calls", count_calls(file, request.range)}};
+}
+
+Json to_json(const Lesson& lesson) {
+  Json steps = Json::array();
+  for (const LessonStep& step : lesson.steps) {
+    steps.push_back({{"at", step.at}, {"text", step.text}});
+  }
+  return {{"title", lesson.title}, {"steps", steps}};
+}
+
+std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& request,
+                    const RecordingRange& range) {
+  Json data = record(file, replay, range);
+  data["origin"] = origin_of(file, request);
+  if (request.lesson != nullptr) data["lesson"] = to_json(*request.lesson);
+  if (range.deepest < depth_of(file, range)) data["deepest"] = range.deepest;
+  const std::string about =
+      fmt::format("{}: a run of {} on {}, schedule {}, step by step.", request.title,
+                  file.header().program, file.header().input, file.header().schedule);
+  return fill_in(page_form(), {{"@TITLE@", escaped(sound(request.title))},
+                               {"@ABOUT@", escaped(sound(about))},
+                               {"@PROGRAM@", escaped(sound(request.program))},
+                               {"@STYLE@", std::string(page_style())},
+                               {"@SCRIPT@", std::string(page_script())},
+                               {"@RECORDING@", in_script(data)}});
+}
+
+}  // namespace
+
+Page write_page(const TraceFile& file, Replay& replay, const PageRequest& request) {
+  const unsigned whole = depth_of(file, request.range);
+  RecordingRange range = request.range;
+  for (unsigned deepest = whole;; --deepest) {
+    range.deepest = deepest;
+    Page page{html_of(file, replay, request, range), std::nullopt};
+    if (deepest < whole) page.deepest = deepest;
+    if (page.html.size() <= request.largest) return page;
+    const bool is_least = deepest == 0 || deepest <= call_stack(file, range.begin).size();
+    if (is_least) {
+      throw Error(
+          fmt::format("'{}' makes a page of {:.1f} MB, and {:.1f} MB is the most: choose a "
+                      "call in it",
+                      request.title, 1e-6 * static_cast<double>(page.html.size()),
+                      1e-6 * static_cast<double>(request.largest)));
+    }
+  }
+}
+
+std::string title_of_call(const TraceFile& file, std::uint32_t call) {
+  const Call& c = file.calls()[call];
+  return fmt::format("Call {}: {} {}", call, short_name(file, c), format_target(c));
+}
+
+std::string write_index(const std::string& title, const std::string& text,
+                        const std::vector<PageLink>& pages, const std::string& program) {
+  std::string list;
+  for (const PageLink& page : pages) {
+    list += fmt::format("<li><a href=\"{}\">{}</a><p>{}</p></li>\n", escaped(page.file),
+                        escaped(page.title), escaped(page.text));
+  }
+  return fill_in(index_form(), {{"@TITLE@", escaped(title)},
+                                {"@ABOUT@", escaped(text)},
+                                {"@PROGRAM@", escaped(program)},
+                                {"@STYLE@", std::string(page_style())},
+                                {"@LIST@", list}});
+}
+
+}  // namespace tetmend::explain

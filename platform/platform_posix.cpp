@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: MIT
+// Linux and macOS.
+#ifndef _WIN32
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "platform/platform.h"
+#ifdef __linux__
+#include <link.h>
+#include <sys/mman.h>
+#endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
+
+namespace tetmend::platform {
+namespace {
+
+constexpr mode_t kPermissions = 0777;  // not setuid and its like: the content is another
+
+/// A number of open(), memfd_create() and their like, or errno.
+Answer<Descriptor> opened(int number) {
+  if (number < 0) return {Descriptor(), errno};
+  return {Descriptor(number), 0};
+}
+
+Answer<FileFacts> facts_of(int result, const struct stat& info) {
+  if (result != 0) return {{}, errno};
+  FileFacts facts;
+  if (S_ISREG(info.st_mode)) facts.kind = FileKind::regular;
+  if (S_ISDIR(info.st_mode)) facts.kind = FileKind::folder;
+  facts.size = static_cast<std::uint64_t>(info.st_size);
+  facts.names = info.st_nlink;
+  facts.owner = info.st_uid;
+  facts.group = info.st_gid;
+  facts.permissions = info.st_mode & kPermissions;
+  return {facts, 0};
+}
+
+}  // namespace
+
+// ---- files
+
+int Descriptor::close() noexcept {
+  if (!is_open()) return 0;
+  return ::close(std::exchange(number_, kNone)) == 0 ? 0 : errno;
+}
+
+Answer<Descriptor> open_to_read(const std::filesystem::path& file) {
+  return opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+}
+
+Answer<Descriptor> create(const std::filesystem::path& file, Access access) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  return opened(::open(file.c_str(), kFlags, access == Access::owner_only ? 0600 : 0666));
+}
+
+Answer<Descriptor> create_nameless() {
+#ifdef __linux__
+  return opened(::memfd_create("tetmend", MFD_CLOEXEC));
+#else
+  std::error_code ignored;
+  std::string name = std::filesystem::temp_directory_path(ignored) / "tetmend-XXXXXX";
+  const int number = ::mkstemp(name.data());
+  if (number < 0) return {Descriptor(), errno};
+  ::unlink(name.c_str());
+  ::fcntl(number, F_SETFD, FD_CLOEXEC);
+  return {Descriptor(number), 0};
+#endif
+}
+
+Answer<FileFacts> look_at(int file) {
+  struct stat info {};
+  return facts_of(::fstat(file, &info), info);
+}
+
+Answer<FileFacts> look_at(const std::filesystem::path& file) {
+  struct stat info {};
+  return facts_of(::stat(file.c_str(), &info), info);
+}
+
+Answer<FileFacts> look_at_name(const std::filesystem::path& file) {
+  struct stat info {};
+  return facts_of(::lstat(file.c_str(), &info), info);
+}
+
+int may_write(const std::filesystem::path& file) {
+  return ::access(file.c_str(), W_OK) == 0 ? 0 : errno;
+}
+
+Answer<std::size_t> read_some(int file, std::span<char> buffer) {
+  for (;;) {
+    const ssize_t got = ::read(file, buffer.data(), buffer.size());
+    if (got >= 0) return {static_cast<std::size_t>(got), 0};
+    if (errno != EINTR) return {0, errno};
+  }
+}
+
+Answer<std::size_t> read_at(int file, std::uint64_t place, std::span<char> buffer) {
+  for (;;) {
+    const ssize_t got = ::pread(file, buffer.data(), buffer.size(), static_cast<off_t>(place));
+    if (got >= 0) return {static_cast<std::size_t>(got), 0};
+    if (errno != EINTR) return {0, errno};
+  }
+}
+
+int write_fully(int file, std::string_view bytes) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+int synchronise(int file) {
+#ifdef __APPLE__
+  if (::fcntl(file, F_FULLFSYNC) == 0) return 0;  // fsync() leaves it in the cache of the disk
+#endif
+  while (::fsync(file) != 0) {
+    if (errno == EINTR) continue;
+    // Some file systems know no fsync: then there is nothing to wait for.
+    const bool is_unknown =
+        errno == EINVAL || errno == ENOTSUP || errno == ENOSYS || errno == EROFS;
+    return is_unknown ? 0 : errno;
+  }
+  return 0;
+}
+
+void synchronise_folder(const std::filesystem::path& folder) {
+  const Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (open.is_open()) static_cast<void>(synchronise(open.number()));
+}
+
+OwnerLoss keep_owner(int file, const FileFacts& now, const FileFacts& older) {
+  OwnerLoss loss;
+  auto mode = static_cast<mode_t>(older.permissions);
+  if (now.group != older.group && ::fchown(file, static_cast<uid_t>(-1), older.group) != 0) {
+    mode = static_cast<mode_t>((mode & ~070u) | ((mode & 007u) << 3));
+    loss.group = true;
+  }
+  loss.owner = now.owner != older.owner && ::fchown(file, older.owner, static_cast<gid_t>(-1)) != 0;
+  loss.permissions = ::fchmod(file, mode) != 0 && now.permissions != mode;
+  return loss;
+}
+
+int rename(const std::filesystem::path& from, const std::filesystem::path& to) {
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+int add_name(const std::filesystem::path& file, const std::filesystem::path& name) {
+  return ::link(file.c_str(), name.c_str()) == 0 ? 0 : errno;
+}
+
+void remove_file(const char* file) noexcept {
+  ::unlink(file);
+}
+
+// ---- the program: streams, arguments, environment
+
+void reserve_standard_streams() noexcept {
+  // The other way round: what is meant for reading can only be written, and vice versa.
+  constexpr std::array<int, 3> kModes = {O_WRONLY, O_RDONLY, O_RDONLY};
+  for (int number = kStandardInput; number <= kStandardError; ++number) {
+    if (::fcntl(number, F_GETFD) != -1) continue;
+    // The lowest free number is this one, for those below are taken.
+    static_cast<void>(::open("/dev/null", kModes[static_cast<std::size_t>(number)]));
+  }
+}
+
+bool is_terminal(int file) noexcept {
+  return ::isatty(file) == 1;
+}
+
+std::size_t terminal_columns() noexcept {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+std::vector<std::string> arguments(int count, char** words) {
+  return {words, words + count};
+}
+
+std::string trusted_variable(const char* name) {
+#ifdef __linux__
+  const char* value = ::secure_getenv(name);
+#else
+  const char* value = ::issetugid() != 0 ? nullptr : ::getenv(name);
+#endif
+  return value == nullptr ? "" : value;
+}
+
+const char kPathSeparator = ':';
+
+std::filesystem::path program_file() {
+  std::error_code ignored;
+#ifdef __APPLE__
+  std::uint32_t size = 0;
+  ::_NSGetExecutablePath(nullptr, &size);
+  std::string name(size, '\0');
+  if (::_NSGetExecutablePath(name.data(), &size) != 0) return {};
+  return std::filesystem::canonical(name.c_str(), ignored);
+#else
+  return std::filesystem::read_symlink("/proc/self/exe", ignored);
+#endif
+}
+
+unsigned process_number() noexcept {
+  return static_cast<unsigned>(::getpid());
+}
+
+// ---- signals
+
+namespace {
+
+void handle(int number, SignalHandler handler, int flags) noexcept {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  ::sigaction(number, &action, nullptr);
+}
+
+// A signal handler can reach nothing but globals.
+std::atomic<SignalHandler> crash_handler{nullptr};
+static_assert(std::atomic<SignalHandler>::is_always_lock_free);
+
+void on_crash(int number) {
+  crash_handler.load()(number);
+  ::raise(number);  // SA_RESETHAND: acts as it would have, when the handler returns
+}
+
+class AlternateStack {
+ public:
+  AlternateStack() : memory_(std::make_unique<char[]>(kSize)) {
+    stack_t stack{};
+    stack.ss_sp = memory_.get();
+    stack.ss_size = kSize;
+    ::sigaltstack(&stack, &before_);
+  }
+  ~AlternateStack() { ::sigaltstack(&before_, nullptr); }
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  static constexpr std::size_t kSize = 1 << 16;
+  std::unique_ptr<char[]> memory_;
+  stack_t before_{};
+};
+
+}  // namespace
+
+void on_end_signals(EndSignals which, SignalHandler handler) noexcept {
+  for (const int number : {SIGHUP, SIGINT, SIGTERM, SIGXCPU, SIGUSR1, SIGUSR2, SIGALRM}) {
+    if (number == SIGXCPU && which == EndSignals::terminal) break;
+    struct sigaction action {};
+    ::sigaction(number, nullptr, &action);
+    if (action.sa_handler != SIG_IGN) handle(number, handler, SA_RESTART);
+  }
+}
+
+bool comes_again(int number) noexcept {
+  return number == SIGXCPU;  // every second
+}
+
+void end_by_default(int number) noexcept {
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+}
+
+void ignore_broken_pipes() noexcept {
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+void ignore_file_limits() noexcept {
+  ::signal(SIGXFSZ, SIG_IGN);
+}
+
+void on_crashes(SignalHandler handler) noexcept {
+  crash_handler = handler;
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+    handle(number, on_crash, static_cast<int>(SA_ONSTACK | SA_RESETHAND));
+  }
+}
+
+void provide_crash_stack() {
+  thread_local const AlternateStack kStack;
+}
+
+// ---- memory
+
+std::size_t peak_memory() noexcept {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  constexpr std::size_t kUnit = 1;
+#else
+  constexpr std::size_t kUnit = 1024;
+#endif
+  return static_cast<std::size_t>(usage.ru_maxrss) * kUnit;
+}
+
+void trim_heap() noexcept {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
+void give_back_blocks_from([[maybe_unused]] int bytes) noexcept {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, bytes);
+#endif
+}
+
+// ---- shared libraries
+
+SharedLibrary::SharedLibrary(const std::filesystem::path& file)
+    : file_(file), handle_(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {}
+
+SharedLibrary::~SharedLibrary() {
+  if (handle_ != nullptr) ::dlclose(handle_);
+}
+
+void* SharedLibrary::find(const char* symbol) const {
+  return ::dlsym(handle_, symbol);
+}
+
+void SharedLibrary::pin() const {
+  void* again = ::dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (again != nullptr) ::dlclose(again);
+}
+
+std::string loading_error() {
+  const char* text = ::dlerror();
+  return text == nullptr ? "unknown reason" : text;
+}
+
+bool is_library_name(const std::filesystem::path& file) {
+#ifdef __APPLE__
+  if (file.extension() == ".dylib") return true;
+#endif
+  return file.extension() == ".so";
+}
+
+void show_names_of_library(const void* address) {
+  Dl_info library{};
+  if (::dladdr(address, &library) == 0) return;
+  ::dlopen(library.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);  // stays: never closed
+}
+
+#ifdef __linux__
+namespace {
+
+using Head = ElfW(Ehdr);
+using Section = ElfW(Shdr);
+using Symbol = ElfW(Sym);
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of a table; a larger one is none
+
+/// Whether the file is for a program like this one.
+bool is_library_of_this_machine(const Head& head) {
+  constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+  const auto* ident = reinterpret_cast<const char*>(head.e_ident);
+  return std::string_view(ident, SELFMAG) == ELFMAG && head.e_ident[EI_CLASS] == kClass &&
+         head.e_type == ET_DYN && head.e_shentsize == sizeof(Section);
+}
+
+///   head -> section headers -> table of dynamic symbols -> its names -> the symbol -> the section
+///   that holds its value
+class ElfFile {
+ public:
+  explicit ElfFile(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
+
+  bool read_constant(std::string_view name, std::span<std::byte> value) {
+    const std::vector<Head> head = read<Head>(0, 1);
+    if (head.empty() || !is_library_of_this_machine(head[0])) return false;
+    sections_ = read<Section>(head[0].e_shoff, head[0].e_shnum);
+    for (const Section& section : sections_) {
+      if (section.sh_type == SHT_DYNSYM) return read_among(section, name, value);
+    }
+    return false;
+  }
+
+ private:
+  /// Empty when the file has not so much.
+  template <class Row>
+  std::vector<Row> read(std::uint64_t at, std::uint64_t count) {
+    std::vector<Row> rows;
+    if (count > kMostBytes / sizeof(Row) || at > std::numeric_limits<std::int64_t>::max())
+      return {};
+    rows.resize(count);
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(at));
+    in_.read(reinterpret_cast<char*>(rows.data()),
+             static_cast<std::streamsize>(count * sizeof(Row)));
+    if (!in_) rows.clear();
+    return rows;
+  }
+
+  bool read_among(const Section& table, std::string_view name, std::span<std::byte> value) {
+    if (table.sh_link >= sections_.size()) return false;
+    const Section& strings = sections_[table.sh_link];
+    const std::vector<char> names = read<char>(strings.sh_offset, strings.sh_size);
+    for (const Symbol& symbol : read<Symbol>(table.sh_offset, table.sh_size / sizeof(Symbol))) {
+      if (symbol.st_name >= names.size() || symbol.st_shndx >= sections_.size()) continue;
+      const std::string_view rest(names.data() + symbol.st_name, names.size() - symbol.st_name);
+      if (rest.substr(0, rest.find('\0')) != name) continue;
+      return read_value(symbol, value);
+    }
+    return false;
+  }
+
+  bool read_value(const Symbol& symbol, std::span<std::byte> value) {
+    const Section& home = sections_[symbol.st_shndx];
+    if (home.sh_type != SHT_PROGBITS || symbol.st_value < home.sh_addr) return false;
+    const std::uint64_t inside = symbol.st_value - home.sh_addr;
+    if (home.sh_size < value.size() || inside > home.sh_size - value.size()) return false;
+    const std::vector<std::byte> bytes = read<std::byte>(home.sh_offset + inside, value.size());
+    if (bytes.empty()) return false;
+    std::copy(bytes.begin(), bytes.end(), value.begin());
+    return true;
+  }
+
+  std::ifstream in_;
+  std::vector<Section> sections_;
+};
+
+}  // namespace
+
+bool read_constant(const std::filesystem::path& file, std::string_view symbol,
+                   std::span<std::byte> value) {
+  return ElfFile(file).read_constant(symbol, value);
+}
+#else
+// Files of macOS are not ELF: what they say is found out when they are loaded.
+bool read_constant(const std::filesystem::path&, std::string_view, std::span<std::byte>) {
+  return false;
+}
+#endif
+
+}  // namespace tetmend::platform
+#endif

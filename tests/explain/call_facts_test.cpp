@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "explain/call_facts.h"
+
+#include <doctest/doctest.h>
+
+#include "explain/slot_shell.h"
+#include "tests/support/example_traces.h"
+
+using namespace tetmend;
+using namespace tetmend::explain;
+
+TEST_CASE("the facts of a call are those of the mesh at its beginning and its end") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  Replay truth(file);
+  FactTable table;
+  unsigned changed = 0;
+  for (std::uint32_t k = 0; k < file.calls().size(); k += 5) {
+    const Call& call = file.calls()[k];
+    const CallFacts& facts = table.facts(file, replay, k);
+    CHECK(replay.position() == 0);
+    truth.seek(call.events.begin);
+    CHECK(facts.degree_before == tets_around(truth.mesh(), call.target()).size());
+    truth.seek(call.events.end);
+    CHECK(facts.degree_after == tets_around(truth.mesh(), call.target()).size());
+    if (facts.degree_before != facts.degree_after) ++changed;
+  }
+  CHECK(changed > 5);
+}
+
+TEST_CASE("a call is under way until its last event") {
+  const test::HandmadeTrace trace;
+  const TraceFile file(trace.path());
+  const Call& shell = file.calls()[1];
+  CHECK(outcome_text(shell, 5) == "under way");
+  CHECK(outcome_text(shell, 6) == "no improvement");
+  CHECK(outcome_of(shell) == Outcome::rejected);
+  CHECK(outcome_of(file.calls()[0]) == Outcome::no_improvement);
+  CHECK(outcome_of(file.calls()[2]) == Outcome::limit);
+  CHECK(format_target(shell) == "edge 0 1");
+  CHECK(root_of(file, 2) == 0);
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "explain/call_study.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "explain/call_facts.h"
+#include "kernel/geometry.h"
+#include "tests/support/example_traces.h"
+
+using namespace tetmend;
+using namespace tetmend::explain;
+
+namespace {
+
+double volume(const std::vector<LocalTet>& tets) {
+  double sum = 0;
+  for (const LocalTet& tet : tets) {
+    const auto& c = tet.corners;
+    sum += (c[1] - c[0]).cross(c[2] - c[0]).dot(c[3] - c[0]);
+  }
+  return sum;
+}
+
+Quality worst(const std::vector<LocalTet>& tets) {
+  Quality least = 1;
+  for (const LocalTet& tet : tets) least = std::min(least, tet.quality);
+  return least;
+}
+
+struct Studied {
+  test::TracedBall trace;
+  TraceFile file{trace.path()};
+  Replay replay{file};
+};
+
+}  // namespace
+
+TEST_CASE(
+    "the tets before and after a call fill the same place, and the replay stays where it is") {
+  Studied s;
+  s.replay.seek(17);
+  unsigned accepted = 0;
+  unsigned undone = 0;
+  for (std::uint32_t k = 0; k < s.file.calls().size(); k += 17) {
+    const CallStudy study = study_call(s.file, s.replay, k);
+    REQUIRE(s.replay.position() == 17);
+    const Call& call = s.file.calls()[k];
+    CAPTURE(k);
+    if (!study.after.empty()) {
+      CHECK(volume(study.after) == doctest::Approx(volume(study.before)));
+    }
+    if (call.accepted() && call.worst_before != 0) {
+      ++accepted;
+      CHECK_FALSE(study.undone);
+      CHECK(worst(study.before) <= call.worst_before);
+    }
+    if (study.undone) {
+      ++undone;
+      CHECK_FALSE(call.accepted());
+    }
+  }
+  CHECK(accepted > 4);
+  CHECK(undone > 0);
+}
+
+TEST_CASE("the covering of a shell transformation is what the mesh has afterwards") {
+  Studied s;
+  FactTable facts;
+  unsigned full = 0;
+  unsigned partial = 0;
+  for (std::uint32_t k = 0; k < s.file.calls().size(); ++k) {
+    const Call& call = s.file.calls()[k];
+    if (!call.accepted() || call.algorithm != Algorithm::shell_transformation) continue;
+    const CallStudy study = study_call(s.file, s.replay, k);
+    REQUIRE(study.picture);
+    REQUIRE(study.covering);
+    const auto m = study.picture->ring.size();
+    const FlatCovering& covering = *study.covering;
+    const CallFacts& found = facts.facts(s.file, s.replay, k);
+    CHECK(found.degree_before == m);
+    CHECK(found.degree_after == covering.core.size());
+    // A polygon of m sides, with a core of n: m - n triangles, or m - 2 without.
+    CHECK(covering.triangles.size() == (covering.core.empty() ? m - 2 : m - covering.core.size()));
+    CHECK(covering.worst >= study.picture->floor);
+    covering.core.empty() ? ++full : ++partial;
+  }
+  CHECK(full > 0);
+  CHECK(partial > 0);
+}
+
+TEST_CASE("what a step of a recursion made respects the locks and uses pockets of its picture") {
+  Studied s;
+  std::size_t locked = 0;
+  std::size_t chords = 0;
+  for (std::uint32_t k = 0; k < s.file.calls().size(); ++k) {
+    const Call& call = s.file.calls()[k];
+    if (call.algorithm != Algorithm::shell_transformation || call.level == 0) continue;
+    const CallStudy study = study_call(s.file, s.replay, k);
+    if (!study.picture) continue;
+    const ShellPicture& picture = *study.picture;
+    if (picture.locks.any()) ++locked;
+    if (!study.covering || !call.accepted()) continue;
+    const auto m = static_cast<unsigned>(picture.ring.size());
+    for (const auto& triangle : study.covering->triangles) {
+      for (unsigned n = 0; n < 3; ++n) {
+        const unsigned i = triangle.corners[n];
+        const unsigned j = triangle.corners[(n + 1) % 3];
+        if ((i + 1) % m == j || (j + 1) % m == i) continue;
+        ++chords;
+        CHECK(((picture.locks.vertices >> i) & 1u) == 0);
+        CHECK(std::max(picture.pocket(i, j), picture.pocket(j, i))[0] > picture.floor);
+      }
+    }
+  }
+  CHECK(locked > 0);
+  CHECK(chords > 0);
+}
+
+TEST_CASE("a refusal is explained with the numbers of its shell") {
+  Studied s;
+  bool told = false;
+  bool undone = false;
+  for (std::uint32_t k = 0; k < s.file.calls().size() && !(told && undone); ++k) {
+    const Call& call = s.file.calls()[k];
+    if (call.accepted() || call.verdict != Verdict::no_improvement) continue;
+    s.replay.seek(call.events.begin);
+    const CallStudy study = study_call(s.file, s.replay, k);
+    const std::string text = explain_end(s.file, study);
+    CHECK(text.find('.') != std::string::npos);
+    if (text.find("best complete triangulation has worst quality") != std::string::npos) {
+      told = true;
+      CHECK_FALSE(call.candidate_found);
+    }
+    if (text.find("Undone.") != std::string::npos) {
+      undone = true;
+      CHECK(study.undone);
+      // A better worst tet may not have been worth the more bad ones.
+      const double price = s.replay.mesh().standard().price();
+      CHECK((price > 0 || call.worst_after <= call.worst_before + kQualityTolerance));
+      CHECK(text.find(fmt::format("Tried: worst quality {:.4f}, as against {:.4f}.",
+                                  call.worst_after, call.worst_before)) != std::string::npos);
+    }
+  }
+  CHECK(told);
+  CHECK(undone);
+}

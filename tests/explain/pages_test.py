@@ -1,0 +1,342 @@
+# SPDX-License-Identifier: MIT
+"""Pages of lessons and of calls, walked step by step in headless Chromium and compared with the viewer.
+
+    pages_test.py SOURCE TETMEND VIEWER WORK     VIEWER: tetmend-view, or "none"; WORK: a folder that this test may empty
+
+Exit status 77: Chromium is not installed.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+SOURCE, TETMEND = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+VIEWER = None if sys.argv[3] == "none" else Path(sys.argv[3]).resolve()
+WORK = Path(sys.argv[4]).resolve()
+sys.path.insert(0, str(SOURCE / "tests" / "docs"))
+import browser  # noqa: E402
+
+SKIPPED = 77
+LESSONS = SOURCE / "assets" / "lessons"
+NAMES = sorted(file.stem for file in LESSONS.glob("*.json"))
+ENVIRONMENT = dict(os.environ, TETMEND_LESSONS=str(LESSONS))
+HOSTILE = "<img src=x onerror=\"document.title='owned'\"><script>"  # no slash: names of files
+# What Chromium says of its own stand-in for a graphics card.
+OF_THE_BROWSER = re.compile(r"software WebGL has been deprecated|GL Driver Message \(OpenGL, Performance")
+
+# Goes to a step, and to every cell of the tables there; says what is to be seen.
+WALK = """
+const n = arguments[0];
+const texts = (selector) => [...document.querySelectorAll(selector)].map((e) => e.textContent);
+const isSeen = (e) => e.getClientRects().length > 0;
+const painted = () => {
+  const small = Object.assign(document.createElement("canvas"), {width: 96, height: 96}).getContext("2d");
+  small.drawImage(document.getElementById("canvas"), 0, 0, 96, 96);
+  const pixels = small.getImageData(0, 0, 96, 96).data;
+  let count = 0;
+  for (let i = 3; i < pixels.length; i += 4) if (pixels[i] > 0) ++count;
+  return count / (96 * 96);
+};
+const cutOff = () => {
+  const bad = [];
+  if (document.documentElement.scrollWidth > innerWidth + 1) bad.push(`page ${document.documentElement.scrollWidth} of ${innerWidth}`);
+  for (const e of document.querySelectorAll("body *")) {
+    if (!isSeen(e) || e.closest("svg") || e.closest("#names") || !e.clientWidth) continue;
+    const style = getComputedStyle(e);
+    if (e.scrollWidth > e.clientWidth + 1 && style.overflowX !== "visible" && style.display !== "inline") bad.push(`${e.tagName}#${e.id}.${e.className}: ${e.scrollWidth} of ${e.clientWidth}`);
+    if (e.scrollHeight > e.clientHeight + 1 && ["hidden", "clip"].includes(style.overflowY) && style.display !== "inline") bad.push(`${e.tagName}#${e.id}.${e.className}: height ${e.scrollHeight} of ${e.clientHeight}`);
+  }
+  const ring = document.getElementById("ring");
+  if (isSeen(ring)) {
+    const box = ring.getBoundingClientRect();
+    for (const text of ring.querySelectorAll("text")) {
+      const r = text.getBoundingClientRect();
+      if (r.left < box.left - 1 || r.right > box.right + 1 || r.top < box.top - 1 || r.bottom > box.bottom + 1) bad.push(`ring: ${text.textContent}`);
+    }
+    if (box.width < 100) bad.push(`ring ${box.width} wide`);
+  }
+  const stage = document.getElementById("stage").getBoundingClientRect();
+  for (const name of document.querySelectorAll("#names span:not(.quiet)")) {
+    const r = name.getBoundingClientRect();
+    if (r.left < stage.left - 1 || r.right > stage.right + 1 || r.top < stage.top - 1 || r.bottom > stage.bottom + 1) bad.push(`name ${name.textContent}`);
+  }
+  return bad;
+};
+const table = (id) => Object.fromEntries([...document.querySelectorAll(`#${id} td[data-cell]`)].map((td) => [td.dataset.cell, td.textContent]));
+goTo(n);
+goToBall(inView.ball, true);
+const filling = shellBeingFilled(steps[n]);
+const cells = filling ? cellsOf(filling).length : 0;
+const fact = {position: Number(document.body.dataset.position), shown: Number(document.body.dataset.shown), hash: location.hash,
+  event: texts("#event")[0], verdict: texts("#verdict")[0], reason: texts("#reason")[0], crumbs: texts("#crumbs button"),
+  code: texts("#code-title")[0], lines: [...document.querySelectorAll("#code li")].flatMap((li, i) => li.classList.contains("here") ? [i + 1] : []),
+  caller: texts("#caller")[0], tree: [...document.querySelectorAll("#tree tbody tr")].map((tr) => [Number(tr.dataset.call), ...[...tr.querySelectorAll("td")].map((td) => td.textContent)]),
+  painted: painted(), cut: cutOff(), lesson: texts("#lesson-text")[0]};
+const ring = document.getElementById("ring");
+if (isSeen(ring)) {
+  fact.caption = texts("#caption")[0];
+  fact.corners = texts("#ring text[data-kind=corner]").map(Number);
+  fact.numbers = texts("#ring text[data-kind=number]");
+  fact.chordsDrawn = ring.querySelectorAll("line[data-kind=chord] title").length;
+  fact.chords = [...document.querySelectorAll("#chords tr")].slice(1).map((tr) => [...tr.querySelectorAll("td")].map((td) => td.textContent));
+  fact.locks = texts("#locks")[0];
+}
+if (cells > 0) {
+  fact.emptyCells = document.querySelectorAll("#table-q td.open").length;
+  fact.cells = [];
+  for (let cell = 1; cell <= cells; ++cell) {
+    goTo(n, cell);
+    fact.cells.push({text: texts("#cell-text")[0], empty: document.querySelectorAll("#table-q td.open").length, cut: cutOff(), hash: location.hash});
+  }
+}
+if (isSeen(document.getElementById("tables-card"))) fact.tables = [table("table-q"), table("table-k")];
+return fact;
+"""
+
+
+def run(*arguments: object, **options: object) -> subprocess.CompletedProcess:
+    return subprocess.run([str(a) for a in arguments], capture_output=True, text=True, timeout=300, env=ENVIRONMENT, **options)
+
+
+def recording(page: Path) -> dict:
+    return json.loads(re.search(r'id="recording">(.*?)</script>', page.read_text(), re.S).group(1))
+
+
+def viewer_states(trace: Path, positions: list[int]) -> list[dict]:
+    """What the viewer shows after so many events."""
+    states = []
+    script, report = WORK / "seek.lua", WORK / "state.json"
+    for position in positions:
+        script.write_text(f"seek({position})\n")
+        done = run(VIEWER, "--script", script, "--report", report, trace)
+        if done.returncode != 0:
+            raise RuntimeError(done.stderr)
+        states.append(json.loads(report.read_text()))
+    return states
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        done = run(TETMEND, "lesson", "--html", "-o", WORK / "lessons")
+        assert done.returncode == 0, done.stderr
+        cls.desk = browser.Browser(1920, 1080)
+        cls.desk.command("Emulation.setDeviceMetricsOverride", width=1920, height=1080, deviceScaleFactor=1, mobile=False)
+        cls.desk.command("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+
+    @classmethod
+    def tearDownClass(cls) -> None:
+        cls.desk.close()
+
+    def quiet(self, window: browser.Browser, where: str) -> None:
+        said = [line for line in window.complaints() if not OF_THE_BROWSER.search(line)]
+        self.assertEqual(said, [], where)
+
+    def walk(self, window: browser.Browser, page: Path) -> list[dict]:
+        window.complaints()
+        window.requests()
+        window.open(page.as_uri())
+        facts = [window.run(WALK, n) for n in range(window.run("return steps.length"))]
+        self.quiet(window, page.name)
+        self.assertEqual([url for url in window.requests() if not url.startswith(("file:", "data:", "chrome"))], [], page.name)
+        for fact in facts:
+            where = f"{page.name}, step {fact['position']}"
+            self.assertEqual(fact["cut"], [], where)
+            self.assertEqual(fact["hash"], f"#step={fact['position']}", where)
+            if fact["shown"]:
+                self.assertGreater(fact["painted"], 0.01, where)
+            for cell in fact.get("cells", []):
+                self.assertEqual(cell["cut"], [], f"{where}, {cell['text']}")
+                self.assertRegex(cell["text"], r"^Cell \d+ of \d+, pocket from \d+ to \d+: ")
+            self.assertEqual([c["empty"] for c in fact.get("cells", [])], list(range(len(fact.get("cells", [])) - 1, -1, -1)), where)
+        return facts
+
+    def test_the_index_leads_to_a_page_of_each_lesson(self) -> None:
+        index = (WORK / "lessons" / "index.html").read_text()
+        self.assertEqual(re.findall(r'href="([^"]+)"', index), [f"{name}.html" for name in NAMES])
+        for name in NAMES:
+            page = WORK / "lessons" / f"{name}.html"
+            self.assertLess(page.stat().st_size, 1_000_000)
+            self.assertIn(json.loads((LESSONS / f"{name}.json").read_text())["title"], page.read_text())
+
+    def test_each_step_of_each_lesson_is_whole_and_shows_what_the_viewer_shows(self) -> None:
+        for name in NAMES:
+            with self.subTest(lesson=name):
+                lesson = json.loads((LESSONS / f"{name}.json").read_text())
+                facts = self.walk(self.desk, WORK / "lessons" / f"{name}.html")
+                positions = [fact["position"] for fact in facts]
+                self.assertEqual(positions, list(range(len(facts))))
+                for fact in facts:
+                    text = [step["text"] for step in lesson["steps"] if step["at"] <= fact["position"]][-1]
+                    self.assertEqual(fact["lesson"], text)
+                if VIEWER is None:
+                    continue
+                for fact, state in zip(facts, viewer_states(LESSONS / f"{name}.trace", positions), strict=True):
+                    self.compare(fact, state, f"{name}, step {fact['position']}")
+
+    def compare(self, fact: dict, state: dict, where: str) -> None:
+        trace = state["trace"]
+        self.assertEqual(fact["event"], trace["event"], where)
+        self.assertEqual(fact["shown"], state["shown"], where)
+        stack = trace["stack"]
+        self.assertEqual(len(fact["crumbs"]), len(stack), where)
+        rows = {row[0]: row for row in fact["tree"]}
+        for crumb, call in zip(fact["crumbs"], stack, strict=True):
+            target = [str(v) for v in call["target"]]  # behind the name, which may have numbers
+            self.assertEqual(re.findall(r"\d+", crumb)[-len(target):], target, where)
+            before, after = call["degree_before"], call["degree_after"]
+            self.assertEqual(rows[call["number"]][2], f"{before}" if before == after else f"{before} -> {after}", where)
+        if not stack:
+            self.assertEqual(fact["verdict"], "", where)
+            self.assertEqual(fact["lines"], [trace["pass_line"]] if trace["pass_line"] else [], where)
+            return
+        here = stack[-1]
+        self.assertEqual(fact["verdict"], here["verdict"], where)
+        self.assertEqual(fact["lines"], [here["line"]] if here["line"] else [], where)
+        caller = stack[-2]["line"] if len(stack) > 1 else trace["pass_line"]
+        self.assertEqual(re.findall(r"^called from line (\d+) of", fact["caller"]), [str(caller)] if caller else [], where)
+        self.assertEqual(fact["reason"], "" if here["verdict"] == "under way" else trace["reason"], where)
+        self.assertEqual("caption" in fact, "caption" in trace, where)
+        if "caption" in trace:
+            self.compare_shell(fact, trace, where)
+
+    def compare_shell(self, fact: dict, trace: dict, where: str) -> None:
+        shell = trace["shell"]
+        self.assertEqual(fact["caption"], trace["caption"], where)
+        self.assertEqual(fact["corners"], shell["ring"], where)
+
+        def told(quality: float) -> str:
+            return "none" if quality <= 0 else f"{quality:.4f}, better" if quality > shell["floor"] else f"{quality:.4f}"
+
+        if shell["chords"]:
+            self.assertEqual(fact["chords"], [[f"{c['from']} - {c['to']}", told(c["on"]), told(c["back"])] for c in shell["chords"]], where)
+        if fact["caption"].startswith(("made", "tried")):
+            covering = shell["covering"]
+            core = covering["core"] if len(covering["core"]) >= 3 else []
+            numbers = [f"{part['quality']:.3f}" for part in core + covering["triangles"]]
+            self.assertEqual(sorted(fact["numbers"]), sorted(numbers), where)
+            self.assertEqual(fact["chordsDrawn"], 0, where)
+        else:
+            self.assertEqual(fact["chordsDrawn"], len(shell["chords"]), where)
+        if "tables" not in fact:
+            return
+        ring = shell["ring"]
+        for cell, text in fact["tables"][0].items():
+            i, j = (int(n) for n in cell.split(","))
+            entry = shell["tables"].get(f"{ring[i]} {ring[j]}")
+            if i != j and j != (i + 1) % len(ring):
+                self.assertEqual(text, f"{entry['q']:.3f}" if entry else "none", f"{where}, M_q {cell}")
+                self.assertEqual(fact["tables"][1][cell], str(entry["k"]) if entry else "\u2013", f"{where}, M_k {cell}")
+
+    def test_pages_are_whole_on_a_phone_in_the_dark_and_on_the_largest_screen(self) -> None:
+        for width, height, dark in ((390, 844, False), (390, 844, True), (3840, 2160, True), (1280, 720, False)):
+            window = browser.Browser(width, height, dark)
+            try:
+                if width >= 500:
+                    window.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+                for name in ("2-two-shells", "4-tables"):
+                    with self.subTest(page=name, width=width):
+                        self.walk(window, WORK / "lessons" / f"{name}.html")
+                        self.assertEqual(window.run("return document.documentElement.dataset.theme"), "dark" if dark else "light")
+            finally:
+                window.close()
+
+    def test_keys_buttons_and_links_lead_where_the_debugger_leads(self) -> None:
+        page = WORK / "lessons" / "2-two-shells.html"
+        self.desk.open(page.as_uri() + "#step=4.2")
+
+        def place() -> str:
+            return self.desk.run("return location.hash")
+
+        def press(key: str) -> str:
+            self.desk.run("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true}))", key)
+            return place()
+
+        self.assertEqual(place(), "#step=4.2")
+        self.assertEqual(press("ArrowLeft"), "#step=4.1")
+        self.assertEqual(press("ArrowUp"), "#step=4")
+        self.assertEqual(press("ArrowDown"), "#step=5")
+        self.assertEqual(press("PageDown"), "#step=7")
+        self.assertEqual(press("ArrowDown"), "#step=13")   # over the recursion
+        self.assertEqual(press("ArrowUp"), "#step=7")
+        self.assertEqual(press("PageUp"), "#step=1")
+        self.assertEqual(press("ArrowRight"), "#step=2")
+        self.assertEqual(press("ArrowDown"), "#step=3")
+        self.assertEqual(press("End"), "#step=19")
+        self.assertEqual(press("b"), "#step=18")
+        self.assertEqual(press("Home"), "#step=0")
+        self.assertEqual(press("n"), "#step=2")
+        for step, leads_to in (("over", "#step=3"), ("back-over", "#step=2"), ("into", "#step=3"), ("out", "#step=18"), ("back-into", "#step=17")):
+            self.desk.run("document.querySelector(`[data-step=${arguments[0]}]`).click()", step)
+            self.assertEqual(place(), leads_to, step)
+        self.desk.run("document.querySelector('#tree tr[data-call=\"2\"] button.row').click()")
+        self.assertEqual(place(), "#step=8", "a row of the tree")
+        self.desk.open("about:blank")
+        self.desk.open(page.as_uri() + "#step=9.3")
+        self.assertEqual(self.desk.run("return [document.body.dataset.position, document.body.dataset.cell]"), ["9", "3"])
+        self.quiet(self.desk, "keys")
+
+    def test_a_page_of_a_true_run_is_small_and_whole(self) -> None:
+        trace, page = WORK / "run.trace", WORK / "call.html"
+        done = run(TETMEND, "improve", SOURCE / "assets/meshes/sheet.mesh", "-o", WORK / "out.mesh", "-q", "--trace", trace)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = run(TETMEND, "trace", trace).stdout
+        call = re.search(r"(\d+)", summary[summary.index("argest"):]).group(1)
+        done = run(TETMEND, "trace", trace, "--html", call, "-o", page)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(page.stat().st_size, 1_000_000)
+        facts = self.walk(self.desk, page)
+        self.assertGreater(len(facts), 10)
+        if VIEWER is None:
+            return
+        some = facts[1::max(1, len(facts) // 12)]
+        for fact, state in zip(some, viewer_states(trace, [fact["position"] for fact in some]), strict=True):
+            self.compare(fact, state, f"call {call}, step {fact['position']}")
+
+    def test_print_has_a_picture(self) -> None:
+        self.desk.open((WORK / "lessons" / "2-two-shells.html").as_uri() + "#step=7")
+        pdf = self.desk.printed()
+        self.assertTrue(pdf.startswith(b"%PDF"))
+        self.assertGreater(len(pdf), 20_000)
+        self.desk.command("Emulation.setEmulatedMedia", media="print", features=[])
+        try:
+            seen = self.desk.run("""const svg = document.getElementById("flat").getBoundingClientRect();
+                return [svg.width, svg.height, document.querySelectorAll("#flat polygon").length, document.getElementById("canvas").getClientRects().length]""")
+        finally:
+            self.desk.command("Emulation.setEmulatedMedia", media="", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+        self.assertGreater(min(seen[0], seen[1]), 100)
+        self.assertGreaterEqual(seen[2], 20)
+        self.assertEqual(seen[3], 0)
+
+    def test_names_of_a_stranger_are_texts(self) -> None:
+        folder = WORK / "hostile"
+        folder.mkdir(exist_ok=True)
+        mesh, schedule = folder / f"{HOSTILE}.mesh", folder / f"{HOSTILE}.lua"
+        shutil.copy(SOURCE / "assets" / "meshes" / "sheet.mesh", mesh)
+        schedule.write_text("local_reconnection{}")
+        done = run(TETMEND, "improve", mesh, "-o", folder / "out.mesh", "--schedule", schedule, "--trace", folder / "bad.trace", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = run(TETMEND, "trace", folder / "bad.trace", "--html", "0", "-o", folder / "bad.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.desk.complaints()
+        self.desk.open((folder / "bad.html").as_uri())
+        title, images, text = self.desk.run("return [document.title, document.images.length, document.body.innerText]")
+        self.assertIn("Call 0", title)
+        self.assertEqual(images, 0)
+        self.assertIn(f"{HOSTILE}.mesh", text)
+        self.assertIn(f"{HOSTILE}.lua", text)
+        self.quiet(self.desk, "hostile")
+
+
+if __name__ == "__main__":
+    if not browser.is_installed():
+        print("pages_test: no chromium or chromedriver: skipped")
+        sys.exit(SKIPPED)
+    shutil.rmtree(WORK, ignore_errors=True)
+    WORK.mkdir(parents=True)
+    unittest.main(argv=[sys.argv[0], *sys.argv[5:]])

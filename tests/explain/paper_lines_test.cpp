@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "explain/paper_lines.h"
+
+#include <doctest/doctest.h>
+
+#include "explain/stepper.h"
+#include "tests/support/example_traces.h"
+
+using namespace tetmend;
+using namespace tetmend::explain;
+
+namespace {
+
+struct Line {
+  const test::HandmadeTrace trace;
+  const TraceFile file{trace.path()};
+
+  /// Lines of the calls on the stack, outermost first.
+  std::vector<unsigned> at(std::uint64_t position) const {
+    const auto stack = call_stack(file, position);
+    std::vector<unsigned> lines;
+    for (std::size_t i = 0; i < stack.size(); ++i) {
+      lines.push_back(code_place(file, stack, i, position).line);
+    }
+    return lines;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a recursion goes through the lines of Algorithm 4, its transformations of Algorithm 3") {
+  const Line line;
+  using Lines = std::vector<unsigned>;
+  CHECK(line.at(3) == Lines{1});
+  CHECK(line.at(4) == Lines{3, 1});
+  CHECK(line.at(5) == Lines{3, 6});
+  CHECK(line.at(6) == Lines{4, 7});
+  CHECK(line.at(7) == Lines{12, 1});
+  CHECK(line.at(8) == Lines{13, 7});
+  CHECK(line.at(9) == Lines{15});
+  const auto stack = call_stack(line.file, 5);
+  CHECK(code_place(line.file, stack, 0, 5).code == &recursion_code());
+  CHECK(code_place(line.file, stack, 1, 5).code == &shell_transformation_code());
+}
+
+TEST_CASE("an accepted transformation ends on the line that replaces the tets") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  unsigned seen = 0;
+  for (std::size_t k = 0; k < file.calls().size() && seen < 5; ++k) {
+    const Call& call = file.calls()[k];
+    const bool is_made = call.algorithm == Algorithm::shell_transformation && call.accepted();
+    if (!is_made && k % 50 != 0) continue;
+    const auto stack = call_stack(file, call.events.end);
+    const CodePlace place = code_place(file, stack, stack.size() - 1, call.events.end);
+    if (is_made) {
+      CHECK(place.line == 8);
+      ++seen;
+    }
+    if (call.algorithm == Algorithm::other) CHECK(place.code == nullptr);
+    if (call.algorithm == Algorithm::smoothing) {
+      REQUIRE(place.code != nullptr);
+      CHECK(place.line == (call.accepted() ? 7U : call.candidate_found ? 6U : 5U));
+    }
+  }
+  CHECK(seen > 0);
+}
+
+TEST_CASE("a transformation that is undone goes from its covering back to the comparison") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  EventCursor cursor(file);
+  unsigned seen = 0;
+  for (const Call& call : file.calls()) {
+    if (call.algorithm != Algorithm::shell_transformation || call.accepted()) continue;
+    if (!call.candidate_found) {
+      const auto stack = call_stack(file, call.events.end);
+      const bool searched = call.verdict == Verdict::no_improvement;
+      CHECK(code_place(file, stack, stack.size() - 1, call.events.end).line == (searched ? 4 : 7));
+      continue;
+    }
+    ++seen;
+    cursor.move_to(call.events.begin);
+    while (cursor.position() < call.events.end) {
+      const EventKind kind = cursor.next().kind;
+      const auto stack = call_stack(file, cursor.position());
+      const unsigned line = code_place(file, stack, stack.size() - 1, cursor.position()).line;
+      if (kind == EventKind::attempt_begins) CHECK(line == 1);
+      if (kind == EventKind::candidate_found) CHECK(line == 6);
+      if (kind == EventKind::replace_cavity) CHECK(line == 8);
+      if (kind == EventKind::undo || kind == EventKind::attempt_ends) CHECK(line == 7);
+    }
+  }
+  CHECK(seen > 0);
+}
+
+TEST_CASE("the algorithms have as many lines as in the paper") {
+  CHECK(shell_transformation_code().lines.size() == 8);
+  CHECK(recursion_code().lines.size() == 15);
+}

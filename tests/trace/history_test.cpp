@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// What a trace answers about a tet, an edge or a vertex.
+#include "trace/history.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "tests/kernel/formats/fixtures.h"
+#include "tests/support/traced_run.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// A recorded run, and what it wrote.
+struct Recorded {
+  explicit Recorded(const std::string& name = "sheet.mesh") : mesh(asset_mesh(name)) {
+    record(mesh, path);
+    write_mesh(after, mesh.to_data());
+  }
+
+  TempFolder folder;
+  TetMesh mesh;
+  std::filesystem::path before =
+      std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes/sheet.mesh";
+  std::filesystem::path after = folder / "after.mesh";
+  std::filesystem::path path = folder / "run.trace";
+};
+
+bool is_there(const SlotMesh& mesh, const HistorySubject& subject) {
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_deleted(t)) continue;
+    const TetVertices& tet = mesh.vertices(t);
+    const auto is_corner = [&](VertexHandle v) {
+      return std::count(tet.begin(), tet.end(), v) > 0;
+    };
+    if (std::all_of(subject.begin(), subject.end(), is_corner)) return true;
+  }
+  return false;
+}
+
+std::string refusal(const TraceFile& file, const std::string& text) {
+  Replay replay(file, 0);
+  try {
+    history_of(file, replay, find_subject(file, replay, text));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a tet of the mesh that a run wrote is found in its trace, with what made it") {
+  const Recorded run;
+  const TraceFile file(run.path);
+  Replay replay(file);
+  const MeshData after = read_mesh(run.after);
+  unsigned made = 0;
+  for (std::size_t t = 1; t <= after.tets.size(); t += 97) {
+    CAPTURE(t);
+    const std::string name = fmt::format("tet:{}@{}", t, run.after.string());
+    const HistorySubject subject = find_subject(file, replay, name);
+    const History history = history_of(file, replay, subject);
+    CHECK(!history.removed);
+    CHECK(history.parts.size() == 15);
+    const auto [least, most] = std::minmax_element(history.angles.begin(), history.angles.end());
+    CHECK(*least > 0);
+    CHECK(*most < 180);
+    replay.seek(history.made);
+    CHECK(is_there(replay.mesh(), subject) == history.from_beginning);
+    replay.seek(file.event_count());
+    CHECK(is_there(replay.mesh(), subject));
+    if (history.from_beginning) continue;
+    ++made;
+    replay.seek(history.made + 1);
+    CHECK(is_there(replay.mesh(), subject));
+    REQUIRE(history.made_by != kNoCall);
+    CHECK(file.calls()[history.made_by].accepted());
+    for (const HistoryCall& each : history.calls) {
+      CHECK(file.calls()[each.call].events.begin >= history.made);
+    }
+  }
+  CHECK(made > 5);
+}
+
+TEST_CASE("a tet that a run removed is found by its file, with the call that removed it") {
+  const Recorded run;
+  const TraceFile file(run.path);
+  Replay replay(file);
+  unsigned removed = 0;
+  const std::size_t tets = read_mesh(run.before).tets.size();
+  for (std::size_t t = 1; t <= tets; t += 61) {
+    const auto subject =
+        find_subject(file, replay, fmt::format("tet:{}@{}", t, run.before.string()));
+    const History history = history_of(file, replay, subject);
+    if (!history.from_beginning || !history.removed) continue;
+    ++removed;
+    replay.seek(*history.removed);
+    CHECK(is_there(replay.mesh(), subject));
+    replay.seek(*history.removed + 1);
+    CHECK(!is_there(replay.mesh(), subject));
+    replay.seek(file.event_count());
+    CHECK(!is_there(replay.mesh(), subject));
+    CHECK(history_text(file, history).find("was removed by call") != std::string::npos);
+  }
+  CHECK(removed > 5);
+}
+
+TEST_CASE("calls in trials are told apart from those that worked on the mesh that stayed") {
+  const Recorded run("folded_sheet.mesh");
+  const TraceFile file(run.path);
+  Replay replay(file);
+  // Of a refused outermost call all edits are undone: what it calls while one stands is a trial.
+  std::vector<int> open_edits(file.calls().size(), 0);
+  EventCursor cursor(file);
+  int edits = 0;
+  std::uint32_t next = 0;
+  for (std::uint64_t k = 0; k < file.event_count(); ++k) {
+    const EventKind kind = cursor.next().kind;
+    if (kind == EventKind::attempt_begins) {
+      if (file.calls()[next].depth == 0) edits = 0;
+      open_edits[next++] = edits;
+    }
+    if (kind == EventKind::undo) {
+      --edits;
+    } else if (changes_mesh(kind)) {
+      ++edits;
+    }
+  }
+  unsigned trials = 0;
+  unsigned others = 0;
+  replay.seek(file.event_count());
+  std::vector<std::pair<Quality, std::uint32_t>> worst;
+  for (std::uint32_t i = 0; i < replay.mesh().tet_slots(); ++i) {
+    if (replay.mesh().is_deleted(TetHandle(i))) continue;
+    worst.emplace_back(replay.mesh().quality(TetHandle(i)), i);
+  }
+  std::sort(worst.begin(), worst.end());
+  worst.resize(10);
+  for (const auto& [quality, tet] : worst) {
+    const auto subject = find_subject(file, replay, fmt::format("tet:{}", tet));
+    for (const HistoryCall& each : history_of(file, replay, subject).calls) {
+      std::uint32_t root = each.call;
+      while (file.calls()[root].parent != kNoCall) root = file.calls()[root].parent;
+      if (root == each.call) CHECK(!each.in_trial);
+      if (file.calls()[root].accepted()) continue;
+      CHECK(each.in_trial == (open_edits[each.call] > 0));
+      each.in_trial ? ++trials : ++others;
+    }
+  }
+  CHECK(others > 0);
+  CHECK(trials > 0);
+}
+
+TEST_CASE("the worst tet, an edge and a vertex are asked for by numbers of the trace") {
+  const Recorded run;
+  const TraceFile file(run.path);
+  Replay replay(file);
+  const HistorySubject worst = find_subject(file, replay, "tet:worst");
+  REQUIRE(worst.size() == 4);
+  const History of_worst = history_of(file, replay, worst);
+  replay.seek(file.event_count());
+  for (std::uint32_t i = 0; i < replay.mesh().tet_slots(); ++i) {
+    if (replay.mesh().is_deleted(TetHandle(i))) continue;
+    CHECK(replay.mesh().quality(TetHandle(i)) >= of_worst.quality);
+  }
+  const auto edge = fmt::format("edge:{},{}", worst[2].index(), worst[0].index());
+  const History of_edge = history_of(file, replay, find_subject(file, replay, edge));
+  CHECK(of_edge.subject == HistorySubject{worst[0], worst[2]});
+  CHECK(!of_edge.removed);
+  for (const HistoryCall& each : of_edge.calls) CHECK(file.calls()[each.call].target_size <= 2);
+  const auto vertex = fmt::format("vertex:{}", worst[1].index());
+  CHECK(history_of(file, replay, find_subject(file, replay, vertex)).parts.size() == 1);
+}
+
+TEST_CASE("questions that name nothing are refused with a reason") {
+  const Recorded run;
+  const TraceFile file(run.path);
+  for (const char* text :
+       {"", "tet", "tet:", "tet:x", "tet:1,2", "tet:1,2,3,3", "edge:4", "edge:4,4", "vertex:1,2",
+        "ball:3", "tet:worst@a.mesh", "tet:3@", "edge:1;2"}) {
+    CAPTURE(text);
+    CHECK(refusal(file, text).find("names nothing in a trace: expected tet:N") !=
+          std::string::npos);
+  }
+  CHECK(refusal(file, "tet:99999999").starts_with("there is no tet 99999999 when the trace ends"));
+  CHECK(refusal(file, "edge:99999998,99999999").find("nothing of the kind") != std::string::npos);
+  CHECK(refusal(file, "tet:0@" + run.after.string()).find("has no tet 0") != std::string::npos);
+  CHECK(refusal(file, "tet:1@/nowhere.mesh").find("/nowhere.mesh") != std::string::npos);
+  const TempFolder other;
+  write_mesh(other / "far.mesh",
+             MeshData{.points = {{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1, 0}, {1e9, 0, 1}},
+                      .tets = {{{0, 1, 2, 3}, 0}}});
+  CHECK(
+      refusal(file, "tet:1@" + (other / "far.mesh").string()).find("no vertices at these places") !=
+      std::string::npos);
+}

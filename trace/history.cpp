@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "trace/history.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+
+namespace tetmend {
+
+namespace {
+
+bool has_all(const TetVertices& tet, const HistorySubject& part) {
+  return std::all_of(part.begin(), part.end(), [&](VertexHandle v) {
+    return std::find(tet.begin(), tet.end(), v) != tet.end();
+  });
+}
+
+int count(std::span<const CavityTet> tets, const HistorySubject& subject) {
+  return static_cast<int>(std::count_if(tets.begin(), tets.end(), [&](const CavityTet& tet) {
+    return has_all(tet.vertices, subject);
+  }));
+}
+
+/// Goes through a trace and finds the edits of the subject that lasted, and when mesh was on trial.
+class Follower {
+ public:
+  Follower(const TraceFile& file, Replay& replay, const HistorySubject& subject)
+      : file_(file), replay_(replay), subject_(subject) {}
+
+  void run() {
+    replay_.seek(0);
+    const SlotMesh& mesh = replay_.mesh();
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      const TetHandle t(i);
+      at_beginning_ += !mesh.is_deleted(t) && has_all(mesh.vertices(t), subject_) ? 1 : 0;
+    }
+    EventCursor cursor(file_);
+    for (std::uint64_t k = 0; k < file_.event_count(); ++k) {
+      // Nothing is undone across the border of a chunk.
+      const auto begins = file_.chunk_begins();
+      if (std::binary_search(begins.begin(), begins.end(), k)) keep_lasting();
+      const EventKind kind = cursor.next().kind;
+      if (kind == EventKind::undo) {
+        undo(k);
+      } else if (changes_mesh(kind)) {
+        replay_.seek(k + 1);
+        const Cavity cavity = replay_.cavity();
+        open_.push_back({k, count(cavity.created, subject_) - count(cavity.removed, subject_),
+                         kind == EventKind::move_vertex && moves(cavity)});
+      }
+    }
+    keep_lasting();
+  }
+
+  struct Edit {
+    std::uint64_t event;
+    int change;  // of the number of tets with the subject
+    bool moves;  // a vertex of the subject
+  };
+  int at_beginning() const { return at_beginning_; }
+  const std::vector<Edit>& lasting() const { return lasting_; }
+
+  /// The mesh before the event was undone later.
+  bool is_in_trial(std::uint64_t event) const {
+    const auto after =
+        std::upper_bound(trials_.begin(), trials_.end(), event,
+                         [](std::uint64_t e, const std::pair<std::uint64_t, std::uint64_t>& trial) {
+                           return e < trial.first;
+                         });
+    return after != trials_.begin() && event < (after - 1)->second;
+  }
+
+ private:
+  /// What lies inside is part of this trial.
+  void undo(std::uint64_t event) {
+    const std::uint64_t begin = open_.back().event;
+    open_.pop_back();
+    while (!trials_.empty() && trials_.back().first > begin) trials_.pop_back();
+    trials_.emplace_back(begin, event);
+  }
+  void keep_lasting() {
+    std::copy_if(open_.begin(), open_.end(), std::back_inserter(lasting_),
+                 [](const Edit& edit) { return edit.change != 0 || edit.moves; });
+    open_.clear();
+  }
+  bool moves(const Cavity& cavity) const {
+    return std::any_of(cavity.vertices.begin(), cavity.vertices.end(), [&](const auto& change) {
+      return std::find(subject_.begin(), subject_.end(), change.vertex) != subject_.end();
+    });
+  }
+
+  const TraceFile& file_;
+  Replay& replay_;
+  const HistorySubject& subject_;
+  int at_beginning_ = 0;
+  std::vector<Edit> open_, lasting_;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> trials_;  // from an edit to its undo
+};
+
+/// The last time that the subject was there for good.
+void find_life(const Follower& follower, History& history) {
+  int tets = follower.at_beginning();
+  bool was_there = tets > 0;
+  history.from_beginning = was_there;
+  for (const Follower::Edit& edit : follower.lasting()) {
+    const int before = tets;
+    tets += edit.change;
+    if (before == 0 && tets > 0) {
+      history.made = edit.event;
+      history.from_beginning = false;
+      history.removed.reset();
+      history.moves = 0;
+      was_there = true;
+    } else if (before > 0 && tets == 0) {
+      history.removed = edit.event;
+    }
+    history.moves += tets > 0 && edit.moves ? 1 : 0;
+  }
+  if (!was_there) throw Error("nothing of the kind was in the mesh for good");
+}
+
+/// All vertices, edges, faces of the subject, and itself.
+std::vector<PartHistory> parts_of(const HistorySubject& subject) {
+  std::vector<PartHistory> parts;
+  for (unsigned chosen = 1; chosen < 1u << subject.size(); ++chosen) {
+    PartHistory& part = parts.emplace_back();
+    for (std::size_t i = 0; i < subject.size(); ++i) {
+      if ((chosen >> i & 1) != 0) part.part.push_back(subject[i]);
+    }
+  }
+  std::stable_sort(parts.begin(), parts.end(), [](const PartHistory& a, const PartHistory& b) {
+    return a.part.size() > b.part.size();
+  });
+  return parts;
+}
+
+/// Faces that one tet has are on the surface, and what they are made of.
+void find_surface(const SlotMesh& mesh, std::vector<PartHistory>& parts) {
+  const HistorySubject vertices = parts.front().part;
+  std::map<HistorySubject, int> faces;
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_deleted(t)) continue;
+    const TetVertices& tet = mesh.vertices(t);
+    const bool is_near = std::any_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
+      return std::find(tet.begin(), tet.end(), v) != tet.end();
+    });
+    for (std::size_t f = 0; is_near && f < 4; ++f) {
+      HistorySubject face;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (k != f) face.push_back(tet[k]);
+      }
+      std::sort(face.begin(), face.end());
+      ++faces[face];
+    }
+  }
+  for (const auto& [face, tets] : faces) {
+    if (tets != 1) continue;
+    for (PartHistory& part : parts) {
+      part.on_surface = part.on_surface ||
+                        (part.part.size() < 4 && std::includes(face.begin(), face.end(),
+                                                               part.part.begin(), part.part.end()));
+    }
+  }
+}
+
+HistorySubject sorted_target(const Call& call) {
+  HistorySubject target(call.target().begin(), call.target().end());
+  std::sort(target.begin(), target.end());
+  return target;
+}
+
+/// How much was missing; infinite where nothing was tried.
+double missing(const Call& call) {
+  const bool is_known = call.verdict && (call.worst_before != 0 || call.worst_after != 0);
+  return is_known ? double{call.worst_before} - double{call.worst_after}
+                  : std::numeric_limits<double>::infinity();
+}
+
+void add_call(const TraceFile& file, const HistoryCall& each, PartHistory& part) {
+  if (each.in_trial) {
+    ++part.in_trials;
+    return;
+  }
+  const Call& call = file.calls()[each.call];
+  ++part.calls;
+  part.accepted += call.accepted() ? 1 : 0;
+  if (part.nearest == kNoCall) {
+    part.nearest = each.call;
+    return;
+  }
+  const Call& best = file.calls()[part.nearest];
+  const bool is_refused = !call.accepted();
+  if (is_refused && (best.accepted() || missing(call) <= missing(best))) part.nearest = each.call;
+}
+
+void find_calls(const TraceFile& file, const Follower& follower, History& history) {
+  const std::uint64_t end = history.removed ? *history.removed + 1 : file.event_count();
+  std::map<HistorySubject, PartHistory*> by_part;
+  for (PartHistory& part : history.parts) by_part[part.part] = &part;
+  for (std::uint32_t c = 0; c < file.calls().size(); ++c) {
+    const Call& call = file.calls()[c];
+    if (call.events.begin < history.made || call.events.begin >= end) continue;
+    const auto part = by_part.find(sorted_target(call));
+    if (part == by_part.end()) continue;
+    history.calls.push_back({c, follower.is_in_trial(call.events.begin)});
+    add_call(file, history.calls.back(), *part->second);
+  }
+  if (history.subject.size() < 4) return;
+  for (std::uint32_t v = 0; v < file.visits().size(); ++v) {
+    const Visit& visit = file.visits()[v];
+    const bool is_then = visit.events.begin >= history.made && visit.events.begin < end;
+    if (is_then && has_all(visit.tet, history.subject)) history.visits.push_back(v);
+  }
+}
+
+void measure_tet(const SlotMesh& mesh, History& history) {
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_deleted(t) || !has_all(mesh.vertices(t), history.subject)) continue;
+    const TetVertices& tet = mesh.vertices(t);
+    history.quality = mesh.quality(t);
+    history.angles = dihedral_angles(mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]),
+                                     mesh.point(tet[3]));
+  }
+}
+
+}  // namespace
+
+History history_of(const TraceFile& file, Replay& replay, const HistorySubject& subject) {
+  Follower follower(file, replay, subject);
+  follower.run();
+  History history;
+  history.subject = subject;
+  find_life(follower, history);
+  if (!history.from_beginning) history.made_by = file.call_at(history.made);
+  if (history.removed) history.removed_by = file.call_at(*history.removed);
+  replay.seek(history.removed ? *history.removed : file.event_count());
+  history.parts = parts_of(subject);
+  find_surface(replay.mesh(), history.parts);
+  if (subject.size() == 4) measure_tet(replay.mesh(), history);
+  find_calls(file, follower, history);
+  return history;
+}
+
+}  // namespace tetmend

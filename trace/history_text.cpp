@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// A history in words.
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "trace/history.h"
+
+namespace tetmend {
+
+namespace {
+
+std::string name_of(const HistorySubject& part) {
+  constexpr std::array<std::string_view, 5> kKinds = {"", "vertex", "edge", "face", "tet"};
+  std::string text(kKinds[part.size()]);
+  for (const VertexHandle v : part) text += fmt::format(" {}", v.index());
+  return text;
+}
+
+class Teller {
+ public:
+  Teller(const TraceFile& file, const History& history) : file_(file), history_(history) {}
+
+  std::string tell() {
+    who();
+    origin();
+    aims();
+    answer();
+    text_ += "\n\n";
+    table();
+    calls();
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Values>
+  void say(fmt::format_string<Values...> text, Values&&... values) {
+    if (!text_.empty() && text_.back() != '\n') text_ += ' ';
+    fmt::format_to(std::back_inserter(text_), text, std::forward<Values>(values)...);
+  }
+
+  const PartHistory& whole() const { return history_.parts.front(); }
+  const Call& call(std::uint32_t number) const { return file_.calls()[number]; }
+
+  std::string operator_of(std::uint32_t number) const {
+    std::string name(file_.name(call(number).operator_name));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  }
+  std::string call_in_words(std::uint32_t number) const {
+    const auto target = call(number).target();
+    return fmt::format("call {} ({} of {})", number, operator_of(number),
+                       name_of({target.begin(), target.end()}));
+  }
+  std::string pass_of(std::uint64_t event) const {
+    for (const TracedPass& pass : file_.passes()) {
+      if (event >= pass.events.begin && event < pass.events.end) {
+        return fmt::format(" in pass {}, round {}", file_.name(pass.name), pass.round);
+      }
+    }
+    return {};
+  }
+
+  void who() {
+    std::string what = name_of(history_.subject);
+    what[0] = 'T';
+    if (history_.subject.size() < 4) {
+      say("{}{}.", static_cast<char>(std::toupper(name_of(history_.subject)[0])),
+          name_of(history_.subject).substr(1));
+      return;
+    }
+    const auto [least, most] = std::minmax_element(history_.angles.begin(), history_.angles.end());
+    const bool is_inverted = history_.quality < 0;
+    say("{} has quality {:.4f}, {}, angles of {:.2f} to {:.2f} degrees.", what, history_.quality,
+        is_inverted                        ? "which is inverted"
+        : history_.quality < kBadThreshold ? "which misses the goal of 1"
+                                           : "which reaches the goal of 1",
+        *least, *most);
+  }
+
+  void origin() {
+    if (history_.from_beginning) {
+      say("It was there from the beginning");
+    } else if (history_.made_by == kNoCall) {
+      say("It came with event {}{}", history_.made, pass_of(history_.made));
+    } else {
+      say("It was made by {}{}", call_in_words(history_.made_by), pass_of(history_.made));
+    }
+    if (!history_.removed) {
+      text_ += ", and is there when the trace ends.";
+    } else if (history_.removed_by == kNoCall) {
+      text_ +=
+          fmt::format(", and went with event {}{}.", *history_.removed, pass_of(*history_.removed));
+    } else {
+      text_ += fmt::format(", and was removed by {}{}.", call_in_words(history_.removed_by),
+                           pass_of(*history_.removed));
+    }
+    if (history_.moves > 0) {
+      say("Its vertices were moved {} time{} for good.", history_.moves,
+          history_.moves == 1 ? "" : "s");
+    }
+  }
+
+  void aims() {
+    std::uint32_t lasting = 0;
+    std::uint32_t trials = 0;
+    std::map<std::string_view, std::uint32_t> verdicts;
+    for (const HistoryCall& each : history_.calls) {
+      if (each.in_trial) {
+        ++trials;
+        continue;
+      }
+      ++lasting;
+      ++verdicts[call(each.call).verdict_text()];
+    }
+    if (history_.subject.size() == 4) {
+      say("Passes wanted to get rid of it {} time{}.", history_.visits.size(),
+          history_.visits.size() == 1 ? "" : "s");
+    }
+    if (lasting + trials == 0) {
+      say("No call aimed at it or a part of it{}.",
+          file_.header().filter.empty() ? "" : ", but the trace does not hold all calls");
+      return;
+    }
+    say("{} call{} aimed at it or its parts", lasting, lasting == 1 ? "" : "s");
+    std::vector<std::string> words;
+    for (const auto& [verdict, number] : verdicts) {
+      words.push_back(fmt::format("{} {}", number, verdict));
+    }
+    if (!words.empty()) text_ += fmt::format(" ({})", fmt::join(words, ", "));
+    if (trials > 0) text_ += fmt::format(", {} more in trials that were undone", trials);
+    text_ += '.';
+  }
+
+  /// What came nearest, and why that was not enough.
+  void answer() {
+    if (history_.removed || history_.subject.size() < 4) return;
+    const PartHistory* nearest = nullptr;
+    for (const PartHistory& part : history_.parts) {
+      if (part.nearest == kNoCall || call(part.nearest).accepted()) continue;
+      if (nearest == nullptr || missing(part) < missing(*nearest)) nearest = &part;
+    }
+    if (nearest != nullptr && has_figures(call(nearest->nearest))) {
+      const Call& best = call(nearest->nearest);
+      say("Nearest came {}: its worst tet had quality {:.4f} and needed more than {:.4f}: {}.",
+          call_in_words(nearest->nearest), best.worst_after, best.worst_before, file_.reason(best));
+    } else if (nearest != nullptr) {
+      say("Nothing that could be built was found; the last answer, of {}: {}.",
+          call_in_words(nearest->nearest), file_.reason(call(nearest->nearest)));
+    }
+    const auto on_surface =
+        std::count_if(history_.parts.begin(), history_.parts.end(),
+                      [](const PartHistory& p) { return p.part.size() == 1 && p.on_surface; });
+    const auto fixed_edges =
+        std::count_if(history_.parts.begin(), history_.parts.end(),
+                      [](const PartHistory& p) { return p.part.size() == 2 && p.on_surface; });
+    if (on_surface > 0) {
+      say("{} of its 4 vertices and {} of its 6 edges lie on the surface, which stays.", on_surface,
+          fixed_edges);
+    }
+  }
+
+  static bool has_figures(const Call& call) {
+    return call.worst_before != 0 || call.worst_after != 0;
+  }
+  double missing(const PartHistory& part) const {
+    const Call& best = call(part.nearest);
+    return has_figures(best) ? double{best.worst_before} - double{best.worst_after} : 1e30;
+  }
+
+  void table() {
+    text_ +=
+        fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}  {}\n", "part", "where", "calls", "accepted",
+                    "trials", "nearest refused call, its worst tet and what it needed");
+    for (const PartHistory& part : history_.parts) {
+      const bool is_interesting = part.calls + part.in_trials > 0 || part.part.size() == 2;
+      if (!is_interesting && &part != &whole()) continue;
+      text_ += fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}", name_of(part.part),
+                           part.on_surface ? "surface" : "inside", part.calls, part.accepted,
+                           part.in_trials);
+      if (part.nearest != kNoCall && !call(part.nearest).accepted()) {
+        const Call& best = call(part.nearest);
+        text_ += fmt::format("  {}: {}", part.nearest, best.verdict_text());
+        if (has_figures(best)) {
+          text_ += fmt::format(", {:.4f} of {:.4f}", best.worst_after, best.worst_before);
+        }
+      }
+      text_ += '\n';
+    }
+  }
+
+  void calls() {
+    if (history_.calls.empty()) return;
+    text_ +=
+        fmt::format("\n{:>9}  {:<32} {:<28} {:<16}\n", "call", "operator", "target", "verdict");
+    for (const HistoryCall& each : history_.calls) {
+      const Call& c = call(each.call);
+      const auto target = c.target();
+      text_ += fmt::format("{:>9}  {:<32} {:<28} {:<16}", each.call, file_.name(c.operator_name),
+                           name_of({target.begin(), target.end()}), c.verdict_text());
+      if (has_figures(c)) text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
+      if (each.in_trial) text_ += "  in a trial that was undone";
+      text_ += '\n';
+    }
+  }
+
+  const TraceFile& file_;
+  const History& history_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string history_text(const TraceFile& file, const History& history) {
+  return Teller(file, history).tell();
+}
+
+}  // namespace tetmend
