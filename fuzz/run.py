@@ -103,16 +103,37 @@ def reason(text):
     return "see the log"
 
 
+SUMS = {"all readers": list(TARGETS)[:list(TARGETS).index("trace")],
+        "traces and lessons": ["trace", "trace_events", "lesson"],
+        "options and settings": ["options", "parameters"], "all": list(TARGETS)}
+# What the inputs of a row are called in docs/reliability.md, which quotes it.
+QUOTED = {"all readers": "files", "traces and lessons": "traces and lessons", "schedule": "scripts",
+          "options and settings": "inputs", "plugin": "descriptions"}
+
+
+def totals(rows, name):
+    """Processor hours, inputs and findings of a target or of a sum, as text."""
+    mine = [row for row in rows if row["target"] in SUMS.get(name, [name])]
+    hours = sum(row["processor_seconds"] for row in mine) / 3600
+    return f"{hours:.2f}", f"{sum(row['runs'] for row in mine):,}", str(sum(row["found"] for row in mine))
+
+
+def quote(rows, text):
+    """The text of docs/reliability.md, with the figures of today."""
+    for name, unit in QUOTED.items():
+        hours, runs, _ = totals(rows, name)
+        text, count = re.subn(rf"\[[\d,]+ {unit} in [\d.]+ processor hours\]",
+                              f"[{runs} {unit} in {hours} processor hours]", text)
+        if count != 1:
+            raise ValueError(f"docs/reliability.md quotes '{unit}' {count} times, not once")
+    return text
+
+
 def page(rows):
     """All runs so far as a document."""
     table = [["Target", "Bytes of", "Processor hours", "Inputs", "Findings"]]
-    readers = list(TARGETS)[:list(TARGETS).index("trace")]
-    sums = {"all readers": readers, "traces and lessons": ["trace", "trace_events", "lesson"],
-            "options and settings": ["options", "parameters"], "all": list(TARGETS)}
-    for target, what in [*TARGETS.items(), *((name, "") for name in sums)]:
-        mine = [row for row in rows if row["target"] in sums.get(target, [target])]
-        hours, runs = sum(row["processor_seconds"] for row in mine) / 3600, sum(row["runs"] for row in mine)
-        table.append([f"`{target}`" if what else target, what, f"{hours:.2f}", f"{runs:,}", str(sum(row["found"] for row in mine))])
+    for target, what in [*TARGETS.items(), *((name, "") for name in SUMS)]:
+        table.append([f"`{target}`" if what else target, what, *totals(rows, target)])
     commits = ", ".join(dict.fromkeys(row["commit"] for row in rows))
     return documents.document("Fuzzing", documents.stamp("script/fuzz --write docs/results/fuzzing.md"), [
         "All runs so far, of the commits " + commits + ". libFuzzer of clang 14, with its address and undefined-behaviour "
@@ -135,7 +156,11 @@ def main():
         history = options.write.with_suffix(".jsonl")
         with open(history, "a") as out:
             out.writelines(json.dumps(row) + "\n" for row in rows)
-        documents.write(options.write, page([json.loads(line) for line in history.read_text().splitlines()]))
+        rows_so_far = [json.loads(line) for line in history.read_text().splitlines()]
+        documents.write(options.write, page(rows_so_far))
+        reliability = SOURCE / "docs" / "reliability.md"
+        if options.write.resolve() == SOURCE / "docs" / "results" / "fuzzing.md":
+            reliability.write_text(quote(rows_so_far, reliability.read_text()))
     return 1 if any(row["found"] for row in rows) else 0
 
 
