@@ -182,8 +182,9 @@ trace cannot be written, the mesh is all the same, and the exit status is 1.
 
 Ctrl-C, SIGTERM, SIGUSR1, SIGXCPU and their like stop the work: OUT is still
 written, with the mesh as improved so far, and the exit status is 4. The second
-time, or while IN is read, they end the program at once, and nothing is written. A time limit stops the work likewise, with exit status 0. A mistake in a script ends
-it with exit status 1, and nothing is written.
+time, or while IN is read, they end the program at once, and nothing is written.
+A time limit stops the work likewise, with exit status 0. A mistake in a script
+ends it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
 then, and hands down owner and permissions. OUT may be IN; other files that are
 named must differ. The same input gives the same output, byte for byte.
