@@ -36,6 +36,20 @@ std::int32_t label(const MeshArrays& mesh, std::size_t t) {
   return mesh.tet_labels.empty() ? 0 : mesh.tet_labels[t];
 }
 
+/// Sorts, and removes two of each label as often as there are two.
+void drop_pairs(Sides& sides) {
+  std::ranges::sort(sides);
+  Sides left;
+  for (const std::int32_t side : sides) {
+    if (!left.empty() && left.back() == side) {
+      left.pop_back();
+    } else {
+      left.push_back(side);
+    }
+  }
+  sides = std::move(left);
+}
+
 /// Faces of one tet, and those between two labels.
 std::map<Triangle, Sides> walls(const MeshArrays& mesh) {
   std::map<Triangle, Sides> faces;
@@ -49,11 +63,10 @@ std::map<Triangle, Sides> walls(const MeshArrays& mesh) {
       faces[face].push_back(label(mesh, t));
     }
   }
-  std::erase_if(faces, [](const auto& entry) {
-    const Sides& sides = entry.second;
-    return sides.size() == 2 && sides[0] == sides[1];
-  });
-  for (auto& entry : faces) std::ranges::sort(entry.second);
+  // Vertices may share a place, and so do faces then: what has the same label on both sides counts
+  // for nothing, however many lie there.
+  for (auto& entry : faces) drop_pairs(entry.second);
+  std::erase_if(faces, [](const auto& entry) { return entry.second.empty(); });
   return faces;
 }
 
