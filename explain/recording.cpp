@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -113,7 +114,10 @@ class Interned {
   struct Tet {
     std::array<std::uint32_t, 4> points{};
     Quality quality = 0;
-    friend auto operator<=>(const Tet&, const Tet&) = default;
+    // libc++ has no <=> of arrays.
+    bool operator<(const Tet& other) const {
+      return std::tie(points, quality) < std::tie(other.points, other.quality);
+    }
   };
 
   static double rounded(double x) {

@@ -110,6 +110,7 @@ std::string deflate_block(std::string_view bytes) {
 
 struct GzipWriter::Stream {
   z_stream z{};
+  gz_header head{};
   std::array<char, std::size_t{1} << 16> out{};
 };
 
@@ -118,6 +119,9 @@ GzipWriter::GzipWriter(Sink sink) : sink_(std::move(sink)), stream_(std::make_un
   if (::deflateInit2(&stream_->z, 6, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK) {
     throw std::bad_alloc();
   }
+  constexpr int kUnix = 3;  // said on all systems: the same bytes
+  stream_->head.os = kUnix;
+  ::deflateSetHeader(&stream_->z, &stream_->head);
 }
 
 GzipWriter::~GzipWriter() {
