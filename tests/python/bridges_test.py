@@ -133,8 +133,13 @@ def test_gmsh_improves_the_volumes_that_are_named(boxes):
     assert result.before.n_bad > result.after.n_bad
     assert all(np.array_equal(then, now) for then, now in zip(right, boxes.model.mesh.getElementsByType(4, 2)))
     assert contents(boxes) == before
-    with pytest.raises(ValueError, match=r"tags\[1\]: there is no volume 7"):
+    with pytest.raises(ValueError, match=r"tags\[1\]: there is no volume 7: expected one of \[1, 2, 'left steel'"):
         tetmend.gmsh.improve(tags=[1, 7])
+    left = boxes.model.mesh.getElementsByType(4, 1)
+    for copper in (2, "right copper", [2, "right copper"]):
+        tetmend.gmsh.improve(tags=copper)
+        assert all(np.array_equal(then, now) for then, now in zip(left, boxes.model.mesh.getElementsByType(4, 1)))
+    assert not all(np.array_equal(then, now) for then, now in zip(right, boxes.model.mesh.getElementsByType(4, 2)))
 
 
 def test_gmsh_keeps_what_is_embedded(gmsh):
@@ -227,12 +232,18 @@ def test_meshio_files_of_gmsh_come_back_whole(tmp_path, boxes):
     import tetmend.meshio
     before = contents(boxes)
     boxes.write(str(tmp_path / "boxes.msh"))
-    better = tetmend.meshio.improve(meshio.read(tmp_path / "boxes.msh"), schedule="thorough")
+    mesh = meshio.read(tmp_path / "boxes.msh")
+    better = tetmend.meshio.improve(mesh, schedule="thorough")
     assert better.tetmend_result.after.n_bad == 0
+    # Not cells: signed tags of entities.
+    bounding = "gmsh:bounding_entities"
+    assert any((np.asarray(tags) < 0).any() for tags in mesh.cell_sets[bounding] if tags is not None)
+    for given, carried in zip(mesh.cell_sets[bounding], better.cell_sets[bounding], strict=True):
+        assert np.array_equal(given, carried)
     tags = better.point_data["gmsh:dim_tags"]
     kept = better.tetmend_result.vertex_map
     is_new = ~np.isin(np.arange(len(tags)), kept)
-    assert is_new.sum() > 5 and (tags[is_new, 0] == 3).all() and (tags[is_new, 1] == 1 + (better.points[is_new, 0] > 1)).all()
+    assert is_new.any() and (tags[is_new, 0] == 3).all() and (tags[is_new, 1] == 1 + (better.points[is_new, 0] > 1)).all()
     meshio.write(tmp_path / "better.msh", better, file_format="gmsh", binary=False)
     boxes.clear()
     boxes.open(str(tmp_path / "better.msh"))
@@ -269,6 +280,10 @@ def test_meshio_refuses_what_it_cannot_keep():
         tetmend.meshio.improve(meshio.Mesh(np.random.rand(10, 3), [("tetra10", [range(10)]), ("tetra", [range(4)])]))
     with pytest.raises(ValueError, match="no tets"):
         tetmend.meshio.improve(meshio.Mesh(np.random.rand(3, 3), [("triangle", [[0, 1, 2]])]))
+    with pytest.raises(ValueError, match=r"cell_sets\['s'\]\[0\]\[1\] is 9, but the block has 1 cells"):
+        tetmend.meshio.improve(meshio.Mesh(np.random.rand(4, 3), [("tetra", [range(4)])], cell_sets={"s": [np.array([0, 9])]}))
+    with pytest.raises(TypeError, match="takes a mesh of meshio, not str"):
+        tetmend.meshio.improve("part.msh")
     with pytest.raises(ValueError, match="label_array"):
         tetmend.meshio.improve(meshio.Mesh(*lattice(1)[:1], [("tetra", lattice(1)[1])]), label_array="nothing")
 

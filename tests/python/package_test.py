@@ -198,6 +198,9 @@ def changed(array, place, value):
     (*TET, {"required": [True, False]}, "required has shape (2,), but a mask of 4 points is wanted"),
     (*TET, {"point_data": {"u": [1.0]}}, "point_data['u'] has shape (1,), but there are 4 of them"),
     (*TET, {"cell_data": {"u": ["x"]}}, "cell_data['u'] has type <U1, but real numbers of up to 64 bits are wanted"),
+    (TET[0], [], {}, "the mesh has no tetrahedra"),
+    (*TET, {"point_data": np.ones(4)}, "point_data is of type ndarray, but a dict of arrays is wanted"),
+    (*TET, {"cell_data": [("a", [1.0])]}, "cell_data is of type list, but a dict of arrays is wanted"),
     (*TET, {"groups": [tetmend.Group(2, 1, "g", [0])]}, "groups[0].members[0] is 0, but there are 0 triangles"),
     ([[0, 0, 0]], [[0, 1, 2, 3]], {}, "tets[0, 1] is 1, but there is 1 point"),
     (*TET, {"groups": [tetmend.Group(4)]}, "groups[0]: dimension 4, expected 0 to 3"),
@@ -224,6 +227,28 @@ def test_unknown_options_and_mixed_calls_are_type_errors(materials):
         tetmend.improve(materials, labels=[1])
     with pytest.raises(TypeError, match="points and tets"):
         tetmend.improve(TET[0])
+    for name in ("progress", "note"):
+        with pytest.raises(TypeError, match=f"{name} is of type int, but a function is wanted"):
+            tetmend.improve(*TET, **{name: 3})
+
+
+@pytest.mark.parametrize(("kind", "n"), [(np.int8, 3), (np.uint8, 4)])
+def test_numbers_of_points_that_the_given_type_cannot_hold_are_of_32_bits(kind, n):
+    from bridges_test import lattice
+    points, tets, _ = lattice(n)
+    options = {"goal": (40, 120), "schedule": "thorough"}
+    wide = tetmend.improve(points, tets, **options)
+    assert len(points) - 1 <= np.iinfo(kind).max < len(wide.points) - 1
+    result = tetmend.improve(points, tets.astype(kind), **options)
+    assert result.tets.dtype == np.int32 and np.array_equal(result.tets, wide.tets)
+
+
+def test_constraints_that_constrain_nothing_are_noted():
+    points = [*TET[0], [1, 1, 1]]
+    tets = [TET[1][0], [1, 2, 3, 4]]
+    notes = tetmend.improve(points, tets, triangles=[[0, 1, 4]], edges=[[0, 4]]).notes
+    assert "1 of the triangles given: not a face of any tet, kept as they are" in notes
+    assert "1 of the edges given: not an edge of any tet, kept as they are" in notes
 
 
 def test_files_that_cannot_be_read_or_written_are_named(tmp_path, materials):

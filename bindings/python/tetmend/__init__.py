@@ -18,11 +18,12 @@ from tetmend._core import Error, OptionError, Progress, __version__
 from tetmend._figures import Pass, Statistics
 from tetmend._improve import Result, improve
 from tetmend._mesh import Group, Mesh, load, save
+from tetmend._options import Options
 from tetmend._quality import BadTet, Quality, quality
 from tetmend._trace import Trace
 
 __all__ = [
-    "BadTet", "Check", "Error", "Fact", "Group", "Mesh", "Operator", "OptionError", "Parameter", "Pass", "Progress", "Quality",
+    "BadTet", "Check", "Error", "Fact", "Group", "Mesh", "Operator", "OptionError", "Options", "Parameter", "Pass", "Progress", "Quality",
     "Result", "Schedule", "Statistics", "Trace", "__version__", "check", "formats", "improve", "load", "operators", "quality",
     "save", "schedules",
 ]

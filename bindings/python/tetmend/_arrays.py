@@ -59,6 +59,8 @@ def pack(argument: str, data: Mapping[str, ArrayLike] | None, count: int) -> tup
     """
     arrays: dict[str, NDArray[Any]] = {}
     forms: Forms = {}
+    if data is not None and not isinstance(data, Mapping):
+        raise Error(f"{argument} is of type {type(data).__name__}, but a dict of arrays is wanted")
     for name, given in (data or {}).items():
         values = np.asarray(given)
         place = f"{argument}[{name!r}]"

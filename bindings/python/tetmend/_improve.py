@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tetmend import _core
+from tetmend._core import Progress
 from tetmend._figures import Pass, Statistics, to_json
 from tetmend._html import table_of
 from tetmend._mesh import Group, Mesh, PathLike
@@ -62,7 +63,7 @@ class Result:
 
     @property
     def tets(self) -> NDArray[Any]:
-        """(m, 4), or (m, 10) of second order, of the type of integers that was given."""
+        """(m, 4), or (m, 10) of second order, of the type of integers that was given, or int32 where that is too narrow."""
         return self.mesh.tets
 
     @property
@@ -157,7 +158,15 @@ class Result:
         return table_of(self)
 
 
-Progress = Callable[[_core.Progress], object]
+def _notes_of(build: Mapping[str, Any]) -> list[str]:
+    """Constraints that constrain nothing."""
+    loose = {"triangles": (build["loose_triangles"], "a face"), "edges": (build["loose_edges"], "an edge")}
+    return [f"{count:,} of the {name} given: not {what} of any tet, kept as they are" for name, (count, what) in loose.items() if count]
+
+
+def _check_function(name: str, given: object) -> None:
+    if given is not None and not callable(given):
+        raise TypeError(f"{name} is of type {type(given).__name__}, but a function is wanted")
 
 
 def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, labels: ArrayLike | None = None,
@@ -166,12 +175,13 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
             point_labels: ArrayLike | None = None, required: ArrayLike | None = None,
             point_data: Mapping[str, ArrayLike] | None = None, cell_data: Mapping[str, ArrayLike] | None = None,
             triangle_data: Mapping[str, ArrayLike] | None = None, edge_data: Mapping[str, ArrayLike] | None = None,
-            groups: Sequence[Group] | None = None, progress: Progress | None = None,
+            groups: Sequence[Group] | None = None, progress: Callable[[Progress], object] | None = None,
             note: Callable[[str], object] | None = None, maps: bool = True, rulers: bool = True,
             **options: Unpack[Options]) -> Result:
     """Improves a mesh. What goes in stays as it is.
 
-    improve(points, tets, ...) takes arrays, as Mesh does; improve(mesh, ...) takes a Mesh. With a Mesh, `tets` is the option of
+    improve(points, tets, ...) takes arrays; help(tetmend.Mesh) has their shapes, and what labels, triangles, required and the
+    others mean. improve(mesh, ...) takes a Mesh. With a Mesh, `tets` is the option of
     that name: how far the mesh may grow, "10%" or "500000".
 
     progress      a function, called several times a second with a Progress, by any thread; the run stops if it returns False
@@ -179,7 +189,7 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     maps, rulers  False saves their time and memory
 
     The other options have the names of the command line: schedule="shell", goal=(30, 150), threads=1, time_limit=None,
-    trace="run.trace", set={"max_rounds": 2}, protect=["label:3"], ...; the Python reference lists them.
+    trace="run.trace", set={"max_rounds": 2}, protect=["label:3"], ...; help(tetmend.Options) lists them.
 
     Other threads of Python run meanwhile. Ctrl-C stops the run soon; KeyboardInterrupt is raised then.
 
@@ -201,6 +211,8 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     given = {"labels": labels, "parts": parts, "triangles": triangles, "triangle_labels": triangle_labels, "edges": edges,
              "edge_labels": edge_labels, "point_labels": point_labels, "required": required, "point_data": point_data,
              "cell_data": cell_data, "triangle_data": triangle_data, "edge_data": edge_data, "groups": groups}
+    _check_function("progress", progress)
+    _check_function("note", note)
     settings = to_settings(options)
     if isinstance(points, Mesh):
         present = [name for name, value in given.items() if value is not None]
@@ -225,7 +237,7 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     figures["settings"] = {str(name): value for name, value in dict(options.get("set") or {}).items()}
     figures["measure"] = options.get("measure") or "sine_and_length"
     figures["threads"] = options.get("threads") or 1
-    figures["notes"] = [*mesh.notes, *figures["notes"]]
+    figures["notes"] = [*mesh.notes, *_notes_of(figures["build"]), *figures["notes"]]
     return Result(
         mesh=Mesh._of(core, mesh._forms, mesh._integer), vertex_map=vertex_map, tet_map=tet_map,
         before=Statistics(figures["before"]), after=Statistics(figures["after"]), goal=figures["goal"], ending=figures["ending"],

@@ -30,6 +30,10 @@ class Group:
     name: str = ""
     members: ArrayLike | None = None
 
+    def __repr__(self) -> str:
+        count = "by label" if self.members is None else f"{np.size(self.members):,} members"
+        return f"Group(dimension={self.dimension}, number={self.number}, name={self.name!r}, {count})"
+
 
 def _array(values: ArrayLike | None) -> NDArray[Any] | None:
     if values is None:
@@ -61,7 +65,7 @@ class Mesh:
     Arguments and attributes, for n points and m tets:
 
     points            (n, 3), real
-    tets              (m, 4), integers; which way round does not matter. (m, 10): of second order, corners first, then the nodes of
+    tets              (m, 4), integers. Which way round does not matter, if it is the same for all where some are inverted. (m, 10): of second order, corners first, then the nodes of
                       the edges 01, 12, 20, 03, 13, 23, as VTK, meshio and Abaqus have them
     labels            (m,), integers: regions. A face between two labels stays
     parts             (m,), integers, or None: what labels do not tell apart. A face between two parts stays
@@ -82,6 +86,8 @@ class Mesh:
                  triangle_data: Mapping[str, ArrayLike] | None = None, edge_data: Mapping[str, ArrayLike] | None = None,
                  groups: Sequence[Group] = ()) -> None:
         point_array, tet_array = np.asarray(points), np.asarray(tets)
+        if tet_array.shape == (0,):  # an empty list has no type of numbers
+            tet_array = np.empty((0, 4), np.int32)
         elements = {"triangles": _array(triangles), "edges": _array(edges)}
         counts = {"point_data": len(point_array) if point_array.ndim else 0, "cell_data": len(tet_array) if tet_array.ndim else 0,
                   **{f"{name[:-1]}_data": 0 if array is None else len(array) for name, array in elements.items()}}
@@ -108,9 +114,11 @@ class Mesh:
         return f"<tetmend.Mesh: {self._core.point_count:,} points, {self._core.tet_count:,} tets>"
 
     def _integers(self, array: NDArray[Any]) -> NDArray[Any]:
-        """Numbers of points, as the type that was given."""
+        """Numbers of points, as the type that was given, or int32 where that is too narrow for them."""
         if self._integer == np.uint32:
             return array.view(np.uint32)
+        if self._core.point_count - 1 > np.iinfo(self._integer).max:
+            return array
         return array if array.dtype == self._integer else array.astype(self._integer)
 
     @cached_property

@@ -133,10 +133,24 @@ def _write(gmsh: Any, model: _Model, result: Result, volumes: Sequence[int]) -> 
     mesh.rebuildElementCache(False)
 
 
-def improve(tags: Sequence[int] | None = None, **options: Any) -> Result:
+def _volumes(gmsh: Any, tags: int | str | Sequence[int | str]) -> list[int]:
+    """Tags of volumes; a name stands for those of the physical group."""
+    known = [tag for _, tag in gmsh.model.getEntities(3)]
+    named = {gmsh.model.getPhysicalName(3, group): [int(tag) for tag in gmsh.model.getEntitiesForPhysicalGroup(3, group)]
+             for _, group in gmsh.model.getPhysicalGroups(3)}
+    volumes: list[int] = []
+    for i, tag in enumerate([tags] if isinstance(tags, (int, str)) else tags):
+        if tag not in known and tag not in named:
+            names = [name for name in named if name]
+            raise Error(f"tags[{i}]: there is no volume {tag!r}: expected one of {known + names}")
+        volumes += [each for each in (named[tag] if tag in named else [int(tag)]) if each not in volumes]
+    return volumes
+
+
+def improve(tags: int | str | Sequence[int | str] | None = None, **options: Any) -> Result:
     """Improves the tets of the current model in place, and returns the Result.
 
-    tags: the volumes to work on; left out, all that have tets. Nodes on points, curves and surfaces stay where they are, as do
+    tags: the volumes to work on, by number or by the name of a physical group; left out, all that have tets. Nodes on points, curves and surfaces stay where they are, as do
     physical groups, their names and the classification of each node and element. Nodes and tets that are still there keep
     their tags. Tets have the tag of their volume as label: protect="label:3" keeps volume 3. Values of views that belong to
     nodes or elements (post-processing) do not follow.
@@ -145,13 +159,8 @@ def improve(tags: Sequence[int] | None = None, **options: Any) -> Result:
     """
     import gmsh
 
-    known = [tag for _, tag in gmsh.model.getEntities(3)]
-    if tags is not None:
-        for i, tag in enumerate(tags):
-            if tag not in known:
-                raise Error(f"tags[{i}]: there is no volume {tag}: expected one of {known}")
-    has_elements = [tag for tag in known if len(gmsh.model.mesh.getElementTypes(3, tag))]
-    volumes = has_elements if tags is None else [int(tag) for tag in tags]
+    has_elements = [tag for _, tag in gmsh.model.getEntities(3) if len(gmsh.model.mesh.getElementTypes(3, tag))]
+    volumes = has_elements if tags is None else _volumes(gmsh, tags)
     if not volumes:
         raise Error("there are no tets in memory: generate a mesh first")
     model = _read(gmsh, volumes)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import meshio
 
 _DIM_TAGS = "gmsh:dim_tags"
+_BOUNDING = "gmsh:bounding_entities"  # among the cell sets, but of signed tags of entities
 
 
 def _marks(mesh: meshio.Mesh, i: int, names: list[str]) -> NDArray[np.bool_]:
@@ -29,7 +30,10 @@ def _marks(mesh: meshio.Mesh, i: int, names: list[str]) -> NDArray[np.bool_]:
     for k, name in enumerate(names):
         members = mesh.cell_sets[name][i]
         if members is not None and len(members):
-            marks[np.asarray(members, dtype=np.int64), k] = True
+            numbers = np.asarray(members, dtype=np.int64)
+            for wrong in np.flatnonzero((numbers < 0) | (numbers >= len(marks)))[:1]:
+                raise Error(f"cell_sets[{name!r}][{i}][{wrong}] is {numbers[wrong]}, but the block has {len(marks)} cells")
+            marks[numbers, k] = True
     return marks
 
 
@@ -58,15 +62,19 @@ def improve(mesh: meshio.Mesh, *, label_array: str | None = None, **options: Any
     """
     import meshio as library
 
+    if not isinstance(mesh, library.Mesh):
+        raise TypeError(f"improve() takes a mesh of meshio, not {type(mesh).__name__}: meshio.read(file) gives one")
     if mesh.points.shape[1] != 3:
         raise Error(f"points has shape {mesh.points.shape}, but (n, 3) is wanted")
-    set_names = list(mesh.cell_sets or {})
+    set_names = [name for name in mesh.cell_sets or {} if name != _BOUNDING]
     blocks = [Block(cells.type, np.asarray(cells.data), {name: np.asarray(values[i]) for name, values in mesh.cell_data.items()},
                     _marks(mesh, i, set_names)) for i, cells in enumerate(mesh.cells)]
     improved = improve_blocks(mesh.points, blocks, mesh.point_data, label_array, options)
     result = improved.result
     cell_sets = {name: [np.flatnonzero(block.marks[:, k]) for block in improved.blocks if block.marks is not None]
                  for k, name in enumerate(set_names)}
+    if _BOUNDING in (mesh.cell_sets or {}):
+        cell_sets[_BOUNDING] = mesh.cell_sets[_BOUNDING]
     point_sets = {name: result.vertex_map[np.asarray(members, dtype=np.int64)] for name, members in (mesh.point_sets or {}).items()}
     geometrical = result.cell_data.get("gmsh:geometrical")
     better = library.Mesh(
