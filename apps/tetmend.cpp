@@ -40,6 +40,7 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
       "tetmend");
   app->set_version_flag("--version", fmt::format("tetmend {}", version()));
   app->require_subcommand(1);
+  app->allow_windows_style_options(false);  // /FOLDER/FILE is no option, there neither
   app->formatter(std::make_shared<HelpFormatter>());
   app->footer(fmt::format(
       R"(Mesh formats, by extension:
