@@ -5,6 +5,7 @@ usage: coverage.py SOURCE_FOLDER [--files] <EXPORT
 """
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -14,7 +15,7 @@ NEEDED = {"kernel": 90, "ops": 90, "schedule": 90, "trace": 90}
 
 files = {}
 for file in json.load(sys.stdin)["data"][0]["files"]:
-    path = Path(file["filename"])
+    path = Path(os.path.normpath(file["filename"]))  # a compiler cache writes build/checked/../../kernel
     if path.is_relative_to(SOURCE) and path.relative_to(SOURCE).parts[0] in LAYERS:
         lines = file["summary"]["lines"]
         files[path.relative_to(SOURCE)] = (lines["covered"], lines["count"])
