@@ -12,8 +12,10 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "explain/figures/call_figure.h"
 #include "explain/lesson_guide.h"
 #include "explain/page.h"
+#include "figure/drawing_file.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtk_legacy.h"
@@ -39,6 +41,9 @@ struct Options {
   bool slices = false;
   bool html = false;
   std::vector<std::uint32_t> html_call;  // at most one
+  std::string figure;
+  std::optional<std::uint32_t> call;
+  std::vector<double> look;  // yaw and pitch
 };
 
 void check_call(const TraceFile& file, std::uint32_t call) {
@@ -185,7 +190,38 @@ void write_html(const Options& options, const TraceFile& file) {
   put_text(options, page.html);
 }
 
+/// The options of --figure, and --call and --look, which are nothing without it.
+void check_figure(const Options& options) {
+  if (options.figure.empty()) {
+    if (options.call) throw UsageError("--call is for --figure");
+    if (!options.look.empty()) throw UsageError("--look is for --figure shell");
+    return;
+  }
+  if (options.output.empty()) throw UsageError("--figure needs -o, a .svg or .pdf file");
+  explain::FigureKind kind{};
+  try {
+    kind = explain::find_figure_kind(options.figure);
+    figure::check_drawing_name(options.output);
+  } catch (const Error& error) {
+    throw UsageError(fmt::format("--figure: {}", error.what()));
+  }
+  if (!options.call && kind != explain::FigureKind::timeline) {
+    throw UsageError(fmt::format("--figure {} needs --call", options.figure));
+  }
+  if (!options.look.empty() && kind != explain::FigureKind::shell) {
+    throw UsageError("--look is for --figure shell");
+  }
+}
+
+void write_figure(const Options& options, const TraceFile& file) {
+  explain::FigureRequest request{explain::find_figure_kind(options.figure), options.call, {}};
+  if (!options.look.empty()) request.look = explain::Look{options.look[0], options.look[1]};
+  Replay replay(file, 0);
+  figure::write_drawing(options.output, explain::draw_call(file, replay, request));
+}
+
 int run_trace(const Options& options) {
+  check_figure(options);
   if (options.at) {
     if (options.output.empty()) throw UsageError("--at needs -o, a file for the mesh");
     check_mesh_extension(options.output);
@@ -211,6 +247,8 @@ int run_trace(const Options& options) {
     write_extract(options, file);
   } else if (!options.history.empty()) {
     put_text(options, history(options, file));
+  } else if (!options.figure.empty()) {
+    write_figure(options, file);
   } else if (options.html) {
     write_html(options, file);
   } else if (options.slices) {
@@ -256,14 +294,27 @@ void add_trace(CLI::App& app, Invocation& invocation) {
   what->add_option("--history", options->history,
                    "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
       ->type_name("WHAT");
+  what->add_option("--figure", options->figure,
+                   "A figure for papers, -o x.svg or x.pdf: the ring of a\ncall, its tree, the "
+                   "timeline or the isolated shell")
+      ->type_name("KIND");
   what->require_option(0, 1);
+  command->add_option("--call", options->call, "The call of a figure; a timeline may be without")
+      ->type_name("CALL");
+  command
+      ->add_option("--look", options->look,
+                   "Where a shell is seen from, in degrees; without it,\nwhere its corners are far "
+                   "from each other")
+      ->type_name("YAW,PITCH")
+      ->delimiter(',')
+      ->expected(2);
   command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
 events are counted from 0; vertices are named by their handle numbers. Of
 --at N -o mesh.vtk the field 'cavity' is 1 for tets that event N - 1 created, 2
 for those that event N removes, 3 for both. WHAT is tet:N, tet:worst, edge:A,B,
 face:A,B,C or vertex:N, in the numbers of the trace at its end, or with @MESH
 behind in those of the file that the run wrote or read, counted from 1; of a tet
-that is gone, tet:A,B,C,D. A trace that is cut off or damaged
+that is gone, tet:A,B,C,D. KIND is ring, tree, timeline or shell. A trace that is cut off or damaged
 is read up to there, with a warning.
 
 Examples:
@@ -272,6 +323,8 @@ Examples:
   tetmend trace run.trace --tree 17
   tetmend trace run.trace --dot 17 | dot -Tsvg -o call.svg
   tetmend trace run.trace --html 17 -o call.html
+  tetmend trace run.trace --figure ring --call 17 -o ring.svg
+  tetmend trace run.trace --figure timeline -o timeline.pdf
   tetmend trace run.trace --slices -o run.json
   tetmend trace run.trace --at 1200 -o then.vtk
   tetmend trace run.trace --extract 17 -o report

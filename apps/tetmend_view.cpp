@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/temporary_names.h"
 #include "platform/platform.h"
+#include "viewer/commands/frames.h"
 #include "viewer/commands/script.h"
 #include "viewer/ui/headless.h"
 #include "viewer/ui/window.h"
@@ -35,6 +37,12 @@ struct Options {
   std::string view;
   std::string report;
   float scale = 0;
+  std::string video;
+  std::vector<std::uint64_t> frames;  // from, to, every
+  std::string background;
+  std::string title;
+  bool colour_bar = false;
+  bool scale_bar = false;
   bool panels = false;
   bool keys = false;
   std::optional<std::uint64_t> at;
@@ -67,11 +75,25 @@ void prepare(const Options& options, Document& document) {
   if (!options.file.empty()) document.open(options.file);
   if (options.at) go_to(document, *options.at);
   if (!options.view.empty()) apply_json_text(document.view, options.view);
+  if (!options.background.empty()) {
+    apply_json(document.view, {{"background", options.background}});
+  }
+  if (!options.title.empty()) document.view.title = options.title;
+  document.view.colour_bar = document.view.colour_bar || options.colour_bar;
+  document.view.scale_bar = document.view.scale_bar || options.scale_bar;
 }
 
 /// Otherwise the mesh is to fill the space that the panels leave.
 bool has_camera(const Options& options) {
   return !options.view.empty() && nlohmann::json::parse(options.view).contains("camera");
+}
+
+FrameRange range_of_video(const Options& options, const Document& document) {
+  if (document.debugger() == nullptr) throw Error("--video is for traces: there is none");
+  FrameRequest request;
+  if (!options.frames.empty()) request = {options.frames[0], options.frames[1], {}};
+  if (options.frames.size() > 2) request.every = options.frames[2];
+  return frame_range(request, document.debugger()->end());
 }
 
 void write_report(const std::string& file, Document& document) {
@@ -88,7 +110,7 @@ int run(const Options& options) {
   }
   Document document;
   prepare(options, document);
-  if (options.script.empty() && options.picture.empty()) {
+  if (options.script.empty() && options.picture.empty() && options.video.empty()) {
     run_window(document, options.scale, !has_camera(options));
   } else {
     document.show_panels = options.panels;
@@ -98,6 +120,9 @@ int run(const Options& options) {
     if (document.has_mesh() && !has_camera(options)) document.fit_first();
     if (!options.script.empty()) run_script_file(session, options.script);
     if (!options.picture.empty()) write_png(options.picture, host->render(document));
+    if (!options.video.empty()) {
+      write_video(session, range_of_video(options, document), options.video);
+    }
   }
   if (!options.report.empty()) write_report(options.report, document);
   return kSuccess;
@@ -114,16 +139,30 @@ void add_options(CLI::App& app, Options& options) {
       ->type_name("MESH");
   app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display")
       ->type_name("FILE.png");
+  app.add_option("--video", options.video, "Write a video of a trace (.mp4) by ffmpeg and exit")
+      ->type_name("FILE.mp4");
+  app.add_option("--frames", options.frames,
+                 "Of a video: a picture after so many events, up to\nso many, in steps; all of the "
+                 "trace without")
+      ->type_name("FROM,TO[,EVERY]")
+      ->delimiter(',')
+      ->expected(2, 3);
   app.add_option("--script", options.script, "Run a Lua script and exit; needs no display")
       ->type_name("FILE.lua");
   app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT")
       ->type_name("SIZE");
   app.add_option("--view", options.view, "Settings of the view as JSON: what Ctrl+C copies")
       ->type_name("JSON");
+  app.add_flag("--colour-bar", options.colour_bar, "Pictures have a colour bar, with its measure");
+  app.add_flag("--scale-bar", options.scale_bar, "Pictures have a scale bar");
+  app.add_option("--title", options.title, "Pictures have a title")->type_name("TEXT");
+  app.add_option("--background", options.background,
+                 "Behind the mesh: gradient, white or transparent")
+      ->type_name("NAME");
   app.add_option("--at", options.at, "Of a trace: show the mesh after so many events")
       ->type_name("N");
   app.add_option("--scale", options.scale,
-                 "Size of text and panels, 0.5 to 4; 1 is usual, 2 for 4K")
+                 "Size of text and panels and width of lines, 0.5 to 4;\n1 is usual, 2 for 4K")
       ->type_name("FACTOR")
       ->check(CLI::Range(0.5, 4.0).description(""));
   app.add_option("--report", options.report, "Write the last state as JSON on leaving")
@@ -135,6 +174,8 @@ void add_options(CLI::App& app, Options& options) {
   tetmend-view --before part.mesh better.mesh
   tetmend-view run.trace
   tetmend-view --render part.png --size 1200x900 part.mesh
+  tetmend-view --render fig.png --size 3840x2160 --scale 2 --view '{"colour": "quality"}' --colour-bar --background transparent part.mesh
+  tetmend-view --video run.mp4 --size 1280x720 --frames 0,500,5 run.trace
 
 Exit status: 0 success, 1 the work failed, 2 wrong usage)");
 }

@@ -172,6 +172,26 @@ Outcome outcome_of(const Call& call) {
   return Outcome::other;
 }
 
+std::string_view outcome_name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::unfinished:
+      return "cut off";
+    case Outcome::accepted:
+      return "accepted";
+    case Outcome::no_improvement:
+      return "nothing better found";
+    case Outcome::limit:
+      return "level or budget spent";
+    case Outcome::constrained:
+      return "constrained";
+    case Outcome::rejected:
+      return "tried and undone";
+    case Outcome::other:
+      break;
+  }
+  return "not applicable";
+}
+
 std::string outcome_text(const Call& call, std::uint64_t position) {
   return std::string(position < call.events.end ? "under way" : call.verdict_text());
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trace/replay.h"
@@ -46,6 +47,8 @@ std::string quality_text(const Call& call, const CallFacts& facts);
 /// How a call ended, as colours tell it.
 enum class Outcome { unfinished, accepted, no_improvement, limit, constrained, rejected, other };
 Outcome outcome_of(const Call& call);
+/// As legends say it: "nothing better found".
+std::string_view outcome_name(Outcome outcome);
 /// "accepted", "no improvement", ...; "under way" for a call that has not ended at that position.
 std::string outcome_text(const Call& call, std::uint64_t position);
 

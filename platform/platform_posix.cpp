@@ -14,11 +14,14 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "platform/child.h"
 #include "platform/platform.h"
 #ifdef __linux__
 #include <link.h>
@@ -28,6 +31,7 @@
 #include <malloc.h>
 #endif
 #ifdef __APPLE__
+#include <crt_externs.h>
 #include <mach-o/dyld.h>
 #endif
 
@@ -303,6 +307,78 @@ void on_crashes(SignalHandler handler) noexcept {
 
 void provide_crash_stack() {
   thread_local const AlternateStack kStack;
+}
+
+// ---- other programs
+
+namespace {
+
+char** environment() {
+#ifdef __APPLE__
+  return *::_NSGetEnviron();
+#else
+  return environ;
+#endif
+}
+
+int spawn(const std::vector<std::string>& arguments, int input, int complaints, pid_t& process) {
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+  if (::posix_spawn_file_actions_init(&files) != 0) return ENOMEM;
+  if (::posix_spawnattr_init(&attributes) != 0) {
+    ::posix_spawn_file_actions_destroy(&files);
+    return ENOMEM;
+  }
+  ::posix_spawn_file_actions_adddup2(&files, input, kStandardInput);
+  ::posix_spawn_file_actions_addopen(&files, kStandardOutput, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_adddup2(&files, complaints, kStandardError);
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  ::posix_spawnattr_setsigdefault(&attributes, &usual);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  std::vector<char*> words;
+  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  const int error =
+      ::posix_spawnp(&process, words[0], &files, &attributes, words.data(), environment());
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&files);
+  return error;
+}
+
+}  // namespace
+
+Child::Child(const std::vector<std::string>& arguments) {
+  Answer<Descriptor> complaints = create_nameless();
+  std::array<int, 2> ends{};
+  error_ = complaints.error;
+  if (error_ == 0 && ::pipe(ends.data()) != 0) error_ = errno;
+  if (error_ != 0) return;
+  complaints_ = std::move(complaints.value);
+  const Descriptor output(ends[0]);
+  input_ = Descriptor(ends[1]);
+  for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
+  ignore_broken_pipes();
+  pid_t process = 0;
+  error_ = spawn(arguments, output.number(), complaints_.number(), process);
+  if (error_ == 0) process_ = process;
+}
+
+int Child::wait() noexcept {
+  input_.close();
+  if (process_ == 0) return status_;
+  int status = 0;
+  while (::waitpid(static_cast<pid_t>(process_), &status, 0) < 0) {
+    if (errno != EINTR) {
+      status = 1 << 8;  // as of a program that failed
+      break;
+    }
+  }
+  process_ = 0;
+  constexpr int kBySignal = 128;
+  status_ = WIFEXITED(status) ? WEXITSTATUS(status) : kBySignal + WTERMSIG(status);
+  return status_;
 }
 
 // ---- memory

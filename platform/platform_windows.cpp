@@ -2,12 +2,14 @@
 // Windows, from version 7 on, through the C runtime and the functions of the system.
 #ifdef _WIN32
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <system_error>
 
+#include "platform/child.h"
 #include "platform/platform.h"
 
 #define WIN32_LEAN_AND_MEAN
@@ -339,6 +341,74 @@ void on_crashes(SignalHandler handler) noexcept {
 void provide_crash_stack() {
   ULONG size = 1 << 16;
   ::SetThreadStackGuarantee(&size);
+}
+
+// ---- other programs
+
+namespace {
+
+/// As programs of Microsoft's C runtime take a command line apart.
+std::wstring quoted(const std::wstring& word) {
+  std::wstring result = L"\"";
+  std::size_t backslashes = 0;
+  for (const wchar_t c : word) {
+    if (c == L'"') result.append(backslashes + 1, L'\\');
+    backslashes = c == L'\\' ? backslashes + 1 : 0;
+    result += c;
+  }
+  return result.append(backslashes, L'\\') + L"\"";
+}
+
+HANDLE inherited(int file) {
+  const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(file));
+  ::SetHandleInformation(handle, HANDLE_FLAG_INHERIT, HANDLE_FLAG_INHERIT);
+  return handle;
+}
+
+}  // namespace
+
+Child::Child(const std::vector<std::string>& arguments) {
+  constexpr unsigned kRoom = 1 << 16;
+  Answer<Descriptor> complaints = create_nameless();
+  std::array<int, 2> ends{};
+  error_ = complaints.error;
+  if (error_ == 0 && ::_pipe(ends.data(), kRoom, _O_BINARY | _O_NOINHERIT) != 0) error_ = errno;
+  if (error_ != 0) return;
+  complaints_ = std::move(complaints.value);
+  const Descriptor output(ends[0]);
+  input_ = Descriptor(ends[1]);
+  const Descriptor nothing(::_wopen(L"NUL", _O_WRONLY | _O_NOINHERIT));
+  std::wstring line;
+  for (const std::string& word : arguments) {
+    line += (line.empty() ? L"" : L" ") + quoted(std::filesystem::u8path(word).wstring());
+  }
+  STARTUPINFOW start{};
+  start.cb = sizeof start;
+  start.dwFlags = STARTF_USESTDHANDLES;
+  start.hStdInput = inherited(output.number());
+  start.hStdOutput = inherited(nothing.number());
+  start.hStdError = inherited(complaints_.number());
+  PROCESS_INFORMATION process{};
+  if (::CreateProcessW(nullptr, line.data(), nullptr, nullptr, TRUE, CREATE_NO_WINDOW, nullptr,
+                       nullptr, &start, &process) == 0) {
+    error_ = last_error();
+    return;
+  }
+  ::CloseHandle(process.hThread);
+  process_ = reinterpret_cast<std::intptr_t>(process.hProcess);
+}
+
+int Child::wait() noexcept {
+  input_.close();
+  if (process_ == 0) return status_;
+  const auto process = reinterpret_cast<HANDLE>(process_);
+  ::WaitForSingleObject(process, INFINITE);
+  DWORD status = 1;
+  ::GetExitCodeProcess(process, &status);
+  ::CloseHandle(process);
+  process_ = 0;
+  status_ = static_cast<int>(status);
+  return status_;
 }
 
 // ---- memory

@@ -110,6 +110,8 @@ class Workshop:
             known = shutil.which(program, path=self.environment["PATH"]) or (self.work / program).exists()
             if not known and program not in ("export", "cd"):
                 raise Missing(program)
+        if "--video" in words and shutil.which("ffmpeg") is None:
+            raise Missing("ffmpeg")
         for word in words[1:] if words[0] == "python3" else []:
             script = self.work / word
             imports = re.findall(r"^(?:import|from) (\w+)", script.read_text(), re.M) if script.suffix == ".py" else []
@@ -182,13 +184,13 @@ def look_up(command: str, source: Path) -> list[str]:
 
 def without_window(command: str) -> str:
     """The viewer draws the same into a file, where it would wait for somebody to close its window."""
-    is_window = re.match(r"(?:\S*/)?tetmend-view ", command) and not re.search(r"--(render|script|help|keys)", command)
+    is_window = re.match(r"(?:\S*/)?tetmend-view ", command) and not re.search(r"--(render|script|video|help|keys)", command)
     return f"{command} --render window.png" if is_window else command
 
 
 def outputs_of(command: str) -> list[str]:
     """The files that a command says it writes."""
-    named = re.findall(r"(?:\s-o|\s--cells|\s--report|\s--trace|\s--render|>)\s+([\w./]+)", command)
+    named = re.findall(r"(?:\s-o|\s--cells|\s--report|\s--trace|\s--render|\s--video|>)\s+([\w./]+)", command)
     named += re.findall(r"^tetmend convert \S+ (\S+)", command)
     named += [f"{job}.dat" for job in re.findall(r"^ccx (\w+)", command)]
     return named + [f"{case}/constant/polyMesh" for case in re.findall(r"^gmshToFoam .*-case (\w+)", command)]

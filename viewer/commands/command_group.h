@@ -40,6 +40,12 @@ class Arguments {
     return values_[i].get<std::string>();
   }
   const nlohmann::json& value(std::size_t i) const { return values_[i]; }
+  /// For what argument i, a table, has under that name, and what is wrong with it.
+  [[noreturn]] void fail_field(std::string_view name, std::string_view expected,
+                               const nlohmann::json& got) const {
+    throw Error(fmt::format("{}: {} must be {}, not {}; it is used as {}", command_, name, expected,
+                            got.dump(), find_command(command_).usage));
+  }
 
  private:
   [[noreturn]] void fail(std::size_t i, std::string_view expected) const {
@@ -64,6 +70,7 @@ inline Debugger& need_trace(Document& document) {
 }
 
 std::span<const Command> file_commands();
+std::span<const Command> figure_commands();
 std::span<const Command> view_commands();
 std::span<const Command> show_commands();
 std::span<const Command> select_commands();

@@ -30,8 +30,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kGestures
 std::span<const Command> commands() {
   static const std::vector<Command> kAll = [] {
     std::vector<Command> list;
-    for (const auto group : {file_commands(), view_commands(), show_commands(), select_commands(),
-                             trace_commands(), live_commands(), script_commands()}) {
+    for (const auto group :
+         {file_commands(), figure_commands(), view_commands(), show_commands(), select_commands(),
+          trace_commands(), live_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;

@@ -21,7 +21,4 @@ Selection target_in(const TetMesh& mesh, const Call& call);
 /// By slot: 1 for the tets of the mesh that the call found or made. Cost: linear.
 std::vector<std::uint8_t> tets_of(const TetMesh& mesh, const CallStudy& study);
 
-inline constexpr Colour kChordColour{0, 150, 136, 255};
-inline constexpr Colour kCoreColour{235, 168, 20, 255};
-
 }  // namespace tetmend::viewer

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "viewer/debugger/icicle.h"
+#include "explain/icicle.h"
+#include "viewer/debugger/explained.h"
 
 namespace tetmend::viewer {
 

@@ -11,14 +11,15 @@
 #include "explain/call_facts.h"
 #include "explain/call_study.h"
 #include "explain/event_text.h"
+#include "explain/figures/call_figure.h"
 #include "explain/lesson_guide.h"
 #include "explain/stepper.h"
+#include "explain/timeline.h"
 #include "kernel/tet_mesh.h"
 #include "trace/replay.h"
 #include "viewer/debugger/call_list.h"
 #include "viewer/debugger/condition.h"
 #include "viewer/debugger/explained.h"
-#include "viewer/debugger/timeline.h"
 
 namespace tetmend::viewer {
 
@@ -74,6 +75,8 @@ class Debugger {
   const CallFacts& facts(std::uint32_t call) { return facts_.facts(file_, replay_, call); }
   /// Of call(); null outside of all calls. Computed once for each stay in a call.
   const CallStudy* study();
+  /// @throws Error as draw_call()
+  figure::Drawing draw(const FigureRequest& request) { return draw_call(file_, replay_, request); }
   const std::optional<Lesson>& lesson() const { return lesson_; }
   /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
   /// call.

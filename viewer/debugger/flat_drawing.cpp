@@ -28,11 +28,6 @@ Colour colour_of(Quality quality, const ColourMap& map) {
   return map.at(static_cast<double>(quality) / tet_values().front().range.high);
 }
 
-Colour faint(Colour colour, double opacity) {
-  colour.alpha = static_cast<std::uint8_t>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
-  return colour;
-}
-
 std::string number(double quality) {
   return fmt::format("{:.3f}", quality);
 }

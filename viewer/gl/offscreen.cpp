@@ -22,6 +22,17 @@ constexpr GLsizei kSamples = 4;
                   step, eglGetError()));
 }
 
+/// As PNG files have it.
+void divide_by_alpha(Colour& pixel) {
+  if (pixel.alpha == 0 || pixel.alpha == 255) return;
+  const auto divided = [&](std::uint8_t x) {
+    return static_cast<std::uint8_t>(std::min(255, (255 * x + pixel.alpha / 2) / pixel.alpha));
+  };
+  pixel.red = divided(pixel.red);
+  pixel.green = divided(pixel.green);
+  pixel.blue = divided(pixel.blue);
+}
+
 }  // namespace
 
 HeadlessContext::HeadlessContext() {
@@ -88,18 +99,18 @@ OffscreenPicture::~OffscreenPicture() {
   glDeleteRenderbuffers(1, &plain_colour_);
 }
 
-Image OffscreenPicture::read() const {
+Image OffscreenPicture::read(bool has_alpha) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_frame_);
   glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height,
                     GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, plain_frame_);
-  Image image = read_framebuffer(size_);
+  Image image = read_framebuffer(size_, has_alpha);
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
   return image;
 }
 
-Image read_framebuffer(const Canvas& size) {
+Image read_framebuffer(const Canvas& size, bool has_alpha) {
   Image image{size.width, size.height, {}};
   const auto width = static_cast<std::size_t>(size.width);
   image.pixels.resize(width * static_cast<std::size_t>(size.height));
@@ -111,7 +122,13 @@ Image read_framebuffer(const Canvas& size) {
   for (int y = 0; y < size.height / 2; ++y) {
     std::swap_ranges(row(y), row(y + 1), row(size.height - 1 - y));
   }
-  for (Colour& pixel : image.pixels) pixel.alpha = 255;
+  for (Colour& pixel : image.pixels) {
+    if (has_alpha) {
+      divide_by_alpha(pixel);
+    } else {
+      pixel.alpha = 255;
+    }
+  }
   return image;
 }
 

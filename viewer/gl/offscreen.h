@@ -30,7 +30,8 @@ class OffscreenPicture {
   OffscreenPicture(const OffscreenPicture&) = delete;
   OffscreenPicture& operator=(const OffscreenPicture&) = delete;
 
-  Image read() const;
+  /// @param has_alpha colours are multiplied by alpha, see Surface; without it all is opaque
+  Image read(bool has_alpha = false) const;
 
  private:
   Canvas size_;
@@ -41,6 +42,6 @@ class OffscreenPicture {
 };
 
 /// What the framebuffer that is current holds.
-Image read_framebuffer(const Canvas& size);
+Image read_framebuffer(const Canvas& size, bool has_alpha = false);
 
 }  // namespace tetmend::viewer::gl

@@ -13,14 +13,18 @@ namespace {
 constexpr double kHighlightDepth = 0.1;
 constexpr double kThroughDepth = 0.3;
 
+constexpr glm::vec3 kPaper{1, 1, 1};
+
 struct Look {
   glm::vec3 low;
   glm::vec3 high;
   glm::vec3 edge;
 };
 
-Look look_of(const std::string& theme) {
-  if (theme == "dark") return {{0.10F, 0.11F, 0.13F}, {0.17F, 0.19F, 0.22F}, {0.06F, 0.07F, 0.09F}};
+Look look_of(const ViewSettings& view) {
+  if (view.background != Background::gradient) return {kPaper, kPaper, {0.16F, 0.19F, 0.24F}};
+  if (view.theme == "dark")
+    return {{0.10F, 0.11F, 0.13F}, {0.17F, 0.19F, 0.22F}, {0.06F, 0.07F, 0.09F}};
   return {{0.89F, 0.91F, 0.94F}, {0.985F, 0.988F, 0.992F}, {0.16F, 0.19F, 0.24F}};
 }
 
@@ -67,8 +71,12 @@ void Renderer::upload(Document& document) {
   }
 }
 
-void Renderer::draw_background(const Document& document) const {
-  const Look look = look_of(document.view.theme);
+void Renderer::draw_background(const Document& document, bool is_clear) const {
+  if (is_clear) {
+    glClearColor(0, 0, 0, 0);
+    return glClear(GL_COLOR_BUFFER_BIT);
+  }
+  const Look look = look_of(document.view);
   background_.use();
   background_.set("low", look.low);
   background_.set("high", look.high);
@@ -98,10 +106,21 @@ void Renderer::draw_once_per_pixel(const Buffer& buffer, float opacity, float ed
   glDepthFunc(GL_LESS);
 }
 
-void Renderer::draw(Document& document) {
+void Renderer::draw_lines(const Document& document, const glm::mat4& view,
+                          const glm::mat4& projection, float scale) {
+  lines_.use();
+  lines_.set("view", view);
+  lines_.set("projection", projection);
+  lines_.set("canvas", glm::vec2(document.canvas.width, document.canvas.height));
+  lines_.set("scale", scale);
+  highlight_lines_.bind();
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(highlight_lines_.count()));
+}
+
+void Renderer::draw(Document& document, const Surface& surface) {
   upload(document);
   const Canvas& canvas = document.canvas;
-  const Look look = look_of(document.view.theme);
+  const Look look = look_of(document.view);
   glDisable(GL_SCISSOR_TEST);
   glClearColor(look.high.x, look.high.y, look.high.z, 1);  // under the panels
   glClear(GL_COLOR_BUFFER_BIT);
@@ -113,9 +132,10 @@ void Renderer::draw(Document& document) {
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glClear(GL_DEPTH_BUFFER_BIT);
-  draw_background(document);
+  draw_background(document,
+                  surface.has_alpha && document.view.background == Background::transparent);
 
   const glm::mat4 view(document.view.camera.view(document.ball().centre));
   const glm::mat4 projection(document.view.camera.projection(canvas, document.ball()));
@@ -123,7 +143,8 @@ void Renderer::draw(Document& document) {
   surface_.set("view", view);
   surface_.set("projection", projection);
   surface_.set("edge_tint", look.edge);
-  surface_.set("line_width", 0.6F);
+  surface_.set("line_width", 0.6F * surface.scale);
+  surface_.set("scale", surface.scale);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthRange(kThroughDepth, 1);
@@ -144,12 +165,7 @@ void Renderer::draw(Document& document) {
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   draw_surface(highlight_vertices_, 1, 0);
-  lines_.use();
-  lines_.set("view", view);
-  lines_.set("projection", projection);
-  lines_.set("canvas", glm::vec2(canvas.width, canvas.height));
-  highlight_lines_.bind();
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(highlight_lines_.count()));
+  draw_lines(document, view, projection, surface.scale);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glDepthRange(0, 1);

@@ -53,6 +53,7 @@ in vec3 corner;
 uniform float opacity;
 uniform float edges;
 uniform float line_width;
+uniform float scale;
 uniform vec3 edge_tint;
 out vec4 colour;
 void main() {
@@ -65,7 +66,7 @@ void main() {
   vec3 step_ = fwidth(corner);
   vec3 cover = 1.0 - smoothstep(step_ * (line_width - 0.5), step_ * (line_width + 0.5), corner);
   cover *= vec3((drawn & 1u) != 0u, (drawn & 2u) != 0u, (drawn & 4u) != 0u);
-  float largest = max(step_.x, max(step_.y, step_.z));
+  float largest = max(step_.x, max(step_.y, step_.z)) * scale;
   float fade = 1.0 - smoothstep(0.04, 0.32, largest);
   float line = edges * fade * max(cover.x, max(cover.y, cover.z));
   colour = vec4(mix(lit, edge_tint, line), opacity * face_tint.a);
@@ -81,6 +82,7 @@ layout(location = 3) in float width;
 uniform mat4 view;
 uniform mat4 projection;
 uniform vec2 canvas;
+uniform float scale;
 flat out vec4 line_tint;
 void main() {
   vec4 a = projection * (view * vec4(from, 1.0));
@@ -94,7 +96,7 @@ void main() {
   bool at_end = gl_VertexID >= 2;
   vec4 p = at_end ? b : a;
   vec2 offset = (at_end ? along : -along) + ((gl_VertexID & 1) == 0 ? across : -across);
-  p.xy += offset * (width / canvas) * p.w;
+  p.xy += offset * (scale * width / canvas) * p.w;
   line_tint = tint;
   gl_Position = p;
 }

@@ -51,11 +51,4 @@ Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::
 using Rows = std::vector<std::pair<std::string, std::string>>;
 Rows describe(const TetMesh& mesh, const Selection& selection);
 
-/// Colours of the parts of a shell, for the highlight and its legend.
-inline constexpr Colour kSelectionColour{255, 196, 0, 255};
-inline constexpr Colour kSupportingEdgeColour{214, 30, 150, 255};
-inline constexpr Colour kSkirtColour{20, 120, 220, 255};
-inline constexpr Colour kSupportingFaceColour{214, 30, 150, 90};
-inline constexpr Colour kLinkFaceColour{60, 150, 230, 60};
-
 }  // namespace tetmend::viewer

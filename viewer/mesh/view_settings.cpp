@@ -25,6 +25,8 @@ struct Limits {
   double high = kAny;
 };
 
+constexpr std::array<std::string_view, 3> kBackgrounds = {"gradient", "white", "transparent"};
+
 struct Writer {
   json out = json::object();
 
@@ -34,6 +36,9 @@ struct Writer {
   }
   void operator()(const char* name, const glm::dvec3& v, Limits = {}) {
     out[name] = {v.x, v.y, v.z};
+  }
+  void operator()(const char* name, const Background& value, Limits = {}) {
+    out[name] = kBackgrounds[static_cast<std::size_t>(value)];
   }
   void operator()(const char* name, const Range& range, Limits = {}) {
     out[name] = {range.low, range.high};
@@ -71,6 +76,16 @@ class Reader {
     if (const json* j = take(name)) {
       if (!j->is_string()) fail(path(name), "a word in quotes", *j);
       value = j->get<std::string>();
+    }
+  }
+  void operator()(const char* name, Background& value, Limits = {}) {
+    if (const json* j = take(name)) {
+      const auto* found = std::find(kBackgrounds.begin(), kBackgrounds.end(),
+                                    j->is_string() ? j->get<std::string>() : "");
+      if (found == kBackgrounds.end()) {
+        fail(path(name), fmt::format("one of {}", fmt::join(kBackgrounds, ", ")), *j);
+      }
+      value = static_cast<Background>(found - kBackgrounds.begin());
     }
   }
   void operator()(const char* name, glm::dvec3& value, Limits limits = {}) {
@@ -183,6 +198,10 @@ void visit(Visitor& v, View& view) {
   v("blended", view.blended);
   v("blend", view.blend, {0, 1});
   v("theme", view.theme);
+  v("background", view.background);
+  v("colour_bar", view.colour_bar);
+  v("scale_bar", view.scale_bar);
+  v("title", view.title);
 }
 
 void check(const ViewSettings& view) {

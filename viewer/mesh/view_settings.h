@@ -45,6 +45,9 @@ struct SceneSettings {
   friend bool operator==(const SceneSettings&, const SceneSettings&) = default;
 };
 
+/// Behind the mesh. Transparent: PNG files have an alpha channel; a window shows white.
+enum class Background : unsigned char { gradient, white, transparent };
+
 struct ViewSettings {
   Camera camera;
   SceneSettings scene;
@@ -52,6 +55,10 @@ struct ViewSettings {
   bool blended = false;         ///< of a trace: the shell before and after in one picture
   double blend = 0.5;           ///< share of the shell after the call in it
   std::string theme = "light";  ///< or "dark"
+  Background background = Background::gradient;
+  bool colour_bar = false;  ///< of the measure, with numbers; of regions, their colours
+  bool scale_bar = false;
+  std::string title;  ///< over the mesh; empty: none
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 

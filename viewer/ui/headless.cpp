@@ -23,11 +23,17 @@ class HeadlessHost : public Host {
   Image render(Document& document) override {
     arrange(document);
     const gl::OffscreenPicture picture(document.window);
-    const bool has_interface = document.show_panels || document.show_keys;
-    if (has_interface) build_interface(document);
-    renderer_.draw(document);
+    const ViewSettings& view = document.view;
+    const bool has_interface = document.show_panels || document.show_keys || view.colour_bar ||
+                               view.scale_bar || !view.title.empty();
+    if (has_interface) {
+      prepare_interface();
+      build_interface(document);
+    }
+    const bool has_alpha = view.background == Background::transparent;
+    renderer_.draw(document, {scale_, has_alpha});
     if (has_interface) interface_->draw();
-    return picture.read();
+    return picture.read(has_alpha);
   }
   void set_clipboard(const std::string& text) override { clipboard_ = text; }
   std::string clipboard() override { return clipboard_; }

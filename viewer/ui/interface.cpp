@@ -10,6 +10,8 @@
 
 #include "explain/lesson_guide.h"
 #include "kernel/error.h"
+#include "viewer/overlay.h"
+#include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 
@@ -197,6 +199,7 @@ void Interface::build(Session& session) {
     status_line(session);
   }
   if (session.document.show_keys) keys_page(session);
+  paint(draw_overlay(session.document, scale_), *ImGui::GetBackgroundDrawList());
   browser_.draw(session, scale_);
   ImGui::Render();
   if (choice.command != nullptr) run_from_window(*choice.command, session, choice.arguments);

@@ -24,6 +24,7 @@ class Interface {
   void build(Session& session);
   /// Draws what build() has laid out into the current framebuffer.
   void draw() const;
+  float scale() const { return scale_; }
 
  private:
   void strip(Session& session) const;

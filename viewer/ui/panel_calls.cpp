@@ -2,7 +2,7 @@
 // The tree of calls: level, target, degree, quality, and how each ended, as a colour.
 #include <fmt/format.h>
 
-#include "viewer/debugger/outcome_colour.h"
+#include "explain/outcome_colour.h"
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/debugger/outcome_colour.h"
+#include "explain/outcome_colour.h"
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"

@@ -6,15 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "viewer/debugger/icicle.h"
-#include "viewer/debugger/outcome_colour.h"
+#include "explain/icicle.h"
+#include "explain/outcome_colour.h"
 #include "viewer/ui/flat_canvas.h"
 
 namespace tetmend::viewer::ui {
 
 namespace {
-
-constexpr Colour kWorstColour{20, 120, 220, 255};
 
 /// A rectangle of the strip, with events from left to right.
 struct Band {

@@ -159,7 +159,7 @@ class Window : public Host {
 
   void frame() {
     settle();
-    renderer_->draw(document_);
+    renderer_->draw(document_, {interface_->scale(), false});
     interface_->draw();
   }
 

@@ -18,6 +18,9 @@ TEST_CASE("a view written as JSON and read again is the same") {
   view.scene.peel = 3;
   view.scene.hidden_regions = {4, -1};
   view.theme = "dark";
+  view.background = Background::transparent;
+  view.colour_bar = true;
+  view.title = "Figure 3";
   ViewSettings copy;
   apply_json_text(copy, to_json(view).dump());
   CHECK(copy == view);
@@ -44,6 +47,8 @@ TEST_CASE("a wrong patch is refused in words, and changes nothing") {
                         Case{R"({"colour": "speed"})", "unknown quality measure 'speed'"},
                         Case{R"({"map": "jet"})", "no colour map 'jet'"},
                         Case{R"({"theme": "blue"})", "expected light or dark"},
+                        Case{R"({"background": "blue"})", "one of gradient, white, transparent"},
+                        Case{R"({"background": 1})", "one of gradient, white, transparent"},
                         Case{R"({"cut_2": {"normal": [0, 0, 0]}})", "normal"},
                         Case{R"({"range": [2, 1]})", "the smaller number first"},
                         Case{"[1]", "a table of settings"}, Case{"{", "no JSON text"}}) {

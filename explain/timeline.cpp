@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/debugger/timeline.h"
+#include "explain/timeline.h"
 
 #include <algorithm>
 #include <functional>
 #include <queue>
 
-namespace tetmend::viewer {
+namespace tetmend::explain {
 
 namespace {
 
@@ -100,4 +100,4 @@ Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t sample
   return timeline;
 }
 
-}  // namespace tetmend::viewer
+}  // namespace tetmend::explain

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/debugger/outcome_colour.h"
+#include "explain/outcome_colour.h"
 
-namespace tetmend::viewer {
+namespace tetmend::explain {
 
-Colour outcome_colour(Outcome outcome) {
+figure::Colour outcome_colour(Outcome outcome) {
   switch (outcome) {
     case Outcome::unfinished:
       return {240, 190, 40, 255};
@@ -23,4 +23,4 @@ Colour outcome_colour(Outcome outcome) {
   return {};
 }
 
-}  // namespace tetmend::viewer
+}  // namespace tetmend::explain

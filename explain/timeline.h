@@ -7,7 +7,7 @@
 
 #include "trace/replay.h"
 
-namespace tetmend::viewer {
+namespace tetmend::explain {
 
 struct Timeline {
   struct Sample {
@@ -29,4 +29,4 @@ struct Timeline {
 /// Cost: about two microseconds an event.
 Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t samples = 4000);
 
-}  // namespace tetmend::viewer
+}  // namespace tetmend::explain

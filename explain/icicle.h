@@ -7,7 +7,7 @@
 
 #include "trace/trace_file.h"
 
-namespace tetmend::viewer {
+namespace tetmend::explain {
 
 struct IcicleBar {
   double left = 0, right = 0;    ///< shares of the width
@@ -35,4 +35,4 @@ std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& w
 /// The bar at a place; null where there is none.
 const IcicleBar* bar_at(const std::vector<IcicleBar>& bars, double x, unsigned row);
 
-}  // namespace tetmend::viewer
+}  // namespace tetmend::explain

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/debugger/icicle.h"
+#include "explain/icicle.h"
 
 #include <doctest/doctest.h>
 
 #include "tests/support/example_traces.h"
 
 using namespace tetmend;
-using namespace tetmend::viewer;
+using namespace tetmend::explain;
 
 TEST_CASE("bars are as wide as their events and lie under the calls around them") {
   const test::HandmadeTrace trace;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/debugger/icicle.h"
+#include "explain/icicle.h"
 
 #include <algorithm>
 
-namespace tetmend::viewer {
+namespace tetmend::explain {
 
 CallWindow whole_trace(const TraceFile& file) {
   return {0, file.event_count(), 0, static_cast<std::uint32_t>(file.calls().size())};
@@ -64,4 +64,4 @@ const IcicleBar* bar_at(const std::vector<IcicleBar>& bars, double x, unsigned r
   return found == bars.end() ? nullptr : &*found;
 }
 
-}  // namespace tetmend::viewer
+}  // namespace tetmend::explain
