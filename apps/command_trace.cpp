@@ -265,6 +265,22 @@ int run_trace(const Options& options) {
   return 0;
 }
 
+void add_figure_options(CLI::App& command, CLI::Option_group& what, Options& options) {
+  what.add_option("--figure", options.figure,
+                  "A figure for papers, -o x.svg or x.pdf: the ring of a\ncall, its tree, the "
+                  "timeline or the isolated shell")
+      ->type_name("KIND");
+  command.add_option("--call", options.call, "The call of a figure; a timeline may be without")
+      ->type_name("CALL");
+  command
+      .add_option("--look", options.look,
+                  "Where a shell is seen from, in degrees; without it,\nwhere its corners are far "
+                  "from each other")
+      ->type_name("YAW,PITCH")
+      ->delimiter(',')
+      ->expected(2);
+}
+
 }  // namespace
 
 void add_trace(CLI::App& app, Invocation& invocation) {
@@ -294,20 +310,8 @@ void add_trace(CLI::App& app, Invocation& invocation) {
   what->add_option("--history", options->history,
                    "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
       ->type_name("WHAT");
-  what->add_option("--figure", options->figure,
-                   "A figure for papers, -o x.svg or x.pdf: the ring of a\ncall, its tree, the "
-                   "timeline or the isolated shell")
-      ->type_name("KIND");
   what->require_option(0, 1);
-  command->add_option("--call", options->call, "The call of a figure; a timeline may be without")
-      ->type_name("CALL");
-  command
-      ->add_option("--look", options->look,
-                   "Where a shell is seen from, in degrees; without it,\nwhere its corners are far "
-                   "from each other")
-      ->type_name("YAW,PITCH")
-      ->delimiter(',')
-      ->expected(2);
+  add_figure_options(*command, *what, *options);
   command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
 events are counted from 0; vertices are named by their handle numbers. Of
 --at N -o mesh.vtk the field 'cavity' is 1 for tets that event N - 1 created, 2

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The viewer: reads the command line, then shows a window, draws a picture or runs a script.
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -38,7 +40,7 @@ struct Options {
   std::string report;
   float scale = 0;
   std::string video;
-  std::vector<std::uint64_t> frames;  // from, to, every
+  std::string frames;
   std::string background;
   std::string title;
   bool colour_bar = false;
@@ -88,12 +90,32 @@ bool has_camera(const Options& options) {
   return !options.view.empty() && nlohmann::json::parse(options.view).contains("camera");
 }
 
+/// "FROM,TO" or "FROM,TO,EVERY"; nothing of an empty text.
+FrameRequest read_frames(const std::string& text) {
+  if (text.empty()) return {};
+  std::vector<std::uint64_t> numbers;
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (;;) {
+    std::uint64_t number = 0;
+    const auto [rest, error] = std::from_chars(at, end, number);
+    if (error != std::errc()) break;
+    numbers.push_back(number);
+    at = rest;
+    if (at == end || *at != ',') break;
+    ++at;
+  }
+  if (at != end || numbers.size() < 2 || numbers.size() > 3 || text.back() == ',') {
+    throw Error(fmt::format("--frames must be FROM,TO or FROM,TO,EVERY, not '{}'", text));
+  }
+  FrameRequest request{numbers[0], numbers[1], {}};
+  if (numbers.size() == 3) request.every = numbers[2];
+  return request;
+}
+
 FrameRange range_of_video(const Options& options, const Document& document) {
   if (document.debugger() == nullptr) throw Error("--video is for traces: there is none");
-  FrameRequest request;
-  if (!options.frames.empty()) request = {options.frames[0], options.frames[1], {}};
-  if (options.frames.size() > 2) request.every = options.frames[2];
-  return frame_range(request, document.debugger()->end());
+  return frame_range(read_frames(options.frames), document.debugger()->end());
 }
 
 void write_report(const std::string& file, Document& document) {
@@ -144,9 +166,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--frames", options.frames,
                  "Of a video: a picture after so many events, up to\nso many, in steps; all of the "
                  "trace without")
-      ->type_name("FROM,TO[,EVERY]")
-      ->delimiter(',')
-      ->expected(2, 3);
+      ->type_name("FROM,TO[,EVERY]");
   app.add_option("--script", options.script, "Run a Lua script and exit; needs no display")
       ->type_name("FILE.lua");
   app.add_option("--size", options.size, "Size of the picture or window: WIDTHxHEIGHT")

@@ -63,8 +63,8 @@ class OverlayDrawer {
     words({left + wide, upper - 14 * scale_}, scene.colour, Anchor::end);
     for (unsigned i = 0; i < kSteps; ++i) {
       const double from = std::round(upper + height * i / kSteps);
-      const double to = std::round(upper + height * (i + 1) / kSteps);
-      drawing_.rectangle({left, from}, wide, to - from, map.at(1 - (i + 0.5) / kSteps));
+      // Down to the end, lest the mesh shows between two of them.
+      drawing_.rectangle({left, from}, wide, upper + height - from, map.at(1 - (i + 0.5) / kSteps));
     }
     for (const double value : figure::ticks(range.low, range.high, kTicks)) {
       const double y = upper + height * (range.high - value) / (range.high - range.low);

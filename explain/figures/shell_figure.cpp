@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kPanel = 210;
 constexpr double kShrink = 0.1;
-constexpr Colour kHiddenColour{150, 154, 160, 255};
+constexpr Colour kHiddenColour{205, 208, 213, 255};
 constexpr Pen kSide{{40, 44, 52, 255}, 0.4};
 constexpr Pen kSkirtPen{figure::kSkirtColour, 1.6};
 constexpr Pen kEdgePen{figure::kSupportingEdgeColour, 1.4, true};

@@ -144,6 +144,10 @@ TEST_CASE("what is wrong with frames is one line, and leaves no file") {
   };
   fails({"--video", video, kSheet}, "--video is for traces");
   fails({"--video", video, "--frames", "0,99999999", trace.path().string()}, "the trace has");
+  for (const char* wrong : {"5", "1,2,3,4", "a,b", "1,", "-1,5", "1,2,", "1;2"}) {
+    fails({"--video", video, std::string("--frames=") + wrong, trace.path().string()},
+          "FROM,TO or FROM,TO,EVERY");
+  }
   fails({"--video", (folder / "run.avi").string(), trace.path().string()}, "written as .mp4");
   fails({"--render", (folder / "x.png").string(), "--background", "blue", kSheet},
         "one of gradient, white, transparent");
