@@ -96,7 +96,14 @@ class Window : public Host {
   void arrange(Document& document) override { interface_->arrange(document); }
   Image render(Document&) override {
     frame();
-    return gl::read_framebuffer(document_.window);
+    if (document_.view.background != Background::transparent) {
+      return gl::read_framebuffer(document_.window);
+    }
+    const gl::OffscreenPicture picture(document_.window);  // a window has no alpha
+    constexpr bool kHasAlpha = true;
+    renderer_->draw(document_, {interface_->scale(), kHasAlpha});
+    interface_->draw();
+    return picture.read(kHasAlpha);
   }
   void set_clipboard(const std::string& text) override {
     glfwSetClipboardString(window_, text.c_str());
