@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/viewer/session.h"
 #include "viewer/mesh/tet_values.h"
@@ -49,7 +50,8 @@ TEST_CASE("a colour bar has the name of the measure, and numbers at their places
   REQUIRE(first != nullptr);
   CHECK(first->fill == map.at(1 - 0.5 / 128));
   s.run("colour", {"region"});
-  CHECK(has(words_of(draw_overlay(s.document, 1)), "region 1"));
+  CHECK(has(words_of(draw_overlay(s.document, 1)),
+            fmt::format("region {}", s.document.regions().front())));
 }
 
 TEST_CASE("a scale bar is as long as it says") {
