@@ -18,13 +18,14 @@ namespace {
 /// The tets at the targets of an outermost call, while replay goes through it.
 class Neighbourhood {
  public:
-  Neighbourhood(const TraceFile& file, const SlotMesh& mesh, std::uint32_t root) : mesh_(mesh) {
+  Neighbourhood(const TraceFile& file, Replay& replay, std::uint32_t root) : mesh_(replay.mesh()) {
     for (std::uint32_t k = root; k < file.calls()[root].subtree_end; ++k) {
       for (const VertexHandle v : file.calls()[k].target()) targets_.insert(v.index());
     }
-    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-      const TetHandle t(i);
-      if (!mesh.is_deleted(t) && is_near(mesh.vertices(t))) tets_[i] = mesh.vertices(t);
+    for (const std::uint32_t v : targets_) {
+      for (const TetHandle t : replay.tets_around(std::array{VertexHandle(v)})) {
+        tets_[t.index()] = mesh_.vertices(t);
+      }
     }
   }
 
@@ -70,7 +71,7 @@ std::vector<CallFacts> collect(const TraceFile& file, Replay& replay, std::uint3
   std::vector<CallFacts> facts(calls[root].subtree_end - root);
   const std::uint64_t home = replay.position();
   replay.seek(calls[root].events.begin);
-  Neighbourhood near(file, replay.mesh(), root);
+  Neighbourhood near(file, replay, root);
   EventCursor cursor(file);
   cursor.move_to(calls[root].events.begin);
   std::uint32_t next = root;

@@ -22,7 +22,7 @@ struct CallFacts {
 class FactTable {
  public:
   /// Leaves the replay where it was. Cost, the first time in an outermost call: replay of that
-  /// call and a pass over the tets.
+  /// call, there and back.
   const CallFacts& facts(const TraceFile& file, Replay& replay, std::uint32_t call);
 
  private:

@@ -91,9 +91,9 @@ class Study {
     for (const VertexHandle v : target) {
       if (mesh().is_deleted(v)) return;
     }
-    around_ = tets_around(mesh(), target);
+    around_ = replay_.tets_around(target);
     if (target.size() == 2) {
-      const SlotShell shell = find_slot_shell(mesh(), target[0], target[1]);
+      const SlotShell shell = shell_of(mesh(), around_, target[0], target[1]);
       const bool drawable =
           shell.closed && shell.ring.size() >= 3 && shell.ring.size() <= kMostDrawn;
       if (drawable) study_.picture = picture_of_shell(mesh(), shell, ancestors());
@@ -176,7 +176,7 @@ class Study {
     ShellPicture& picture = *study_.picture;
     std::vector<TetVertices> tets;
     for (const CavityTet& tet : cavity.created) tets.push_back(tet.vertices);
-    for (const TetHandle t : tets_around(mesh(), std::array{picture.a, picture.b})) {
+    for (const TetHandle t : replay_.tets_around(std::array{picture.a, picture.b})) {
       const auto made = [&](const CavityTet& tet) { return tet.tet == t; };
       if (std::any_of(cavity.created.begin(), cavity.created.end(), made)) continue;
       tets.push_back(mesh().vertices(t));  // stays as it is

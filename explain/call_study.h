@@ -35,7 +35,7 @@ struct CallStudy {
 };
 
 /// Leaves the replay where it was. Precondition: there is such a call.
-/// Cost: replay of the call, and a few passes over the tets.
+/// Cost: replay of the call, there and back.
 CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call);
 
 /// What the drawing of a polygon shows.

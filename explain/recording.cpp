@@ -189,7 +189,7 @@ class Recording {
         const Call& call = file_.calls()[next++];
         if (takes_all_ || call.depth > range_.deepest) continue;
         replay_.seek(cursor.position());
-        for (const TetHandle t : tets_around(replay_.mesh(), call.target())) {
+        for (const TetHandle t : replay_.tets_around(call.target())) {
           slots_.insert(t.index());
         }
       }

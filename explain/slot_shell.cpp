@@ -81,12 +81,15 @@ SlotShell order_shell(std::span<const NamedTet> tets, VertexHandle a, VertexHand
   return shell;
 }
 
+SlotShell shell_of(const SlotMesh& mesh, std::span<const TetHandle> tets, VertexHandle a,
+                   VertexHandle b) {
+  std::vector<NamedTet> named;
+  for (const TetHandle t : tets) named.push_back({t, mesh.vertices(t)});
+  return order_shell(named, a, b);
+}
+
 SlotShell find_slot_shell(const SlotMesh& mesh, VertexHandle a, VertexHandle b) {
-  std::vector<NamedTet> tets;
-  for (const TetHandle t : tets_around(mesh, std::array{a, b})) {
-    tets.push_back({t, mesh.vertices(t)});
-  }
-  return order_shell(tets, a, b);
+  return shell_of(mesh, tets_around(mesh, std::array{a, b}), a, b);
 }
 
 std::vector<VertexHandle> circle_around(std::span<const std::array<VertexHandle, 3>> triangles) {

@@ -28,6 +28,10 @@ std::vector<TetHandle> tets_around(const SlotMesh& mesh, std::span<const VertexH
 /// number. Of several fans around an edge of the boundary, the first is taken. Cost: as above.
 SlotShell find_slot_shell(const SlotMesh& mesh, VertexHandle a, VertexHandle b);
 
+/// The same from the tets that contain both.
+SlotShell shell_of(const SlotMesh& mesh, std::span<const TetHandle> tets, VertexHandle a,
+                   VertexHandle b);
+
 /// The same from a list of tets, some of which may not contain the edge. `tets` are numbers in it.
 struct NamedTet {
   TetHandle tet;

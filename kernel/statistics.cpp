@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include "kernel/angle_rows.h"
 #include "kernel/chunks.h"
 #include "kernel/compensated_sum.h"
+#include "kernel/statistics_cache.h"
 
 namespace tetmend {
 
@@ -291,13 +293,10 @@ Partial sum_up(const TetMesh& mesh, const Arguments&... arguments) {
 
 }  // namespace
 
-MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
-  const AngleClasses classes(goal);
-  const KeyLimits limits = limits_of(goal);
-  const auto parts =
-      map_chunks<PartialStatistics>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
-        return measure_part(mesh, classes, limits, begin, end);
-      });
+namespace {
+
+MeshStatistics put_together(const TetMesh& mesh, const Goal& goal, const AngleClasses& classes,
+                            std::span<const PartialStatistics> parts) {
   PartialStatistics sum;
   for (const PartialStatistics& part : parts) sum.add(part);
   MeshStatistics result;
@@ -321,6 +320,66 @@ MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
   result.theta_max = *std::max_element(blunt_angles.begin(), blunt_angles.end());
   classes.write(sum.angles, result);
   return result;
+}
+
+}  // namespace
+
+MeshStatistics compute_statistics(const TetMesh& mesh, const Goal& goal) {
+  const AngleClasses classes(goal);
+  const KeyLimits limits = limits_of(goal);
+  const auto parts =
+      map_chunks<PartialStatistics>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        return measure_part(mesh, classes, limits, begin, end);
+      });
+  return put_together(mesh, goal, classes, parts);
+}
+
+struct StatisticsCache::Parts {
+  bool is_measured = false;
+  bool is_current = false;
+  Goal goal;
+  std::size_t slots = 0;
+  std::vector<PartialStatistics> measured;  // by chunk
+  std::vector<char> touched;                // likewise
+  MeshStatistics result;
+};
+
+StatisticsCache::StatisticsCache() : parts_(std::make_unique<Parts>()) {}
+StatisticsCache::~StatisticsCache() = default;
+
+void StatisticsCache::forget() {
+  parts_->is_measured = parts_->is_current = false;
+}
+
+void StatisticsCache::touch(TetHandle t) {
+  const std::size_t chunk = t.index() / kChunkSize;
+  if (chunk >= parts_->touched.size()) parts_->touched.resize(chunk + 1);
+  parts_->touched[chunk] = 1;
+  parts_->is_current = false;
+}
+
+const MeshStatistics& StatisticsCache::statistics(const TetMesh& mesh, const Goal& goal) {
+  Parts& p = *parts_;
+  if (p.is_current && p.goal == goal && p.slots == mesh.tet_slots()) return p.result;
+  const std::size_t chunks = chunk_count(mesh.tet_slots());
+  const bool keep = p.is_measured && p.goal == goal;
+  p.measured.resize(chunks);
+  p.touched.resize(chunks);
+  const AngleClasses classes(goal);
+  const KeyLimits limits = limits_of(goal);
+  const std::size_t known = keep ? p.slots / kChunkSize : 0;  // chunks that end where they did
+  for_chunks(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    const std::size_t chunk = begin / kChunkSize;
+    const bool is_same_size = chunk < known || (keep && mesh.tet_slots() == p.slots);
+    if (is_same_size && p.touched[chunk] == 0) return;
+    p.measured[chunk] = measure_part(mesh, classes, limits, begin, end);
+  });
+  p.touched.assign(chunks, 0);
+  p.slots = mesh.tet_slots();
+  p.goal = goal;
+  p.result = put_together(mesh, goal, classes, p.measured);
+  p.is_measured = p.is_current = true;
+  return p.result;
 }
 
 std::string volume_text(double scaled_volume, int scale, int digits) {

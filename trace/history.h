@@ -62,7 +62,9 @@ History history_of(const TraceFile& file, Replay& replay, const HistorySubject& 
 /// @throws Error when it is written in another way, or not found, with the reason.
 HistorySubject find_subject(const TraceFile& file, Replay& replay, std::string_view text);
 
-/// A paragraph that answers why it is there or gone, then a line for each part and each call.
+/// A paragraph that answers why it is there or gone.
+std::string history_paragraph(const TraceFile& file, const History& history);
+/// The same, then a line for each part and each call.
 std::string history_text(const TraceFile& file, const History& history);
 
 }  // namespace tetmend

@@ -24,11 +24,15 @@ class Teller {
  public:
   Teller(const TraceFile& file, const History& history) : file_(file), history_(history) {}
 
-  std::string tell() {
+  std::string paragraph() {
     who();
     origin();
     aims();
     answer();
+    return text_;
+  }
+  std::string tell() {
+    paragraph();
     text_ += "\n\n";
     table();
     calls();
@@ -213,6 +217,10 @@ class Teller {
 };
 
 }  // namespace
+
+std::string history_paragraph(const TraceFile& file, const History& history) {
+  return Teller(file, history).paragraph();
+}
 
 std::string history_text(const TraceFile& file, const History& history) {
   return Teller(file, history).tell();

@@ -43,6 +43,7 @@ void check_free(bool is_free, std::uint32_t slot, std::size_t end) {
 void Playback::reset(const SlotMesh& mesh, std::uint64_t position) {
   mesh_ = mesh;
   forget_log(position);
+  changes_.note_everything();
 }
 
 void Playback::forget_log(std::uint64_t position) {
@@ -52,6 +53,45 @@ void Playback::forget_log(std::uint64_t position) {
   vertices_.clear();
   standards_.clear();
   open_.clear();
+}
+
+void Playback::shorten_log(std::uint64_t position) {
+  std::size_t kept = 0;
+  std::size_t standards = 0;
+  while (kept < steps_.size() && steps_[kept].event < position) {
+    standards += steps_[kept].kind == EventKind::standard_changes ? 1 : 0;
+    ++kept;
+  }
+  const auto end = [](auto& list, std::size_t n) {
+    return list.begin() + static_cast<std::ptrdiff_t>(n);
+  };
+  const std::uint32_t tets = kept < steps_.size() ? steps_[kept].tets_begin : size32(tets_);
+  const std::uint32_t vertices =
+      kept < steps_.size() ? steps_[kept].vertices_begin : size32(vertices_);
+  steps_.erase(steps_.begin(), end(steps_, kept));
+  tets_.erase(tets_.begin(), end(tets_, tets));
+  vertices_.erase(vertices_.begin(), end(vertices_, vertices));
+  standards_.erase(standards_.begin(), end(standards_, standards));
+  const auto number = static_cast<std::uint32_t>(kept);
+  for (Step& step : steps_) {
+    step.tets_begin -= tets;
+    step.tets_end -= tets;
+    step.vertices_begin -= vertices;
+    step.vertices_end -= vertices;
+    step.undone -= step.kind == EventKind::undo ? number : 0;
+  }
+  std::erase_if(open_, [&](std::uint32_t step) { return step < number; });
+  for (std::uint32_t& step : open_) step -= number;
+  log_begin_ = position;
+}
+
+void Playback::note(const Step& step) {
+  if (step.kind == EventKind::standard_changes) return changes_.note_everything();
+  changes_.keep_short();
+  for (std::uint32_t k = step.tets_begin; k < step.tets_end; ++k) changes_.note(tets_[k].tet);
+  for (std::uint32_t k = step.vertices_begin; k < step.vertices_end; ++k) {
+    changes_.note(vertices_[k].vertex);
+  }
 }
 
 TetVertices Playback::content(TetHandle t) const {
@@ -147,6 +187,7 @@ void Playback::log_undo(std::uint32_t undone) {
 
 void Playback::make() {
   const Step& step = steps_.back();
+  note(step);
   if (step.kind == EventKind::undo) {
     open_.pop_back();
   } else if (step.kind == EventKind::standard_changes) {
@@ -164,6 +205,7 @@ void Playback::make() {
 }
 
 void Playback::revert(const Step& step) {
+  note(step);
   for (std::uint32_t k = step.tets_end; k-- > step.tets_begin;) {
     mesh_.set_tet(tets_[k].tet, tets_[k].before, tets_[k].label_before);
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "trace/change_log.h"
 #include "trace/slot_mesh.h"
 #include "trace/trace_event.h"
 
@@ -35,6 +36,10 @@ class Playback {
   void reset(const SlotMesh& mesh, std::uint64_t position);
   /// Empties the log: what was done cannot be undone. The next event is number `position`.
   void forget_log(std::uint64_t position);
+  /// Forgets the steps before event `position`. Precondition: none of them is undone later.
+  void shorten_log(std::uint64_t position);
+  /// The slots that were written by all this.
+  const ChangeLog& changes() const { return changes_; }
   /// The first event that the log may have.
   std::uint64_t log_begin() const { return log_begin_; }
   /// How many of the events in it are steps.
@@ -70,6 +75,7 @@ class Playback {
   TetVertices content(TetHandle t) const;
   void revert(const Step& step);
   bool ends_at(std::uint64_t position) const;
+  void note(const Step& step);
 
   SlotMesh mesh_;
   std::uint64_t log_begin_ = 0;
@@ -79,6 +85,7 @@ class Playback {
   std::vector<Standard> standards_;  // before each change of it
   std::vector<std::uint32_t> open_;  // steps that may still be undone
   Standard next_standard_;           // of the step that was prepared
+  ChangeLog changes_;
 };
 
 }  // namespace tetmend

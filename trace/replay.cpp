@@ -9,8 +9,10 @@ namespace tetmend {
 
 namespace {
 
-/// A log of this many steps is dropped at the next chunk.
+/// Of a log of this many steps the older half is dropped.
 constexpr std::uint64_t kLongLog = 1 << 17;
+/// A copy of so many bytes takes as long as to play an event.
+constexpr std::uint64_t kBytesOfAnEvent = 2048;
 
 }  // namespace
 
@@ -61,7 +63,9 @@ void Replay::seek(std::uint64_t position) {
       std::lower_bound(keyframes_.begin(), keyframes_.end(), position,
                        [](const Keyframe& k, std::uint64_t p) { return k.position < p; });
   const Keyframe& keyframe = not_before == keyframes_.begin() ? *not_before : *(not_before - 1);
-  if (position < position_ || keyframe.position > position_) restore(keyframe);
+  const std::uint64_t near = mesh().bytes() / kBytesOfAnEvent;
+  const bool is_ahead = keyframe.position > position_ && position - position_ > near;
+  if (position < position_ || is_ahead) restore(keyframe);
   forward_to(position);
 }
 
@@ -70,14 +74,33 @@ void Replay::forward_to(std::uint64_t position) {
   cursor_.move_to(position_);
   const std::span<const std::uint64_t> begins = file_.chunk_begins();
   while (position_ < position) {
-    // Nothing is undone across the border of a chunk.
     if (playback_.log_size() > std::min(kLongLog, 4 * distance_) &&
         std::binary_search(begins.begin(), begins.end(), position_)) {
-      playback_.forget_log(position_);
+      shorten_log();
     }
     if (playback_.prepare(cursor_.next(), position_)) playback_.make();
     ++position_;
   }
+}
+
+/// A step back must not lead to a keyframe. Nothing is undone across the border of a chunk.
+void Replay::shorten_log() {
+  const std::span<const std::uint64_t> begins = file_.chunk_begins();
+  const std::uint64_t middle = playback_.log_begin() + (position_ - playback_.log_begin()) / 2;
+  playback_.shorten_log(*std::upper_bound(begins.begin(), begins.end(), middle));
+}
+
+std::vector<TetHandle> Replay::tets_around(std::span<const VertexHandle> vertices) {
+  vertex_tets_.follow(mesh(), changes());
+  if (vertices.empty()) return {};
+  std::vector<TetHandle> tets = vertex_tets_.tets_of(vertices.front());
+  std::erase_if(tets, [&](TetHandle t) {
+    const TetVertices& tet = mesh().vertices(t);
+    return !std::all_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
+      return std::find(tet.begin(), tet.end(), v) != tet.end();
+    });
+  });
+  return tets;
 }
 
 Cavity Replay::cavity() const {

@@ -13,6 +13,7 @@
 
 #include "trace/playback.h"
 #include "trace/trace_file.h"
+#include "trace/vertex_tets.h"
 
 namespace tetmend {
 
@@ -49,6 +50,11 @@ class Replay {
   const SlotMesh& mesh() const { return playback_.mesh(); }
   /// What event number position() - 1 did.
   Cavity cavity() const;
+  /// The slots that were written on the way here.
+  const ChangeLog& changes() const { return playback_.changes(); }
+  /// Tets that contain all of these vertices, by slot. Cost: that of what changed since the last
+  /// question; the first time, a pass over the tets.
+  std::vector<TetHandle> tets_around(std::span<const VertexHandle> vertices);
 
  private:
   struct Keyframe {
@@ -60,12 +66,14 @@ class Replay {
   void thin_keyframes();
   void restore(const Keyframe& keyframe);
   void forward_to(std::uint64_t position);
+  void shorten_log();
   const TraceFile& file_;
   std::uint64_t distance_;  // of keyframes
   EventCursor cursor_;
   Playback playback_;
   std::uint64_t position_ = 0;
   std::vector<Keyframe> keyframes_;
+  VertexTets vertex_tets_;
 };
 
 }  // namespace tetmend
