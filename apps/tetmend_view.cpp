@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "apps/description.h"
+#include "apps/plugins.h"
 #include "apps/standard_streams.h"
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
@@ -47,6 +49,7 @@ struct Options {
   bool scale_bar = false;
   bool panels = false;
   bool keys = false;
+  std::vector<std::filesystem::path> plugins;
   std::optional<std::uint64_t> at;
 };
 
@@ -72,6 +75,7 @@ void go_to(Document& document, std::uint64_t event) {
 }
 
 void prepare(const Options& options, Document& document) {
+  document.live.load_plugins(all_plugins(options.plugins));
   if (!options.size.empty()) document.resize(read_size(options.size));
   if (!options.before.empty()) document.compare_with(options.before);
   if (!options.file.empty()) document.open(options.file);
@@ -187,6 +191,7 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.5, 4.0).description(""));
   app.add_option("--report", options.report, "Write the last state as JSON on leaving")
       ->type_name("FILE.json");
+  add_plugin_option(app, options.plugins);
   app.add_flag("--panels", options.panels, "Draw the panels into pictures, too");
   app.add_flag("--keys", options.keys, "Print all keys and script words");
   app.footer(R"(Examples:

@@ -31,7 +31,11 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
     case LiveState::failed:
       return {run.error, true};
     case LiveState::paused:
-      return {fmt::format("paused in {} after {} attempts", run.phase, run.attempts), false};
+      if (run.attempts == 0) return {"paused before the first call", false};
+      return {fmt::format("{} in {} after {} attempts{}",
+                          run.breakpoint.empty() ? "paused" : "breakpoint", run.phase, run.attempts,
+                          run.breakpoint.empty() ? "" : ": " + run.breakpoint),
+              false};
     default:
       return {fmt::format("{}: {}, {:.1f} s", schedule, to_string(run.state), run.seconds), false};
   }
@@ -107,7 +111,7 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   debugger_.reset();
   not_saved_.clear();
   marks_ = {};
-  near_.clear();
+  near_.reset();
   const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);
   mesh_ = std::move(mesh.mesh);
   file_ = name;
@@ -126,28 +130,72 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
 
 /// After a change of the mesh.
 void Document::forget_derived() {
-  values_.clear();
+  trace_statistics_.forget();
+  lists_.forget();
   layers_.clear();
-  listed_measure_.clear();
-  drawn_.reset();
+  for (Drawing* drawing : {&whole_, &isolated_}) {
+    drawing->settings.reset();
+    drawing->changed.clear();
+  }
+}
+
+/// After a change of these tets.
+void Document::follow_changes(std::span<const TetHandle> changed) {
+  for (const TetHandle t : changed) trace_statistics_.touch(t);
+  lists_.update(mesh_, changed);
+  const std::vector<TetHandle> deeper = other_layers();
+  for (const auto& tets : {changed, std::span<const TetHandle>(deeper)}) {
+    whole_.changed.insert(whole_.changed.end(), tets.begin(), tets.end());
+  }
+  if (whole_.changed.size() > mesh_.tet_slots()) {  // long unseen
+    whole_.settings.reset();
+    whole_.changed.clear();
+  }
+  isolated_.settings.reset();
+}
+
+/// Brings the layers up to date and tells which are others.
+std::vector<TetHandle> Document::other_layers() {
+  std::vector<TetHandle> tets;
+  if (layers_.empty()) return tets;
+  const auto before = std::exchange(layers_, distances_from_boundary(mesh_));
+  for (std::uint32_t i = 0; i < layers_.size(); ++i) {
+    if (i >= before.size() || before[i] != layers_[i]) tets.emplace_back(i);
+  }
+  return tets;
+}
+
+const MeshStatistics& Document::statistics() const {
+  if (debugger_ == nullptr) return statistics_;
+  return trace_statistics_.statistics(mesh_, mesh_.standard().goal());
 }
 
 void Document::show_trace() {
   const std::uint32_t call = debugger_->call();
   if (debugger_->mesh_number() != shown_mesh_) {
-    mesh_ = debugger_->mesh();
+    const MeshStep step = debugger_->follow(mesh_);
     shown_mesh_ = debugger_->mesh_number();
-    statistics_ = compute_statistics(mesh_, mesh_.standard().goal());
-    forget_derived();
+    if (step.anew) {
+      forget_derived();
+    } else {
+      follow_changes(step.tets);
+    }
   }
   const CallStudy* study = debugger_->study();
   marks_ = study != nullptr ? highlight_covering(*study, ball_.centre) : Highlight();
-  near_ = study != nullptr ? tets_of(mesh_, *study) : std::vector<std::uint8_t>();
-  if (view.scene.isolate) drawn_.reset();
-  select(call == kNoCall ? Selection() : target_in(mesh_, debugger_->file().calls()[call]));
+  near_.reset();
+  if (study != nullptr) near_ = tets_of(mesh_, *study);
+  isolated_.settings.reset();
+  select(call == kNoCall ? Selection() : target_of(call));
   const std::uint32_t root = call == kNoCall ? kNoCall : debugger_->stack().front();
   if (root != shown_root_ && root != kNoCall && follow_trace) fit();
   shown_root_ = root;
+}
+
+/// What a call aims at, in the mesh as it is.
+Selection Document::target_of(std::uint32_t call) {
+  const Call& c = debugger_->file().calls()[call];
+  return target_in(mesh_, c, debugger_->tets_around(c.target()));
 }
 
 void Document::compare_with(const std::filesystem::path& file) {
@@ -169,7 +217,7 @@ void Document::set_goal(const Goal& goal) {
 }
 
 void Document::run_live(LiveRun::From from) {
-  LiveRun::Input shown{mesh_, statistics_};
+  LiveRun::Input shown{mesh_, statistics()};
   if (mesh_.standard() != standard_) {  // a schedule has set another goal
     shown.mesh.set_standard(standard_);
     shown.statistics = compute_statistics(shown.mesh, standard_.goal());
@@ -177,15 +225,36 @@ void Document::run_live(LiveRun::From from) {
   const MeshStatistics now = shown.statistics;
   live.start(std::move(shown), from, file_);
   followed_ = LiveState::idle;
+  followed_call_ = 0;
   before_ = from == LiveRun::From::file ? live.input()->statistics : now;
 }
 
 void Document::follow_live() {
   const LiveState now = live.state();  // before the last snapshot is taken, lest it be missed
-  if (auto snapshot = live.take_snapshot()) set_mesh(std::move(*snapshot), file_);
-  if (now == followed_) return;
+  auto snapshot = live.take_snapshot();
+  if (snapshot != nullptr) {
+    set_mesh(std::move(*snapshot), file_);
+    mark_live_call(live.progress());
+  }
+  if (now == followed_ && (snapshot == nullptr || now != LiveState::paused)) return;
   followed_ = now;
   message = message_of(live.progress(), live.schedule_name());
+}
+
+/// Shows where the last call was, and brings the camera there, while the run can be watched.
+void Document::mark_live_call(const LiveProgress& run) {
+  const bool is_watched = run.state == LiveState::paused || live.speed() > 0;
+  const bool is_over = run.state != LiveState::paused && run.state != LiveState::running;
+  const auto& call = run.state == LiveState::paused ? run.last : run.last_accepted;
+  if (!is_watched || is_over || !call) return;
+  marks_ = highlight_points(call->target, ball_.centre);
+  select({});
+  if (!follow_changes_live || followed_call_ == call->number) return;
+  followed_call_ = call->number;
+  constexpr double kSurroundings = 4;
+  double radius = 0.02 * ball_.radius;  // of a vertex
+  for (const Point& p : call->target) radius = std::max(radius, (p - call->place).norm());
+  view.camera.fit({to_glm(call->place), kSurroundings * radius}, canvas);
 }
 
 bool Document::awaits_live() const {
@@ -222,7 +291,7 @@ void Document::fit_first() {
 std::optional<Ball> Document::call_in_view() {
   const CallStudy* study = debugger_ ? debugger_->study() : nullptr;
   if (study == nullptr) return std::nullopt;
-  const Selection target = target_in(mesh_, debugger_->file().calls()[study->call]);
+  const Selection target = target_of(study->call);
   if (selection_ != target && !std::holds_alternative<std::monostate>(selection_)) {
     return std::nullopt;
   }
@@ -241,13 +310,11 @@ void Document::fit() {
 }
 
 const Histogram& Document::histogram() {
-  update_lists();
-  return histogram_;
+  return lists_.histogram(mesh_, view.scene.measure);
 }
 
 const std::vector<TetHandle>& Document::worst() {
-  update_lists();
-  return worst_;
+  return lists_.worst(mesh_, view.scene.measure);
 }
 
 void Document::fly_to_worst(std::size_t i) {
@@ -265,13 +332,13 @@ std::optional<std::size_t> Document::place_among_worst() {
   const auto* tet = std::get_if<TetHandle>(&selection_);
   if (tet == nullptr) return std::nullopt;
   const auto found = std::find(worst().begin(), worst().end(), *tet);
-  if (found == worst_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - worst_.begin());
+  if (found == worst().end()) return std::nullopt;
+  return static_cast<std::size_t>(found - worst().begin());
 }
 
 const Scene& Document::scene() {
   update_scene();
-  return scene_;
+  return (is_isolated_ ? isolated_ : whole_).keeper.scene();
 }
 
 unsigned Document::scene_revision() {
@@ -291,33 +358,32 @@ unsigned Document::highlight_revision() {
   return highlight_revision_;
 }
 
-std::span<const float> Document::values_of(const std::string& measure) {
-  auto found = values_.find(measure);
-  if (found == values_.end()) {
-    found = values_.emplace(measure, evaluate_tets(mesh_, find_tet_value(measure))).first;
-  }
-  return found->second;
-}
-
-void Document::update_lists() {
-  if (listed_measure_ == view.scene.measure) return;
-  const auto values_now = values();
-  histogram_ = Histogram(values_now, find_tet_value(view.scene.measure).range);
-  worst_ = worst_tets(values_now, kWorstListed);
-  listed_measure_ = view.scene.measure;
-}
-
 void Document::update_scene() {
-  if (drawn_ == view.scene) return;
-  if (view.scene.peel > 0 && layers_.empty()) layers_ = distances_from_boundary(mesh_);
-  SceneInput input{mesh_, view.scene, {values(), layers_}, {}, {}, {}, ball_};
-  if (view.scene.isolate) input.only = near_;
-  if (view.scene.colour != "region") {
-    input.colour_values = values_of(view.scene.colour);
-    input.colour_range = find_tet_value(view.scene.colour).range;
+  const bool isolated = view.scene.isolate && near_.has_value();
+  Drawing& drawing = isolated ? isolated_ : whole_;
+  SceneSettings settings = view.scene;
+  settings.isolate = false;  // does not matter for what is drawn of the whole mesh
+  const bool is_other = isolated != is_isolated_;
+  is_isolated_ = isolated;
+  if (drawing.settings == settings && drawing.changed.empty()) {
+    scene_revision_ += is_other ? 1 : 0;
+    return;
   }
-  scene_ = build_scene(input);
-  drawn_ = view.scene;
+  if (settings.peel == 0) layers_.clear();
+  if (settings.peel > 0 && layers_.empty()) layers_ = distances_from_boundary(mesh_);
+  SceneInput input{mesh_, settings, {values(), layers_}, {}, {}, {}, ball_};
+  if (isolated) input.only = *near_;
+  if (settings.colour != "region") {
+    input.colour_values = lists_.values(mesh_, settings.colour);
+    input.colour_range = find_tet_value(settings.colour).range;
+  }
+  if (drawing.settings == settings && !isolated) {
+    drawing.keeper.update(input, drawing.changed);
+  } else {
+    drawing.keeper.build(input);
+  }
+  drawing.settings = std::move(settings);
+  drawing.changed.clear();
   ++scene_revision_;
 }
 

@@ -11,13 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "kernel/statistics.h"
+#include "kernel/statistics_cache.h"
 #include "kernel/tet_mesh.h"
 #include "viewer/debugger/debugger.h"
 #include "viewer/live/live_run.h"
 #include "viewer/mesh/measured_mesh.h"
 #include "viewer/mesh/scene.h"
 #include "viewer/mesh/selection.h"
+#include "viewer/mesh/tet_lists.h"
 #include "viewer/mesh/view_settings.h"
 
 namespace tetmend::viewer {
@@ -44,6 +45,7 @@ class Document {
   bool show_keys = false;   ///< the page of F1
   bool show_panels = true;  ///< beside the picture
   FileQuestion question = FileQuestion::none;
+  bool offer_choices = false;  ///< a menu of what can be done with the selection
   bool quit = false;
 
   /// The mesh takes the whole window.
@@ -80,6 +82,7 @@ class Document {
   void set_goal(const Goal& goal);
 
   LiveRun live;
+  bool follow_changes_live = true;  ///< the camera goes to each change that a run stops at
   /// Begins a run over the mesh. Its statistics become those of the state before.
   /// @throws Error as LiveRun::start().
   void run_live(LiveRun::From from);
@@ -93,7 +96,8 @@ class Document {
   const TetMesh& mesh() const { return mesh_; }
   const std::string& file() const { return file_; }
   const Ball& ball() const { return ball_; }  ///< encloses the mesh
-  const MeshStatistics& statistics() const { return statistics_; }
+  /// Cost, while a trace is open: that of what changed since the last question.
+  const MeshStatistics& statistics() const;
   const std::optional<MeshStatistics>& statistics_before() const { return before_; }
   const std::vector<Label>& regions() const { return regions_; }
 
@@ -110,27 +114,31 @@ class Document {
   void fit();
 
   /// Of the measure of the view, by slot.
-  std::span<const float> values() { return values_of(view.scene.measure); }
+  std::span<const float> values() { return lists_.values(mesh_, view.scene.measure); }
   const Histogram& histogram();
   /// The worst by that measure.
-  static constexpr std::size_t kWorstListed = 100;
+  static constexpr std::size_t kWorstListed = TetLists::kWorstListed;
   const std::vector<TetHandle>& worst();
   /// Selects entry i of worst() and moves the camera there.
   void fly_to_worst(std::size_t i);
   std::optional<std::size_t> place_among_worst();  ///< of the selected tet
 
   const Scene& scene();
+  /// What scene() gave last shows the tets of a call only.
+  bool is_isolated() const { return is_isolated_; }
   const Highlight& highlighted();
   /// Change when scene() or highlighted() would return something else.
   unsigned scene_revision();
   unsigned highlight_revision();
 
  private:
-  std::span<const float> values_of(const std::string& measure);
   void open_trace(const std::filesystem::path& file);
   void forget_derived();
+  void follow_changes(std::span<const TetHandle> changed);
+  std::vector<TetHandle> other_layers();
   std::optional<Ball> call_in_view();
-  void update_lists();
+  void mark_live_call(const LiveProgress& run);
+  Selection target_of(std::uint32_t call);
   void update_scene();
 
   TetMesh mesh_;
@@ -144,20 +152,25 @@ class Document {
   std::vector<Label> regions_;
   Selection selection_;
   LiveState followed_ = LiveState::idle;  // what the user was told
+  std::size_t followed_call_ = 0;         // of a run: whose place is marked
 
   std::unique_ptr<Debugger> debugger_;
-  std::size_t shown_mesh_ = 0;          // see Debugger::mesh_number()
-  std::uint32_t shown_root_ = kNoCall;  // outermost call that the camera went to
-  Highlight marks_;                     // of the call at hand
-  std::vector<std::uint8_t> near_;      // tets of that call, by slot; empty: no call
+  std::size_t shown_mesh_ = 0;                  // see Debugger::mesh_number()
+  std::uint32_t shown_root_ = kNoCall;          // outermost call that the camera went to
+  Highlight marks_;                             // of the call at hand
+  std::optional<std::vector<TetHandle>> near_;  // tets of that call
 
-  std::map<std::string, std::vector<float>> values_;
+  mutable StatisticsCache trace_statistics_;  // of the mesh, while a trace is open
+  TetLists lists_;
   std::vector<std::uint32_t> layers_;  // empty until something is peeled
-  std::string listed_measure_;         // of the next two; empty: not made yet
-  Histogram histogram_;
-  std::vector<TetHandle> worst_;
-  std::optional<SceneSettings> drawn_;  // what scene_ was made of
-  Scene scene_;
+  /// A scene and what it was made of.
+  struct Drawing {
+    SceneKeeper keeper;
+    std::optional<SceneSettings> settings;  // nothing: to be made anew
+    std::vector<TetHandle> changed;         // tets, since
+  };
+  Drawing whole_, isolated_;
+  bool is_isolated_ = false;  // which of them is seen
   std::optional<Highlight> highlight_;
   unsigned scene_revision_ = 0;
   unsigned highlight_revision_ = 0;

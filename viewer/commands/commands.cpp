@@ -16,12 +16,13 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kGestures = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kGestures = {
     {{"drag", "orbit"},
      {"right drag, or Shift + drag", "pan"},
      {"wheel", "zoom to the mouse"},
      {"click", "pick"},
      {"double click", "pick and fit"},
+     {"right click, in a trace", "pick, and choose: history of what was picked"},
      {"drag over the histogram", "filter; click there: filter off"},
      {"drop a file", "open it; a .json file is a view"}}};
 
@@ -32,7 +33,7 @@ std::span<const Command> commands() {
     std::vector<Command> list;
     for (const auto group :
          {file_commands(), figure_commands(), view_commands(), show_commands(), select_commands(),
-          trace_commands(), live_commands(), script_commands()}) {
+          trace_commands(), history_commands(), live_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;

@@ -23,6 +23,8 @@ class Host {
   virtual Image render(Document& document) = 0;
   virtual void set_clipboard(const std::string& text) = 0;
   virtual std::string clipboard() = 0;
+  /// What a script says: a line on standard output.
+  virtual void print(const std::string& line);
 };
 
 struct Session {

@@ -44,14 +44,42 @@ json record(Session& s, const json& a) {
   return nullptr;
 }
 
-json run(Session& s, const json& a) {
+void begin(Session& s, std::string_view word, const json& a, bool paused) {
   need_mesh(s.document);
-  const std::string from = a.empty() ? "file" : Arguments("live_run", a).text(0);
+  const std::string from = a.empty() ? "file" : Arguments(word, a).text(0);
   if (from != "file" && from != "shown") {
-    throw Error(fmt::format("live_run: '{}' is not known; valid: file, shown", from));
+    throw Error(fmt::format("{}: '{}' is not known; valid: file, shown", word, from));
   }
+  s.document.live.paused = paused;
   s.document.run_live(from == "file" ? LiveRun::From::file : LiveRun::From::shown);
+}
+
+json run(Session& s, const json& a) {
+  begin(s, "live_run", a, false);
   return nullptr;
+}
+
+json start(Session& s, const json& a) {
+  begin(s, "live_start", a, true);
+  return nullptr;
+}
+
+json speed(Session& s, const json& a) {
+  if (!a.empty()) s.document.live.set_speed(Arguments("live_speed", a).number(0));
+  return s.document.live.speed();
+}
+
+json follow(Session& s, const json&) {
+  bool& follows = s.document.follow_changes_live;
+  follows = !follows;
+  s.document.message = {
+      follows ? "the camera goes to each change of a run" : "the camera stays where it is", false};
+  return nullptr;
+}
+
+/// What is behind the words of live_schedule() beside those that tetmend brings along.
+json plugin_operators(Session& s, const json&) {
+  return s.document.live.plugin_operators();
 }
 
 /// Recorded runs only: to record all would cost each of them time and a file.
@@ -87,13 +115,25 @@ constexpr std::string_view kRun = "Run";
 
 constexpr std::array kCommands = {
     Command{"live_schedule", "", "", "live_schedule(\"NAME\")",
-            "Choose a schedule by its name or file; the result has its parameters", &schedule},
+            "Choose a schedule by its name or file, or \"operator NAME\"; the result has its "
+            "parameters",
+            &schedule},
     Command{"live_set", "", "", "live_set(\"PARAMETER\", VALUE)",
             "Set a parameter of the schedule, for the next run", &set},
     Command{"live_record", "", "", "live_record(\"FILE.trace\")",
             "Record the next runs into a file; without one they are not", &record},
     Command{"live_run", "F6", kRun, "live_run(\"file\")",
             "Run the schedule over the mesh as it was opened, or as it is \"shown\"", &run},
+    Command{"live_start", "Shift+F6", kRun, "live_start(\"file\")",
+            "Begin a run that is paused before its first call; from the mesh as live_run", &start},
+    Command{"live_speed", "", "", "live_speed(CHANGES)",
+            "Changes a second at most, each shown; 0: as fast as it can; the result is what holds",
+            &speed},
+    Command{"live_follow", "", kRun, "live_follow()",
+            "The camera goes to each change of a run, or stays", &follow},
+    Command{"live_plugins", "", "", "live_plugins()",
+            "Names of the operators of plugins, for live_schedule(\"operator NAME\")",
+            &plugin_operators},
     Command{"live_pause", "F7", kRun, "live_pause()", "Pause the run after the call at hand",
             &ask<Demand::pause>},
     Command{"live_continue", "F8", kRun, "live_continue()", "Let a paused run go on",
@@ -101,6 +141,8 @@ constexpr std::array kCommands = {
     Command{"live_step", "F9", kRun, "live_step()",
             "Let the run go on to the next call that changes the mesh",
             &ask<Demand::to_next_accepted>},
+    Command{"live_step_call", "Shift+F9", kRun, "live_step_call()",
+            "Let the run go on to the next call, accepted or not", &ask<Demand::to_next_call>},
     Command{"live_step_pass", "F10", kRun, "live_step_pass()",
             "Let the run go on to the end of the pass", &ask<Demand::to_next_pass>},
     Command{"live_debug", "F11", kRun, "live_debug()",

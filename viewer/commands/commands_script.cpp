@@ -2,6 +2,10 @@
 // Commands for scripts: what they look at.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
 
 #include "viewer/commands/command_group.h"
 
@@ -51,6 +55,34 @@ json expect(Session&, const json& a) {
                                                : "an expectation does not hold");
 }
 
+/// Lua's numbers come as reals; whole ones are written without a point.
+json plain(json value) {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  if (value.is_number_float()) {
+    const double number = value.get<double>();
+    const bool is_whole = std::abs(number) <= kExact && number == std::floor(number);
+    return is_whole ? json(static_cast<std::int64_t>(number)) : value;
+  }
+  if (value.is_structured()) {
+    for (json& item : value) item = plain(std::move(item));
+  }
+  return value;
+}
+
+std::string text_of(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_null()) return "nil";
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  return value.is_structured() ? plain(value).dump(2) : value.dump();
+}
+
+json print(Session& s, const json& a) {
+  std::string line;
+  for (const json& value : a) line += (line.empty() ? "" : " ") + text_of(value);
+  s.host.print(line);
+  return nullptr;
+}
+
 constexpr std::array kCommands = {
     Command{"state", "", "", "state()", "Counts, selection and view, as a table", &state},
     Command{"locate", "", "", "locate()", "Pixel of the selection: a table of x and y", &locate},
@@ -59,9 +91,16 @@ constexpr std::array kCommands = {
     Command{"pixel", "", "", "pixel(X, Y)", "Colour of a pixel: red, green, blue", &pixel},
     Command{"expect", "", "", "expect(CONDITION, \"TEXT\")", "Ends the script with an error if not",
             &expect},
+    Command{"print", "", "", "print(VALUE, ...)",
+            "Write a line to standard output; a table as JSON", &print},
 };
 
 }  // namespace
+
+void Host::print(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
 
 std::span<const Command> script_commands() {
   return kCommands;

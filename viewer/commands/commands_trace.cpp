@@ -94,7 +94,7 @@ json run_to(Session& s, const json& a) {
 
 template <Condition::Kind What, Direction Where>
 json run_to_next(Session& s, const json&) {
-  return run_to_condition(s, {.kind = What, .name = {}, .numbers = {}}, Where);
+  return run_to_condition(s, {{{What, {}, {}, {}}}, false}, Where);
 }
 
 template <Direction Where>
@@ -118,16 +118,24 @@ json deepest(Session& s, const json&) {
   return call;
 }
 
+/// Of the trace, or of live runs where there is none.
+std::vector<Breakpoint>& breakpoints_of(Document& document) {
+  if (document.debugger() != nullptr) return document.debugger()->breakpoints;
+  return document.live.breakpoints;
+}
+
 json breakpoint(Session& s, const json& a) {
-  Debugger& debugger = need_trace(s.document);
   const Condition condition = parse_condition(Arguments("breakpoint", a).text(0));
+  std::vector<Breakpoint>& all = breakpoints_of(s.document);
   const auto same = [&](const Breakpoint& b) { return b.condition == condition; };
-  if (std::erase_if(debugger.breakpoints, same) == 0) debugger.breakpoints.push_back({condition});
-  return debugger.breakpoints.size();
+  if (std::erase_if(all, same) == 0) all.push_back({condition});
+  s.document.live.tell_breakpoints();
+  return all.size();
 }
 
 json clear_breakpoints(Session& s, const json&) {
-  need_trace(s.document).breakpoints.clear();
+  breakpoints_of(s.document).clear();
+  s.document.live.tell_breakpoints();
   return nullptr;
 }
 
@@ -240,9 +248,7 @@ constexpr std::array kCommands = {
     Command{"run_back", "Backspace", kTrace, "run_back()",
             "Back to the last breakpoint, or to the beginning", &run<kBack>},
     Command{"run_to", "", "", "run_to(\"edge 3 17\", \"back\")",
-            "To the next accepted, refused, deeper LEVEL, operator NAME, edge A B, face A B C, "
-            "vertex NUMBER or tet NUMBER; false if there is none",
-            &run_to},
+            "To the next place of a condition, see Conditions; false if there is none", &run_to},
     Command{"next_accepted", "J", kTrace, "next_accepted()", "To the next accepted call",
             &run_to_next<Kind::accepted, kForward>},
     Command{"last_accepted", "Shift+J", kTrace, "last_accepted()", "To the accepted call before",
@@ -255,7 +261,7 @@ constexpr std::array kCommands = {
     Command{"deepest", "D", kTrace, "deepest()",
             "To the deepest call of all; the result is its number", &deepest},
     Command{"breakpoint", "", "", "breakpoint(\"deeper 2\")",
-            "Set a breakpoint, or take it away; places as for run_to", &breakpoint},
+            "Set a breakpoint, or take it away; of live runs while no trace is open", &breakpoint},
     Command{"clear_breakpoints", "", "", "clear_breakpoints()", "Take all breakpoints away",
             &clear_breakpoints},
     Command{"bookmark", "L", kTrace, "bookmark(\"NAME\")",

@@ -13,6 +13,7 @@ namespace tetmend::viewer {
 
 void Controller::press(Button button, double x, double y, bool shift) {
   drag_ = button == Button::left && !shift ? Drag::orbit : Drag::pan;
+  button_ = button;
   moved_ = false;
   pressed_ = last_ = {x, y};
 }
@@ -35,8 +36,18 @@ void Controller::move(double x, double y) {
 
 void Controller::release(double x, double y, double time) {
   const bool is_click = drag_ == Drag::orbit && !moved_;
+  const bool is_question = drag_ == Drag::pan && !moved_ && button_ == Button::right;
   drag_ = Drag::nothing;
-  if (is_click && session_.document.has_mesh()) click(x, y, time);
+  if (!session_.document.has_mesh()) return;
+  if (is_click) click(x, y, time);
+  if (is_question && session_.document.debugger() != nullptr) ask(x, y);
+}
+
+/// What lies there, and what is to be done with it.
+void Controller::ask(double x, double y) {
+  session_.document.pick(x, y);
+  session_.document.offer_choices =
+      !std::holds_alternative<std::monostate>(session_.document.selection());
 }
 
 void Controller::click(double x, double y, double time) {

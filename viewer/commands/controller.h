@@ -32,9 +32,11 @@ class Controller {
   enum class Drag { nothing, orbit, pan };
 
   void click(double x, double y, double time);
+  void ask(double x, double y);
 
   Session& session_;
   Drag drag_ = Drag::nothing;
+  Button button_ = Button::left;
   bool moved_ = false;
   glm::dvec2 pressed_{0};
   glm::dvec2 last_{0};

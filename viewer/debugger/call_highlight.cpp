@@ -20,11 +20,6 @@ std::optional<glm::dvec3> corner_of(const std::vector<LocalTet>& tets, VertexHan
   return std::nullopt;
 }
 
-bool contains_all(const TetVertices& tet, std::span<const VertexHandle> vertices) {
-  return std::all_of(vertices.begin(), vertices.end(),
-                     [&](VertexHandle v) { return contains(tet, v); });
-}
-
 }  // namespace
 
 Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin) {
@@ -48,33 +43,25 @@ Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin) {
   return highlight;
 }
 
-Selection target_in(const TetMesh& mesh, const Call& call) {
+Selection target_in(const TetMesh& mesh, const Call& call, std::span<const TetHandle> around) {
   const auto target = call.target();
-  for (const VertexHandle v : target) {
-    const bool is_there = v.index() < mesh.vertex_slots() && !mesh.is_deleted(v);
-    if (!is_there || !mesh.tet_of(v).is_valid()) return {};
-  }
-  if (target.empty()) return {};
+  if (target.empty() || around.empty()) return {};
   if (target.size() == 1) return target[0];
-  // A star may be large and touch itself: looking at all tets is as good.
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_deleted(t) || !contains_all(mesh.vertices(t), target)) continue;
-    if (target.size() == 2) return *edge_in(mesh, t, target[0], target[1]);
-    return t;
-  }
-  return {};
+  if (target.size() == 2) return *edge_in(mesh, around.front(), target[0], target[1]);
+  return around.front();
 }
 
-std::vector<std::uint8_t> tets_of(const TetMesh& mesh, const CallStudy& study) {
-  std::vector<std::uint8_t> mask(mesh.tet_slots());
+std::vector<TetHandle> tets_of(const TetMesh& mesh, const CallStudy& study) {
+  std::vector<TetHandle> found;
   for (const auto* tets : {&study.before, &study.after}) {
     for (const LocalTet& tet : *tets) {
-      const std::uint32_t slot = tet.tet.index();
-      if (slot < mask.size() && !mesh.is_deleted(tet.tet)) mask[slot] = 1;
+      const bool is_there = tet.tet.index() < mesh.tet_slots() && !mesh.is_deleted(tet.tet);
+      if (is_there) found.push_back(tet.tet);
     }
   }
-  return mask;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace tetmend::viewer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "explain/call_study.h"
@@ -15,10 +16,11 @@ namespace tetmend::viewer {
 /// top of the picture. Empty without a covering.
 Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin);
 
-/// The target as something to select in the mesh as it is now, or nothing.
-Selection target_in(const TetMesh& mesh, const Call& call);
+/// The target as something to select in the mesh as it is now, or nothing. `around` lists the tets
+/// that contain it.
+Selection target_in(const TetMesh& mesh, const Call& call, std::span<const TetHandle> around);
 
-/// By slot: 1 for the tets of the mesh that the call found or made. Cost: linear.
-std::vector<std::uint8_t> tets_of(const TetMesh& mesh, const CallStudy& study);
+/// The tets of the mesh that the call found or made, each once.
+std::vector<TetHandle> tets_of(const TetMesh& mesh, const CallStudy& study);
 
 }  // namespace tetmend::viewer

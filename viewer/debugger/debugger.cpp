@@ -6,11 +6,14 @@
 #include <cmath>
 #include <fstream>
 
+#include "kernel/error.h"
+
 namespace tetmend::viewer {
 
 Debugger::Debugger(const std::filesystem::path& file)
     : file_(file),
       replay_(file_),
+      trials_(file_),
       timeline_(make_timeline(file_, replay_)),
       lesson_(lesson_of(file, file_.event_count())) {}
 
@@ -26,17 +29,18 @@ void Debugger::step(Step step, Direction direction) {
 }
 
 bool Debugger::run_to(const Condition& condition, Direction direction) {
-  const auto stop = find_stop(file_, condition, position(), direction);
-  if (stop) seek(*stop);
+  const std::uint64_t home = position();
+  const auto stop = find_stop(source(), condition, home, direction);
+  seek(stop.value_or(home));
   return stop.has_value();
 }
 
-std::optional<std::uint64_t> Debugger::nearest_breakpoint(Direction direction,
-                                                          Condition* which) const {
+std::optional<std::uint64_t> Debugger::nearest_breakpoint(Direction direction, Condition* which) {
+  const std::uint64_t home = position();
   std::optional<std::uint64_t> nearest;
   for (const Breakpoint& breakpoint : breakpoints) {
     if (!breakpoint.on) continue;
-    const auto stop = find_stop(file_, breakpoint.condition, position(), direction);
+    const auto stop = find_stop(source(), breakpoint.condition, home, direction);
     if (!stop) continue;
     const bool is_nearer =
         !nearest || (direction == Direction::forward ? *stop < *nearest : *stop > *nearest);
@@ -44,6 +48,7 @@ std::optional<std::uint64_t> Debugger::nearest_breakpoint(Direction direction,
     nearest = stop;
     *which = breakpoint.condition;
   }
+  replay_.seek(home);
   return nearest;
 }
 
@@ -83,8 +88,8 @@ bool Debugger::advance(double seconds) {
   return to != before;
 }
 
-TetMesh Debugger::mesh() const {
-  return to_tet_mesh(replay_.mesh());
+TetMesh Debugger::mesh() {
+  return trace_mesh_.begin(replay_);
 }
 
 const CallStudy* Debugger::study() {
@@ -93,27 +98,35 @@ const CallStudy* Debugger::study() {
   return &*study_;
 }
 
+HistorySubject Debugger::subject_of(std::string_view text) {
+  const std::uint64_t home = position();
+  try {
+    HistorySubject subject = find_subject(file_, replay_, text);
+    replay_.seek(home);
+    return subject;
+  } catch (const Error&) {
+    replay_.seek(home);
+    throw;
+  }
+}
+
+void Debugger::ask_history(const HistorySubject& subject) {
+  const std::uint64_t home = position();
+  try {
+    history_ = history_of(file_, replay_, subject);
+  } catch (const Error&) {
+    replay_.seek(home);
+    throw;
+  }
+  replay_.seek(home);
+}
+
 bool is_trace(const std::filesystem::path& file) {
   constexpr std::string_view kMagic = "TETTRAC\n";
   std::array<char, kMagic.size()> begin{};
   std::ifstream in(file, std::ios::binary);
   return in.read(begin.data(), begin.size()) &&
          std::string_view(begin.data(), begin.size()) == kMagic;
-}
-
-TetMesh to_tet_mesh(const SlotMesh& mesh) {
-  std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> tets;
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    if (!mesh.is_deleted(VertexHandle(i))) vertices.push_back(i);
-  }
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    if (!mesh.is_deleted(TetHandle(i))) tets.push_back(i);
-  }
-  TetMesh result(mesh.to_data());
-  result.scatter(vertices, tets);
-  result.set_standard(mesh.standard());
-  return result;
 }
 
 }  // namespace tetmend::viewer

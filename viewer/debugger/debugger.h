@@ -16,17 +16,15 @@
 #include "explain/stepper.h"
 #include "explain/timeline.h"
 #include "kernel/tet_mesh.h"
+#include "trace/history.h"
 #include "trace/replay.h"
+#include "trace/trials.h"
 #include "viewer/debugger/call_list.h"
 #include "viewer/debugger/condition.h"
 #include "viewer/debugger/explained.h"
+#include "viewer/debugger/trace_mesh.h"
 
 namespace tetmend::viewer {
-
-struct Breakpoint {
-  Condition condition;
-  bool on = true;
-};
 
 /// Moves that lead nowhere leave the position as it is.
 class Debugger {
@@ -68,7 +66,13 @@ class Debugger {
   bool advance(double seconds);
 
   /// With the handle numbers of the run. Cost: linear, about half a second for a million tets.
-  TetMesh mesh() const;
+  TetMesh mesh();
+  /// Makes the mesh that mesh() gave last the one of now. Cost: that of what changed meanwhile.
+  MeshStep follow(TetMesh& mesh) { return trace_mesh_.follow(replay_, mesh); }
+  /// Tets that contain all of these vertices, by slot.
+  std::vector<TetHandle> tets_around(std::span<const VertexHandle> vertices) {
+    return replay_.tets_around(vertices);
+  }
   /// Equal numbers: equal meshes.
   std::size_t mesh_number() const { return timeline_.changes_before(position()); }
   const Timeline& timeline() const { return timeline_; }
@@ -77,6 +81,14 @@ class Debugger {
   const CallStudy* study();
   /// @throws Error as draw_call()
   figure::Drawing draw(const FigureRequest& request) { return draw_call(file_, replay_, request); }
+  /// Whom a question is about, as find_subject() reads it. @throws Error as that.
+  HistorySubject subject_of(std::string_view text);
+  /// Asks what the trace knows of something, and keeps the answer. Stays where it is.
+  /// @throws Error as history_of(), and the last answer stays. Cost: replay of the whole trace.
+  void ask_history(const HistorySubject& subject);
+  /// The last answer.
+  const std::optional<History>& history() const { return history_; }
+  std::string asked;  ///< what the user is about to ask
   const std::optional<Lesson>& lesson() const { return lesson_; }
   /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
   /// call.
@@ -86,23 +98,24 @@ class Debugger {
   void fold(std::uint32_t call) { list_.toggle(call); }
 
  private:
-  std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which) const;
+  std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
+  ConditionSource source() { return {file_, replay_, trials_}; }
 
   TraceFile file_;
   Replay replay_;
+  Trials trials_;
   Timeline timeline_;
+  TraceMesh trace_mesh_;
   FactTable facts_;
   CallList list_;
   std::vector<std::uint32_t> stack_;
   std::optional<CallStudy> study_;
+  std::optional<History> history_;
   std::optional<Lesson> lesson_;
   double unplayed_ = 0;  // share of an event
 };
 
 /// True if the file begins as traces do. False also if it cannot be read.
 bool is_trace(const std::filesystem::path& file);
-
-/// The mesh with the slots that it has. Tets of a trace are oriented already.
-TetMesh to_tet_mesh(const SlotMesh& mesh);
 
 }  // namespace tetmend::viewer

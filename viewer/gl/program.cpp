@@ -77,7 +77,30 @@ Buffer::~Buffer() {
 void Buffer::fill(const void* data, std::size_t count) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * stride_), data, GL_STATIC_DRAW);
+  count_ = room_ = count;
+}
+
+void Buffer::fill_with_room(const void* data, std::size_t count) {
+  constexpr std::size_t kLeast = 3000;
+  room_ = count + count / 8 + kLeast;
   count_ = count;
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(room_ * stride_), nullptr, GL_DYNAMIC_DRAW);
+  rewrite(data, 0, count);
+}
+
+void Buffer::rewrite(const void* data, std::size_t first, std::size_t count) {
+  if (count == 0) return;
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(first * stride_),
+                  static_cast<GLsizeiptr>(count * stride_),
+                  static_cast<const std::byte*>(data) + first * stride_);
+}
+
+bool Buffer::resize(std::size_t count) {
+  if (count > room_) return false;
+  count_ = count;
+  return true;
 }
 
 }  // namespace tetmend::viewer::gl

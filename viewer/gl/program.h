@@ -50,6 +50,12 @@ class Buffer {
   Buffer& operator=(const Buffer&) = delete;
 
   void fill(const void* data, std::size_t count);
+  /// As fill(), with room for more.
+  void fill_with_room(const void* data, std::size_t count);
+  /// Writes the elements [first, first + count) of `data` again.
+  void rewrite(const void* data, std::size_t first, std::size_t count);
+  /// How many elements are drawn from now on. False if there is no room for them.
+  bool resize(std::size_t count);
   std::size_t count() const { return count_; }
   void bind() const { glBindVertexArray(array_); }
 
@@ -58,6 +64,7 @@ class Buffer {
   GLuint buffer_ = 0;
   std::size_t stride_ = 0;
   std::size_t count_ = 0;
+  std::size_t room_ = 0;
 };
 
 }  // namespace tetmend::viewer::gl

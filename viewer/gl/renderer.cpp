@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gl/renderer.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "viewer/gl/shaders.h"
 
@@ -39,14 +41,45 @@ std::initializer_list<Attribute> surface_attributes() {
 
 }  // namespace
 
+SceneBuffers::SceneBuffers()
+    : buffers_{Buffer(sizeof(SurfaceVertex), surface_attributes(), false),
+               Buffer(sizeof(SurfaceVertex), surface_attributes(), false),
+               Buffer(sizeof(SurfaceVertex), surface_attributes(), false)} {}
+
+void SceneBuffers::follow(const Scene& scene) {
+  const std::array<const std::vector<SurfaceVertex>*, 3> lists = {&scene.surface, &scene.through,
+                                                                  &scene.ghosts};
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const std::vector<SurfaceVertex>& vertices = *lists[i];
+    if (scene.number != number_ || !buffers_[i].resize(vertices.size())) {
+      buffers_[i].fill_with_room(vertices.data(), vertices.size());
+      seen_[i] = scene.rewritten[i].size();
+      continue;
+    }
+    std::vector<std::uint32_t> triangles(
+        scene.rewritten[i].begin() + static_cast<std::ptrdiff_t>(seen_[i]),
+        scene.rewritten[i].end());
+    seen_[i] = scene.rewritten[i].size();
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    for (std::size_t k = 0; k < triangles.size();) {  // those in a row at once
+      std::size_t end = k + 1;
+      while (end < triangles.size() && triangles[end] == triangles[end - 1] + 1) ++end;
+      const std::size_t first =
+          std::min<std::size_t>(3 * std::size_t{triangles[k]}, vertices.size());
+      const std::size_t last = std::min(3 * (std::size_t{triangles[end - 1]} + 1), vertices.size());
+      buffers_[i].rewrite(vertices.data(), first, last - first);
+      k = end;
+    }
+  }
+  number_ = scene.number;
+}
+
 Renderer::Renderer()
     : background_(kBackgroundVertex, kBackgroundFragment),
       surface_(kSurfaceVertex, kSurfaceFragment),
       lines_(kLineVertex, kLineFragment),
       nothing_(0, {}, false),
-      surface_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
-      through_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
-      ghost_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
       highlight_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
       highlight_lines_(sizeof(Line),
                        {{3, GL_FLOAT, GL_FALSE, false, offsetof(Line, from)},
@@ -56,13 +89,10 @@ Renderer::Renderer()
                        true) {}
 
 void Renderer::upload(Document& document) {
-  if (document.scene_revision() != scene_revision_) {
-    scene_revision_ = document.scene_revision();
-    const Scene& scene = document.scene();
-    surface_vertices_.fill(scene.surface.data(), scene.surface.size());
-    through_vertices_.fill(scene.through.data(), scene.through.size());
-    ghost_vertices_.fill(scene.ghosts.data(), scene.ghosts.size());
-  }
+  const Scene& scene = document.scene();
+  SceneBuffers& buffers = document.is_isolated() ? isolated_ : whole_;
+  buffers.follow(scene);
+  scene_ = &buffers;
   if (document.highlight_revision() != highlight_revision_) {
     highlight_revision_ = document.highlight_revision();
     const Highlight& shown = document.highlighted();
@@ -148,18 +178,18 @@ void Renderer::draw(Document& document, const Surface& surface) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthRange(kThroughDepth, 1);
-  draw_surface(surface_vertices_, 1, document.view.edges ? 0.75F : 0.0F);
+  draw_surface(scene_->surface(), 1, document.view.edges ? 0.75F : 0.0F);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glEnable(GL_CULL_FACE);
-  draw_surface(ghost_vertices_, 1, document.view.edges ? 0.5F : 0.0F);
+  draw_surface(scene_->ghosts(), 1, document.view.edges ? 0.5F : 0.0F);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
 
   glDepthRange(kHighlightDepth, kThroughDepth);
   // Over the colours of a measure red must stay faint.
   const bool is_plain = document.view.scene.colour == "region";
-  draw_once_per_pixel(through_vertices_, is_plain ? 1.0F : 0.4F, 0.25F);
+  draw_once_per_pixel(scene_->through(), is_plain ? 1.0F : 0.4F, 0.25F);
   glDisable(GL_CULL_FACE);
 
   glDisable(GL_DEPTH_TEST);

@@ -2,6 +2,9 @@
 // Draws the scene of a document into the current framebuffer.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "viewer/document.h"
 #include "viewer/gl/program.h"
 
@@ -14,6 +17,24 @@ struct Surface {
   /// Where nothing is drawn, alpha is 0, if the view asks for that. Colours are then multiplied by
   /// alpha. Otherwise a transparent background is white.
   bool has_alpha = false;
+};
+
+/// The triangles of a scene on the graphics card.
+class SceneBuffers {
+ public:
+  SceneBuffers();
+
+  /// Writes what is another since the last call.
+  void follow(const Scene& scene);
+  std::uint64_t number() const { return number_; }
+  const Buffer& surface() const { return buffers_[0]; }
+  const Buffer& through() const { return buffers_[1]; }
+  const Buffer& ghosts() const { return buffers_[2]; }
+
+ private:
+  std::array<Buffer, 3> buffers_;
+  std::array<std::size_t, 3> seen_{};  // of Scene::rewritten
+  std::uint64_t number_ = 0;           // of the scene
 };
 
 /// Needs a current OpenGL 3.3 core context for its whole life.
@@ -37,12 +58,10 @@ class Renderer {
   Program surface_;
   Program lines_;
   Buffer nothing_;
-  Buffer surface_vertices_;
-  Buffer through_vertices_;
-  Buffer ghost_vertices_;
+  SceneBuffers whole_, isolated_;  // a trace has both in turn
   Buffer highlight_vertices_;
   Buffer highlight_lines_;
-  unsigned scene_revision_ = 0;
+  const SceneBuffers* scene_ = nullptr;  // what is drawn
   unsigned highlight_revision_ = 0;
 };
 

@@ -30,7 +30,11 @@ std::string trouble_of(const Step& step) {
 }  // namespace
 
 LiveJob::LiveJob(TetMesh mesh, LivePlan plan)
-    : mesh_(std::move(mesh)), plan_(std::move(plan)), thread_([this] { work(); }) {}
+    : mesh_(std::move(mesh)),
+      plan_(std::move(plan)),
+      demand_(plan_.paused ? Demand::pause : Demand::go_on),
+      speed_(plan_.speed),
+      thread_([this] { work(); }) {}
 
 LiveJob::~LiveJob() {
   ask(Demand::stop);
@@ -47,6 +51,20 @@ void LiveJob::ask(Demand demand) {
     if (demand == Demand::stop) cancel_ = true;
   }
   changed_.notify_all();
+}
+
+void LiveJob::set_speed(double changes_a_second) {
+  {
+    const std::lock_guard lock(lock_);
+    speed_ = changes_a_second;
+  }
+  changed_.notify_all();
+}
+
+void LiveJob::set_breakpoints(std::vector<Condition> conditions) {
+  const std::lock_guard lock(lock_);
+  new_breakpoints_ = std::move(conditions);
+  has_new_breakpoints_ = true;
 }
 
 LiveState LiveJob::state_now() const {
@@ -122,7 +140,10 @@ void LiveJob::run_schedule() {
     shown_.before = before;
   }
   begin_trace();
-  Run run(mesh_, registry_);
+  breakpoints_.set(plan_.breakpoints);
+  last_snapshot_ = Clock::now();
+  come_to(Event::start);
+  Run run(mesh_, plan_.registry);
   run.set_listener(this);
   run.set_cancel_flag(&cancel_);
   run.set_trace(this);
@@ -140,12 +161,46 @@ void LiveJob::begin_trace() {
   recorder_ = std::make_unique<TraceRecorder>(plan_.trace, mesh_, std::move(header));
 }
 
+void LiveJob::take_breakpoints() {
+  const std::lock_guard lock(lock_);
+  breakpoints_.set(std::move(new_breakpoints_));
+  has_new_breakpoints_ = false;
+}
+
 void LiveJob::come_to(Event event) {
   const Demand demand = demand_.load(std::memory_order_relaxed);
-  const bool is_due = demand == Demand::pause ||
+  const bool is_call = event == Event::accepted_call || event == Event::refused_call;
+  if (has_new_breakpoints_) take_breakpoints();
+  std::optional<std::string> hit;
+  if (is_call && !breakpoints_.is_empty()) hit = breakpoints_.take(event == Event::accepted_call);
+  const bool is_due = hit || demand == Demand::pause ||
+                      (demand == Demand::to_next_call && is_call) ||
                       (demand == Demand::to_next_accepted && event == Event::accepted_call) ||
                       (demand == Demand::to_next_pass && event == Event::pass_end);
-  if (is_due) hold(demand);
+  if (is_due) {
+    {
+      const std::lock_guard lock(lock_);
+      shown_.breakpoint = hit.value_or("");
+    }
+    return hold(demand);
+  }
+  const double speed = speed_;
+  if (event == Event::accepted_call && speed > 0 && demand != Demand::stop) dwell(1 / speed);
+}
+
+/// Lets the user look at a change.
+void LiveJob::dwell(double seconds) {
+  const Clock::time_point since = Clock::now();
+  snap();
+  publish();
+  std::unique_lock lock(lock_);
+  const Demand demand = demand_;
+  const double speed = speed_;
+  changed_.wait_until(
+      lock,
+      since + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)),
+      [&] { return demand_ != demand || speed_ != speed; });
+  held_ += Clock::now() - since;
 }
 
 void LiveJob::hold(Demand demand) {
@@ -153,12 +208,14 @@ void LiveJob::hold(Demand demand) {
   snap();
   publish();
   std::unique_lock lock(lock_);
-  if (demand_ == demand) demand_ = Demand::pause;  // a step is done; what was asked since counts
+  // A step is done, or a breakpoint met; what was asked since counts.
+  if (demand_ == demand && demand != Demand::stop) demand_ = Demand::pause;
   is_held_ = true;
   held_since_ = since;
   changed_.notify_all();
   changed_.wait(lock, [&] { return demand_ != Demand::pause; });
   is_held_ = false;
+  shown_.breakpoint.clear();
   held_ += Clock::now() - since;
 }
 
@@ -179,9 +236,8 @@ void LiveJob::publish() {
   const std::lock_guard lock(lock_);
   shown_.attempts = attempts_;
   shown_.accepted = accepted_;
-  if (!last_accepted_) return;
-  const Call& call = *last_accepted_;
-  shown_.last_accepted = {std::string(call.operator_name), call.place, call.before, call.after};
+  shown_.last_accepted = last_accepted_;
+  shown_.last = last_;
 }
 
 // ---- What the run tells -------------------------------------------------------------------------
@@ -203,6 +259,7 @@ void LiveJob::pass_ends(const QualityIndicators& now) {
 
 void LiveJob::visit_begins(const TetVertices& tet, Quality quality) {
   if (recorder_) recorder_->visit_begins(tet, quality);
+  breakpoints_.visit_begins(quality);
 }
 
 void LiveJob::visit_ends() {
@@ -215,10 +272,16 @@ void LiveJob::standard_changed(const Standard& standard) {
 
 void LiveJob::attempt_begins(const AttemptEvent& event) {
   if (recorder_) recorder_->attempt_begins(event);
+  if (depth_ == 0 && has_new_breakpoints_) take_breakpoints();
+  if (!breakpoints_.is_empty()) breakpoints_.attempt_begins(mesh_, event);
   if (depth_++ > 0) return;
+  call_ = {};
   call_.operator_name = event.operator_name;
-  call_.place.setZero();
-  for (const VertexHandle v : event.target) call_.place += mesh_.point(v);
+  call_.number = attempts_ + 1;
+  for (const VertexHandle v : event.target) {
+    call_.place += mesh_.point(v);
+    call_.target.push_back(mesh_.point(v));
+  }
   call_.place /= static_cast<double>(event.target.size());
 }
 
@@ -229,20 +292,26 @@ void LiveJob::candidate_found() {
 void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
                            std::span<const Quality> now) {
   if (recorder_) recorder_->attempt_ends(verdict, before, now);
+  if (!breakpoints_.is_empty()) {
+    breakpoints_.attempt_ends(mesh_, verdict, before.empty() ? 0 : before.front());
+  }
   if (--depth_ > 0) return;
   ++attempts_;
   ++pass_.attempts;
+  call_.verdict = verdict;
+  if (!before.empty()) call_.before = before.front();
+  if (!now.empty()) call_.after = now.front();
+  last_ = call_;
   if (verdict != Verdict::accepted) return come_to(Event::refused_call);
   ++accepted_;
   ++pass_.accepted;
   last_accepted_ = call_;
-  if (!before.empty()) last_accepted_->before = before.front();
-  if (!now.empty()) last_accepted_->after = now.front();
   come_to(Event::accepted_call);
 }
 
 void LiveJob::edit_made(const TetMesh& mesh, const Journal& journal) noexcept {
   if (recorder_) recorder_->edit_made(mesh, journal);
+  if (!breakpoints_.is_empty()) breakpoints_.edit_made(journal);
 }
 
 void LiveJob::edit_undone() noexcept {

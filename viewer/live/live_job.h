@@ -18,6 +18,7 @@
 #include "schedule/run.h"
 #include "schedule/schedule.h"
 #include "trace/recorder.h"
+#include "viewer/live/live_breakpoints.h"
 #include "viewer/live/live_progress.h"
 #include "viewer/mesh/measured_mesh.h"
 
@@ -26,6 +27,7 @@ namespace tetmend::viewer {
 /// What a job is to do next.
 enum class Demand : std::uint8_t {
   go_on,
+  to_next_call,      ///< and pause after the next call, accepted or not
   to_next_accepted,  ///< and pause after the next call that changes the mesh
   to_next_pass,      ///< and pause after the pass
   pause,             ///< after the call at hand
@@ -37,6 +39,10 @@ struct LivePlan {
   ScheduleSettings settings;
   std::filesystem::path input;  ///< name of the mesh, for the trace
   std::filesystem::path trace;  ///< file to record into; empty: none
+  bool paused = false;          ///< before the first call
+  double speed = 0;             ///< see LiveJob::set_speed()
+  std::vector<Condition> breakpoints;
+  Registry registry = Registry::builtin();
 };
 
 /// All member functions are for one other thread, or several. One thread makes all calls of the
@@ -53,6 +59,11 @@ class LiveJob final : private TraceSink, private ProgressListener {
 
   /// Once stop was asked for nothing else counts.
   void ask(Demand demand);
+  /// So many changes a second at most, each with a snapshot; 0: as fast as it can.
+  void set_speed(double changes_a_second);
+  /// Where the run is held, in or after the call at hand: after the outermost call in which one of
+  /// these held.
+  void set_breakpoints(std::vector<Condition> conditions);
   /// Cost: copies the list of passes.
   LiveProgress progress() const;
   LiveState state() const;
@@ -65,13 +76,15 @@ class LiveJob final : private TraceSink, private ProgressListener {
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class Event : std::uint8_t { refused_call, accepted_call, pass_end };
+  enum class Event : std::uint8_t { start, refused_call, accepted_call, pass_end };
 
   void work();
   void run_schedule();
   void begin_trace();
   void come_to(Event event);
   void hold(Demand demand);
+  void dwell(double seconds);
+  void take_breakpoints();
   void snap();
   void publish();
   LiveState state_now() const;
@@ -96,16 +109,11 @@ class LiveJob final : private TraceSink, private ProgressListener {
   TetMesh mesh_;
   LivePlan plan_;
   std::unique_ptr<TraceRecorder> recorder_;
-  Registry registry_ = Registry::builtin();
-  struct Call {
-    std::string_view operator_name;
-    Point place;
-    Quality before = 0, after = 0;
-  };
+  LiveBreakpoints breakpoints_;
+  LiveCall call_;  // the outermost
+  std::optional<LiveCall> last_, last_accepted_;
   unsigned depth_ = 0;  // of the attempt at hand
-  Call call_;           // the outermost
-  std::optional<Call> last_accepted_;
-  LivePass pass_;  // at work
+  LivePass pass_;       // at work
   std::size_t attempts_ = 0;
   std::size_t accepted_ = 0;
   Clock::time_point pass_start_;
@@ -115,10 +123,13 @@ class LiveJob final : private TraceSink, private ProgressListener {
 
   std::atomic<Demand> demand_ = Demand::go_on;  // written under the lock
   std::atomic<bool> cancel_ = false;
+  std::atomic<double> speed_ = 0;
+  std::atomic<bool> has_new_breakpoints_ = false;
   mutable std::mutex lock_;
   mutable std::condition_variable changed_;
   // Under the lock.
   LiveProgress shown_;
+  std::vector<Condition> new_breakpoints_;
   bool is_held_ = false;
   bool is_over_ = false;
   Clock::time_point start_ = Clock::now();

@@ -31,7 +31,9 @@ json to_json(const LiveCall& call) {
   return {{"operator", call.operator_name},
           {"place", {call.place.x(), call.place.y(), call.place.z()}},
           {"before", call.before},
-          {"after", call.after}};
+          {"after", call.after},
+          {"verdict", to_string(call.verdict)},
+          {"number", call.number}};
 }
 
 }  // namespace
@@ -51,6 +53,8 @@ json to_json(const LiveProgress& progress) {
       {"passes", passes},
       {"notes", progress.notes},
       {"last_accepted", progress.last_accepted ? to_json(*progress.last_accepted) : json(nullptr)},
+      {"last", progress.last ? to_json(*progress.last) : json(nullptr)},
+      {"breakpoint", progress.breakpoint},
       {"trace", progress.trace}};
 }
 

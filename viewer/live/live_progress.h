@@ -12,6 +12,7 @@
 
 #include "kernel/geometry.h"
 #include "kernel/statistics.h"
+#include "trace/trace_sink.h"
 
 namespace tetmend::viewer {
 
@@ -36,12 +37,15 @@ struct LivePass {
   QualityIndicators after;
 };
 
-/// An attempt by the schedule that was accepted.
+/// An attempt by the schedule.
 struct LiveCall {
   std::string operator_name;
   Point place = Point::Zero();  ///< middle of what it aimed at
   Quality before = 0;           ///< worst tet of those that it replaced
   Quality after = 0;            ///< worst of those that it made
+  Verdict verdict = Verdict::accepted;
+  std::vector<Point> target;  ///< corners of what it aimed at, as they were then
+  std::size_t number = 0;     ///< of the attempt, from 1
 };
 
 struct LiveProgress {
@@ -57,7 +61,9 @@ struct LiveProgress {
   std::vector<LivePass> passes;
   std::vector<std::string> notes;  ///< of the schedule
   std::optional<LiveCall> last_accepted;
-  std::string trace;  ///< file of the trace, once it is complete
+  std::optional<LiveCall> last;  ///< accepted or not
+  std::string breakpoint;        ///< at which the run was held; empty: for another reason
+  std::string trace;             ///< file of the trace, once it is complete
 };
 
 nlohmann::json to_json(const LiveProgress& progress);

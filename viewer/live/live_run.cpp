@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "kernel/error.h"
+#include "ops/plugin.h"
+#include "viewer/live/operator_schedule.h"
 
 namespace tetmend::viewer {
 
@@ -28,10 +30,36 @@ LiveRun::LiveRun()
     : name_(builtin_schedule_names().front()), info_(Schedule::builtin(name_).describe()) {}
 
 Schedule LiveRun::load(const std::string& name_or_file) {
-  Schedule schedule = Schedule::find(name_or_file);
+  Schedule schedule = find_schedule(registry_, name_or_file);
   info_ = schedule.describe();
   settings_ = valid_settings(info_, settings_);
   return schedule;
+}
+
+void LiveRun::load_plugins(std::span<const std::filesystem::path> files) {
+  for (const auto& file : files) {
+    for (const OperatorInfo* info : load_plugin(file, registry_).operators) {
+      plugin_operators_.emplace_back(info->name);
+    }
+  }
+}
+
+std::vector<Condition> LiveRun::conditions() const {
+  std::vector<Condition> conditions;
+  for (const Breakpoint& breakpoint : breakpoints) {
+    if (breakpoint.on) conditions.push_back(breakpoint.condition);
+  }
+  return conditions;
+}
+
+void LiveRun::tell_breakpoints() {
+  if (job_) job_->set_breakpoints(conditions());
+}
+
+void LiveRun::set_speed(double changes_a_second) {
+  if (!(changes_a_second >= 0)) throw Error("live_speed: changes a second, 0 for no limit");
+  speed_ = changes_a_second;
+  if (job_) job_->set_speed(speed_);
 }
 
 void LiveRun::choose_schedule(const std::string& name_or_file) {
@@ -55,7 +83,14 @@ std::string LiveRun::value_of(const ScheduleParameter& parameter) const {
 void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
   if (is_active()) throw Error("a run is at work: stop it first");
   Schedule schedule = load(name_);  // the file may have changed
-  LivePlan plan{std::move(schedule), settings_, file, trace};
+  LivePlan plan{.schedule = std::move(schedule),
+                .settings = settings_,
+                .input = file,
+                .trace = trace,
+                .paused = paused,
+                .speed = speed_,
+                .breakpoints = conditions(),
+                .registry = registry_};
   if (!input_) input_ = std::make_unique<Input>(shown);
   if (input_->mesh.standard() != shown.mesh.standard()) {
     Input judged = *input_;

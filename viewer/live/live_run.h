@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "schedule/schedule.h"
 #include "viewer/live/live_job.h"
@@ -19,7 +21,13 @@ class LiveRun {
   /// The default schedule with its defaults.
   LiveRun();
 
-  /// One that tetmend brings along, or a file .lua. Parameters that the new one has, too, keep
+  /// Makes the operators of these plugins known, before any run. @throws Error as load_plugin().
+  void load_plugins(std::span<const std::filesystem::path> files);
+  /// The operators that plugins brought, by name.
+  const std::vector<std::string>& plugin_operators() const { return plugin_operators_; }
+  const Registry& registry() const { return registry_; }
+
+  /// One that tetmend brings along, a file .lua, or "operator NAME": that operator alone. Parameters that the new one has, too, keep
   /// their values where they are valid. @throws Error as Schedule::find() and describe(), and
   /// nothing changes.
   void choose_schedule(const std::string& name_or_file);
@@ -33,6 +41,13 @@ class LiveRun {
   std::string value_of(const ScheduleParameter& parameter) const;
 
   std::filesystem::path trace;  ///< the next runs are recorded into this file; empty: they are not
+
+  bool paused = false;                  ///< the next runs are held before their first call
+  std::vector<Breakpoint> breakpoints;  ///< after a change call tell_breakpoints()
+  void tell_breakpoints();
+  /// Changes a second, at once and in later runs; 0: as fast as it can. @throws Error below 0.
+  void set_speed(double changes_a_second);
+  double speed() const { return speed_; }
 
   struct Input {
     TetMesh mesh;
@@ -63,10 +78,14 @@ class LiveRun {
 
  private:
   Schedule load(const std::string& name_or_file);
+  std::vector<Condition> conditions() const;
 
   std::string name_;  // of a schedule, or its file
   ScheduleInfo info_;
   ScheduleSettings settings_;
+  Registry registry_ = Registry::builtin();
+  std::vector<std::string> plugin_operators_;
+  double speed_ = 0;
   std::unique_ptr<const Input> input_;
   std::unique_ptr<LiveJob> job_;
 };

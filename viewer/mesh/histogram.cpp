@@ -9,12 +9,14 @@
 namespace tetmend::viewer {
 
 Histogram::Histogram(std::span<const float> values, Range range) : range_(range) {
-  const double scale = static_cast<double>(kBins) / (range.high - range.low);
-  for (const float value : values) {
-    if (std::isnan(value)) continue;
-    const double at = (static_cast<double>(value) - range.low) * scale;
-    ++counts_[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(kBins - 1)))];
-  }
+  for (const float value : values) add(value);
+}
+
+void Histogram::count(float value, std::size_t by) {
+  if (std::isnan(value)) return;
+  const double scale = static_cast<double>(kBins) / (range_.high - range_.low);
+  const double at = (static_cast<double>(value) - range_.low) * scale;
+  counts_[static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(kBins - 1)))] += by;
 }
 
 std::size_t Histogram::largest() const {

@@ -26,6 +26,10 @@ class Histogram {
   /// Values that are not a number (deleted slots) are left out. Cost: linear.
   Histogram(std::span<const float> values, Range range);
 
+  /// One value more, or one that was counted less.
+  void add(float value) { count(value, 1); }
+  void remove(float value) { count(value, static_cast<std::size_t>(-1)); }
+
   const Range& range() const { return range_; }
   std::span<const std::size_t> counts() const { return counts_; }
   std::size_t largest() const;  ///< count of the fullest bin
@@ -39,6 +43,8 @@ class Histogram {
   Range brushed(double from, double to) const;
 
  private:
+  void count(float value, std::size_t by);
+
   Range range_;
   std::vector<std::size_t> counts_ = std::vector<std::size_t>(kBins);
 };

@@ -4,7 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/tet_mesh.h"
@@ -35,11 +39,19 @@ struct Scene {
   glm::dvec3 origin{0};  ///< of all positions, in world coordinates
   std::vector<SurfaceVertex> surface;
   std::vector<TetHandle> surface_tets;  ///< of each triangle of `surface`
-  std::vector<SurfaceVertex> through;   ///< bad tets and constraints, seen through the rest
+  std::vector<SurfaceVertex> through;   ///< constraints and bad tets, seen through the rest
+  std::vector<TetHandle> through_tets;  ///< likewise; invalid for constraints
   std::vector<SurfaceVertex> ghosts;    ///< boundary of what is hidden
-  std::size_t tets_shown = 0;           ///< whole or cut
-  std::size_t bad_shown = 0;            ///< bad tets among `through`
-  std::string note;                     ///< what was left out of the picture, or empty
+  std::vector<TetHandle> ghost_tets;
+  std::size_t tets_shown = 0;  ///< whole or cut
+  std::size_t bad_shown = 0;   ///< bad tets among `through`
+  std::string note;            ///< what was left out of the picture, or empty
+
+  /// For those who copy the triangles: under another number everything is another. Since it has
+  /// this one, the triangles listed were rewritten in `surface`, `through` and `ghosts`, or are new;
+  /// what lies beyond the end is gone.
+  std::uint64_t number = 0;
+  std::array<std::vector<std::uint32_t>, 3> rewritten;
 };
 
 /// More bad tets than this are not seen through the rest; the worst are taken.
@@ -51,15 +63,47 @@ inline constexpr std::size_t kMostShrunkTets = 60000;
 struct SceneInput {
   const TetMesh& mesh;
   const SceneSettings& settings;
-  TetFigures figures;                    ///< of settings.measure
-  std::span<const float> colour_values;  ///< of settings.colour; empty for "region"
-  Range colour_range;                    ///< ends of the colour map
-  std::span<const std::uint8_t> only;    ///< by slot: the tets to show, if not empty
-  Ball ball;                             ///< encloses the mesh
+  TetFigures figures;                              ///< of settings.measure
+  std::span<const float> colour_values;            ///< of settings.colour; empty for "region"
+  Range colour_range;                              ///< ends of the colour map
+  std::optional<std::span<const TetHandle>> only;  ///< the tets to show, each once; all without
+  Ball ball;                                       ///< encloses the mesh
+  std::size_t most_bad = kMostBadTets;             ///< seen through the rest
 };
 
-/// Cost: a few passes over the tets, about 30 ms for a million.
+/// Cost: a few passes over the tets, about 30 ms for a million; with `only`, that of these tets.
 Scene build_scene(const SceneInput& input);
+
+/// A scene that is kept up while the mesh changes.
+class SceneKeeper {
+ public:
+  const Scene& scene() const { return scene_; }
+  /// As build_scene().
+  void build(const SceneInput& input);
+  /// The tets of these slots have come, gone, changed, or got other figures; settings, ball and
+  /// regions are those of the last build, which was without `only`. The triangles are those of a
+  /// scene built anew, in another order. Cost: that of the tets and their neighbours.
+  void update(const SceneInput& input, std::span<const TetHandle> changed);
+
+ private:
+  friend class SceneWork;
+  /// The triangles of each tet, as chains.
+  struct Chains {
+    std::vector<std::uint32_t> first;  // by slot
+    std::vector<std::uint32_t> next;   // by triangle
+  };
+  using Bad = std::pair<Quality, std::uint32_t>;  // and its slot
+
+  Scene scene_;
+  std::vector<std::uint8_t> shown_;   // by slot
+  std::vector<Quality> bad_quality_;  // by slot; infinite for a tet that is not bad
+  std::vector<std::uint8_t> taken_;   // by slot: bad, and seen through the rest
+  std::size_t bad_count_ = 0;
+  std::optional<std::vector<std::uint32_t>> only_;  // slots of the last build
+  bool is_followed_ = false;                        // what comes now is there
+  std::array<Chains, 3> chains_;
+  std::set<Bad> taken_order_, rest_order_;
+};
 
 /// Appends a polygon as a fan. `normal` is a unit vector.
 void add_polygon(std::vector<SurfaceVertex>& out, const Polygon& polygon, const glm::dvec3& normal,

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
-#include "kernel/star.h"
 #include "kernel/statistics.h"
-#include "kernel/workspace.h"
 
 namespace tetmend::viewer {
 
@@ -43,6 +42,34 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
 
 glm::dvec3 at(const TetMesh& mesh, VertexHandle v) {
   return to_glm(mesh.point(v));
+}
+
+/// The tets of a vertex, from face to face. Needs no marks by slot as star() does.
+std::vector<TetHandle> tets_at(const TetMesh& mesh, VertexHandle v) {
+  std::vector<TetHandle> found = {mesh.tet_of(v)};
+  std::unordered_set<std::uint32_t> known = {found.front().index()};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const unsigned opposite = mesh.local_index(found[i], v);
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace twin = mesh.twin(HalfFace(found[i], f));
+      if (f == opposite || twin.is_outside()) continue;
+      if (known.insert(twin.tet().index()).second) found.push_back(twin.tet());
+    }
+  }
+  return found;
+}
+
+std::vector<VertexHandle> vertices_around(const TetMesh& mesh, VertexHandle v,
+                                          const std::vector<TetHandle>& tets) {
+  std::vector<VertexHandle> found;
+  for (const TetHandle t : tets) {
+    for (const VertexHandle w : mesh.vertices(t)) {
+      if (w != v) found.push_back(w);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 /// Collects the parts of a highlight.
@@ -88,10 +115,9 @@ class Painter {
   }
   void paint(VertexHandle v) {
     if (!mesh_.tet_of(v).is_valid()) return;
-    Workspace workspace(mesh_);
     Colour colour = kLinkFaceColour;
-    for (const HalfFace f : link(mesh_, v, workspace)) {
-      const auto c = mesh_.vertices(f);
+    for (const TetHandle t : tets_at(mesh_, v)) {
+      const auto c = mesh_.vertices(HalfFace(t, mesh_.local_index(t, v)));
       face(c[0], c[1], c[2], colour);
       for (unsigned i = 0; i < 3; ++i) {
         line(c[i], c[(i + 1) % 3], kLinkEdgeColour, 1);
@@ -195,13 +221,12 @@ class Teller {
     row("point", fmt::format("{:.6g} {:.6g} {:.6g}", p.x(), p.y(), p.z()));
     row("kind", mesh_.is_boundary(v) ? "on the boundary" : mesh_.is_fixed(v) ? "fixed" : "free");
     if (!mesh_.tet_of(v).is_valid()) return;
-    Workspace workspace(mesh_);
     Quality worst = std::numeric_limits<Quality>::infinity();
-    const auto ball = star(mesh_, v, workspace);
+    const auto ball = tets_at(mesh_, v);
     for (const TetHandle t : ball) worst = std::min(worst, mesh_.quality(t));
     row("ball (tets)", fmt::format("{}", ball.size()));
     row("worst quality", fmt::format("{:.4f}", worst));
-    row("one-ring", fmt::format("{} vertices", one_ring(mesh_, v, workspace).size()));
+    row("one-ring", fmt::format("{} vertices", vertices_around(mesh_, v, ball).size()));
   }
 
   Rows take() { return std::move(rows_); }
@@ -283,9 +308,10 @@ Ball ball_around(const TetMesh& mesh, const Selection& selection) {
     }
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     points.push_back(at(mesh, *v));
-    Workspace workspace(mesh);
     if (mesh.tet_of(*v).is_valid()) {
-      for (const VertexHandle w : one_ring(mesh, *v, workspace)) points.push_back(at(mesh, w));
+      for (const VertexHandle w : vertices_around(mesh, *v, tets_at(mesh, *v))) {
+        points.push_back(at(mesh, w));
+      }
     }
   }
   glm::dvec3 low = points.front();
@@ -302,6 +328,18 @@ Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::
   Painter painter(mesh, origin);
   std::visit([&](const auto& what) { painter.paint(what); }, selection);
   return painter.take();
+}
+
+Highlight highlight_points(std::span<const Point> corners, const glm::dvec3& origin) {
+  Highlight marks;
+  const auto place = [&](const Point& p) { return glm::vec3(to_glm(p) - origin); };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    marks.lines.push_back({place(corners[i]), place(corners[i]), kSupportingEdgeColour, 12});
+    for (std::size_t k = 0; k < i; ++k) {
+      marks.lines.push_back({place(corners[k]), place(corners[i]), kSupportingEdgeColour, kWide});
+    }
+  }
+  return marks;
 }
 
 Rows describe(const TetMesh& mesh, const Selection& selection) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -46,6 +47,10 @@ struct Highlight {
   std::vector<Line> lines;
 };
 Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::dvec3& origin);
+
+/// A vertex, an edge, a face or a tet that is marked by its corners: what a call aimed at, in a mesh
+/// that may not have it any more.
+Highlight highlight_points(std::span<const Point> corners, const glm::dvec3& origin);
 
 /// Rows of a table: name and value. Words of the paper.
 using Rows = std::vector<std::pair<std::string, std::string>>;

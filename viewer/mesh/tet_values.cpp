@@ -45,16 +45,19 @@ const TetValue& find_tet_value(std::string_view name) {
   throw Error(fmt::format("unknown quality measure '{}'; valid: {}", name, fmt::join(names, ", ")));
 }
 
+float evaluate_tet(const TetMesh& mesh, const TetValue& value, TetHandle t) {
+  if (mesh.is_deleted(t)) return std::numeric_limits<float>::quiet_NaN();
+  if (value.measure == nullptr) return mesh.quality(t);
+  const TetVertices& v = mesh.vertices(t);
+  return static_cast<float>(value.measure->evaluate(mesh.point(v[0]), mesh.point(v[1]),
+                                                    mesh.point(v[2]), mesh.point(v[3])));
+}
+
 std::vector<float> evaluate_tets(const TetMesh& mesh, const TetValue& value) {
-  std::vector<float> values(mesh.tet_slots(), std::numeric_limits<float>::quiet_NaN());
-  for_each_tet(mesh, [&](TetHandle t) {
-    const TetVertices& v = mesh.vertices(t);
-    values[t.index()] =
-        value.measure == nullptr
-            ? mesh.quality(t)
-            : static_cast<float>(value.measure->evaluate(mesh.point(v[0]), mesh.point(v[1]),
-                                                         mesh.point(v[2]), mesh.point(v[3])));
-  });
+  std::vector<float> values(mesh.tet_slots());
+  for (std::uint32_t i = 0; i < values.size(); ++i) {
+    values[i] = evaluate_tet(mesh, value, TetHandle(i));
+  }
   return values;
 }
 

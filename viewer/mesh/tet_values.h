@@ -29,6 +29,8 @@ std::span<const TetValue> tet_values();
 /// @throws Error for an unknown name, with the valid ones.
 const TetValue& find_tet_value(std::string_view name);
 
+/// Not a number for a deleted slot.
+float evaluate_tet(const TetMesh& mesh, const TetValue& value, TetHandle t);
 /// Of every tet, by slot; not a number for deleted slots. Cost: at most one evaluation a tet.
 std::vector<float> evaluate_tets(const TetMesh& mesh, const TetValue& value);
 

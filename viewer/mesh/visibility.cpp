@@ -19,40 +19,32 @@ glm::dvec3 to_glm(const Point& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-std::vector<std::uint8_t> chosen_tets(const TetMesh& mesh, const SceneSettings& settings,
-                                      const TetFigures& figures) {
-  std::vector<std::uint8_t> chosen(mesh.tet_slots());
-  const auto& hidden = settings.hidden_regions;
-  for (std::uint32_t i = 0; i < chosen.size(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_deleted(t)) continue;
-    const bool in_range = settings.range.contains(static_cast<double>(figures.values[i]));
-    if (settings.filtered && in_range == settings.outside) continue;
-    if (!hidden.empty() && std::find(hidden.begin(), hidden.end(), mesh.label(t)) != hidden.end()) {
-      continue;
-    }
-    chosen[i] = 1;
+TetFilter::TetFilter(const TetMesh& mesh, const SceneSettings& settings, const TetFigures& figures,
+                     const Ball& ball)
+    : mesh_(mesh),
+      settings_(settings),
+      figures_(figures),
+      planes_(planes_of(settings, ball, false)) {}
+
+bool TetFilter::is_chosen(TetHandle t) const {
+  if (mesh_.is_deleted(t)) return false;
+  if (settings_.filtered) {
+    const bool in_range = settings_.range.contains(static_cast<double>(figures_.values[t.index()]));
+    if (in_range == settings_.outside) return false;
   }
-  return chosen;
+  const auto& hidden = settings_.hidden_regions;
+  return hidden.empty() || std::find(hidden.begin(), hidden.end(), mesh_.label(t)) == hidden.end();
 }
 
-void hide_cut_and_peeled(const TetMesh& mesh, const SceneSettings& settings,
-                         const TetFigures& figures, const Ball& ball,
-                         std::vector<std::uint8_t>& shown) {
-  const auto peel = static_cast<std::uint32_t>(settings.peel);
-  const std::vector<Plane> planes = planes_of(settings, ball, false);
-  if (peel == 0 && planes.empty()) return;
-  for (std::uint32_t i = 0; i < shown.size(); ++i) {
-    if (shown[i] == 0) continue;
-    if (peel > 0 && figures.layers[i] < peel) shown[i] = 0;
-    if (planes.empty()) continue;
-    const TetVertices& v = mesh.vertices(TetHandle(i));
-    const Point sum = mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2]) + mesh.point(v[3]);
-    const glm::dvec3 centre = to_glm(sum) / 4.0;
-    for (const Plane& plane : planes) {
-      if (plane.height(centre) > 0) shown[i] = 0;
-    }
-  }
+bool TetFilter::is_cut_away(TetHandle t) const {
+  const auto peel = static_cast<std::uint32_t>(settings_.peel);
+  if (peel > 0 && figures_.layers[t.index()] < peel) return true;
+  if (planes_.empty()) return false;
+  const TetVertices& v = mesh_.vertices(t);
+  const Point sum = mesh_.point(v[0]) + mesh_.point(v[1]) + mesh_.point(v[2]) + mesh_.point(v[3]);
+  const glm::dvec3 centre = to_glm(sum) / 4.0;
+  return std::any_of(planes_.begin(), planes_.end(),
+                     [&](const Plane& plane) { return plane.height(centre) > 0; });
 }
 
 }  // namespace tetmend::viewer

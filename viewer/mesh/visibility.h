@@ -30,13 +30,22 @@ struct TetFigures {
   std::span<const std::uint32_t> layers;  ///< may be empty when nothing is peeled
 };
 
-/// By slot: 1 for a tet that is in the chosen regions and passes the filter. Cost: linear.
-std::vector<std::uint8_t> chosen_tets(const TetMesh& mesh, const SceneSettings& settings,
-                                      const TetFigures& figures);
+/// Which tets the settings let through. What it is made of must outlive it.
+class TetFilter {
+ public:
+  /// `ball` encloses the mesh.
+  TetFilter(const TetMesh& mesh, const SceneSettings& settings, const TetFigures& figures,
+            const Ball& ball);
+  /// It is there, in the chosen regions, and passes the filter.
+  bool is_chosen(TetHandle t) const;
+  /// It is peeled off, or whole-tet cuts hide it.
+  bool is_cut_away(TetHandle t) const;
 
-/// Takes away what is peeled and what whole-tet cuts hide. Cost: linear.
-void hide_cut_and_peeled(const TetMesh& mesh, const SceneSettings& settings,
-                         const TetFigures& figures, const Ball& ball,
-                         std::vector<std::uint8_t>& shown);
+ private:
+  const TetMesh& mesh_;
+  const SceneSettings& settings_;
+  const TetFigures& figures_;
+  std::vector<Plane> planes_;
+};
 
 }  // namespace tetmend::viewer

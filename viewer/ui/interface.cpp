@@ -198,6 +198,7 @@ void Interface::build(Session& session) {
     if (session.document.debugger() != nullptr) strip(session);
     status_line(session);
   }
+  draw_choices(session);
   if (session.document.show_keys) keys_page(session);
   paint(draw_overlay(session.document, scale_), *ImGui::GetBackgroundDrawList());
   browser_.draw(session, scale_);

@@ -13,9 +13,18 @@ namespace tetmend::viewer::ui {
 namespace {
 
 /// What may be typed, as a list to choose from.
-constexpr std::array<const char*, 8> kExamples = {
-    "accepted",  "refused",    "deeper 2", "operator edge_removal",
-    "edge 3 17", "face 1 2 3", "vertex 5", "tet 4711"};
+constexpr std::array<const char*, 12> kExamples = {"accepted",
+                                                   "refused",
+                                                   "deeper 2",
+                                                   "level 3 and accepted",
+                                                   "operator edge_removal",
+                                                   "edge 3 17 and refused",
+                                                   "face 1 2 3",
+                                                   "vertex 5",
+                                                   "tet 4711 for good",
+                                                   "worse than 0.2",
+                                                   "verdict depth_spent",
+                                                   "near 0 0 0 1"};
 
 void show_run_to(Session& session) {
   std::string& text = session.document.debugger()->typed_condition;

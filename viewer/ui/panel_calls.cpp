@@ -56,6 +56,7 @@ void draw_row(Session& session, const CallRow& row) {
           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
     run_from_window(find_command("enter"), session, {row.call});
   }
+  offer_history(session, call.target());
   if (ImGui::IsItemHovered()) {
     const std::string tried =
         call.accepted() || call.worst_before == 0

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include "kernel/error.h"
+#include "viewer/live/operator_schedule.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -32,6 +34,12 @@ void choose_schedule(Document& document) {
   for (const std::string_view name : builtin_schedule_names()) {
     if (ImGui::Selectable(name.data(), live.schedule_name() == name)) {
       carefully(document, [&] { live.choose_schedule(std::string(name)); });
+    }
+  }
+  for (const std::string& name : live.plugin_operators()) {
+    const std::string schedule = std::string(kOperatorPrefix) + name;
+    if (ImGui::Selectable(schedule.c_str(), live.schedule_name() == schedule)) {
+      carefully(document, [&] { live.choose_schedule(schedule); });
     }
   }
   if (ImGui::Selectable("a file ...")) document.question = FileQuestion::schedule;
@@ -129,12 +137,16 @@ void buttons(Session& session, LiveState state) {
     } else {
       button(session, "Pause", "live_pause");
     }
-    button(session, "Call", "live_step");
+    button(session, "Call", "live_step_call");
+    button(session, "Change", "live_step");
     button(session, "Pass", "live_step_pass");
+    ImGui::NewLine();
     button(session, "Stop", "live_stop");
   } else {
     button(session, "Run", "live_run");
     if (session.document.live.input() != nullptr) buttons_after_run(session);
+    ImGui::NewLine();
+    button(session, "Start paused", "live_start");
   }
   ImGui::NewLine();
 }
@@ -146,9 +158,12 @@ void tell_progress(const LiveProgress& run) {
                      run.accepted, run.attempts);
   const std::string phase = fmt::format("{} {}", run.round, run.phase);
   ImGui::ProgressBar(static_cast<float>(run.share), {-1, 0}, phase.c_str());
-  if (run.state == LiveState::paused && run.last_accepted) {
-    const LiveCall& call = *run.last_accepted;
-    ImGui::TextWrapped("%s: worst %.4f, now %.4f, at %.4g %.4g %.4g", call.operator_name.c_str(),
+  if (!run.breakpoint.empty()) ImGui::TextWrapped("breakpoint: %s", run.breakpoint.c_str());
+  if (run.state == LiveState::paused && run.last) {
+    const LiveCall& call = *run.last;
+    const std::string verdict(to_string(call.verdict));
+    ImGui::TextWrapped("call %zu, %s: %s, worst %.4f, now %.4f, at %.4g %.4g %.4g", call.number,
+                       call.operator_name.c_str(), verdict.c_str(),
                        static_cast<double>(call.before), static_cast<double>(call.after),
                        call.place.x(), call.place.y(), call.place.z());
   }
@@ -206,6 +221,37 @@ void list_passes(const LiveProgress& run) {
   ImGui::EndTable();
 }
 
+/// How a run is watched: speed, camera, breakpoints.
+void watch(Session& session) {
+  LiveRun& live = session.document.live;
+  constexpr float kMost = 100;
+  auto speed = static_cast<float>(live.speed());
+  ImGui::SetNextItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
+  const char* format = speed > 0 ? "%.1f a second" : "as fast as it can";
+  if (ImGui::SliderFloat("changes", &speed, 0, kMost, format, ImGuiSliderFlags_Logarithmic)) {
+    carefully(session.document, [&] { live.set_speed(speed < 0.1F ? 0 : speed); });
+  }
+  ImGui::Checkbox("the camera goes to each change", &session.document.follow_changes_live);
+  static std::string typed;
+  ImGui::SetNextItemWidth(-6 * ImGui::GetFontSize());
+  ImGui::InputTextWithHint("##breakpoint", "edge 3 17 and refused", &typed);
+  ImGui::SameLine();
+  if (ImGui::Button("breakpoint")) run_from_window(find_command("breakpoint"), session, {typed});
+  std::size_t gone = live.breakpoints.size();
+  for (std::size_t i = 0; i < live.breakpoints.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Checkbox(to_text(live.breakpoints[i].condition).c_str(), &live.breakpoints[i].on)) {
+      live.tell_breakpoints();
+    }
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.5F * ImGui::GetFontSize());
+    if (ImGui::SmallButton("x")) gone = i;
+    ImGui::PopID();
+  }
+  if (gone == live.breakpoints.size()) return;
+  live.breakpoints.erase(live.breakpoints.begin() + static_cast<std::ptrdiff_t>(gone));
+  live.tell_breakpoints();
+}
+
 }  // namespace
 
 void draw_live_panel(Session& session) {
@@ -213,6 +259,7 @@ void draw_live_panel(Session& session) {
   edit_parameters(session.document);
   const LiveProgress run = session.document.live.progress();
   buttons(session, run.state);
+  if (session.document.debugger() == nullptr) watch(session);
   tell_progress(run);
   draw_curves(run);
   list_passes(run);

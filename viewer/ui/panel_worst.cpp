@@ -28,6 +28,7 @@ void draw_worst_panel(Session& session) {
                           ImGuiSelectableFlags_SpanAllColumns)) {
       document.fly_to_worst(i);
     }
+    if (document.debugger() != nullptr) offer_history(session, document.mesh().vertices(worst[i]));
     ImGui::TableNextColumn();
     ImGui::Text("%u", worst[i].index());
     ImGui::TableNextColumn();

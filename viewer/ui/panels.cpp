@@ -8,7 +8,7 @@ namespace tetmend::viewer::ui {
 std::span<const Panel> panels() {
   using enum Side;
   using enum Subject;
-  static constexpr std::array<Panel, 13> kPanels = {
+  static constexpr std::array<Panel, 14> kPanels = {
       {{"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
        {"Histogram", left, mesh, &draw_histogram_panel},
@@ -16,6 +16,8 @@ std::span<const Panel> panels() {
        {"Cuts", left, mesh, &draw_cuts_panel},
        {"Lesson", right, lesson, &draw_lesson_panel},
        {"Step", right, trace, &draw_step_panel},
+       {"History", right, trace, &draw_history_panel,
+        [](const Document& d) { return d.debugger()->history().has_value(); }},
        {"Shell", right, trace, &draw_shell_panel},
        {"Algorithm", right, trace, &draw_algorithm_panel},
        {"Statistics", right, mesh, &draw_statistics_panel},

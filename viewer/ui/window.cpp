@@ -249,7 +249,8 @@ class Window : public Host {
       if (key == named.first) return controller_.key(named.second);
     }
     if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
-      return controller_.key(fmt::format("F{}", key - GLFW_KEY_F1 + 1));
+      const bool shift = (mods & GLFW_MOD_SHIFT) != 0;
+      return controller_.key(fmt::format("{}F{}", shift ? "Shift+" : "", key - GLFW_KEY_F1 + 1));
     }
     const char* name = glfwGetKeyName(key, code);
     if ((mods & GLFW_MOD_CONTROL) == 0 || name == nullptr) return;

@@ -20,21 +20,28 @@ constexpr auto kBack = Direction::back;
 
 std::optional<std::uint64_t> stop(const TraceFile& file, const std::string& text,
                                   std::uint64_t from, Direction direction = kForward) {
-  return find_stop(file, parse_condition(text), from, direction);
+  Replay replay(file);
+  Trials trials(file);
+  return find_stop({file, replay, trials}, parse_condition(text), from, direction);
 }
 
 }  // namespace
 
 TEST_CASE("a condition is written as it is read") {
-  for (const char* text : {"accepted", "refused", "deeper 2", "operator edge_removal", "edge 3 17",
-                           "face 1 2 3", "vertex 5", "tet 4711"}) {
+  for (const char* text :
+       {"accepted", "refused", "deeper 2", "operator edge_removal", "edge 3 17", "face 1 2 3",
+        "vertex 5", "tet 4711", "level 3", "worse than 0.2", "better than 0.5",
+        "near 1 -2.5 0 0.25", "verdict depth_spent", "edge 3 17 and refused", "tet 10391 for good",
+        "level 2 and operator smoothing and worse than 0.3 for good"}) {
     CHECK(to_text(parse_condition(text)) == text);
   }
 }
 
 TEST_CASE("a condition that makes no sense is an error that says what is valid") {
-  for (const char* text : {"", "sometimes", "deeper", "deeper x", "deeper -1", "edge 3",
-                           "edge 3 4 5", "operator", "tet 99999999999"}) {
+  for (const char* text :
+       {"", "sometimes", "deeper", "deeper x", "deeper -1", "edge 3", "edge 3 4 5", "operator",
+        "tet 99999999999", "and", "refused and", "and refused", "refused accepted", "for good",
+        "worse 0.2", "worse than x", "near 1 2 3"}) {
     CAPTURE(text);
     CHECK_THROWS_WITH_AS(parse_condition(text), doctest::Contains("edge A B"), Error);
   }
@@ -133,4 +140,100 @@ TEST_CASE("a tet and a vertex are found where an edit changes them, forwards and
   CHECK(stop(file, "tet 7", tet_stops.front(), kBack) == std::nullopt);
   const std::string name = "vertex " + std::to_string(vertex.index());
   CHECK(stop(file, name, moves.front() - 1) == moves.front());
+}
+
+TEST_CASE("an unknown verdict is told with those that there are") {
+  CHECK_THROWS_WITH_AS(parse_condition("verdict maybe"), doctest::Contains("no_improvement"),
+                       Error);
+}
+
+TEST_CASE("terms hold together of one call") {
+  const test::HandmadeTrace trace;
+  const TraceFile file(trace.path());
+  CHECK(stop(file, "edge 0 1 and refused", 0) == 6);
+  CHECK(stop(file, "edge 0 1 and refused", 6) == 9);
+  CHECK(stop(file, "edge 0 1 and refused", 10, kBack) == 9);
+  CHECK(stop(file, "edge 0 1 and accepted", 0) == std::nullopt);
+  CHECK(stop(file, "level 1 and verdict depth_spent", 0) == 8);
+  CHECK(stop(file, "level 0 and verdict depth_spent", 0) == std::nullopt);
+  CHECK(stop(file, "operator shell_transformation and edge 0 1", 0) == 4);
+  CHECK(stop(file, "worse than 0.3 and edge 0 2", 0) == 7);  // the visited tet has 0.25
+  CHECK(stop(file, "worse than 0.2", 0) == std::nullopt);
+  CHECK(stop(file, "better than 0.2", 0) == 3);
+}
+
+namespace {
+
+/// All places of a condition, by looking at each call and edit.
+std::vector<std::uint64_t> places(const TraceFile& file, const std::string& text) {
+  std::vector<std::uint64_t> all;
+  Replay replay(file);
+  Trials trials(file);
+  const Condition condition = parse_condition(text);
+  for (auto at = find_stop({file, replay, trials}, condition, 0, kForward); at;
+       at = find_stop({file, replay, trials}, condition, *at, kForward)) {
+    all.push_back(*at);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a search back finds the same places as one forwards") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  Trials trials(file);
+  for (const char* text : {"accepted", "refused and level 1", "worse than 0.3 and accepted",
+                           "near 0 0 0 0.4 and accepted", "vertex 30 for good", "tet 12"}) {
+    CAPTURE(text);
+    const auto forwards = places(file, text);
+    CHECK_FALSE(forwards.empty());
+    std::vector<std::uint64_t> back;
+    const Condition condition = parse_condition(text);
+    for (auto at = find_stop({file, replay, trials}, condition, file.event_count() + 1, kBack); at;
+         at = find_stop({file, replay, trials}, condition, *at, kBack)) {
+      back.insert(back.begin(), *at);
+    }
+    CHECK(forwards == back);
+  }
+}
+
+TEST_CASE("every accepted call near a place is found") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  std::vector<std::uint64_t> truth;
+  for (const Call& call : file.calls()) {
+    if (!call.accepted()) continue;
+    replay.seek(call.events.begin);
+    const auto target = call.target();
+    const bool is_near = std::any_of(target.begin(), target.end(), [&](VertexHandle v) {
+      return !replay.mesh().is_deleted(v) && replay.mesh().point(v).norm() <= 0.4;
+    });
+    if (is_near) truth.push_back(call.events.end);
+  }
+  std::sort(truth.begin(), truth.end());
+  truth.erase(std::unique(truth.begin(), truth.end()), truth.end());
+  CHECK(places(file, "near 0 0 0 0.4 and accepted") == truth);
+}
+
+TEST_CASE("for good leaves out what was undone") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  const auto all = places(file, "tet 12");
+  const auto lasting = places(file, "tet 12 for good");
+  CHECK(lasting.size() < all.size());
+  CHECK(std::includes(all.begin(), all.end(), lasting.begin(), lasting.end()));
+  // What lasts: the content of the slot after it stays until the next place.
+  Replay replay(file);
+  for (std::size_t i = 0; i < lasting.size(); ++i) {
+    replay.seek(lasting[i]);
+    const bool was_there = !replay.mesh().is_deleted(TetHandle(12));
+    const TetVertices made = was_there ? replay.mesh().vertices(TetHandle(12)) : TetVertices();
+    replay.seek(i + 1 < lasting.size() ? lasting[i + 1] - 1 : file.event_count());
+    const bool is_there = !replay.mesh().is_deleted(TetHandle(12));
+    CHECK(is_there == was_there);
+    if (is_there) CHECK(replay.mesh().vertices(TetHandle(12)) == made);
+  }
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/live/live_run.h"
 
+#include <algorithm>
+#include <chrono>
 #include <thread>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
@@ -389,4 +392,163 @@ TEST_CASE("a run that fails says so in the status line") {
   CHECK(s.run("live_wait")["state"] == "failed");
   CHECK(s.document.message.is_error);
   CHECK(s.document.message.text.find("bad.lua:2: no way") != std::string::npos);
+}
+
+TEST_CASE("a run that begins paused has made no call, and steps from the first one on") {
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun plain;
+  plain.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(plain.wait(kForever) == LiveState::finished);
+  const TetMesh truth = last_mesh(plain);
+
+  LiveRun run;
+  run.paused = true;
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(run.wait(kForever) == LiveState::paused);
+  CHECK(run.progress().attempts == 0);
+  CHECK(last_mesh(run).tet_count() == mesh.mesh.tet_count());
+  for (std::size_t i = 1; i <= 5; ++i) {
+    run.ask(Demand::to_next_call);
+    CHECK(run.wait(kForever) == LiveState::paused);
+    const LiveProgress progress = run.progress();
+    CHECK(progress.attempts == i);
+    REQUIRE(progress.last);
+    CHECK(progress.last->number == i);
+    CHECK_FALSE(progress.last->target.empty());
+    check_sound(last_mesh(run), mesh);
+  }
+  run.ask(Demand::to_next_accepted);
+  CHECK(run.wait(kForever) == LiveState::paused);
+  CHECK(run.progress().last->verdict == Verdict::accepted);
+  CHECK(run.progress().last->number == run.progress().last_accepted->number);
+  run.ask(Demand::go_on);
+  CHECK(run.wait(kForever) == LiveState::finished);
+  CHECK(last_mesh(run) == truth);
+}
+
+TEST_CASE("breakpoints hold a live run after the call in which they hold") {
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.breakpoints = {{parse_condition("accepted and worse than 0.9")},
+                     {parse_condition("operator smoothing"), false}};
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  for (int i = 0; i < 3; ++i) {
+    REQUIRE(run.wait(kForever) == LiveState::paused);
+    const LiveProgress progress = run.progress();
+    CHECK(progress.breakpoint == "accepted and worse than 0.9");
+    CHECK(progress.last->verdict == Verdict::accepted);
+    run.ask(Demand::go_on);
+  }
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  run.breakpoints.clear();
+  run.tell_breakpoints();
+  run.ask(Demand::go_on);
+  CHECK(run.wait(kForever) == LiveState::finished);
+  CHECK(run.progress().breakpoint.empty());
+}
+
+TEST_CASE("a breakpoint on an edge is met where the trace of the run has it") {
+  const test::TempFolder folder;
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.trace = folder / "live.trace";
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(run.wait(kForever) == LiveState::finished);
+  const TraceFile file(folder / "live.trace");
+  // The last outermost call with an edge that is the target of a call in it.
+  std::size_t outermost = 0;
+  std::size_t wanted = 0;
+  std::string text;
+  for (const Call& call : file.calls()) {
+    outermost += call.depth == 0 ? 1 : 0;
+    if (call.depth == 0 || call.target_size != 2 || !text.empty()) continue;
+    text = fmt::format("edge {} {}", call.target()[0].index(), call.target()[1].index());
+    wanted = outermost;
+  }
+  REQUIRE_FALSE(text.empty());
+  std::size_t first = 0;
+  outermost = 0;
+  const Condition condition = parse_condition(text);
+  for (const Call& call : file.calls()) {
+    outermost += call.depth == 0 ? 1 : 0;
+    const ConditionCall asked{"", call.level, call.target(), {}, 0};
+    if (first == 0 && holds(condition.terms[0], asked, {})) first = outermost;
+  }
+  CHECK(first <= wanted);
+  LiveRun again;
+  again.breakpoints = {{condition}};
+  again.start(mesh, LiveRun::From::file, "sheet.mesh");
+  REQUIRE(again.wait(kForever) == LiveState::paused);
+  CHECK(again.progress().attempts == first);
+  again.ask(Demand::stop);
+}
+
+TEST_CASE("a run of some changes a second shows each, and gives the same mesh") {
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.set_speed(200);
+  run.paused = true;
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(run.wait(kForever) == LiveState::paused);
+  const auto begin = std::chrono::steady_clock::now();
+  run.ask(Demand::go_on);
+  while (run.progress().accepted < 20) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  CHECK(passed.count() > 15 / 200.0);
+  CHECK(run.take_snapshot() != nullptr);
+  run.set_speed(0);
+  CHECK(run.wait(kForever) == LiveState::finished);
+  CHECK_THROWS_AS(run.set_speed(-1), Error);
+}
+
+TEST_CASE("an operator alone is a schedule with its parameters") {
+  LiveRun run;
+  run.choose_schedule("operator recursive_shell_transformation");
+  const Registry registry = Registry::builtin();
+  const OperatorInfo& info = registry.find("recursive_shell_transformation");
+  const auto& parameters = run.info().parameters;
+  CHECK(parameters.size() == info.parameters.size() + 1);
+  for (const ParameterSpec& spec : info.parameters) {
+    CHECK(std::any_of(parameters.begin(), parameters.end(),
+                      [&](const ScheduleParameter& p) { return p.name == spec.name; }));
+  }
+  run.start(asset("sheet.mesh"), LiveRun::From::file, "sheet.mesh");
+  CHECK(run.wait(kForever) == LiveState::finished);
+  CHECK(run.progress().error.empty());
+  CHECK(run.progress().accepted > 0);
+  CHECK_THROWS_WITH_AS(run.choose_schedule("operator nothing"), doctest::Contains("nothing"),
+                       Error);
+}
+
+TEST_CASE("every operator alone can be described") {
+  const Registry registry = Registry::builtin();
+  for (const OperatorInfo* info : registry.operators()) {
+    CAPTURE(info->name);
+    LiveRun run;
+    run.choose_schedule("operator " + std::string(info->name));
+    CHECK(run.info().parameters.size() == info->parameters.size() + 1);
+  }
+}
+
+TEST_CASE("the camera goes to each change of a run, and its place is marked") {
+  TestSession s(test::delaunay_ball(100, 1));
+  run_script(s.session, R"lua(
+    expect(live_speed() == 0, "no limit")
+    live_start()
+    local run = live_wait()
+    expect(run.state == "paused" and run.attempts == 0, "before the first call")
+    live_step()
+    run = live_wait()
+    expect(run.last.verdict == "accepted", "a change")
+    live_follow()
+    live_stop()
+    live_wait()
+  )lua",
+             "t.lua");
+  const LiveProgress progress = s.document.live.progress();
+  REQUIRE(progress.last_accepted);
+  const Point& place = progress.last_accepted->place;
+  CHECK(glm::distance(s.document.view.camera.target, glm::dvec3(place.x(), place.y(), place.z())) <
+        1e-9);
+  CHECK_FALSE(s.document.follow_changes_live);
 }
