@@ -25,9 +25,11 @@
 #include "apps/plugin_watch.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
+#include "face/mesh_access.h"
 #include "face/recorded.h"
 #include "kernel/formats/output_file.h"
 #include "platform/platform.h"
+#include "report/page.h"
 
 namespace tetmend::apps {
 namespace {
@@ -47,30 +49,34 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+constexpr std::array<std::string_view, 3> kReportExtensions = {".json", ".html", ".htm"};
+
 /// What would stop the run at its end is better found at its beginning.
 void check_files(const ImproveOptions& options) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_variant(options.output, options.carry);
-  if (!options.report.empty()) {
-    constexpr std::string_view kJson = ".json";
-    check_extension(options.report, {&kJson, 1});
+  for (const std::filesystem::path& report : options.reports) {
+    check_extension(report, kReportExtensions);
   }
   const std::filesystem::path schedule = options.run.schedule;
   const std::array inputs = {
       NamedFile{"IN", options.input, true},
       NamedFile{"--schedule", schedule.extension() == ".lua" ? schedule : ""}};
-  const std::array outputs = {NamedFile{"--report", options.report},
-                              NamedFile{"-o", options.output, true},
-                              NamedFile{"--trace", options.run.trace}};
+  std::vector<NamedFile> outputs;
+  for (const std::filesystem::path& report : options.reports)
+    outputs.push_back({"--report", report});
+  outputs.push_back({"-o", options.output, true});
+  outputs.push_back({"--trace", options.run.trace});
   prepare_files(inputs, outputs);
 }
 
 /// Before the schedule signals end the program: there is nothing to be saved yet.
 /// @param interruption begins then
+/// @param portrait null, or is drawn
 Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line,
                        std::optional<Interruption>& interruption,
-                       std::unique_ptr<TraceRecorder>& trace) {
+                       std::unique_ptr<TraceRecorder>& trace, face::Portrait* portrait) {
   Options options = all.run;
   std::mutex line_busy;  // the watch has a thread of its own
   std::optional<PluginWatch> watch;
@@ -95,17 +101,28 @@ Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line
     line.note(text);
   };
   try {
-    return face::improve(mesh, options, trace);
+    return face::improve(mesh, options, trace, portrait);
   } catch (const OptionError& error) {
     throw Error("--" + message_of(error));
   }
 }
 
-void write_report(const std::filesystem::path& file, const ImproveReport& report) {
-  OutputFile out(file);
-  out.put(to_json(report).dump(2));
-  out.put('\n');
-  out.commit();
+void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
+  if (files.empty()) return;
+  const nlohmann::json json = to_json(report);
+  for (const std::filesystem::path& file : files) {
+    OutputFile out(file);
+    out.put(lower_extension(file) == ".json" ? json.dump(2) + '\n'
+                                             : report::write_page(json, report.portrait));
+    out.commit();
+  }
+}
+
+/// The worst tets by the numbers that the file of the mesh gives them.
+void number_tets(face::Portrait& portrait, const Mesh& mesh) {
+  const std::vector<std::int64_t>& numbers = MeshAccess::data(mesh).tet_numbers;
+  if (numbers.empty()) return;
+  for (face::DrawnTet& tet : portrait.bad_after) tet.facts.number = numbers[tet.facts.tet];
 }
 
 /// What went wrong; empty: nothing. Null: there is no trace.
@@ -134,14 +151,16 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   }
   std::optional<Interruption> interruption;  // until all is written
   std::unique_ptr<TraceRecorder> trace;
-  report.result = improve_watched(mesh, options, progress, interruption, trace);
+  report.result = improve_watched(mesh, options, progress, interruption, trace,
+                                  options.reports.empty() ? nullptr : &report.portrait);
+  number_tets(report.portrait, mesh);
   {
     const Stopwatch watch(report.writing);
     progress.show(fmt::format("writing {}", options.output.string()));
     save(options.output, mesh, threads, options.carry.variant);
   }
   report.peak_memory = platform::peak_memory();
-  if (!options.report.empty()) write_report(options.report, report);
+  write_reports(options.reports, report);
   invocation.wrote_files = true;
   const std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little
   progress.clear();
@@ -199,7 +218,7 @@ Formats, by extension:
 {}
 Examples:
   tetmend improve part.mesh -o better.mesh
-  tetmend improve part.ele -o better.vtk --report better.json --quiet
+  tetmend improve part.ele -o better.vtk --report better.html --quiet
   tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
   tetmend improve part.mesh -o better.mesh --protect label:3
   mesher | tetmend improve - -o - --format msh | solver

@@ -31,12 +31,16 @@ void check_mesh_extension(const std::filesystem::path& file) {
   check_extension(is_packed ? file.parent_path() / file.stem() : file, valid);
 }
 
-void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid) {
-  const std::string given = file.extension().string();
-  std::string lower = given;
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string lower = file.extension().string();
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::find(valid.begin(), valid.end(), lower) != valid.end()) return;
+  return lower;
+}
+
+void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid) {
+  const std::string given = file.extension().string();
+  if (std::find(valid.begin(), valid.end(), lower_extension(file)) != valid.end()) return;
   throw UsageError(fmt::format("{}: the extension '{}' is not known here: expected {}{}",
                                file.string(), given, valid.size() > 1 ? "one of " : "",
                                fmt::join(valid, ", ")));

@@ -23,6 +23,8 @@ namespace tetmend::apps {
 
 /// @throws UsageError when no mesh format has the extension of `file`.
 void check_mesh_extension(const std::filesystem::path& file);
+/// ".json" of FILE.JSON.
+std::string lower_extension(const std::filesystem::path& file);
 /// @throws UsageError when the extension is none of `valid` (".json"); case does not matter.
 void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid);
 

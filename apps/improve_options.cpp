@@ -152,8 +152,13 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
              "Keep the integral of this array of the\ntets: new tets get the mean of the old "
              "by\nshared volume; may be repeated");
   add_format_option(command, options.format);
-  command.add_option("--report", options.report, "Write all that is printed, and more, as JSON")
-      ->type_name("FILE.json");
+  command
+      .add_option(
+          "--report", options.reports,
+          "Write all that is printed, and more: .json\nfor programs, .html with pictures, for a\n"
+          "browser; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);  // so that IN may follow
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
 
@@ -177,7 +182,7 @@ void complete(ImproveOptions& options) {
   run.plugin = all_plugins(run.plugin);
   run.limit = true;
   run.maps = false;
-  run.rulers = !options.quiet || !options.report.empty();
+  run.rulers = !options.quiet || !options.reports.empty();
   try {
     tetmend::check(run);
   } catch (const OptionError& error) {

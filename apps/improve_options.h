@@ -20,7 +20,7 @@ namespace tetmend::apps {
 struct ImproveOptions {
   std::filesystem::path input;
   std::filesystem::path output;
-  std::filesystem::path report;  ///< empty: none
+  std::vector<std::filesystem::path> reports;  ///< .json, .html or .htm
   bool quiet = false;
   CarryOptions carry;
   std::string format;         ///< of "-"

@@ -3,15 +3,18 @@
 #include "apps/improve_report.h"
 
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <tetmend/catalogue.h>
 
+#include "apps/bad_tets.h"
 #include "apps/files.h"
 #include "apps/report.h"
 #include "kernel/statistics.h"
+#include "report/shape.h"
 
 namespace tetmend::apps {
 namespace {
@@ -215,6 +218,47 @@ nlohmann::json to_json(const CarriedArray& array) {
 
 }  // namespace
 
+namespace {
+
+/// How the values of each ruler are spread, before and after.
+nlohmann::json histograms_to_json(const face::Portrait& portrait) {
+  if (!portrait.rulers_before || !portrait.rulers_after) return nullptr;
+  nlohmann::json all = nlohmann::json::object();
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    const RulerHistogram& before = (*portrait.rulers_before)[r];
+    all[std::string(kRulers[r].name)] = {{"edges", before.bins.edges()},
+                                         {"before", before.counts},
+                                         {"after", (*portrait.rulers_after)[r].counts}};
+  }
+  return all;
+}
+
+nlohmann::json to_json(const face::DrawnTet& tet, bool is_reason_known) {
+  nlohmann::json json = apps::to_json(std::span(&tet.facts, 1), 1).front();
+  if (tet.facts.number <= 0) json["tet"] = nullptr;  // gets its number when it is written
+  if (!is_reason_known) {
+    json["hindrance"] = nullptr;
+    json["reason"] = "the run ended before the reason was looked for";
+  }
+  json["corners"] = nlohmann::json::array();
+  for (const Point& corner : tet.corners) {
+    json["corners"].push_back({corner.x(), corner.y(), corner.z()});
+  }
+  json["may_move"] = tet.is_free;
+  return json;
+}
+
+nlohmann::json worst_tets_to_json(const face::Portrait& portrait) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const face::DrawnTet& tet : portrait.bad_after) {
+    if (list.size() == report::kMostWorst) break;
+    list.push_back(to_json(tet, portrait.are_reasons_known));
+  }
+  return list;
+}
+
+}  // namespace
+
 std::string format_report(const ImproveReport& report) {
   const Result& result = report.result;
   std::string text = format_build(result.build);
@@ -281,6 +325,8 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"seconds", seconds_to_json(report)},
           {"tets_per_second", report.tets_per_second()},
           {"peak_memory_bytes", report.peak_memory},
+          {"histograms", histograms_to_json(report.portrait)},
+          {"worst_tets", worst_tets_to_json(report.portrait)},
           {"passes", passes}};
 }
 

@@ -10,6 +10,7 @@
 #include <tetmend/improve.h>
 
 #include "apps/improve_options.h"
+#include "face/portrait.h"
 
 namespace tetmend::apps {
 
@@ -18,9 +19,10 @@ struct ImproveReport {
   const ImproveOptions& options;
   std::vector<std::string> file_notes = {};  ///< what of the input is not in the output
   Result result = {};
-  double reading = 0;           ///< seconds
-  double writing = 0;           ///< seconds
-  std::size_t peak_memory = 0;  ///< bytes of the process
+  face::Portrait portrait = {};  ///< drawn if a report was asked for
+  double reading = 0;            ///< seconds
+  double writing = 0;            ///< seconds
+  std::size_t peak_memory = 0;   ///< bytes of the process
 
   double total_seconds() const;
   /// Tets created or with a moved vertex, as a share of all, 0 to 1.
@@ -32,7 +34,7 @@ struct ImproveReport {
 /// All of it for people, at most 80 columns wide unless a file name is long.
 std::string format_report(const ImproveReport& report);
 
-/// All of it for programs.
+/// All of it for programs. With a portrait also histograms of the rulers and the worst tets left.
 nlohmann::json to_json(const ImproveReport& report);
 
 }  // namespace tetmend::apps

@@ -21,16 +21,7 @@ namespace {
 constexpr std::size_t kWidth = 80;
 
 using apps::grouped;
-
-/// Fixed notation; scientific where that would leave fewer than two digits of a small number, or
-/// print more than the table has room for.
-std::string decimal(double value, int digits) {
-  if (value == 0) return "0";
-  if (std::isnan(value)) return "nan";  // fmt would print the sign bit as well
-  const bool tiny = std::abs(value) < 10 * std::pow(10.0, -digits);
-  const bool huge = std::abs(value) >= 1e9;
-  return tiny || huge ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, digits);
-}
+using face::decimal;
 
 using Values = std::vector<std::string>;
 

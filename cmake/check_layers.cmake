@@ -5,14 +5,14 @@
 # For each room: what its files may include, besides itself. Folders that are no rooms (tests, bench, plugins, python)
 # may include anything.
 # What users see, include/tetmend, is divided among the layers, and includes nothing but itself and the standard library.
-# Bindings include what users see, and nothing else of ours but platform.
+# Bindings include what users see, and nothing else of ours but platform and the charts of reports.
 # platform alone includes headers of the system.
 cmake_minimum_required(VERSION 3.21)
 if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(rooms platform kernel trace search figure explain ops contract schedule face bindings apps
+set(rooms platform kernel trace search figure explain ops contract schedule face report bindings apps
           viewer viewer/mesh viewer/debugger viewer/live viewer/commands viewer/gl viewer/ui)
 set(below_platform "")
 set(below_kernel platform)
@@ -24,7 +24,8 @@ set(below_ops platform kernel trace search)
 set(below_contract platform kernel trace search ops)
 set(below_schedule platform kernel trace search ops)
 set(below_face platform kernel trace search ops contract schedule)
-set(below_bindings platform)
+set(below_report platform kernel trace search figure explain ops contract schedule face)
+set(below_bindings platform report)
 set(below_viewer/mesh platform kernel figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)
 set(below_viewer/live platform kernel trace ops schedule viewer/mesh viewer/debugger)

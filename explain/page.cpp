@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "explain/page.h"
 
-#include <algorithm>
-#include <cctype>
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include "explain/call_facts.h"
 #include "explain/page_parts.h"
+#include "explain/page_text.h"
 #include "explain/stepper.h"
 #include "kernel/error.h"
 
@@ -17,77 +14,6 @@ namespace tetmend::explain {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-/// Text as text, between tags and in quotes.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-/// JSON that nothing in it can end: no tag begins in it. Bytes that are no UTF-8 are replaced.
-std::string in_script(const Json& json) {
-  std::string result;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      result += "\\u003c";
-    } else if (c == '&') {
-      result += "\\u0026";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
-/// UTF-8, whatever the text was.
-std::string sound(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
-}
-
-/// Replaces each @NAME@ once. What is put in is not looked at again.
-std::string fill_in(std::string_view form,
-                    const std::vector<std::pair<std::string_view, std::string>>& values) {
-  std::string result;
-  while (!form.empty()) {
-    const std::size_t at = form.find('@');
-    result += form.substr(0, at);
-    if (at == std::string_view::npos) break;
-    form.remove_prefix(at);
-    const auto named = std::find_if(values.begin(), values.end(), [&](const auto& value) {
-      return form.starts_with(value.first);
-    });
-    if (named == values.end()) {
-      result += '@';
-      form.remove_prefix(1);
-    } else {
-      result += named->second;
-      form.remove_prefix(named->first.size());
-    }
-  }
-  return result;
-}
 
 Json origin_of(const TraceFile& file, const PageRequest& request) {
   const TraceHeader& header = file.header();

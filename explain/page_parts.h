@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of a page, as they are in assets/page.
+// The parts of a page, as they are in assets/page/recording.
 #pragma once
 
 #include <string_view>

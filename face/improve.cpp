@@ -136,8 +136,13 @@ std::size_t count_touched(const TetMesh& mesh) {
 /// One call of improve().
 class Improvement {
  public:
-  Improvement(Mesh& mesh, const Options& options, Plan& plan)
-      : user_mesh_(mesh), options_(options), plan_(plan), watcher_(options), file_(mesh.file()) {}
+  Improvement(Mesh& mesh, const Options& options, Plan& plan, face::Portrait* portrait)
+      : user_mesh_(mesh),
+        options_(options),
+        plan_(plan),
+        portrait_(portrait),
+        watcher_(options),
+        file_(mesh.file()) {}
 
   /// Without its trace.
   Result run() {
@@ -190,6 +195,7 @@ class Improvement {
   Mesh& user_mesh_;
   const Options& options_;
   Plan& plan_;
+  face::Portrait* portrait_;  // null: nobody asked for one
   face::Watcher watcher_;
   const std::filesystem::path file_;
   MeshData input_;  // to go back to, also when memory runs out; lengths as mesh_ has them
@@ -284,6 +290,7 @@ void Improvement::measure_before() {
                       options_.tets, result_.before.tets)});
   }
   notes_before_ = result_.notes.size();
+  if (portrait_ != nullptr) portrait_->draw_before(mesh_, result_.rulers_before);
 }
 
 /// The passes of the schedule, or so many of them.
@@ -336,7 +343,10 @@ void Improvement::measure_after() {
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
-  if (options_.limit) result_.limit = find_surface_limit(mesh_, options_.cancel);
+  std::vector<std::pair<TetHandle, Hindrance>> hindrances;
+  if (options_.limit) result_.limit = find_surface_limit(mesh_, options_.cancel, &hindrances);
+  if (!result_.limit) hindrances.clear();
+  if (portrait_ != nullptr) portrait_->draw_after(mesh_, hindrances, result_.rulers_after);
 }
 
 /// Passes up to the one that left the fewest bad tets, the last of such; 0 if all left more than
@@ -504,10 +514,11 @@ std::vector<std::string> Result::missed_aims() const {
   return missed;
 }
 
-Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace) {
+Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace,
+                     Portrait* portrait) {
   Plan plan(options);
   return face::on_threads(options.threads, [&] {
-    Improvement improvement(mesh, options, plan);
+    Improvement improvement(mesh, options, plan, portrait);
     Result result = improvement.run();
     trace = improvement.take_trace();
     return result;

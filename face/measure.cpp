@@ -6,6 +6,7 @@
 #include <tetmend/measure.h>
 
 #include "face/arena.h"
+#include "face/bad_tets.h"
 #include "face/mesh_access.h"
 #include "kernel/curved.h"
 #include "kernel/rulers.h"
@@ -28,32 +29,13 @@ std::vector<const QualityMeasure*> find_measures(const std::vector<std::string>&
   return measures;
 }
 
-BadTet describe(const TetMesh& mesh, TetHandle t, Hindrance hindrance) {
-  const TetVertices& v = mesh.vertices(t);
-  BadTet tet{.label = mesh.label(t), .hindrance = hindrance};
-  Point centre = Point::Zero();
-  for (const VertexHandle w : v) {
-    centre += mesh.point_in_file(w) / 4;
-    tet.free_vertices += !mesh.is_fixed(w);
-  }
-  tet.centre = {centre.x(), centre.y(), centre.z()};
-  const auto angles =
-      dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-  const auto [least, greatest] = std::minmax_element(angles.begin(), angles.end());
-  tet.theta_min = *least;
-  tet.theta_max = *greatest;
-  tet.quality =
-      minimum_sine(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-  return tet;
-}
-
 std::vector<BadTet> describe(const TetMesh& mesh,
                              const std::vector<std::pair<TetHandle, Hindrance>>& bad,
                              const std::vector<std::uint32_t>& numbers,
                              const std::vector<std::int64_t>& names) {
   std::vector<BadTet> tets;
   for (const auto& [t, hindrance] : bad) {
-    tets.push_back(describe(mesh, t, hindrance));
+    tets.push_back(face::describe(mesh, t, hindrance));
     BadTet& tet = tets.back();
     tet.tet = numbers[t.index()];
     tet.number = names.empty() ? static_cast<std::int64_t>(tet.tet) + 1 : names[tet.tet];

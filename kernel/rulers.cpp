@@ -18,6 +18,7 @@
 
 #include "kernel/chunks.h"
 #include "kernel/compensated_sum.h"
+#include "kernel/ruler_histogram.h"
 #include "kernel/tet_rows.h"
 
 namespace tetmend {
@@ -253,11 +254,15 @@ struct Part {
   double shortest_edge = kInfinity;
 };
 
+double value_of(Ruler ruler, double score);
+
 /// Measures the tets of a chunk, or every step-th of them.
 class Surveyor {
  public:
-  Surveyor(const TetMesh& mesh, const Limits& limits)
+  /// @param counts null, or counts what is measured
+  Surveyor(const TetMesh& mesh, const Limits& limits, RulerHistograms* counts = nullptr)
       : mesh_(mesh),
+        counts_(counts),
         above_70_(std::cos(70 * std::numbers::pi / 180)),
         tets_(limits, 0),
         faces_(limits, kTetRulers) {}
@@ -271,10 +276,12 @@ class Surveyor {
       }
       measure(rows.points, tets_, shortest_edge_);
       sift(tets_, 0);
+      count(tets_, 0, rows.points.size());
       look_around(rows);
       for (unsigned f = 0; f < 4; ++f) {
         measure_faces(rows.points, surroundings_, f, faces_);
         sift(faces_, kTetRulers);
+        count(faces_, kTetRulers, rows.points.size());
         const auto* cosines = reinterpret_cast<const double*>(faces_.scores[0].data());
         for (std::size_t i = 0; i < rows.points.size(); ++i) {
           part_.faces_above_70 += cosines[i] < above_70_ ? 1 : 0;
@@ -290,6 +297,21 @@ class Surveyor {
   }
 
  private:
+  template <std::size_t N>
+  void count(const Tally<N>& tally, std::size_t first, std::size_t size) {
+    if (counts_ == nullptr) return;
+    for (std::size_t r = 0; r < N; ++r) {
+      RulerHistogram& histogram = (*counts_)[first + r];
+      const auto ruler = static_cast<Ruler>(first + r);
+      const auto* scores = reinterpret_cast<const double*>(tally.scores[r].data());
+      for (std::size_t i = 0; i < size; ++i) {
+        if (std::isnan(scores[i])) continue;  // no score
+        const double value = value_of(ruler, scores[i]);
+        const bool is_length = ruler == Ruler::least_altitude;
+        ++histogram.counts[histogram.bins.find(is_length ? mesh_.scale().to_file(value) : value)];
+      }
+    }
+  }
   template <std::size_t N>
   void sift(Tally<N>& tally, std::size_t first) {
     for (std::size_t r = 0; r < N; ++r) {
@@ -338,6 +360,7 @@ class Surveyor {
   }
 
   const TetMesh& mesh_;
+  RulerHistograms* counts_;
   const double above_70_;
   Surroundings surroundings_;
   Tally<kTetRulers> tets_;
@@ -445,6 +468,28 @@ MeshRulers measure_rulers(const TetMesh& mesh) {
     *length = scale.to_file(*length);
   }
   return result;
+}
+
+RulerHistograms count_rulers(const TetMesh& mesh, double mean_altitude) {
+  Limits keep_none;
+  keep_none.fill(-kInfinity);
+  RulerHistograms empty;
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    empty[r].bins = RulerBins(static_cast<Ruler>(r), mean_altitude);
+  }
+  const auto parts =
+      map_chunks<RulerHistograms>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        RulerHistograms part = empty;
+        Surveyor(mesh, keep_none, &part).run(begin, end, 1);
+        return part;
+      });
+  RulerHistograms all = empty;
+  for (const RulerHistograms& part : parts) {
+    for (std::size_t r = 0; r < kRulerCount; ++r) {
+      for (std::size_t i = 0; i < RulerBins::kCount; ++i) all[r].counts[i] += part[r].counts[i];
+    }
+  }
+  return all;
 }
 
 }  // namespace tetmend

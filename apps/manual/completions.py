@@ -29,7 +29,7 @@ TAKES = {
     "schedules NAME": "<schedule> .lua", "--schedule": "<schedule> .lua", "--set": "<setting>=",
     "check --measure": "<ruler>=", "improve --measure": "<objective>", "quality --measure": "<figure>",
     "--for": "<preset>", "--variant": "<variant>", "--format": "<format>", "--plugin": ".so", "--trace": ".trace",
-    "--trace-operator": "<operator>", "--report": ".json", "--render": ".png", "--script": ".lua", "--layers": "<layers>",
+    "--trace-operator": "<operator>", "--report": ".json", "improve --report": ".json .html", "--render": ".png", "--script": ".lua", "--layers": "<layers>",
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
     "--conserve": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
     "--min-dihedral": "", "--max-dihedral": "", "--list": "", "--tree": "", "--dot": "", "--at": "", "--extract": "",

@@ -344,10 +344,10 @@ std::string_view to_string(Hindrance hindrance) {
   return kNames[static_cast<std::size_t>(hindrance)];
 }
 
-std::optional<SurfaceLimit> find_surface_limit(const TetMesh& mesh,
-                                               const std::atomic<bool>* cancel) {
+std::optional<SurfaceLimit> find_surface_limit(const TetMesh& mesh, const std::atomic<bool>* cancel,
+                                               std::vector<std::pair<TetHandle, Hindrance>>* bad) {
   const Stop stop{cancel};
-  SurfaceLimit limit = compute_limit(mesh, nullptr, stop);
+  SurfaceLimit limit = compute_limit(mesh, bad, stop);
   return stop() ? std::nullopt : std::optional(limit);
 }
 

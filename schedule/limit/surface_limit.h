@@ -31,7 +31,9 @@ SurfaceLimit compute_surface_limit(const TetMesh& mesh,
                                    std::vector<std::pair<TetHandle, Hindrance>>* bad = nullptr);
 
 /// The same; nothing if `cancel` becomes true meanwhile. Null: nobody cancels.
-std::optional<SurfaceLimit> find_surface_limit(const TetMesh& mesh,
-                                               const std::atomic<bool>* cancel);
+/// @param bad as above; what is in it without a limit means nothing
+std::optional<SurfaceLimit> find_surface_limit(
+    const TetMesh& mesh, const std::atomic<bool>* cancel,
+    std::vector<std::pair<TetHandle, Hindrance>>* bad = nullptr);
 
 }  // namespace tetmend

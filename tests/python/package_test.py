@@ -309,7 +309,7 @@ def test_the_report_has_the_figures_and_names_of_the_command_line(tmp_path, comm
     for report in (ours, theirs):
         for each in report["passes"]:
             each.update(seconds=0, seconds_in_scans=0, seconds_in_blocks=0)
-    assert set(theirs) - set(ours) == {"arguments", "input", "output", "peak_memory_bytes"}
+    assert set(theirs) - set(ours) == {"arguments", "input", "output", "peak_memory_bytes", "histograms", "worst_tets"}
     assert {name: ours[name] for name in ours} == {name: theirs[name] for name in ours}
 
 
@@ -466,6 +466,8 @@ def test_notebooks_show_a_table_of_before_and_after(materials):
     shown = result._repr_html_()
     assert f"<td>{result.before.tets:,}</td><td>{result.after.tets:,}</td>" in shown
     assert f"<td>{result.before.n_bad:,}</td><td>0</td>" in shown
+    assert 'data-histogram="angles"' in shown and 'class="progress"' in shown and 'data-sum="accepted"' in shown
+    assert f"{result.before.n_bad:,}</data> bad tets" in shown
     spoken = tetmend.improve(materials, script="log('<script>')")
     assert "<script>" not in spoken._repr_html_() and ("&lt;script&gt;" in spoken._repr_html_()) == ("<script>" in str(spoken.notes))
     assert "cancelled" in tetmend.improve(materials, progress=lambda moment: False)._repr_html_()

@@ -6,7 +6,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "viewer/debugger/outcome_colour.h"
+#include "explain/outcome_colour.h"
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"

@@ -42,6 +42,7 @@ PYBIND11_MODULE(_core, module) {
   add_mesh(module);
   add_improve(module);
   add_trace(module);
+  add_report(module);
   module.attr("__version__") = std::string(tetmend::version());
   module.def("schedules", [] {
     py::list made;

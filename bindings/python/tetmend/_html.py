@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import json
 from html import escape
 from typing import TYPE_CHECKING, Any
+
+from tetmend import _core
 
 if TYPE_CHECKING:
     from tetmend._improve import Result
@@ -24,7 +27,7 @@ def _shown(value: Any) -> str:
 
 
 def table_of(result: Result) -> str:
-    """Before and after, what the run worked towards, and its notes. All text is escaped."""
+    """Before and after, what the run worked towards, its notes, and charts. All text is escaped."""
     low, high = result.goal
     rows = "".join(f"<tr><th style='text-align:left'>{escape(title)}</th><td>{_shown(result.before[name])}</td>"
                    f"<td>{_shown(result.after[name])}</td></tr>" for title, name in _ROWS)
@@ -34,4 +37,4 @@ def table_of(result: Result) -> str:
     listed = f"<ul>{worse}{notes}</ul>" if worse or notes else ""
     return (f"<table><caption>tetmend: goal {low:g} to {high:g} degrees, {result.seconds['improving']:.2f} s{ended}</caption>"
             f"<thead><tr><th style='text-align:left'>measure</th><th>before</th><th>after</th></tr></thead>"
-            f"<tbody>{rows}</tbody></table>{listed}")
+            f"<tbody>{rows}</tbody></table>{listed}{_core.charts(json.dumps(result.report))}")

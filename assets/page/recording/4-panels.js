@@ -1,17 +1,5 @@
 // What stands beside the picture: ring, tables, chords, algorithm, calls.
 
-const byId = (id) => document.getElementById(id);
-
-/** An element with attributes, and with texts or elements in it. Texts are never markup. */
-function make(name, attributes = {}, ...content) {
-  const element = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) {
-    if (key === "onclick") element.addEventListener("click", value); else element.setAttribute(key, value);
-  }
-  element.append(...content);
-  return element;
-}
-
 const four = (quality) => quality.toFixed(4);
 const three = (quality) => quality.toFixed(3);
 

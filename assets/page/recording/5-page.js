@@ -253,24 +253,7 @@ function play() {
   }, 900);
 }
 
-function say(text) {
-  byId("said").textContent = text;
-  byId("said").classList.add("on");
-  setTimeout(() => byId("said").classList.remove("on"), 1800);
-}
-
 // --- looks ---
-
-function setTheme(theme) {
-  document.documentElement.dataset.theme = theme;
-  byId("theme").textContent = theme === "dark" ? "Light" : "Dark";
-  cssColours.clear();
-}
-
-function toggleTheme() {
-  setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
-  show();
-}
 
 function toggleSize() {
   const isLarge = document.documentElement.dataset.size !== "large";
@@ -315,7 +298,7 @@ const KEYS = [
   [["3"], "The tets as the call left or tried them", () => showWhen("after")],
   [["a"], "Look along the edge", () => { lookAlong(callOf(steps[place.step])); redrawPicture(); }],
   [["h"], "Look from the side", () => { camera.zoom = 1; lookFromSide(callOf(steps[place.step])); goToBall(inView.ball, true); }],
-  [["t"], "Light or dark", toggleTheme],
+  [["t"], "Light or dark", () => toggleTheme(show)],
   [["g"], "Large text, for a projector", toggleSize],
   [["c"], "Copy a link to this step", copyLink],
   [["?"], "These keys", () => byId("keys").showModal()],
@@ -326,46 +309,14 @@ document.addEventListener("keydown", (event) => {
   const isTyping = event.target.matches("input[type=range]") && event.key.startsWith("Arrow");
   const isPressing = event.target.matches("button, input") && event.key === " ";
   if (isTyping || isPressing || event.ctrlKey || event.altKey || event.metaKey || byId("keys").open) return;
-  if (event.target === canvas && event.shiftKey && event.key.startsWith("Arrow")) {
-    const turns = {ArrowLeft: [-0.12, 0], ArrowRight: [0.12, 0], ArrowUp: [0, -0.12], ArrowDown: [0, 0.12]};
-    camera.turn(...turns[event.key]);
-    event.preventDefault();
-    return redrawPicture();
-  }
+  if (event.target === canvas && turnByKey(event, camera)) return redrawPicture();
   const found = KEYS.find(([keys]) => keys.includes(event.key));
   if (!found) return;
   event.preventDefault();
   found[2]();
 });
 
-const pointers = new Map();
-stage.addEventListener("pointerdown", (event) => {
-  pointers.set(event.pointerId, [event.clientX, event.clientY]);
-  stage.setPointerCapture(event.pointerId);
-});
-stage.addEventListener("pointermove", (event) => {
-  const before = pointers.get(event.pointerId);
-  if (!before) return;
-  const now = [event.clientX, event.clientY];
-  if (pointers.size === 2) {
-    const [other] = [...pointers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
-    const apart = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
-    camera.zoom = Math.min(Math.max(camera.zoom * apart(now) / Math.max(apart(before), 1), 0.3), 12);
-  } else {
-    const turn = 5.5 / Math.max(stage.clientWidth, 200);
-    camera.turn((now[0] - before[0]) * turn, (now[1] - before[1]) * turn);
-  }
-  pointers.set(event.pointerId, now);
-  redrawPicture();
-});
-for (const end of ["pointerup", "pointercancel"]) {
-  stage.addEventListener(end, (event) => pointers.delete(event.pointerId));
-}
-stage.addEventListener("wheel", (event) => {
-  event.preventDefault();
-  camera.zoom = Math.min(Math.max(camera.zoom * Math.exp(-0.0014 * event.deltaY), 0.3), 12);
-  redrawPicture();
-}, {passive: false});
+watchHands(stage, camera, redrawPicture);
 canvas.addEventListener("webglcontextlost", (event) => {
   event.preventDefault();
   canvas.hidden = true;
@@ -390,7 +341,7 @@ function describeOrigin() {
 }
 
 function begin() {
-  setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  setTheme(wantedTheme());
   describeOrigin();
   byId("lesson").hidden = !lesson;
   byId("slider").max = steps.length - 1;
@@ -404,21 +355,13 @@ function begin() {
   const keyFor = (key) => KEYS.find(([keys]) => keys.includes(key))[2];
   byId("along").addEventListener("click", keyFor("a"));
   byId("home").addEventListener("click", keyFor("h"));
-  byId("theme").addEventListener("click", toggleTheme);
+  byId("theme").addEventListener("click", () => toggleTheme(show));
   byId("text-size").addEventListener("click", toggleSize);
   byId("copy-link").addEventListener("click", copyLink);
   byId("show-keys").addEventListener("click", keyFor("?"));
   byId("key-list").replaceChildren(...KEYS.map(([keys, help]) => make("tr", {}, make("td", {}, ...keys.flatMap((key, n) => [n ? " " : "", make("kbd", {}, KEY_NAMES[key] ?? key)])), make("td", {}, help))),
     make("tr", {}, make("td", {}, "drag, pinch, wheel"), make("td", {}, "Turn and zoom the picture; Shift and arrows turn it when it has the focus")));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => { setTheme(event.matches ? "dark" : "light"); show(); });
-  // Paper is white.
-  let screenTheme = "light";
-  matchMedia("print").addEventListener("change", (event) => {
-    if (event.matches) screenTheme = document.documentElement.dataset.theme;
-    setTheme(event.matches ? "light" : screenTheme);
-    show(true);
-    if (event.matches) drawForPrint();
-  });
+  watchLooks(show, drawForPrint);
   addEventListener("hashchange", goToHash);
   new ResizeObserver(redrawPicture).observe(stage);
   if (!goToHash()) show(true);

@@ -34,32 +34,18 @@ void main() { if (dashes > 0.0 && mod(along, 2.0 * dashes) > dashes) discard; pi
 class WebGlPainter {
   /** Null where the browser has no WebGL 2. */
   static on(canvas) {
-    const gl = canvas.getContext("webgl2", {antialias: true, alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true});
+    const gl = openWebGl(canvas);
     return gl ? new WebGlPainter(gl) : null;
   }
 
   constructor(gl) {
     this.gl = gl;
-    this.faces = this.program(FACE_SHADER, PAINT);
-    this.lines = this.program(LINE_SHADER, PAINT_LINE);
+    this.faces = compileProgram(gl, FACE_SHADER, PAINT);
+    this.lines = compileProgram(gl, LINE_SHADER, PAINT_LINE);
     this.buffer = gl.createBuffer();
     this.corners = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]), gl.STATIC_DRAW);
-  }
-
-  program(vertex, fragment) {
-    const {gl} = this;
-    const program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      gl.attachShader(program, shader);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
-    return program;
   }
 
   /** Parts of each vertex, or of each line, in a row of floats. */
@@ -131,13 +117,6 @@ class WebGlPainter {
 function sortedFaces(scene, camera) {
   const depth = (face) => dot(add(add(face.corners[0], face.corners[1]), face.corners[2]), camera.towards);
   return scene.faces.map((face) => [depth(face), face]).sort((x, y) => x[0] - y[0]).map(([, face]) => face);
-}
-
-function svgElement(name, attributes, text) {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-  if (text !== undefined) element.textContent = text;
-  return element;
 }
 
 /** The scene as SVG, with the names. */

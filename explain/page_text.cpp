@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "explain/page_text.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace tetmend::explain {
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+namespace {
+
+template <class Json>
+std::string without_tags(const Json& json) {
+  std::string result;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      result += "\\u003c";
+    } else if (c == '&') {
+      result += "\\u0026";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string in_script(const nlohmann::ordered_json& json) {
+  return without_tags(json);
+}
+std::string in_script(const nlohmann::json& json) {
+  return without_tags(json);
+}
+
+std::string sound(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+std::string fill_in(std::string_view form,
+                    const std::vector<std::pair<std::string_view, std::string>>& values) {
+  std::string result;
+  while (!form.empty()) {
+    const std::size_t at = form.find('@');
+    result += form.substr(0, at);
+    if (at == std::string_view::npos) break;
+    form.remove_prefix(at);
+    const auto named = std::find_if(values.begin(), values.end(), [&](const auto& value) {
+      return form.starts_with(value.first);
+    });
+    if (named == values.end()) {
+      result += '@';
+      form.remove_prefix(1);
+    } else {
+      result += named->second;
+      form.remove_prefix(named->first.size());
+    }
+  }
+  return result;
+}
+
+}  // namespace tetmend::explain

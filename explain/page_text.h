@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Text and data on their way into an HTML page.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace tetmend::explain {
+
+/// Text as text, between tags and in quotes.
+std::string escaped(std::string_view text);
+
+/// JSON that nothing in it can end: no tag begins in it. Bytes that are no UTF-8 are replaced.
+std::string in_script(const nlohmann::ordered_json& json);
+std::string in_script(const nlohmann::json& json);
+
+/// UTF-8, whatever the text was.
+std::string sound(const std::string& text);
+
+/// Replaces each @NAME@ once. What is put in is not looked at again.
+std::string fill_in(std::string_view form,
+                    const std::vector<std::pair<std::string_view, std::string>>& values);
+
+}  // namespace tetmend::explain
