@@ -28,6 +28,9 @@
 #include "face/mesh_access.h"
 #include "face/recorded.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/standard_stream.h"
+#include "pieces/improve.h"
+#include "pieces/out_of_core.h"
 #include "platform/platform.h"
 #include "report/page.h"
 
@@ -73,10 +76,10 @@ void check_files(const ImproveOptions& options) {
 
 /// Before the schedule signals end the program: there is nothing to be saved yet.
 /// @param interruption begins then
-/// @param portrait null, or is drawn
-Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line,
+/// @param work what is done with the options
+Result improve_watched(const ImproveOptions& all, ProgressLine& line,
                        std::optional<Interruption>& interruption,
-                       std::unique_ptr<TraceRecorder>& trace, face::Portrait* portrait) {
+                       const std::function<Result(const Options&)>& work) {
   Options options = all.run;
   std::mutex line_busy;  // the watch has a thread of its own
   std::optional<PluginWatch> watch;
@@ -101,7 +104,7 @@ Result improve_watched(Mesh& mesh, const ImproveOptions& all, ProgressLine& line
     line.note(text);
   };
   try {
-    return face::improve(mesh, options, trace, portrait);
+    return work(options);
   } catch (const OptionError& error) {
     throw Error("--" + message_of(error));
   }
@@ -125,6 +128,62 @@ void number_tets(face::Portrait& portrait, const Mesh& mesh) {
   for (face::DrawnTet& tet : portrait.bad_after) tet.facts.number = numbers[tet.facts.tet];
 }
 
+/// A run in pieces never has the whole mesh that the page draws.
+void check_reports(const ImproveOptions& options) {
+  if (options.pieces.memory == 0 && !options.pieces.is_divided()) return;
+  for (const std::filesystem::path& file : options.reports) {
+    if (lower_extension(file) == ".json") continue;
+    throw UsageError(
+        fmt::format("--report {}: a run in pieces has its report as .json alone", file.string()));
+  }
+}
+
+/// Where pieces lie: beside the output unless told otherwise.
+std::filesystem::path scratch_parent(const ImproveOptions& options) {
+  if (!options.pieces.scratch.empty()) return options.pieces.scratch;
+  const std::filesystem::path folder = options.output.parent_path();
+  return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+/// Reads, improves and writes with no more than a piece in memory.
+void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
+                         std::optional<Interruption>& interruption, ImproveReport& report) {
+  if (formats::is_standard_stream(options.input) || formats::is_standard_stream(options.output)) {
+    throw UsageError("--memory: a mesh out of core is read from and written to files");
+  }
+  const pieces::ScratchFolder scratch(scratch_parent(options));
+  pieces::Division division;
+  division.pieces = options.pieces.pieces;
+  report.result = improve_watched(options, line, interruption, [&](const Options& run) {
+    return pieces::improve_files(
+        {options.input, options.output, scratch.path(), options.pieces.memory, {}}, run, division);
+  });
+}
+
+void improve_in_core(const ImproveOptions& options, ProgressLine& line,
+                     std::optional<Interruption>& interruption, ImproveReport& report,
+                     std::unique_ptr<TraceRecorder>& trace) {
+  const int threads = options.run.threads;
+  Mesh mesh;
+  {
+    const Stopwatch watch(report.reading);
+    line.show(fmt::format("reading {}", options.input.string()));
+    line.clear();
+    mesh = load_for(options.input, options.output, threads, options.carry, report.file_notes);
+  }
+  report.result = improve_watched(options, line, interruption, [&](const Options& run) {
+    face::Portrait* const portrait = options.reports.empty() ? nullptr : &report.portrait;
+    if (!options.pieces.is_divided()) return face::improve(mesh, run, trace, portrait);
+    pieces::Division division;
+    division.pieces = options.pieces.pieces;
+    return pieces::improve(mesh, run, division);
+  });
+  number_tets(report.portrait, mesh);
+  const Stopwatch watch(report.writing);
+  line.show(fmt::format("writing {}", options.output.string()));
+  save(options.output, mesh, threads, options.carry.variant);
+}
+
 /// What went wrong; empty: nothing. Null: there is no trace.
 std::string finish(TraceRecorder* trace) {
   try {
@@ -139,25 +198,15 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   check_files(options);
   complete(options);
-  const int threads = options.run.threads;
+  check_reports(options);
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};
-  Mesh mesh;
-  {
-    const Stopwatch watch(report.reading);
-    progress.show(fmt::format("reading {}", options.input.string()));
-    progress.clear();
-    mesh = load_for(options.input, options.output, threads, options.carry, report.file_notes);
-  }
   std::optional<Interruption> interruption;  // until all is written
   std::unique_ptr<TraceRecorder> trace;
-  report.result = improve_watched(mesh, options, progress, interruption, trace,
-                                  options.reports.empty() ? nullptr : &report.portrait);
-  number_tets(report.portrait, mesh);
-  {
-    const Stopwatch watch(report.writing);
-    progress.show(fmt::format("writing {}", options.output.string()));
-    save(options.output, mesh, threads, options.carry.variant);
+  if (options.pieces.memory > 0) {
+    improve_out_of_core(options, progress, interruption, report);
+  } else {
+    improve_in_core(options, progress, interruption, report, trace);
   }
   report.peak_memory = platform::peak_memory();
   write_reports(options.reports, report);

@@ -145,6 +145,7 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_schedule_options(command, options);
   add_plugin_options(command, options);
   add_threads_option(command, options.run.threads);
+  add_piece_options(command, options.pieces);
   add_region_options(command, options.run);
   add_trace_options(command, options.run);
   add_carry_options(command, options.carry);

@@ -13,6 +13,7 @@ class App;
 }
 
 #include "apps/files.h"
+#include "apps/piece_options.h"
 
 namespace tetmend::apps {
 
@@ -27,6 +28,7 @@ struct ImproveOptions {
   Options run;                ///< what the library reads
   std::string goal;           ///< 35 or 35,140; empty: none was asked for
   double attempt_limit = 10;  ///< seconds; 0: none
+  PieceOptions pieces;
 };
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);

@@ -12,7 +12,7 @@ if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(rooms platform kernel trace search figure explain ops contract schedule face report bindings apps
+set(rooms platform kernel trace search figure explain ops contract schedule face report pieces bindings apps
           viewer viewer/mesh viewer/debugger viewer/live viewer/commands viewer/gl viewer/ui)
 set(below_platform "")
 set(below_kernel platform)
@@ -25,6 +25,7 @@ set(below_contract platform kernel trace search ops)
 set(below_schedule platform kernel trace search ops)
 set(below_face platform kernel trace search ops contract schedule)
 set(below_report platform kernel trace search figure explain ops contract schedule face)
+set(below_pieces platform kernel trace search ops contract schedule face)
 set(below_bindings platform report)
 set(below_viewer/mesh platform kernel figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)

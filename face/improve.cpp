@@ -23,9 +23,9 @@
 #include "face/maps.h"
 #include "face/mesh_access.h"
 #include "face/mid_nodes.h"
+#include "face/plan.h"
 #include "face/recorded.h"
 #include "face/regions.h"
-#include "face/registry.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
 #include "kernel/bounds.h"
@@ -57,57 +57,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-Schedule find_schedule(const Options& options) {
-  if (!options.script.empty()) return {"script", options.script};
-  if (std::filesystem::path(options.schedule).extension() == ".lua") {
-    return Schedule::from_file(options.schedule);
-  }
-  try {
-    return Schedule::builtin(options.schedule);
-  } catch (const Error& error) {
-    throw OptionError("schedule", fmt::format("schedule: {}", error.what()));
-  }
-}
-
-/// What the options stand for. Making it finds their mistakes.
-struct Plan {
-  Registry registry;
-  Schedule schedule;
-  face::TracePlan trace;
-  face::Growth growth;
-  Standard standard;
-
-  explicit Plan(const Options& options)
-      : registry(face::load_registry(options.plugin)),
-        schedule(find_schedule(options)),
-        trace(options, registry),
-        growth(options.tets) {
-    face::check_threads(options.threads);
-    face::check_regions(options);
-    if (!is_sound(options.goal)) {
-      throw OptionError("goal", fmt::format("goal: {},{} is no goal: the smallest angle is above 0 "
-                                            "and at most 70 degrees, the largest 71 to below 180",
-                                            options.goal.min_angle, options.goal.max_angle));
-    }
-    try {
-      const Standard::Terms terms = to_terms(options.measure);
-      const bool has_price = terms != Standard::Terms::sine;
-      standard = Standard(options.goal, terms, has_price ? Standard::kUsualPrice : 0);
-    } catch (const Error& error) {
-      throw OptionError("measure", fmt::format("measure: {}", error.what()));
-    }
-    if (!(options.time_limit >= 0)) {
-      throw OptionError("time_limit", fmt::format("time_limit: {} is no time", options.time_limit));
-    }
-    const ScheduleInfo info = schedule.describe();
-    try {
-      check_settings(info, options.set);
-    } catch (const Error& error) {
-      throw OptionError("set", fmt::format("set: {}", error.what()));
-    }
-  }
-};
-
 Pass to_pass(PassRecord&& record) {
   Pass pass;
   pass.name = std::move(record.name);
@@ -136,7 +85,7 @@ std::size_t count_touched(const TetMesh& mesh) {
 /// One call of improve().
 class Improvement {
  public:
-  Improvement(Mesh& mesh, const Options& options, Plan& plan, face::Portrait* portrait)
+  Improvement(Mesh& mesh, const Options& options, face::Plan& plan, face::Portrait* portrait)
       : user_mesh_(mesh),
         options_(options),
         plan_(plan),
@@ -194,7 +143,7 @@ class Improvement {
 
   Mesh& user_mesh_;
   const Options& options_;
-  Plan& plan_;
+  face::Plan& plan_;
   face::Portrait* portrait_;  // null: nobody asked for one
   face::Watcher watcher_;
   const std::filesystem::path file_;
@@ -537,7 +486,7 @@ Result improve(Mesh& mesh, const Options& options) {
 }
 
 void check(const Options& options) {
-  const Plan plan(options);
+  const face::Plan plan(options);
 }
 
 }  // namespace tetmend

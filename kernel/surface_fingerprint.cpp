@@ -19,9 +19,8 @@ std::uint64_t mix(std::uint64_t h) {
   return h ^ (h >> 33);
 }
 
-}  // namespace
-
-std::uint64_t surface_fingerprint(const TetMesh& mesh) {
+template <class Counts>
+std::uint64_t fingerprint(const TetMesh& mesh, const Counts& counts) {
   const auto hash = [&](VertexHandle v) {
     std::uint64_t h = 1;
     for (const double x : mesh.point_in_file(v)) h = mix(h * 31 + std::bit_cast<std::uint64_t>(x));
@@ -30,7 +29,9 @@ std::uint64_t surface_fingerprint(const TetMesh& mesh) {
   const auto of_face = [&](HalfFace f) -> std::uint64_t {
     const bool outside = mesh.twin(f).is_outside();
     if (!outside && !mesh.is_constrained(f)) return 0;
-    const auto [a, b, c] = mesh.vertices(f);
+    const std::array<VertexHandle, 3> vertices = mesh.vertices(f);
+    if (!counts(vertices)) return 0;
+    const auto [a, b, c] = vertices;
     std::array<std::uint64_t, 3> corners = {hash(a), hash(b), hash(c)};
     std::sort(corners.begin(), corners.end());
     return mix(mix(mix(corners[0]) ^ corners[1]) ^ corners[2] ^ (outside ? 0 : 1));
@@ -47,6 +48,17 @@ std::uint64_t surface_fingerprint(const TetMesh& mesh) {
         return sum;
       });
   return std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
+}
+
+}  // namespace
+
+std::uint64_t surface_fingerprint(const TetMesh& mesh) {
+  return fingerprint(mesh, [](const auto&) { return true; });
+}
+
+std::uint64_t surface_fingerprint(
+    const TetMesh& mesh, const std::function<bool(const std::array<VertexHandle, 3>&)>& counts) {
+  return fingerprint(mesh, counts);
 }
 
 }  // namespace tetmend

@@ -33,6 +33,7 @@ TAKES = {
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
     "--conserve": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
     "--min-dihedral": "", "--max-dihedral": "", "--list": "", "--tree": "", "--dot": "", "--at": "", "--extract": "",
+    "--pieces": "", "--memory": "", "--scratch": "file",
     "--history": "<subject>", "--figure": "<drawing>", "--call": "", "--look": "", "--size": "", "--view": "", "--video": ".mp4", "--frames": "", "--title": "", "--background": "<background>", "--scale": "",
 }
 

@@ -8,6 +8,8 @@ local last_sweeps    = parameter{"last_sweeps", default = 4, low = 0, high = 100
                                  help = "most sweeps of costly operators over the worst tets"}
 local least_yield    = parameter{"least_yield", default = 0.1, low = 0, high = 10,
                                  help = "least number of bad tets that a costly attempt must remove on average"}
+local worst_only     = parameter{"worst_only", default = false,
+                                 help = "go for the worst tets at once, whatever that costs in mild ones"}
 
 -- DEVIATION: Algorithm 5 tries all edges. The choice matters little for the mesh, but much for the time
 -- (docs/deviations.md).
@@ -76,15 +78,17 @@ end
 
 -- A rescue must not end with more bad tets than there were at the start, so it stops in time.
 local function is_too_costly()
-  return quality().n_bad > start.n_bad
+  return not worst_only and quality().n_bad > start.n_bad
 end
 
 -- Needles count first: they would spoil what is around them. Sines alone count last, so that needles which
 -- the surface forces do not hide them.
 local function rescue_worst()
-  judge_by{price = half_price}
-  plain_round()
-  is_growing = true
+  if not worst_only then
+    judge_by{price = half_price}
+    plain_round()
+    is_growing = true
+  end
   begin_round()
   judge_by{price = 0}
   for _ = 1, last_sweeps // 2 do
@@ -118,6 +122,11 @@ local function insert_while_it_pays()
   end
 end
 
+if worst_only then
+  is_growing = false
+  rescue_worst()
+  return
+end
 judge_by{price = full_price}
 plain_rounds()
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "apps/piece_options.h"
+
+#include <CLI/CLI.hpp>
+#include <tetmend/option_text.h>
+
+#include "kernel/error.h"
+
+namespace tetmend::apps {
+
+void add_piece_options(CLI::App& command, PieceOptions& options) {
+  command
+      .add_option("--pieces", options.pieces,
+                  "Divide the mesh into N pieces and work on\none after another; the result "
+                  "depends on N\n(default: 1, or what --memory asks for)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}))
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--memory",
+          [&options](const std::string& text) {
+            Options size;  // sizes are written alike everywhere
+            try {
+              set_option(size, "trace-limit", text);
+            } catch (const OptionError&) {
+              throw CLI::ValidationError("--memory: '" + text +
+                                         "' is not a size such as 2G (K, M or G)");
+            }
+            options.memory = size.trace_limit;
+          },
+          "Work out of core: at most about that much,\nsuch as 2G, is in memory at a time")
+      ->type_name("SIZE");
+  command
+      .add_option("--scratch", options.scratch,
+                  "Folder for the pieces that are not worked on\n(default: that of OUT)")
+      ->type_name("FOLDER");
+}
+
+}  // namespace tetmend::apps

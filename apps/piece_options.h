@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Options of commands that work on a mesh in pieces.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace CLI {
+class App;
+}
+
+namespace tetmend::apps {
+
+/// As the user wrote them.
+struct PieceOptions {
+  std::size_t pieces = 0;         ///< 0: not given
+  std::uint64_t memory = 0;       ///< bytes; 0: not given
+  std::filesystem::path scratch;  ///< empty: beside the output
+
+  bool is_divided() const { return pieces > 1 || memory > 0; }
+};
+
+void add_piece_options(CLI::App& command, PieceOptions& options);
+
+}  // namespace tetmend::apps

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "face/plan.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "face/arena.h"
+#include "face/regions.h"
+#include "face/registry.h"
+
+namespace tetmend::face {
+
+namespace {
+
+Schedule find_schedule(const Options& options) {
+  if (!options.script.empty()) return {"script", options.script};
+  if (std::filesystem::path(options.schedule).extension() == ".lua") {
+    return Schedule::from_file(options.schedule);
+  }
+  try {
+    return Schedule::builtin(options.schedule);
+  } catch (const Error& error) {
+    throw OptionError("schedule", fmt::format("schedule: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+Plan::Plan(const Options& options)
+    : registry(load_registry(options.plugin)),
+      schedule(find_schedule(options)),
+      trace(options, registry),
+      growth(options.tets) {
+  check_threads(options.threads);
+  check_regions(options);
+  if (!is_sound(options.goal)) {
+    throw OptionError("goal", fmt::format("goal: {},{} is no goal: the smallest angle is above 0 "
+                                          "and at most 70 degrees, the largest 71 to below 180",
+                                          options.goal.min_angle, options.goal.max_angle));
+  }
+  try {
+    const Standard::Terms terms = to_terms(options.measure);
+    const bool has_price = terms != Standard::Terms::sine;
+    standard = Standard(options.goal, terms, has_price ? Standard::kUsualPrice : 0);
+  } catch (const Error& error) {
+    throw OptionError("measure", fmt::format("measure: {}", error.what()));
+  }
+  if (!(options.time_limit >= 0)) {
+    throw OptionError("time_limit", fmt::format("time_limit: {} is no time", options.time_limit));
+  }
+  const ScheduleInfo info = schedule.describe();
+  try {
+    check_settings(info, options.set);
+  } catch (const Error& error) {
+    throw OptionError("set", fmt::format("set: {}", error.what()));
+  }
+}
+
+}  // namespace tetmend::face

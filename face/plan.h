@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// The options of a run, looked through.
+#pragma once
+
+#include <tetmend/improve.h>
+
+#include "face/growth.h"
+#include "face/trace_plan.h"
+#include "kernel/quality.h"
+#include "ops/registry.h"
+#include "schedule/schedule.h"
+
+namespace tetmend::face {
+
+/// What the options stand for. Making it finds their mistakes.
+struct Plan {
+  Registry registry;
+  Schedule schedule;
+  TracePlan trace;
+  Growth growth;
+  Standard standard;
+
+  /// @throws OptionError as improve()
+  /// @throws Error as improve()
+  explicit Plan(const Options& options);
+};
+
+}  // namespace tetmend::face

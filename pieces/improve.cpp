@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+//   build and measure the whole | slices | divisions and zones | check all pieces | join | measure
+#include "pieces/improve.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "face/advice.h"
+#include "face/arena.h"
+#include "face/carry.h"
+#include "face/mesh_access.h"
+#include "face/plan.h"
+#include "face/recorded.h"
+#include "face/regions.h"
+#include "face/watcher.h"
+#include "kernel/integrity.h"
+#include "kernel/mesh_view.h"
+#include "kernel/rulers.h"
+#include "kernel/size_field.h"
+#include "kernel/surface_fingerprint.h"
+#include "pieces/slices.h"
+#include "schedule/limit/surface_limit.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+/// Adds the time from its making to its end to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// One call of improve().
+class Improvement {
+ public:
+  Improvement(Mesh& mesh, const Options& options, const Division& division, Shelf& shelf)
+      : user_mesh_(mesh),
+        options_(options),
+        division_(division),
+        plan_(options),
+        watcher_(options),
+        file_(mesh.file()),
+        input_(MeshAccess::take(mesh)),
+        divided_(shelf, input_.points.size()) {}
+
+  Result run() {
+    try {
+      result_.goal = options_.goal;
+      prepare();
+      work();
+      finish();
+    } catch (...) {
+      user_mesh_ = MeshAccess::make(std::move(input_), file_);
+      throw;
+    }
+    watcher_.rethrow();
+    return std::move(result_);
+  }
+
+ private:
+  void prepare();
+  TetMesh build();
+  void measure_before(const TetMesh& mesh);
+  MeshData source(const TetMesh& mesh) const;
+  void work();
+  void finish();
+  void measure_after(Joined& joined);
+  void map(const Joined& joined);
+  void check_promises() const;
+  void give_back(Joined& joined);
+
+  Mesh& user_mesh_;
+  const Options& options_;
+  const Division& division_;
+  face::Plan plan_;
+  face::Watcher watcher_;
+  const std::filesystem::path file_;
+  MeshData input_;
+  DividedMesh divided_;
+  std::vector<std::uint32_t> tet_numbers_;  // in the input, by slot
+  std::shared_ptr<const SizeField> size_field_;
+  std::uint64_t surface_before_ = 0;
+  Result result_;
+};
+
+TetMesh Improvement::build() {
+  MeshData data = input_;
+  const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
+  TetMesh mesh =
+      face::build_located(file_, data,
+                          {.interior = options_.ignore_interior ? InteriorConstraints::dropped
+                                                                : InteriorConstraints::kept,
+                           .report = &result_.build,
+                           .tet_numbers = &tet_numbers_});
+  mesh.set_standard(plan_.standard);
+  return mesh;
+}
+
+void Improvement::prepare() {
+  watcher_.begin(Stage::building);
+  const Stopwatch watch(result_.building);
+  if (!input_.mid_nodes.empty()) throw Error("a mesh of second order cannot be divided");
+  face::find_regions(input_, options_);
+  face::check_conserve(input_, options_.conserve);
+  TetMesh mesh = build();
+  const face::ProtectedPart part = face::protect(mesh, options_);
+  result_.protected_tets = part.tets;
+  result_.protected_bad_tets = part.bad_tets;
+  result_.layer_tets = part.layer_tets;
+  result_.layer_bad_tets = part.layer_bad_tets;
+  if (options_.keep_size && mesh.scale().is_one()) size_field_ = std::make_shared<SizeField>(mesh);
+  measure_before(mesh);
+  std::vector<char> is_protected(input_.tets.size(), 0);
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    if (mesh.is_frozen(TetHandle(slot))) is_protected[tet_numbers_[slot]] = 1;
+  }
+  const MeshData data = source(mesh);
+  mesh = {};
+  tet_numbers_ = {};
+  add_slices(data, is_protected, divided_);
+}
+
+void Improvement::measure_before(const TetMesh& mesh) {
+  const Stopwatch watch(result_.measuring);
+  result_.before = compute_statistics(mesh, options_.goal);
+  if (options_.rulers) result_.rulers_before = measure_rulers(mesh);
+  surface_before_ = surface_fingerprint(mesh);
+  result_.not_positive_before = count_not_positive(mesh);
+  watcher_.watch(nullptr, quality_indicators(mesh));
+  for (const std::string& text : face::advice_before(mesh, result_)) {
+    watcher_.noted(text);
+    result_.notes.push_back(text);
+  }
+}
+
+/// What the pieces are made of: tets in the order of the file, with their vertices in positive
+/// order; of the rest what is kept.
+MeshData Improvement::source(const TetMesh& mesh) const {
+  MeshData data;
+  data.points = input_.points;
+  data.point_labels = input_.point_labels;
+  data.tets = input_.tets;
+  if (result_.build.mirrored || result_.build.reordered_tets > 0) {
+    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+      auto& to = data.tets[tet_numbers_[slot]].vertices;
+      for (std::size_t i = 0; i < 4; ++i) to[i] = mesh.origin(mesh.vertices(TetHandle(slot))[i]);
+    }
+  }
+  const MeshView view(mesh);  // its vertices are those of the file, in their order
+  data.triangles.assign(view.triangles().begin(), view.triangles().end());
+  data.edges.assign(view.edges().begin(), view.edges().end());
+  data.required_vertices.assign(view.required_vertices().begin(), view.required_vertices().end());
+  return data;
+}
+
+void Improvement::work() {
+  watcher_.begin(Stage::improving);
+  const Stopwatch watch(result_.improving);
+  const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
+  TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
+  task.size_field = size_field_;
+  QualityIndicators now;
+  task.watch = [&](Run& run) {
+    run.set_listener(&watcher_);
+    run.set_cancel_flag(options_.cancel);
+    watcher_.watch(&run, now);
+  };
+  task.unwatch = [&] { watcher_.watch(nullptr, now); };
+  PieceRun run(divided_, division_, task);
+  run.set_limits(
+      {result_.before.tets, result_.before.n_bad,
+       plan_.growth.most(result_.before.tets).value_or(std::numeric_limits<std::size_t>::max()),
+       options_.time_limit});
+  run.set_stop([&] {
+    return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
+  });
+  run.set_listener([&](const StepRecord& record) {
+    now = record.after.indicators;
+    result_.passes.push_back(to_pass(record));
+  });
+  run.run();
+  if (run.stopped()) {
+    result_.ending = run.out_of_time() ? Ending::time_limit : Ending::cancelled;
+  }
+  watcher_.begin(Stage::measuring);
+  const Figures figures = run.measure_after();
+  const bool fits = figures.surface == surface_before_ &&
+                    figures.statistics.boundary_triangles == result_.before.boundary_triangles &&
+                    figures.not_positive <= result_.not_positive_before;
+  if (!fits) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
+}
+
+void Improvement::finish() {
+  Joined joined = join(divided_, input_.points.size());
+  measure_after(joined);
+  map(joined);
+  check_promises();
+  if (!result_.worse().empty()) {
+    const std::string text = fmt::format("the mesh is as it was: at the end there was {}",
+                                         fmt::join(result_.worse(), "; "));
+    watcher_.noted(text);
+    result_.notes.push_back(text);
+    for (std::size_t i = 0; i < result_.vertex_map.size(); ++i) {
+      result_.vertex_map[i] = static_cast<std::uint32_t>(i);
+    }
+    for (std::size_t i = 0; i < result_.tet_map.size(); ++i) {
+      result_.tet_map[i] = static_cast<std::uint32_t>(i);
+    }
+    result_.after = result_.before;
+    result_.rulers_after = result_.rulers_before;
+    result_.touched_tets = 0;
+    user_mesh_ = MeshAccess::make(std::move(input_), file_);
+  } else {
+    give_back(joined);
+  }
+  if (!options_.maps) result_.vertex_map = result_.tet_map = {};
+}
+
+void Improvement::measure_after(Joined& joined) {
+  const Stopwatch watch(result_.measuring);
+  MeshData data = joined.data;
+  std::vector<std::uint32_t> numbers;
+  TetMesh mesh = face::build_located({}, data, {.report = nullptr, .tet_numbers = &numbers});
+  mesh.set_standard(plan_.standard);
+  mesh.freeze([&](TetHandle t) { return joined.is_protected[numbers[t.index()]] != 0; });
+  result_.after = compute_statistics(mesh, options_.goal);
+  if (options_.rulers) result_.rulers_after = measure_rulers(mesh);
+  result_.surface_fingerprint = surface_fingerprint(mesh);
+  result_.not_positive_after = count_not_positive(mesh);
+  if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel);
+  for (const std::string& text : face::advice_after(mesh, options_, result_)) {
+    watcher_.noted(text);
+    result_.notes.push_back(text);
+  }
+}
+
+/// Where the vertices and tets of the input are, and which tets are not as they were.
+void Improvement::map(const Joined& joined) {
+  result_.vertex_map.assign(input_.points.size(), kGone);
+  result_.tet_map.assign(input_.tets.size(), kGone);
+  std::vector<char> has_moved(joined.vertex_origins.size(), 1);
+  for (std::uint32_t v = 0; v < has_moved.size(); ++v) {
+    const std::uint32_t origin = joined.vertex_origins[v];
+    if (origin == kGone) continue;
+    result_.vertex_map[origin] = v;
+    has_moved[v] = joined.data.points[v] != input_.points[origin] ? 1 : 0;
+  }
+  for (std::uint32_t t = 0; t < joined.tet_origins.size(); ++t) {
+    const std::uint32_t origin = joined.tet_origins[t];
+    if (origin != PieceTet::kNone) result_.tet_map[origin] = t;
+    const auto& v = joined.data.tets[t].vertices;
+    const bool is_touched =
+        origin == PieceTet::kNone ||
+        std::any_of(v.begin(), v.end(), [&](std::uint32_t w) { return has_moved[w] != 0; });
+    result_.touched_tets += is_touched ? 1 : 0;
+  }
+}
+
+/// A broken promise would be a bug. Nobody is to work on with such a mesh.
+void Improvement::check_promises() const {
+  constexpr double kMostVolumeChange = 1e-9;
+  const bool is_kept =
+      result_.surface_fingerprint == surface_before_ &&
+      result_.after.boundary_triangles == result_.before.boundary_triangles &&
+      result_.not_positive_after <= result_.not_positive_before &&
+      (result_.not_positive_before > 0 || result_.volume_change() <= kMostVolumeChange);
+  if (!is_kept) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
+}
+
+void Improvement::give_back(Joined& joined) {
+  MeshData data = std::move(joined.data);
+  if (face::holds_more(input_)) {
+    result_.carried =
+        face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
+  }
+  user_mesh_ = MeshAccess::make(std::move(data));
+}
+
+}  // namespace
+
+Pass to_pass(const StepRecord& record) {
+  Pass pass;
+  pass.name = record.is_zones ? "zones" : "division";
+  pass.round = record.number;
+  pass.seconds = record.seconds;
+  pass.verdicts = record.verdicts;
+  pass.items = record.items;
+  pass.deferred = record.deferred;
+  pass.after = record.after.indicators;
+  return pass;
+}
+
+void check(const Options& options, const Division& division) {
+  tetmend::check(options);
+  if (division.pieces <= 1) return;
+  constexpr std::size_t kMostPieces = 65'535;
+  if (division.pieces > kMostPieces) {
+    throw OptionError("pieces",
+                      fmt::format("pieces: {} is outside 1 to {}", division.pieces, kMostPieces));
+  }
+  if (!options.trace.empty()) {
+    throw OptionError("trace", "trace: a run in pieces cannot be recorded");
+  }
+  if (options.check_operators) {
+    throw OptionError("check_operators", "check_operators: not for a run in pieces");
+  }
+}
+
+std::size_t pieces_for(std::size_t tets, std::uint64_t memory) {
+  constexpr std::uint64_t kProgram = 40'000'000;
+  constexpr std::uint64_t kBytesPerTet = 130;  // of a piece that is worked on
+  const std::uint64_t room = memory > kProgram ? memory - kProgram : 0;
+  const std::uint64_t most = std::max<std::uint64_t>(10'000, room / kBytesPerTet);
+  return static_cast<std::size_t>((tets + most - 1) / most);
+}
+
+Result improve(Mesh& mesh, const Options& options, const Division& division,
+               const std::filesystem::path& scratch) {
+  check(options, division);
+  if (division.pieces <= 1) return tetmend::improve(mesh, options);
+  return face::on_threads(options.threads, [&] {
+    MemoryShelf memory;
+    FolderShelf folder(scratch);
+    Shelf& shelf = scratch.empty() ? static_cast<Shelf&>(memory) : folder;
+    return Improvement(mesh, options, division, shelf).run();
+  });
+}
+
+}  // namespace tetmend::pieces

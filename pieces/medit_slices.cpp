@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: MIT
+// The layout of the format: kernel/formats/medit_binary.cpp.
+#include "pieces/medit_slices.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <queue>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/output_file.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+enum Keyword : std::int32_t {
+  dimension = 3,
+  vertices = 4,
+  edges = 5,
+  triangles = 6,
+  tetrahedra = 8,
+  required_vertices = 15,
+  end_of_mesh = 54
+};
+
+template <class Value>
+bool read_value(std::ifstream& in, Value& value) {
+  in.read(reinterpret_cast<char*>(&value), sizeof(value));
+  return static_cast<bool>(in);
+}
+
+/// Rows of a section, some at a time.
+class Rows {
+ public:
+  explicit Rows(const std::filesystem::path& file) : in_(file, std::ios::binary), file_(file) {}
+
+  const char* read(std::uint64_t begin, std::size_t size) {
+    buffer_.resize(size);
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(begin));
+    in_.read(buffer_.data(), static_cast<std::streamsize>(size));
+    if (!in_) throw Error(fmt::format("{}: the file ends too early", file_.string()));
+    return buffer_.data();
+  }
+
+ private:
+  std::ifstream in_;
+  std::filesystem::path file_;
+  std::vector<char> buffer_;
+};
+
+template <class Integer>
+Integer load(const char* at) {
+  Integer value;
+  std::memcpy(&value, at, sizeof(value));
+  return value;
+}
+
+/// Numbers of vertices in the file, for those that a slice has.
+template <class Element>
+struct FileElement {
+  Element element;
+  std::array<VertexId, std::tuple_size_v<decltype(Element::vertices)>> vertices{};
+};
+
+template <std::size_t N>
+bool has_repeated(std::array<VertexId, N> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end();
+}
+
+template <class Element>
+void note_ids(const std::vector<FileElement<Element>>& elements, std::vector<VertexId>& ids) {
+  for (const auto& each : elements)
+    ids.insert(ids.end(), each.vertices.begin(), each.vertices.end());
+}
+
+template <class Element>
+void take(const std::vector<FileElement<Element>>& from, const std::vector<VertexId>& ids,
+          std::vector<Element>& to) {
+  to.reserve(from.size());
+  for (const auto& each : from) {
+    Element element = each.element;
+    for (std::size_t i = 0; i < each.vertices.size(); ++i) {
+      const auto found = std::lower_bound(ids.begin(), ids.end(), each.vertices[i]);
+      element.vertices[i] = static_cast<std::uint32_t>(found - ids.begin());
+    }
+    to.push_back(element);
+  }
+}
+
+}  // namespace
+
+std::optional<MeditSlices> MeditSlices::open(const std::filesystem::path& file) {
+  if (file.extension() != ".meshb") return std::nullopt;
+  MeditSlices slices;
+  slices.file_ = file;
+  if (!slices.list_sections()) return std::nullopt;
+  slices.counts_ = {slices.vertices_.rows, slices.tets_.rows, slices.triangles_.rows,
+                    slices.edges_.rows};
+  if (slices.counts_.tets == 0) return std::nullopt;
+  return slices;
+}
+
+/// False for a file that is not as the class says.
+bool MeditSlices::list_sections() {
+  std::ifstream in(file_, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::uint64_t>(std::max<std::streamoff>(0, in.tellg()));
+  in.seekg(0);
+  std::int32_t cookie = 0;
+  std::int32_t version = 0;
+  if (!read_value(in, cookie) || !read_value(in, version) || cookie != 1) return false;
+  if (version < 2 || version > 4) return false;
+  version_ = version;
+  std::int32_t keyword = 0;
+  while (read_value(in, keyword) && keyword != end_of_mesh) {
+    const auto read_number = [&](bool is_long, std::uint64_t& number) {
+      std::int64_t wide = 0;
+      std::int32_t narrow = 0;
+      const bool done = is_long ? read_value(in, wide) : read_value(in, narrow);
+      number = static_cast<std::uint64_t>(is_long ? wide : narrow);
+      return done && (is_long ? wide : narrow) >= 0;
+    };
+    std::uint64_t next = 0;
+    if (!read_number(version >= 3, next)) return false;
+    if (next == 0) next = size;
+    const std::array<std::pair<std::int32_t, Section*>, 5> kept = {
+        {{vertices, &vertices_},
+         {edges, &edges_},
+         {triangles, &triangles_},
+         {tetrahedra, &tets_},
+         {required_vertices, &required_}}};
+    const auto* found = std::find_if(kept.begin(), kept.end(),
+                                     [&](const auto& each) { return each.first == keyword; });
+    if (found != kept.end()) {
+      Section& section = *found->second;
+      if (section.begin != 0 || !read_number(version == 4, section.rows)) return false;
+      section.begin = static_cast<std::uint64_t>(in.tellg());
+      const std::uint64_t per_row = integer_size() * (keyword == tetrahedra  ? 5
+                                                      : keyword == triangles ? 4
+                                                      : keyword == edges     ? 3
+                                                                             : 1) +
+                                    (keyword == vertices ? 24 : 0);
+      if (next > size || section.rows * per_row != next - section.begin) return false;
+    } else if (keyword != dimension) {
+      return false;
+    }
+    in.seekg(static_cast<std::streamoff>(next));
+  }
+  return true;
+}
+
+void MeditSlices::add_to(DividedMesh& mesh, std::size_t tets_of_slice) const {
+  const std::uint64_t slices = 1 + counts_.tets / tets_of_slice;
+  for (std::uint64_t i = 0; i < slices; ++i) {
+    mesh.add_slice(version_ == 4 ? read_slice<std::int64_t>(i, slices)
+                                 : read_slice<std::int32_t>(i, slices));
+  }
+}
+
+namespace {
+
+/// Reads one of several slices of a file.
+template <class Integer>
+class SliceReader {
+ public:
+  SliceReader(const std::filesystem::path& file, std::uint64_t vertices, std::uint64_t slice,
+              std::uint64_t slices)
+      : rows_(file), file_(file), vertices_(vertices), slice_(slice), slices_(slices) {}
+
+  /// Of the file's elements, those of the slice. Returns the number of the first.
+  template <class Element>
+  std::uint64_t read_elements(std::uint64_t section, std::uint64_t count,
+                              std::vector<FileElement<Element>>& elements) {
+    const std::uint64_t begin = count * slice_ / slices_;
+    const std::uint64_t end = count * (slice_ + 1) / slices_;
+    if (begin == end) return begin;
+    constexpr std::size_t kVertices = std::tuple_size_v<decltype(Element::vertices)>;
+    constexpr std::size_t kRow = (kVertices + 1) * sizeof(Integer);
+    const char* at = rows_.read(section + begin * kRow, (end - begin) * kRow);
+    elements.resize(end - begin);
+    for (auto& element : elements) {
+      for (VertexId& v : element.vertices) v = number(std::exchange(at, at + sizeof(Integer)));
+      if (has_repeated(element.vertices)) {
+        throw Error(fmt::format("{}: an element has a vertex twice", file_.string()));
+      }
+      element.element.label = static_cast<Label>(load<Integer>(at));
+      at += sizeof(Integer);
+    }
+    return begin;
+  }
+
+  std::uint64_t own_begin() const { return vertices_ * slice_ / slices_; }
+  std::uint64_t own_end() const { return vertices_ * (slice_ + 1) / slices_; }
+
+  /// Points and labels of all ids of the slice.
+  void read_vertices(std::uint64_t section, Piece& slice) {
+    constexpr std::size_t kAtOnce = 4096;  // rows between the first and the last that are read
+    constexpr std::size_t kRow = 24 + sizeof(Integer);
+    std::vector<Label> labels;
+    for (std::size_t k = 0; k < slice.ids.size();) {
+      std::size_t end = k + 1;
+      while (end < slice.ids.size() && slice.ids[end] < slice.ids[k] + kAtOnce) ++end;
+      const char* at =
+          rows_.read(section + slice.ids[k] * kRow, (slice.ids[end - 1] - slice.ids[k] + 1) * kRow);
+      for (std::size_t n = k; n < end; ++n) {
+        const char* here = at + (slice.ids[n] - slice.ids[k]) * kRow;
+        const Point p(load<double>(here), load<double>(here + 8), load<double>(here + 16));
+        if (!p.allFinite()) {
+          throw Error(fmt::format("{}: a coordinate of vertex {} is not a finite number",
+                                  file_.string(), slice.ids[n] + 1));
+        }
+        slice.points.push_back(p);
+        labels.push_back(static_cast<Label>(load<Integer>(here + 24)));
+        const bool is_own = slice.ids[n] >= own_begin() && slice.ids[n] < own_end();
+        slice.marks.push_back(is_own ? kOwn : 0);
+      }
+      k = end;
+    }
+    if (std::any_of(labels.begin(), labels.end(), [](Label label) { return label != 0; })) {
+      slice.labels = std::move(labels);
+    }
+  }
+
+  void read_required(std::uint64_t section, std::uint64_t count, Piece& slice) {
+    if (count == 0) return;
+    const char* at = rows_.read(section, count * sizeof(Integer));
+    for (std::uint64_t r = 0; r < count; ++r) {
+      const VertexId id = number(at + r * sizeof(Integer));
+      const auto found = std::lower_bound(slice.ids.begin(), slice.ids.end(), id);
+      if (found == slice.ids.end() || *found != id) continue;
+      std::uint8_t& marks = slice.marks[static_cast<std::size_t>(found - slice.ids.begin())];
+      marks = static_cast<std::uint8_t>(marks | kRequired);
+    }
+  }
+
+ private:
+  VertexId number(const char* at) const {
+    const Integer value = load<Integer>(at);
+    if (value < 1 || static_cast<std::uint64_t>(value) > vertices_) {
+      throw Error(fmt::format("{}: {} is out of range: expected a vertex number, 1 to {}",
+                              file_.string(), value, vertices_));
+    }
+    return static_cast<VertexId>(value - 1);
+  }
+
+  Rows rows_;
+  const std::filesystem::path& file_;
+  std::uint64_t vertices_, slice_, slices_;
+};
+
+}  // namespace
+
+template <class Integer>
+Piece MeditSlices::read_slice(std::uint64_t i, std::uint64_t slices) const {
+  SliceReader<Integer> reader(file_, vertices_.rows, i, slices);
+  std::vector<FileElement<PieceTet>> tets;
+  std::vector<FileElement<MeshData::Triangle>> named_triangles;
+  std::vector<FileElement<MeshData::Edge>> named_edges;
+  std::uint64_t first = reader.read_elements(tets_.begin, tets_.rows, tets);
+  for (auto& tet : tets) {
+    tet.element.origin =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(first++, PieceTet::kNone));
+  }
+  reader.read_elements(triangles_.begin, triangles_.rows, named_triangles);
+  reader.read_elements(edges_.begin, edges_.rows, named_edges);
+
+  Piece slice;
+  note_ids(tets, slice.ids);
+  note_ids(named_triangles, slice.ids);
+  note_ids(named_edges, slice.ids);
+  for (VertexId v = reader.own_begin(); v < reader.own_end(); ++v) slice.ids.push_back(v);
+  std::sort(slice.ids.begin(), slice.ids.end());
+  slice.ids.erase(std::unique(slice.ids.begin(), slice.ids.end()), slice.ids.end());
+  take(tets, slice.ids, slice.tets);
+  take(named_triangles, slice.ids, slice.triangles);
+  take(named_edges, slice.ids, slice.edges);
+  reader.read_vertices(vertices_.begin, slice);
+  reader.read_required(required_.begin, required_.rows, slice);
+  return slice;
+}
+
+namespace {
+
+/// The numbers of vertices in the new file, by id: how many of lower id there are.
+class Numbering {
+ public:
+  explicit Numbering(VertexId most)
+      : is_there_((most + 63) / 64, 0), before_((most + 63) / 64, 0) {}
+  void note(VertexId id) { is_there_[id / 64] |= std::uint64_t{1} << (id % 64); }
+  void count() {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < is_there_.size(); ++i) {
+      before_[i] = sum;
+      sum += static_cast<std::uint64_t>(__builtin_popcountll(is_there_[i]));
+    }
+    count_ = sum;
+  }
+  std::uint64_t size() const { return count_; }
+  std::uint64_t number(VertexId id) const {
+    const std::uint64_t bit = std::uint64_t{1} << (id % 64);
+    if ((is_there_[id / 64] & bit) == 0) {
+      throw Error("pieces do not fit: a vertex belongs to none");
+    }
+    return before_[id / 64] +
+           static_cast<std::uint64_t>(__builtin_popcountll(is_there_[id / 64] & (bit - 1)));
+  }
+
+ private:
+  std::vector<std::uint64_t> is_there_;
+  std::vector<std::uint64_t> before_;
+  std::uint64_t count_ = 0;
+};
+
+/// What a vertex of the new file is, in the order of ids. Vertices come from all pieces: ranges of
+/// ids at a time, so that memory holds only some.
+struct FileVertex {
+  VertexId id;
+  Point point;
+  Label label;
+  std::uint8_t marks;
+};
+
+class Writer {
+ public:
+  Writer(OutputFile& out, const DividedMesh& mesh)
+      : out_(out), mesh_(mesh), numbering_(mesh.state().next_id) {}
+
+  void write() {
+    count();
+    choose_version();
+    out_.put_bytes(std::int32_t{1});
+    out_.put_bytes(version_);
+    position_ = 2 * sizeof(std::int32_t);
+    begin_section(dimension, sizeof(std::int32_t));
+    out_.put_bytes(std::int32_t{3});
+    if (version_ == 4) {
+      write_rows<std::int64_t>();
+    } else {
+      write_rows<std::int32_t>();
+    }
+    out_.put_bytes(std::int32_t{end_of_mesh});
+    put_position(0);
+  }
+
+ private:
+  void count() {
+    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
+      const Piece piece = mesh_.stored(i);
+      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
+        if ((piece.marks[v] & kOwn) == 0) continue;
+        numbering_.note(piece.ids[v]);
+        if ((piece.marks[v] & kRequired) != 0) required_.push_back(piece.ids[v]);
+      }
+      counts_.tets += piece.tets.size();
+      counts_.triangles += piece.triangles.size();
+      counts_.edges += piece.edges.size();
+    }
+    numbering_.count();
+    counts_.vertices = numbering_.size();
+    std::sort(required_.begin(), required_.end());
+  }
+  /// As write_medit_binary() does.
+  void choose_version() {
+    const std::uint64_t most = std::max({counts_.vertices, counts_.tets, counts_.triangles,
+                                         counts_.edges, std::uint64_t{required_.size()}});
+    const std::uint64_t size = 256 + 76 * counts_.vertices + 12 * counts_.edges +
+                               16 * counts_.triangles + 4 * required_.size() + 20 * counts_.tets;
+    version_ = most > INT32_MAX ? 4 : size > INT32_MAX ? 3 : 2;
+  }
+  std::size_t position_size() const { return version_ >= 3 ? 8 : 4; }
+  void put_position(std::uint64_t position) {
+    if (version_ >= 3) return out_.put_bytes(static_cast<std::int64_t>(position));
+    out_.put_bytes(static_cast<std::int32_t>(position));
+  }
+  void begin_section(std::int32_t keyword, std::uint64_t content_size) {
+    position_ += sizeof keyword + position_size() + content_size;
+    out_.put_bytes(keyword);
+    put_position(position_);
+  }
+  template <class Integer>
+  void begin_rows(std::int32_t keyword, std::uint64_t rows, std::uint64_t row_size) {
+    begin_section(keyword, sizeof(Integer) + rows * row_size);
+    out_.put_bytes(static_cast<Integer>(rows));
+  }
+  template <class Integer>
+  void write_rows() {
+    begin_rows<Integer>(vertices, counts_.vertices, 24 + sizeof(Integer));
+    write_vertices<Integer>();
+    write_elements<Integer>(edges, counts_.edges, &Piece::edges);
+    write_elements<Integer>(triangles, counts_.triangles, &Piece::triangles);
+    if (!required_.empty()) {
+      begin_rows<Integer>(required_vertices, required_.size(), sizeof(Integer));
+      for (const VertexId id : required_) put_number<Integer>(id);
+    }
+    write_elements<Integer>(tetrahedra, counts_.tets, &Piece::tets);
+  }
+  template <class Integer>
+  void put_number(VertexId id) {
+    out_.put_bytes(static_cast<Integer>(numbering_.number(id) + 1));
+  }
+
+  /// A range of ids at a time, from all pieces.
+  template <class Integer>
+  void write_vertices() {
+    constexpr VertexId kAtOnce = 2'000'000;
+    const VertexId most = mesh_.state().next_id;
+    for (VertexId begin = 0; begin < most; begin += kAtOnce) {
+      const std::vector<FileVertex> range = collect(begin, std::min(most, begin + kAtOnce));
+      for (const FileVertex& vertex : range) {
+        for (const double x : vertex.point) out_.put_bytes(x);
+        out_.put_bytes(static_cast<Integer>(vertex.label));
+      }
+    }
+  }
+  std::vector<FileVertex> collect(VertexId begin, VertexId end) const {
+    std::vector<FileVertex> all;
+    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
+      const Piece piece = mesh_.stored(i);
+      const auto first = std::lower_bound(piece.ids.begin(), piece.ids.end(), begin);
+      for (auto v = static_cast<std::size_t>(first - piece.ids.begin());
+           v < piece.ids.size() && piece.ids[v] < end; ++v) {
+        if ((piece.marks[v] & kOwn) == 0) continue;
+        all.push_back({piece.ids[v], piece.points[v], piece.label(v), piece.marks[v]});
+      }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const FileVertex& a, const FileVertex& b) { return a.id < b.id; });
+    return all;
+  }
+  template <class Integer, class Element>
+  void write_elements(std::int32_t keyword, std::uint64_t rows,
+                      std::vector<Element> Piece::*elements) {
+    if (rows == 0) return;
+    constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
+    begin_rows<Integer>(keyword, rows, kNumbers * sizeof(Integer));
+    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
+      const Piece piece = mesh_.stored(i);
+      for (const Element& element : piece.*elements) {
+        for (const std::uint32_t v : element.vertices) put_number<Integer>(piece.ids[v]);
+        out_.put_bytes(static_cast<Integer>(element.label));
+      }
+    }
+  }
+
+  OutputFile& out_;
+  const DividedMesh& mesh_;
+  Numbering numbering_;
+  FileCounts counts_;
+  std::vector<VertexId> required_;
+  std::int32_t version_ = 2;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace
+
+void write_medit_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
+  OutputFile out(file);
+  Writer(out, mesh).write();
+  out.commit();
+}
+
+}  // namespace tetmend::pieces

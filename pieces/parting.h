@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Which part of space belongs to which piece.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernel/hilbert.h"
+#include "kernel/mesh_data.h"
+#include "pieces/zones.h"
+
+namespace tetmend::pieces {
+
+/// A cube around a mesh, shifted as those of schedule/partition.h. Nothing but `low`, `side` and
+/// `shift` enters, so all who know them have the same curve.
+HilbertCurve shifted_curve(const Point& low, double side, unsigned shift);
+
+/// Counts keys, to cut a curve into parts of about the same weight. Whole numbers: who counts which
+/// key, and in which order, cannot show.
+class KeyHistogram {
+ public:
+  void count(std::uint64_t key) { ++counts_[key >> kShift]; }
+  /// Keys at which the parts begin; the first is 0.
+  std::vector<std::uint64_t> cuts(std::size_t parts) const;
+
+ private:
+  static constexpr int kBits = 21;  // cells of 1/128 of the cube
+  static constexpr int kShift = 63 - kBits;
+  std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(std::size_t{1} << kBits, 0);
+};
+
+/// The parts of one division: stretches of a Hilbert curve, and zones, which go before them.
+struct Parting {
+  Point low = Point::Zero();
+  double side = 0;
+  unsigned shift = 0;
+  std::vector<std::uint64_t> cuts = {0};  ///< key at which each stretch begins
+  ZoneMap zones = {};                     ///< their parts follow those of the curve
+
+  std::size_t stretches() const { return cuts.size(); }
+  std::size_t parts() const { return cuts.size() + zones.count(); }
+  /// Part of each point.
+  std::vector<std::uint32_t> parts_of(std::span<const Point> points) const;
+};
+
+}  // namespace tetmend::pieces

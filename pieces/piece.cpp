@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/piece.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+constexpr std::uint32_t kGoneVertex = std::numeric_limits<std::uint32_t>::max();
+
+template <class Value>
+void append_array(const std::vector<Value>& values, std::string& bytes) {
+  const std::uint64_t count = values.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(Value));
+}
+
+[[noreturn]] void fail_short() {
+  throw Error("a piece ends too early");
+}
+
+template <class Value>
+void take_array(std::string_view& bytes, std::vector<Value>& values) {
+  std::uint64_t count = 0;
+  if (bytes.size() < sizeof(count)) fail_short();
+  std::memcpy(&count, bytes.data(), sizeof(count));
+  bytes.remove_prefix(sizeof(count));
+  if (count > bytes.size() / sizeof(Value)) fail_short();
+  values.resize(count);
+  if (count == 0) return;
+  std::memcpy(static_cast<void*>(values.data()), bytes.data(), count * sizeof(Value));
+  bytes.remove_prefix(count * sizeof(Value));
+}
+
+template <class Element>
+bool names_vertices_of(const std::vector<Element>& elements, std::size_t count) {
+  return std::all_of(elements.begin(), elements.end(), [&](const Element& element) {
+    return std::all_of(element.vertices.begin(), element.vertices.end(),
+                       [&](std::uint32_t v) { return v < count; });
+  });
+}
+
+template <class Element>
+void append_renumbered(const std::vector<Element>& from, std::span<const std::uint32_t> numbers,
+                       std::vector<Element>& to) {
+  to.reserve(to.size() + from.size());
+  for (Element element : from) {
+    for (std::uint32_t& v : element.vertices) v = numbers[v];
+    to.push_back(element);
+  }
+}
+
+template <class Element>
+void append_chosen(const std::vector<Element>& from, std::span<const std::uint32_t> chosen,
+                   std::span<const std::uint32_t> numbers, std::vector<Element>& to) {
+  to.reserve(chosen.size());
+  for (const std::uint32_t i : chosen) {
+    Element element = from[i];
+    for (std::uint32_t& v : element.vertices) v = numbers[v];
+    to.push_back(element);
+  }
+}
+
+/// Bit for bit: 0 and -0 differ, and all copies of a vertex come from one.
+bool same_place(const Point& a, const Point& b) {
+  return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
+}
+
+/// Where each vertex of a part is among all ids.
+std::vector<std::uint32_t> places_of(const Piece& part, const std::vector<VertexId>& ids) {
+  std::vector<std::uint32_t> places(part.ids.size());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    while (ids[at] != part.ids[i]) ++at;
+    places[i] = static_cast<std::uint32_t>(at);
+  }
+  return places;
+}
+
+void take_vertices(const Piece& part, std::span<const std::uint32_t> places, Piece& whole,
+                   std::vector<char>& known) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::uint32_t at = places[i];
+    if (known[at] != 0 && !same_place(whole.points[at], part.points[i])) {
+      throw Error(fmt::format("pieces do not fit: vertex {} lies at two places", part.ids[i]));
+    }
+    known[at] = 1;
+    whole.points[at] = part.points[i];
+    whole.marks[at] =
+        static_cast<std::uint8_t>(whole.marks[at] | (part.marks[i] & (kRequired | kBorder)));
+    if (!whole.labels.empty()) whole.labels[at] = part.label(i);
+  }
+}
+
+}  // namespace
+
+void append(const Piece& piece, std::string& bytes) {
+  append_array(piece.ids, bytes);
+  append_array(piece.points, bytes);
+  append_array(piece.labels, bytes);
+  append_array(piece.marks, bytes);
+  append_array(piece.tets, bytes);
+  append_array(piece.triangles, bytes);
+  append_array(piece.edges, bytes);
+}
+
+Piece take_piece(std::string_view& bytes) {
+  Piece piece;
+  take_array(bytes, piece.ids);
+  take_array(bytes, piece.points);
+  take_array(bytes, piece.labels);
+  take_array(bytes, piece.marks);
+  take_array(bytes, piece.tets);
+  take_array(bytes, piece.triangles);
+  take_array(bytes, piece.edges);
+  const std::size_t count = piece.ids.size();
+  const bool fits = piece.points.size() == count && piece.marks.size() == count &&
+                    (piece.labels.empty() || piece.labels.size() == count);
+  if (!fits || !std::is_sorted(piece.ids.begin(), piece.ids.end()) ||
+      !names_vertices_of(piece.tets, count) || !names_vertices_of(piece.triangles, count) ||
+      !names_vertices_of(piece.edges, count)) {
+    throw Error("a piece contradicts itself");
+  }
+  return piece;
+}
+
+Piece extract(const Piece& from, const Extract& what) {
+  Piece piece;
+  std::vector<std::uint32_t> numbers(from.ids.size(), kGoneVertex);
+  for (std::size_t v = 0; v < from.ids.size(); ++v) {
+    if (what.wanted[v] == 0) continue;
+    numbers[v] = static_cast<std::uint32_t>(piece.ids.size());
+    piece.ids.push_back(from.ids[v]);
+    piece.points.push_back(from.points[v]);
+    if (!from.labels.empty()) piece.labels.push_back(from.labels[v]);
+    piece.marks.push_back(from.marks[v]);
+  }
+  append_chosen(from.tets, what.tets, numbers, piece.tets);
+  append_chosen(from.triangles, what.triangles, numbers, piece.triangles);
+  append_chosen(from.edges, what.edges, numbers, piece.edges);
+  return piece;
+}
+
+Piece merge(std::vector<Piece> parts) {
+  Piece whole;
+  bool has_labels = false;
+  std::size_t tets = 0;
+  for (const Piece& part : parts) {
+    whole.ids.insert(whole.ids.end(), part.ids.begin(), part.ids.end());
+    has_labels = has_labels || !part.labels.empty();
+    tets += part.tets.size();
+  }
+  std::sort(whole.ids.begin(), whole.ids.end());
+  whole.ids.erase(std::unique(whole.ids.begin(), whole.ids.end()), whole.ids.end());
+  whole.ids.shrink_to_fit();
+  const std::size_t count = whole.ids.size();
+  whole.points.resize(count);
+  whole.marks.resize(count, 0);
+  if (has_labels) whole.labels.resize(count, 0);
+  whole.tets.reserve(tets);
+  std::vector<char> known(count, 0);
+  for (Piece& part : parts) {
+    const std::vector<std::uint32_t> places = places_of(part, whole.ids);
+    take_vertices(part, places, whole, known);
+    append_renumbered(part.tets, places, whole.tets);
+    append_renumbered(part.triangles, places, whole.triangles);
+    append_renumbered(part.edges, places, whole.edges);
+    part = {};
+  }
+  return whole;
+}
+
+}  // namespace tetmend::pieces

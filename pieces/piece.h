@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A piece of a mesh between two divisions: plain arrays, ready for memory, a file or a message.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::pieces {
+
+/// What a vertex is called in all pieces. Vertices of the file have their number there; those that
+/// were added follow.
+using VertexId = std::uint64_t;
+
+/// Marks of a vertex.
+inline constexpr std::uint8_t kRequired = 1;  ///< must neither move nor vanish
+inline constexpr std::uint8_t kOwn = 2;       ///< of this piece, not of a neighbour
+inline constexpr std::uint8_t kBorder = 4;    ///< of a tet that was shared in the last division
+
+struct PieceTet {
+  std::array<std::uint32_t, 4> vertices{};  ///< in the piece
+  Label label = 0;
+  std::uint32_t origin = kNone;  ///< number in the file; with kProtected where it must stay
+
+  static constexpr std::uint32_t kProtected = 0x80000000u;
+  static constexpr std::uint32_t kNone = 0x7FFFFFFFu;
+  bool is_protected() const { return (origin & kProtected) != 0; }
+  friend bool operator==(const PieceTet&, const PieceTet&) = default;
+};
+
+/// Vertices by id, ascending, and what lies between them. Of its own are the vertices marked so, and
+/// all tets, triangles and edges: each belongs to one piece. `labels` has one for each vertex, or
+/// none.
+struct Piece {
+  std::vector<VertexId> ids;
+  std::vector<Point> points;
+  std::vector<Label> labels;
+  std::vector<std::uint8_t> marks;
+  std::vector<PieceTet> tets;
+  std::vector<MeshData::Triangle> triangles;
+  std::vector<MeshData::Edge> edges;
+
+  Label label(std::size_t v) const { return labels.empty() ? 0 : labels[v]; }
+};
+
+/// Appends the piece to `bytes`: 30 bytes a tet.
+void append(const Piece& piece, std::string& bytes);
+
+/// Takes a piece off the front of `bytes`.
+/// @throws Error when they end too early, or name a vertex that is not there.
+Piece take_piece(std::string_view& bytes);
+
+/// The vertices of `wanted` (a mark for each) and these tets, triangles and edges of a piece, with
+/// numbers of their own.
+struct Extract {
+  std::vector<char> wanted;
+  std::vector<std::uint32_t> tets, triangles, edges;
+};
+Piece extract(const Piece& from, const Extract& what);
+
+/// One piece of parts that share vertices. Tets, triangles and edges come in the order of the parts.
+/// @throws Error when a vertex lies at two places: the parts are not of one mesh.
+Piece merge(std::vector<Piece> parts);
+
+}  // namespace tetmend::pieces

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+//   piece -> MeshData -> TetMesh, frozen where it is shared -> schedule -> what is its own
+//
+// A vertex of another part has all its tets in other pieces, too, and none of them may change: so it
+// stays, and so does each tet that has one.
+#include "pieces/piece_task.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "kernel/boundary_layers.h"
+#include "kernel/compensated_sum.h"
+#include "kernel/integrity.h"
+#include "kernel/mesh_view.h"
+#include "kernel/size_field.h"
+#include "kernel/surface_fingerprint.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+MeshData to_data(const Piece& piece) {
+  MeshData data;
+  data.points = piece.points;
+  data.point_labels = piece.labels;
+  data.tets.reserve(piece.tets.size());
+  for (const PieceTet& tet : piece.tets) data.tets.push_back({tet.vertices, tet.label});
+  data.triangles = piece.triangles;
+  data.edges = piece.edges;
+  for (std::uint32_t v = 0; v < piece.marks.size(); ++v) {
+    if ((piece.marks[v] & kRequired) != 0) data.required_vertices.push_back(v);
+  }
+  return data;
+}
+
+template <std::size_t N>
+bool is_own(const std::array<std::uint32_t, N>& vertices, std::span<const std::uint32_t> parts,
+            std::uint32_t number) {
+  std::uint32_t least = parts[vertices[0]];
+  for (const std::uint32_t v : vertices) least = std::min(least, parts[v]);
+  return least == number;
+}
+
+/// Leaves out what is not its own. `parts` is by vertex.
+Piece keep_own(const Piece& all, std::span<const std::uint32_t> parts, std::uint32_t number) {
+  Extract what;
+  what.wanted.assign(all.ids.size(), 0);
+  const auto choose = [&](const auto& elements, std::vector<std::uint32_t>& chosen) {
+    for (std::uint32_t i = 0; i < elements.size(); ++i) {
+      if (!is_own(elements[i].vertices, parts, number)) continue;
+      chosen.push_back(i);
+      for (const std::uint32_t v : elements[i].vertices) what.wanted[v] = 1;
+    }
+  };
+  choose(all.tets, what.tets);
+  choose(all.triangles, what.triangles);
+  choose(all.edges, what.edges);
+  for (std::size_t v = 0; v < parts.size(); ++v) {
+    if (parts[v] == number) what.wanted[v] = 1;
+  }
+  return extract(all, what);
+}
+
+/// Which vertices are its own, and which are of tets that several pieces share.
+void mark(Piece& piece, std::span<const std::uint32_t> parts, std::uint32_t number) {
+  for (std::size_t v = 0; v < parts.size(); ++v) {
+    const unsigned required = piece.marks[v] & unsigned{kRequired};
+    piece.marks[v] = static_cast<std::uint8_t>(required | (parts[v] == number ? kOwn : 0U));
+  }
+  for (const PieceTet& tet : piece.tets) {
+    const auto& t = tet.vertices;
+    const auto is_first = [&](std::uint32_t v) { return parts[v] == parts[t[0]]; };
+    if (std::all_of(t.begin(), t.end(), is_first)) continue;
+    for (const std::uint32_t v : t)
+      piece.marks[v] = static_cast<std::uint8_t>(piece.marks[v] | kBorder);
+  }
+}
+
+/// A mark for each vertex that is so many edges from a border of the last division, or nearer.
+std::vector<char> near_borders(const Piece& piece, unsigned rings) {
+  std::vector<char> near(piece.ids.size(), 0);
+  for (std::size_t v = 0; v < near.size(); ++v) near[v] = (piece.marks[v] & kBorder) != 0 ? 1 : 0;
+  for (unsigned ring = 0; ring < rings; ++ring) {
+    const std::vector<char> inside = near;
+    for (const PieceTet& tet : piece.tets) {
+      const auto& t = tet.vertices;
+      const bool any =
+          std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return inside[v] != 0; });
+      if (!any) continue;
+      for (const std::uint32_t v : t) near[v] = 1;
+    }
+  }
+  return near;
+}
+
+/// Worse in a figure that is promised never to be; frozen tets count, for they are the same.
+bool is_worse(const MeshStatistics& before, const MeshStatistics& after, const Goal& goal,
+              std::size_t spare_bad) {
+  constexpr double kRounding = 1e-9;
+  const bool is_spent = after.n_bad > before.n_bad || after.lambda > before.lambda + kRounding;
+  if (is_spent && after.n_bad <= before.n_bad + spare_bad && after.q_worst > before.q_worst) {
+    return false;
+  }
+  return is_spent || after.theta_min < before.theta_min - kRounding ||
+         after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding;
+}
+
+/// A piece while it is worked on.
+class Task {
+ public:
+  Task(const Piece& gathered, const Parting& parting, std::uint32_t number,
+       const TaskOptions& options)
+      : gathered_(gathered),
+        parts_(parting.parts_of(gathered.points)),
+        number_(number),
+        options_(options) {}
+
+  TaskResult run(const TaskLimits& limits);
+
+ private:
+  bool build();
+  void freeze(unsigned rings);
+  void run_schedule(const TaskLimits& limits);
+  void take_back();
+  void take_vertices(const MeshView& view, Piece& all, std::vector<std::uint32_t>& parts);
+  void take_tets(std::span<const std::uint32_t> numbers, Piece& all);
+
+  const Piece& gathered_;
+  const std::vector<std::uint32_t> parts_;
+  const std::uint32_t number_;
+  const TaskOptions& options_;
+  TetMesh mesh_;
+  std::vector<std::uint32_t> tet_numbers_;
+  TaskResult result_;
+};
+
+TaskResult Task::run(const TaskLimits& limits) {
+  const bool is_sound = build();
+  if (is_sound) {
+    freeze(limits.rings);
+    mesh_.set_bounds(Bounds::of(mesh_));
+    mesh_.set_size_field(options_.size_field);
+    const Goal& goal = options_.standard.goal();
+    const MeshStatistics before = compute_statistics(mesh_, goal);
+    run_schedule(limits);
+    result_.went_back = is_worse(before, compute_statistics(mesh_, goal), goal, limits.spare_bad);
+  }
+  if (!is_sound || result_.went_back) build();
+  take_back();
+  return std::move(result_);
+}
+
+/// False where most tets are inverted: the mesh has them turned round.
+bool Task::build() {
+  BuildReport report;
+  MeshData data = to_data(gathered_);
+  mesh_ = TetMesh::build(data, {.report = &report, .tet_numbers = &tet_numbers_});
+  mesh_.set_standard(options_.standard);
+  return !report.mirrored && report.reordered_tets == 0;
+}
+
+/// What is protected, shared, or far from where something is left to do.
+void Task::freeze(unsigned rings) {
+  const std::vector<char> near =
+      rings > 0 ? near_borders(gathered_, rings) : std::vector<char>(gathered_.ids.size(), 1);
+  mesh_.freeze([&](TetHandle t) {
+    const PieceTet& tet = gathered_.tets[tet_numbers_[t.index()]];
+    const auto& v = tet.vertices;
+    const auto is_foreign = [&](std::uint32_t w) { return parts_[w] != number_; };
+    return tet.is_protected() || std::any_of(v.begin(), v.end(), is_foreign) ||
+           std::none_of(v.begin(), v.end(), [&](std::uint32_t w) { return near[w] != 0; });
+  });
+}
+
+void Task::run_schedule(const TaskLimits& limits) {
+  Run run(mesh_, options_.registry);
+  if (limits.most_new_tets != std::numeric_limits<std::size_t>::max()) {
+    run.set_most_tets(mesh_.tet_count() + limits.most_new_tets);
+  }
+  if (limits.seconds > 0) run.set_time_limit(limits.seconds);
+  if (options_.watch) options_.watch(run);
+  try {
+    improve(run, options_.schedule, limits.is_zone ? options_.zone_settings : options_.settings);
+  } catch (...) {
+    if (options_.unwatch) options_.unwatch();
+    throw;
+  }
+  run.set_standard(options_.standard);  // a script may aim higher for a while, and be stopped then
+  if (options_.unwatch) options_.unwatch();
+  result_.stopped = run.cancelled();
+  for (const PassRecord& record : run.records) {
+    for (std::size_t i = 0; i < kVerdictCount; ++i) result_.verdicts[i] += record.verdicts[i];
+    result_.items += record.items;
+    result_.deferred += record.deferred;
+  }
+}
+
+void Task::take_back() {
+  const MeshView view(mesh_);
+  Piece all;
+  std::vector<std::uint32_t> parts;
+  take_vertices(view, all, parts);
+  std::vector<std::uint32_t> numbers(mesh_.vertex_slots(), 0);
+  const auto slots = view.vertex_slots();
+  for (std::uint32_t i = 0; i < slots.size(); ++i) numbers[slots[i]] = i;
+  take_tets(numbers, all);
+  all.triangles.assign(view.triangles().begin(), view.triangles().end());
+  all.edges.assign(view.edges().begin(), view.edges().end());
+  mesh_ = {};
+  mark(all, parts, number_);
+  result_.piece = keep_own(all, parts, number_);
+}
+
+void Task::take_vertices(const MeshView& view, Piece& all, std::vector<std::uint32_t>& parts) {
+  const std::size_t count = view.point_count();
+  const auto slots = view.vertex_slots();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t origin = mesh_.origin(VertexHandle(slots[i]));
+    const bool is_new = origin == TetMesh::kNotFromFile;
+    all.ids.push_back(is_new ? TaskResult::kNewVertex + result_.added++ : gathered_.ids[origin]);
+    all.points.push_back(view.point(i));
+    all.marks.push_back(0);
+    if (view.has_point_labels()) all.labels.push_back(view.point_label(i));
+    parts.push_back(is_new ? number_ : parts_[origin]);
+  }
+  for (const std::uint32_t v : view.required_vertices()) all.marks[v] = kRequired;
+}
+
+void Task::take_tets(std::span<const std::uint32_t> numbers, Piece& all) {
+  for (std::uint32_t slot = 0; slot < mesh_.tet_slots(); ++slot) {
+    const TetHandle t(slot);
+    if (mesh_.is_deleted(t)) continue;
+    PieceTet tet;
+    for (std::size_t i = 0; i < 4; ++i) tet.vertices[i] = numbers[mesh_.vertices(t)[i].index()];
+    tet.label = mesh_.label(t);
+    if (!mesh_.is_created(t)) tet.origin = gathered_.tets[tet_numbers_[slot]].origin;
+    all.tets.push_back(tet);
+  }
+}
+
+void add_shares(const MeshStatistics& part, MeshStatistics& all) {
+  const double old_share =
+      static_cast<double>(all.tets) / static_cast<double>(all.tets + part.tets);
+  const auto mean = [old_share](double& to, double from) {
+    to = old_share * to + (1 - old_share) * from;
+  };
+  mean(all.lambda, part.lambda);
+  for (std::size_t i = 0; i < all.lambda_bands.size(); ++i) {
+    mean(all.lambda_bands[i], part.lambda_bands[i]);
+  }
+  mean(all.q_mean, part.q_mean);
+  const double bad = static_cast<double>(std::max<std::size_t>(1, all.n_bad + part.n_bad));
+  all.q_aver = (all.q_aver * static_cast<double>(all.n_bad) +
+                part.q_aver * static_cast<double>(part.n_bad)) /
+               bad;
+}
+
+void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
+  if (part.tets == 0) return;
+  if (all.tets == 0) {
+    all = part;
+    return;
+  }
+  add_shares(part, all);
+  all.tets += part.tets;
+  all.vertices += part.vertices;
+  all.boundary_triangles += part.boundary_triangles;
+  all.inverted += part.inverted;
+  all.flat += part.flat;
+  all.volume += part.volume;
+  // Of the larger scale: what the other adds is small then.
+  const int scale = std::max(all.scale, part.scale);
+  all.scaled_volume = std::ldexp(all.scaled_volume, 3 * (all.scale - scale)) +
+                      std::ldexp(part.scaled_volume, 3 * (part.scale - scale));
+  all.scale = scale;
+  all.theta_min = std::min(all.theta_min, part.theta_min);
+  all.theta_max = std::max(all.theta_max, part.theta_max);
+  all.q_worst = std::min(all.q_worst, part.q_worst);
+  all.n_bad += part.n_bad;
+  for (std::size_t i = 0; i < all.histogram.size(); ++i) all.histogram[i] += part.histogram[i];
+}
+
+}  // namespace
+
+ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings& settings) {
+  constexpr std::string_view kName = "worst_only";
+  const ScheduleInfo info = schedule.describe();
+  const bool has = std::any_of(info.parameters.begin(), info.parameters.end(),
+                               [&](const ScheduleParameter& p) { return p.name == kName; });
+  const bool is_set = std::any_of(settings.begin(), settings.end(),
+                                  [&](const auto& setting) { return setting.first == kName; });
+  ScheduleSettings of_zone = settings;
+  if (has && !is_set) of_zone.emplace_back(kName, "true");
+  return of_zone;
+}
+
+TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                   const TaskOptions& options, const TaskLimits& limits) {
+  return Task(gathered, parting, number, options).run(limits);
+}
+
+Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t number) {
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  Piece all = gathered;
+  mark(all, parts, number);
+  return keep_own(all, parts, number);
+}
+
+void Standing::add(const Standing& other) {
+  const auto count = [](const QualityIndicators& of) {
+    return static_cast<double>(of.n_bad + of.n_needles);
+  };
+  const double all = count(indicators) + count(other.indicators);
+  if (all > 0) {
+    indicators.q_aver = (indicators.q_aver * count(indicators) +
+                         other.indicators.q_aver * count(other.indicators)) /
+                        all;
+  }
+  tets += other.tets;
+  indicators.q_worst = std::min(indicators.q_worst, other.indicators.q_worst);
+  worst_angle = std::min(worst_angle, other.worst_angle);
+  indicators.n_bad += other.indicators.n_bad;
+  indicators.n_needles += other.indicators.n_needles;
+  worst.add(other.worst);
+}
+
+Standing standing_of(const Piece& piece, const Standard& standard, double side) {
+  Standing standing;
+  standing.tets = piece.tets.size();
+  const double scale = side > 0 ? std::ldexp(1.0, -std::ilogb(side)) : 1;
+  CompensatedSum bad;
+  QualityIndicators& indicators = standing.indicators;
+  for (const PieceTet& tet : piece.tets) {
+    if (tet.is_protected()) continue;
+    std::array<Point, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = scale * piece.points[tet.vertices[i]];
+    const auto quality_by = [&](const Standard& by) {
+      return static_cast<Quality>(by.quality(p[0], p[1], p[2], p[3]));
+    };
+    const Quality quality = quality_by(standard);
+    indicators.q_worst = std::min(indicators.q_worst, static_cast<double>(quality));
+    if (quality >= kBadThreshold) continue;
+    const Quality of_angles = quality_by(standard.of_angles());
+    ++(of_angles < kBadThreshold ? indicators.n_bad : indicators.n_needles);
+    standing.worst_angle = std::min(standing.worst_angle, static_cast<double>(of_angles));
+    bad.add(static_cast<double>(quality));
+    if (of_angles >= kBadThreshold) continue;
+    WorstTet worst{of_angles, 0.25 / scale * (p[0] + p[1] + p[2] + p[3]), 0};
+    for (const auto& [i, j] : kEdgeVertices) {
+      worst.reach = std::max(worst.reach, (p[i] - p[j]).norm() / scale);
+    }
+    standing.worst.add(worst);
+  }
+  const std::size_t count = indicators.n_bad + indicators.n_needles;
+  indicators.q_aver = count == 0 ? 0 : bad.value() / static_cast<double>(count);
+  return standing;
+}
+
+void Figures::add(const Figures& other) {
+  add_statistics(other.statistics, statistics);
+  surface += other.surface;
+  not_positive += other.not_positive;
+  peculiar += other.peculiar;
+  layer_tets += other.layer_tets;
+}
+
+Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                    const Goal& goal) {
+  Figures figures;
+  const Piece own = own_part(gathered, parting, number);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  {
+    BuildReport report;
+    MeshData data = to_data(gathered);
+    const TetMesh mesh = TetMesh::build(data, {.report = &report});
+    figures.peculiar = report.reordered_tets + report.inverted_tets + report.flat_tets +
+                       (report.mirrored ? gathered.tets.size() : 0);
+    const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) {
+      std::array<std::uint32_t, 3> vertices{};
+      for (std::size_t i = 0; i < 3; ++i) vertices[i] = mesh.origin(face[i]);
+      return is_own(vertices, parts, number);
+    };
+    figures.surface = surface_fingerprint(mesh, is_own_face);
+    figures.layer_tets = find_boundary_layers(mesh).tets.size();
+    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+      for (unsigned f = 0; f < 4; ++f) {
+        const HalfFace face(TetHandle(slot), f);
+        if (mesh.is_boundary(face) && is_own_face(mesh.vertices(face))) {
+          ++figures.statistics.boundary_triangles;
+        }
+      }
+    }
+  }
+  const std::size_t boundary = figures.statistics.boundary_triangles;
+  if (!own.tets.empty()) {
+    MeshData data = to_data(own);
+    data.triangles.clear();
+    data.edges.clear();
+    const TetMesh mesh = TetMesh::build(data, {});
+    figures.statistics = compute_statistics(mesh, goal);
+    figures.not_positive = count_not_positive(mesh);
+  }
+  figures.statistics.boundary_triangles = boundary;
+  figures.statistics.vertices = static_cast<std::size_t>(std::count_if(
+      own.marks.begin(), own.marks.end(), [](unsigned m) { return (m & kOwn) != 0; }));
+  return figures;
+}
+
+}  // namespace tetmend::pieces

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// What is done with one piece: a mesh is built of it, what it shares is frozen, a schedule runs, and
+// what is its own is taken back. A function of the piece and the options alone.
+#pragma once
+
+#include <functional>
+
+#include "kernel/statistics.h"
+#include "pieces/parting.h"
+#include "pieces/piece.h"
+#include "pieces/zones.h"
+#include "schedule/run.h"
+#include "schedule/schedule.h"
+
+namespace tetmend::pieces {
+
+/// The same for all pieces.
+struct TaskOptions {
+  const Registry& registry;
+  const Schedule& schedule;
+  const ScheduleSettings& settings;
+  const ScheduleSettings& zone_settings;  ///< likewise, in zones
+  Standard standard;
+  std::shared_ptr<const SizeField> size_field = {};  ///< null: lengths are free
+  /// Called before and after the schedule, so that it can be watched and stopped.
+  std::function<void(Run&)> watch = {};
+  std::function<void()> unwatch = {};
+  /// Changes a piece before it is stored, as a fault would: for tests of what notices that.
+  std::function<void(std::size_t number, Piece& piece)> fault = {};
+};
+
+/// What differs from piece to piece.
+struct TaskLimits {
+  /// Only tets near former borders may change: those within so many edges. 0: all may.
+  unsigned rings = 0;
+  bool is_zone = false;
+  std::size_t most_new_tets = std::numeric_limits<std::size_t>::max();  ///< that it may grow by
+  /// A zone may end with so many more bad tets, if the worst is better.
+  std::size_t spare_bad = 0;
+  double seconds = 0;  ///< 0: no limit
+};
+
+/// What became of a piece. New vertices have the ids kNewVertex, kNewVertex + 1, ...
+struct TaskResult {
+  static constexpr VertexId kNewVertex = VertexId{1} << 63;
+
+  Piece piece;  ///< what is its own, and the vertices of that
+  std::uint64_t added = 0;
+  std::array<std::size_t, kVerdictCount> verdicts{};
+  std::size_t items = 0;
+  std::size_t deferred = 0;
+  bool went_back = false;  ///< some figure had become worse, so it is as before
+  bool stopped = false;    ///< cancelled or out of time
+};
+
+/// The settings of a schedule for a zone, where plain rounds have done what they can: its parameter
+/// "worst_only" is true, if it has one that the user has not set.
+ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings& settings);
+
+/// Works on the piece of that number. `gathered` holds all tets with a vertex in its part.
+/// @throws Error for a mesh of broken topology, or a mistake in the script
+TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                   const TaskOptions& options, const TaskLimits& limits);
+
+/// The same without any work: what is its own.
+Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t number);
+
+/// How the own tets of pieces are by now. Order-free but for the rounding of the mean.
+struct Standing {
+  std::uint64_t tets = 0;
+  QualityIndicators indicators{.q_worst = 1};
+  double worst_angle = 1;  ///< as q_worst, by angles alone: needles do not hide them
+  WorstTets worst;
+
+  void add(const Standing& other);
+};
+
+/// Of all tets of a piece that may change. `side` of the mesh: of its size the qualities are free.
+Standing standing_of(const Piece& piece, const Standard& standard, double side);
+
+/// What the final check adds up over all pieces.
+struct Figures {
+  MeshStatistics statistics;  ///< of the own tets
+  std::uint64_t surface = 0;  ///< part of surface_fingerprint()
+  std::size_t not_positive = 0;
+  std::size_t peculiar = 0;  ///< tets that building turned round, inverted and flat ones
+  std::size_t layer_tets = 0;
+
+  void add(const Figures& other);
+};
+
+/// Builds all of a piece, which fails where a face has more than two tets, and measures what is its
+/// own. A face is that of the piece with the lowest part of its vertices: all its tets are there.
+Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                    const Goal& goal);
+
+}  // namespace tetmend::pieces

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/shelf.h"
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "platform/platform.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+[[noreturn]] void fail(std::string_view what, const std::filesystem::path& file, int error) {
+  throw Error(fmt::format("{} {}: {}", what, file.string(),
+                          std::generic_category().message(error != 0 ? error : EIO)));
+}
+
+}  // namespace
+
+void MemoryShelf::append(const std::string& name, std::string_view bytes) {
+  bytes_[name].append(bytes);
+}
+
+std::string MemoryShelf::read(const std::string& name) const {
+  const auto found = bytes_.find(name);
+  return found == bytes_.end() ? std::string() : found->second;
+}
+
+void MemoryShelf::remove(const std::string& name) {
+  bytes_.erase(name);
+}
+
+void FolderShelf::append(const std::string& name, std::string_view bytes) {
+  const std::filesystem::path file = folder_ / name;
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | std::ios::app);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) fail("cannot write", file, errno);
+  written_ += bytes.size();
+}
+
+std::string FolderShelf::read(const std::string& name) const {
+  const std::filesystem::path file = folder_ / name;
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error == std::errc::no_such_file_or_directory) return {};
+  if (error) fail("cannot read", file, error.value());
+  std::string bytes(size, '\0');
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!in) fail("cannot read", file, errno);
+  return bytes;
+}
+
+void FolderShelf::remove(const std::string& name) {
+  std::error_code ignored;
+  std::filesystem::remove(folder_ / name, ignored);
+}
+
+ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
+  for (unsigned i = 0;; ++i) {
+    path_ = parent / fmt::format(".tetmend-pieces-{}-{}", platform::process_number(), i);
+    std::error_code error;
+    if (std::filesystem::create_directory(path_, error)) return;
+    if (error) fail("cannot make the folder", path_, error.value());
+  }
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace tetmend::pieces

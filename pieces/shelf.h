@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Where pieces lie while others are worked on: in memory, or in files of a folder.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace tetmend::pieces {
+
+/// Bytes by name.
+class Shelf {
+ public:
+  virtual ~Shelf() = default;
+  /// Behind what has that name; the name is new otherwise. @throws Error for a full disk.
+  virtual void append(const std::string& name, std::string_view bytes) = 0;
+  /// All of it; empty if there is none of that name. @throws Error for a file that cannot be read.
+  virtual std::string read(const std::string& name) const = 0;
+  virtual void remove(const std::string& name) = 0;
+};
+
+class MemoryShelf final : public Shelf {
+ public:
+  void append(const std::string& name, std::string_view bytes) override;
+  std::string read(const std::string& name) const override;
+  void remove(const std::string& name) override;
+
+ private:
+  std::map<std::string, std::string> bytes_;
+};
+
+/// Each name is a file.
+class FolderShelf final : public Shelf {
+ public:
+  /// @param folder is there
+  explicit FolderShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void append(const std::string& name, std::string_view bytes) override;
+  std::string read(const std::string& name) const override;
+  void remove(const std::string& name) override;
+  /// Bytes written so far.
+  std::uint64_t written() const { return written_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::uint64_t written_ = 0;
+};
+
+/// A folder of its own for a run; goes with all that is in it.
+class ScratchFolder {
+ public:
+  /// Inside of `parent`. @throws Error when it cannot be made.
+  explicit ScratchFolder(const std::filesystem::path& parent);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace tetmend::pieces

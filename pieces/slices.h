@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Between the arrays of a whole mesh and its pieces.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+#include "pieces/divided_mesh.h"
+#include "pieces/piece.h"
+
+namespace tetmend::pieces {
+
+/// Slices of about so many tets. How many there are cannot show in the result.
+inline constexpr std::size_t kTetsOfSlice = 500'000;
+
+/// Adds a mesh to one that has nothing yet. `is_protected` has a mark for each tet, or none.
+void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to);
+
+/// All of a mesh again, and where its parts come from.
+struct Joined {
+  MeshData data;  ///< vertices of the file in their order, then the others; tets by piece
+  std::vector<std::uint32_t> vertex_origins;  ///< by vertex: number in the file, or kGone
+  std::vector<std::uint32_t> tet_origins;     ///< by tet, likewise, or PieceTet::kNone
+  std::vector<char> is_protected;             ///< by tet
+};
+
+/// Puts the stored pieces together. `vertices`: of the file.
+Joined join(const DividedMesh& mesh, std::size_t vertices);
+
+}  // namespace tetmend::pieces

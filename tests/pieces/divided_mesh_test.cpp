@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/divided_mesh.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <doctest/doctest.h>
+
+#include "pieces/slices.h"
+#include "tests/pieces/meshes.h"
+
+using namespace tetmend;
+using namespace tetmend::pieces;
+
+namespace {
+
+/// Divides and stores again without work.
+void divide_idly(DividedMesh& mesh, std::size_t pieces, unsigned shift) {
+  mesh.divide(pieces, shift);
+  for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
+    mesh.store(part, own_part(mesh.gathered(part), mesh.state().parting, part));
+  }
+  mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
+}
+
+std::multiset<std::array<std::uint32_t, 4>> tets_of(const MeshData& data) {
+  std::multiset<std::array<std::uint32_t, 4>> all;
+  for (const MeshData::Tet& tet : data.tets) all.insert(tet.vertices);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a mesh that was divided and joined is the same, with all that it names") {
+  const MeshData data = test::lattice(8);
+  MemoryShelf shelf;
+  DividedMesh mesh(shelf, data.points.size());
+  add_slices(data, {}, mesh);
+  for (const unsigned shift : {0u, 1u, 2u}) divide_idly(mesh, 5, shift);
+  const Joined joined = join(mesh, data.points.size());
+  CHECK(joined.data.points == data.points);
+  CHECK(tets_of(joined.data) == tets_of(data));
+  CHECK(joined.data.triangles == data.triangles);
+  CHECK(joined.data.edges == data.edges);
+  CHECK(joined.data.required_vertices == data.required_vertices);
+  for (std::size_t t = 0; t < joined.tet_origins.size(); ++t) {
+    CHECK(joined.data.tets[t] == data.tets[joined.tet_origins[t]]);
+  }
+}
+
+TEST_CASE("a gathered piece has all tets around its vertices, and each tet is the own of one") {
+  const MeshData data = test::lattice(8);
+  MemoryShelf shelf;
+  DividedMesh mesh(shelf, data.points.size());
+  add_slices(data, {}, mesh);
+  mesh.divide(6, 1);
+  const Parting& parting = mesh.state().parting;
+  const std::vector<std::uint32_t> parts = parting.parts_of(data.points);
+  std::map<std::uint32_t, std::size_t> times_own;
+  for (std::uint32_t part = 0; part < 6; ++part) {
+    const Piece gathered = mesh.gathered(part);
+    std::set<std::uint32_t> here;
+    for (const PieceTet& tet : gathered.tets) here.insert(tet.origin);
+    for (std::uint32_t t = 0; t < data.tets.size(); ++t) {
+      const auto& v = data.tets[t].vertices;
+      const bool touches =
+          std::any_of(v.begin(), v.end(), [&](std::uint32_t w) { return parts[w] == part; });
+      CHECK(touches == here.contains(t));
+    }
+    for (const PieceTet& tet : own_part(gathered, parting, part).tets) ++times_own[tet.origin];
+  }
+  CHECK(times_own.size() == data.tets.size());
+  for (const auto& [tet, times] : times_own) CHECK(times == 1);
+}
+
+TEST_CASE("into how many slices a file was cut does not show") {
+  const MeshData data = test::lattice(7);
+  MemoryShelf one;
+  DividedMesh whole(one, data.points.size());
+  add_slices(data, {}, whole);
+  divide_idly(whole, 4, 0);
+  MemoryShelf other;
+  DividedMesh sliced(other, data.points.size());
+  for (std::size_t i = 0; i < whole.state().stored; ++i) sliced.add_slice(whole.stored(i));
+  divide_idly(sliced, 4, 0);
+  divide_idly(whole, 4, 0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(sliced.stored(i).ids == whole.stored(i).ids);
+    CHECK(sliced.stored(i).tets == whole.stored(i).tets);
+  }
+}
+
+TEST_CASE("a piece that cannot be read is an error that names its file") {
+  const test::Folder folder;
+  FolderShelf shelf(folder.path());
+  shelf.append("stored-0", "abc");
+  CHECK(shelf.read("stored-0") == "abc");
+  shelf.append("stored-0", "def");
+  CHECK(shelf.read("stored-0") == "abcdef");
+  CHECK(shelf.read("stored-1").empty());
+  shelf.remove("stored-0");
+  CHECK(shelf.read("stored-0").empty());
+  FolderShelf nowhere(folder.path() / "none");
+  CHECK_THROWS_AS(nowhere.append("stored-0", "abc"), Error);
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// A mesh improved in pieces: the same bytes whatever works on them, the promises of improve(), and a
+// check that notices when pieces do not fit.
+#include "pieces/improve.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+#include <tetmend/io.h>
+
+#include "face/mesh_access.h"
+#include "pieces/out_of_core.h"
+#include "tests/pieces/meshes.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+using pieces::Division;
+
+namespace {
+
+bool equal(const MeshData& a, const MeshData& b) {
+  return a.points == b.points && a.tets == b.tets && a.triangles == b.triangles &&
+         a.edges == b.edges && a.required_vertices == b.required_vertices &&
+         a.point_labels == b.point_labels;
+}
+
+MeshData improved(const MeshData& data, Options options, std::size_t count,
+                  Result* result = nullptr) {
+  Mesh mesh = MeshAccess::make(data);
+  Division division;
+  division.pieces = count;
+  Result made = pieces::improve(mesh, options, division);
+  if (result != nullptr) *result = std::move(made);
+  return MeshAccess::take(mesh);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// From file to file; returns the message of what went wrong.
+std::string improve_files(const pieces::OutOfCore& files, std::size_t count, Options options = {}) {
+  Division division;
+  division.pieces = count;
+  try {
+    pieces::improve_files(files, options, division);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("one piece is the run of improve()") {
+  const MeshData data = lattice(6);
+  Mesh mesh = MeshAccess::make(data);
+  improve(mesh);
+  CHECK(equal(MeshAccess::data(mesh), improved(data, {}, 1)));
+}
+
+TEST_CASE("in pieces all promises hold, and maps tell where everything is") {
+  const MeshData data = lattice(12);
+  for (const std::size_t count : {2, 7}) {
+    CAPTURE(count);
+    Result result;
+    const MeshData now = improved(data, {.limit = true}, count, &result);
+    CHECK(result.before.n_bad > 100);
+    CHECK(result.after.n_bad < result.before.n_bad / 10);
+    CHECK(result.worse().empty());
+    CHECK(result.after.inverted + result.after.flat == 0);
+    CHECK(result.passes.size() >= 3);
+    CHECK(result.passes[0].name == "division");
+    CHECK(now.triangles == data.triangles);
+    REQUIRE(now.edges.size() == 1);
+    for (const std::uint32_t v : data.edges[0].vertices) {
+      const auto& ends = now.edges[0].vertices;
+      CHECK(std::find(ends.begin(), ends.end(), result.vertex_map[v]) != ends.end());
+    }
+    CHECK(now.required_vertices.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(now.points[now.required_vertices[i]] == data.points[data.required_vertices[i]]);
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < data.tets.size(); ++t) {
+      if (result.tet_map[t] == kGone) continue;
+      ++kept;
+      CHECK(now.tets[result.tet_map[t]].label == data.tets[t].label);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t v = result.vertex_map[data.tets[t].vertices[i]];
+        const auto& there = now.tets[result.tet_map[t]].vertices;
+        CHECK(std::find(there.begin(), there.end(), v) != there.end());
+      }
+    }
+    CHECK(kept > data.tets.size() / 10);
+    CHECK(kept < data.tets.size());
+  }
+}
+
+TEST_CASE("threads, folders and files do not show in the result") {
+  const MeshData data = lattice(10);
+  const MeshData expected = improved(data, {}, 5);
+  CHECK(equal(improved(data, {.threads = 2}, 5), expected));
+
+  const Folder folder;
+  Mesh mesh = MeshAccess::make(data);
+  Division division;
+  division.pieces = 5;
+  pieces::improve(mesh, {}, division, folder.path());
+  CHECK(equal(MeshAccess::data(mesh), expected));
+
+  for (const char* ending : {"meshb", "mesh"}) {
+    CAPTURE(ending);
+    const auto in = folder.path() / (std::string("in.") + ending);
+    const auto out = folder.path() / (std::string("out.") + ending);
+    const auto in_core = folder.path() / (std::string("in_core.") + ending);
+    save(in, MeshAccess::make(data));
+    const Folder scratch;
+    CHECK(improve_files({in, out, scratch.path(), 0, {}}, 5) == "");
+    save(in_core, mesh);
+    CHECK(bytes_of(out) == bytes_of(in_core));
+  }
+  CHECK(!equal(improved(data, {}, 4), expected));
+}
+
+TEST_CASE("memory decides on the number of pieces, and enough of it is one piece") {
+  CHECK(pieces::pieces_for(1'000'000, 1'000'000'000) == 1);
+  CHECK(pieces::pieces_for(10'000'000, 200'000'000) == 9);
+  CHECK(pieces::pieces_for(1'000'000, 1) == 100);
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto out = folder.path() / "out.meshb";
+  const MeshData data = lattice(5);
+  save(in, MeshAccess::make(data));
+  const Folder scratch;
+  CHECK(improve_files({in, out, scratch.path(), 1'000'000'000, {}}, 0) == "");
+  CHECK(equal(MeshAccess::data(load(out)), improved(data, {}, 1)));
+}
+
+TEST_CASE("protected tets stay in all divisions") {
+  const MeshData data = lattice(10);
+  Result result;
+  improved(data, {.protect = {"box:0,0,0,5,5,5"}}, 4, &result);
+  CHECK(result.protected_tets > 300);
+  std::size_t inside = 0;
+  for (std::size_t t = 0; t < data.tets.size(); ++t) {
+    bool is_inside = true;
+    for (const std::uint32_t v : data.tets[t].vertices) {
+      is_inside = is_inside && data.points[v].maxCoeff() <= 5;
+    }
+    if (!is_inside) continue;
+    ++inside;
+    CHECK(result.tet_map[t] != kGone);
+    for (const std::uint32_t v : data.tets[t].vertices) CHECK(result.vertex_map[v] != kGone);
+  }
+  CHECK(inside == result.protected_tets);
+}
+
+TEST_CASE("named arrays come over, and a bound on the number of tets is kept") {
+  MeshData data = lattice(8);
+  std::vector<double> values;
+  for (const Point& p : data.points) values.push_back(p.x() + 2 * p.y());
+  data.point_data = {{"field", 1, values}};
+  Result result;
+  const MeshData now = improved(data, {.tets = "0%"}, 3, &result);
+  CHECK(result.after.tets <= result.before.tets);
+  REQUIRE(now.point_data.size() == 1);
+  const auto& carried = std::get<std::vector<double>>(now.point_data[0].values);
+  for (std::size_t v = 0; v < now.points.size(); ++v) {
+    CHECK(carried[v] == doctest::Approx(now.points[v].x() + 2 * now.points[v].y()));
+  }
+}
+
+TEST_CASE("a mirrored mesh is set right before it is divided") {
+  MeshData data = lattice(8);
+  const MeshData expected = improved(data, {}, 3);
+  for (Point& p : data.points) p.x() = -p.x();
+  Result result;
+  improved(data, {}, 3, &result);
+  CHECK(result.build.mirrored);
+  CHECK(result.after.inverted == 0);
+  CHECK(result.after.n_bad < result.before.n_bad / 10);
+}
+
+TEST_CASE("a run in pieces stops when it is told to, with what it has reached") {
+  std::atomic<bool> stop = true;
+  Result result;
+  const MeshData data = lattice(8);
+  const MeshData now = improved(data, {.cancel = &stop}, 3, &result);
+  CHECK(result.ending == Ending::cancelled);
+  CHECK(now.points == data.points);
+  std::size_t told = 0;
+  improved(
+      data,
+      {.progress = [&](const Progress& p) { return p.stage != Stage::improving || ++told < 20; }},
+      3, &result);
+  CHECK(result.ending == Ending::cancelled);
+  CHECK(result.worse().empty());
+}
+
+TEST_CASE("a fault in one piece is noticed, and nothing is written") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto out = folder.path() / "out.meshb";
+  save(in, MeshAccess::make(lattice(8)));
+  int calls = 0;
+  const auto with_fault = [&](const std::function<void(pieces::Piece&)>& fault) {
+    calls = 0;
+    const Folder scratch;
+    return improve_files({in, out, scratch.path(), 0,
+                          [&](std::size_t, pieces::Piece& piece) {
+                            // In the last division, and where neighbours have copies.
+                            if (++calls == 9) fault(piece);
+                          }},
+                         4, {.schedule = "conservative"});
+  };
+  const auto of_neighbour = [](const pieces::Piece& piece) {
+    std::size_t v = 0;
+    while ((piece.marks[v] & pieces::kOwn) != 0) ++v;
+    return v;
+  };
+  CHECK(with_fault([](pieces::Piece&) {}) == "");
+  std::filesystem::remove(out);
+  // Each of these breaks what is frozen.
+  const std::string moved =
+      with_fault([&](pieces::Piece& piece) { piece.points[of_neighbour(piece)].x() += 1e-12; });
+  CHECK(moved.find("lies at two places") != moved.npos);
+  const std::string lost = with_fault([&](pieces::Piece& piece) { piece.tets.pop_back(); });
+  CHECK(lost.find("do not fit") != lost.npos);
+  const std::string twice =
+      with_fault([&](pieces::Piece& piece) { piece.tets.push_back(piece.tets.back()); });
+  CHECK(twice != "");
+  CHECK(!std::filesystem::exists(out));
+}
+
+TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
+  const MeshData data = lattice(4);
+  Mesh mesh = MeshAccess::make(data);
+  Division division;
+  division.pieces = 2;
+  CHECK_THROWS_AS(pieces::improve(mesh, {.trace = "x.trace"}, division), OptionError);
+  CHECK_THROWS_AS(pieces::improve(mesh, {.check_operators = true}, division), OptionError);
+  CHECK_THROWS_AS(pieces::improve(mesh, {.script = "smooth{} error('no')"}, division), Error);
+  CHECK(equal(MeshAccess::data(mesh), data));
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  save(in, MeshAccess::make(data));
+  const pieces::OutOfCore files{in, folder.path() / "out.meshb", folder.path(), 0, {}};
+  CHECK(improve_files(files, 2, {.protect = {"label:1"}}) ==
+        "protect: needs the whole mesh in memory");
+  CHECK(improve_files(files, 2, {.keep_size = true}) ==
+        "keep-size: needs the whole mesh in memory");
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What the tests of pieces work on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "contract/zoo.h"
+#include "kernel/formats/mesh_io.h"
+#include "pieces/divided_mesh.h"
+
+namespace tetmend::test {
+
+inline std::string asset(const std::string& name) {
+  return std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/" + name;
+}
+
+/// n x n x n cubes of edge 1 in six tets each, in two regions; vertices inside are moved, so that
+/// some tets are bad. Names a triangle, an edge and two vertices.
+inline MeshData lattice(std::uint32_t n) {
+  MeshData data = contract::kuhn_cube(n, 0.3, 1);
+  for (Point& p : data.points) p *= n;
+  for (MeshData::Tet& tet : data.tets) {
+    double height = 0;
+    for (const std::uint32_t v : tet.vertices) height += data.points[v].z();
+    tet.label = height < 2.0 * n ? 1 : 2;
+  }
+  const std::uint32_t up = (n + 1) * (n + 1);
+  const std::uint32_t inside = up + n + 2;  // at (1, 1, 1)
+  data.triangles.push_back({{0, 1, n + 2}, 5});
+  data.edges.push_back({{inside, inside + inside}, 6});
+  data.required_vertices = {inside, inside + n - 2};
+  return data;
+}
+
+/// A new folder that goes with its maker.
+class Folder {
+ public:
+  Folder() : folder_(std::filesystem::temp_directory_path()) {}
+  const std::filesystem::path& path() const { return folder_.path(); }
+
+ private:
+  pieces::ScratchFolder folder_;
+};
+
+}  // namespace tetmend::test

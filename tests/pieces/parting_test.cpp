@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/parting.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "tests/pieces/meshes.h"
+
+using namespace tetmend;
+using namespace tetmend::pieces;
+
+namespace {
+
+Parting parting_of(const std::vector<Point>& points, std::size_t parts, unsigned shift) {
+  Parting parting;
+  parting.side = 20;
+  parting.shift = shift;
+  KeyHistogram histogram;
+  const HilbertCurve curve = shifted_curve(parting.low, parting.side, shift);
+  for (const Point& p : points) histogram.count(curve.key(p));
+  parting.cuts = histogram.cuts(parts);
+  return parting;
+}
+
+}  // namespace
+
+TEST_CASE("parts have about the same number of points, for every shift") {
+  const std::vector<Point> points = test::lattice(20).points;
+  for (const unsigned shift : {0u, 1u, 2u}) {
+    const Parting parting = parting_of(points, 8, shift);
+    std::vector<std::size_t> counts(8, 0);
+    for (const std::uint32_t part : parting.parts_of(points)) ++counts[part];
+    for (const std::size_t count : counts) {
+      CHECK(count > points.size() / 8 * 9 / 10);
+      CHECK(count < points.size() / 8 * 11 / 10);
+    }
+  }
+}
+
+TEST_CASE("the order in which points are counted does not show; shifts do") {
+  std::vector<Point> points = test::lattice(20).points;
+  const Parting parting = parting_of(points, 5, 1);
+  std::reverse(points.begin(), points.end());
+  CHECK(parting_of(points, 5, 1).cuts == parting.cuts);
+  CHECK(parting_of(points, 5, 2).parts_of(points) != parting.parts_of(points));
+}
+
+TEST_CASE("more parts than points: some are empty") {
+  const std::vector<Point> points = {Point(1, 1, 1), Point(2, 2, 2)};
+  const Parting parting = parting_of(points, 7, 0);
+  CHECK(parting.cuts.size() == 7);
+  CHECK(std::is_sorted(parting.cuts.begin(), parting.cuts.end()));
+  for (const std::uint32_t part : parting.parts_of(points)) CHECK(part < 7);
+}
+
+TEST_CASE("balls that touch are one zone, numbered by its worst tet") {
+  const std::vector<WorstTet> worst = {{0.1f, Point(0, 0, 0), 1},
+                                       {0.2f, Point(100, 0, 0), 1},
+                                       {0.3f, Point(7, 0, 0), 1},
+                                       {0.4f, Point(14, 0, 0), 1}};
+  const ZoneMap zones(worst, 1'000'000);
+  CHECK(zones.count() == 2);
+  CHECK(zones.find(Point(0, 3, 0)) == 0);
+  CHECK(zones.find(Point(14, 3, 0)) == 0);
+  CHECK(zones.find(Point(100, 3, 0)) == 1);
+  CHECK(zones.find(Point(50, 0, 0)) == -1);
+  CHECK(zones.find(Point(0, 4.1, 0)) == -1);
+}
+
+TEST_CASE("a zone that would be too large leaves out its mildest tets") {
+  const std::vector<WorstTet> worst = {{0.1f, Point(0, 0, 0), 1}, {0.3f, Point(7, 0, 0), 1}};
+  const ZoneMap zones(worst, 4'000);
+  CHECK(zones.count() == 1);
+  CHECK(zones.find(Point(9, 0, 0)) == -1);
+}
+
+TEST_CASE("a point is found in the same zone as by a look at all balls") {
+  std::vector<WorstTet> worst;
+  for (const Point& p : test::lattice(6).points) worst.push_back({0.1f, 40 * p, 1 + p.x()});
+  const ZoneMap zones(worst, 1'000'000'000);
+  for (const Point& p : test::lattice(11).points) {
+    int expected = -1;
+    for (const Ball& ball : zones.balls()) {
+      if ((ball.centre - 21 * p).norm() <= ball.radius) expected = static_cast<int>(ball.zone);
+    }
+    CHECK(zones.find(21 * p) == expected);
+  }
+}
+
+TEST_CASE("the worst tets are those below a limit, and some if there are fewer") {
+  WorstTets all;
+  for (int i = 0; i < 150; ++i) all.add({0.6f + 0.001f * float(i), Point(i, 0, 0), 1});
+  CHECK(all.take().size() == WorstTets::kLeast);
+  WorstTets others;
+  for (int i = 0; i < 30'000; ++i) others.add({0.4f - 1e-6f * float(i), Point(i, 1, 0), 1});
+  all.add(others);
+  const std::vector<WorstTet> taken = all.take();
+  CHECK(taken.size() == WorstTets::kMost);
+  CHECK(taken.front().centre.x() == 29'999);
+}
