@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "face/grouped.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/grouped.h"
 #include "kernel/second_order.h"
 
 namespace tetmend::apps {
@@ -34,7 +34,7 @@ std::string reason_of(const BadTet& tet) {
 
 std::string format_bad_tets(std::span<const BadTet> tets, std::size_t most) {
   const std::size_t count = std::min(most, tets.size());
-  std::string text = fmt::format("bad tets: {}{}\n", face::grouped(tets.size()),
+  std::string text = fmt::format("bad tets: {}{}\n", tetmend::grouped(tets.size()),
                                  count < tets.size() ? fmt::format(", the worst {}", count) : "");
   if (count == 0) return text;
   text += fmt::format("{:>10} {:>7} {:>9} {:>9}  {:<34} reason\n", "tet", "region", "theta_min",

@@ -12,7 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <tetmend/mesh.h>
 
-#include "face/grouped.h"
+#include "kernel/grouped.h"
 #include "kernel/tet_mesh.h"
 
 namespace CLI {
@@ -81,7 +81,5 @@ std::string mesh_format_list();
 /// What a user should know about the input, one line each; empty for a mesh without peculiarities.
 std::string format_build(const BuildReport& report);
 nlohmann::json to_json(const BuildReport& report);
-
-using face::grouped;
 
 }  // namespace tetmend::apps

@@ -21,7 +21,6 @@ namespace {
 constexpr std::size_t kWidth = 80;
 
 using apps::grouped;
-using face::decimal;
 
 using Values = std::vector<std::string>;
 

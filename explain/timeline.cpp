@@ -81,6 +81,13 @@ Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t sample
   EventCursor cursor(file);
   const std::uint64_t end = file.event_count();
   const std::uint64_t distance = std::max<std::uint64_t>(1, end / samples);
+  const auto add = [&](std::uint64_t position) {
+    const Timeline::Sample now{position, gauge.bad(), gauge.worst()};
+    const Timeline::Sample& last = timeline.samples.back();
+    if (position == end || now.n_bad != last.n_bad || now.q_worst != last.q_worst) {
+      timeline.samples.push_back(now);
+    }
+  };
   for (std::uint64_t position = 1; position <= end; ++position) {
     const EventKind kind = cursor.next().kind;
     if (changes_mesh(kind) || kind == EventKind::standard_changes) {
@@ -93,7 +100,7 @@ Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t sample
       }
     }
     if (position % distance == 0 || position == end) {
-      timeline.samples.push_back({position, gauge.bad(), gauge.worst()});
+      add(position);
     }
   }
   replay.seek(0);

@@ -25,8 +25,9 @@ struct Timeline {
   std::size_t changes_before(std::uint64_t position) const;
 };
 
-/// About `samples` evenly spaced samples. Plays the trace once and leaves the replay at 0.
+/// A sample after each change of a number, so that curves are steps; with more changes than
+/// `samples`, about as many evenly spaced ones. Plays the trace once and leaves the replay at 0.
 /// Cost: about two microseconds an event.
-Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t samples = 4000);
+Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t samples = 200000);
 
 }  // namespace tetmend::explain

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "face/grouped.h"
 #include "kernel/chunks.h"
+#include "kernel/grouped.h"
 #include "kernel/stretching.h"
 #include "schedule/limit/inverted_tets.h"
 

@@ -20,17 +20,15 @@
 #include <tetmend/check.h>
 #include <tetmend/measure.h>
 
-#include "face/grouped.h"
 #include "face/mesh_access.h"
 #include "kernel/curved.h"
 #include "kernel/exact_orientation.h"
 #include "kernel/geometry.h"
+#include "kernel/grouped.h"
 #include "kernel/statistics.h"
 #include "kernel/tet_faces.h"
 
 namespace tetmend {
-
-using face::grouped;
 
 namespace {
 

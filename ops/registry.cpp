@@ -118,7 +118,11 @@ std::unique_ptr<Operator> Registry::make(std::string_view name,
     throw complain("an exception of an unknown type");
   }
   if (!made) throw complain("its function made nothing");
-  if (&made->info() != &info) throw complain("its function made another operator");
+  if (&made->info() != &info) {
+    throw complain(
+        "its function made another operator: its constructor must be given the description that is "
+        "registered (a function of its own named info() hides Operator::info())");
+  }
   made->origin_ = origins_[i];
   made->settings_ = values.describe();
   return made;

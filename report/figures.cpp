@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "explain/page_text.h"
-#include "face/grouped.h"
+#include "kernel/grouped.h"
 
 namespace tetmend::report {
 
@@ -53,11 +53,11 @@ std::string Figures::text(std::string_view path) const {
 }
 
 std::string Figures::shown_count(std::string_view path) const {
-  return as_data(path, at(path), has(path) ? face::grouped(count(path)) : "unknown");
+  return as_data(path, at(path), has(path) ? grouped(count(path)) : "unknown");
 }
 
 std::string Figures::shown(std::string_view path, int decimals) const {
-  return as_data(path, at(path), has(path) ? face::decimal(number(path), decimals) : "not finite");
+  return as_data(path, at(path), has(path) ? decimal(number(path), decimals) : "not finite");
 }
 
 std::string Figures::shown_digits(std::string_view path, int digits) const {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "explain/page_text.h"
-#include "face/grouped.h"
+#include "kernel/grouped.h"
 #include "report/figures.h"
 #include "report/svg.h"
 
@@ -153,8 +153,8 @@ class Chart {
         R"(<rect class="bin" data-bin="{}" x="{}" y="{}" width="{}" height="{}"><title>{}: )"
         "{} {} before, {} after</title></rect>",
         i, coordinate(x(i)), coordinate(kPlot.top), coordinate(x(i + 1) - x(i)),
-        coordinate(kPlot.height()), range(i), face::grouped(content_.before[i]), content_.unit,
-        face::grouped(content_.after[i]));
+        coordinate(kPlot.height()), range(i), grouped(content_.before[i]), content_.unit,
+        grouped(content_.after[i]));
   }
 
   const HistogramContent& content_;

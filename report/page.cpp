@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "explain/page_text.h"
-#include "face/grouped.h"
+#include "kernel/grouped.h"
 #include "report/figures.h"
 #include "report/measure_table.h"
 #include "report/page_parts.h"
@@ -22,7 +22,6 @@ namespace {
 
 using explain::escaped;
 using explain::sound;
-using face::grouped;
 
 std::string_view to_class(Outcome outcome) {
   switch (outcome) {

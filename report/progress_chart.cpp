@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "explain/page_text.h"
-#include "face/grouped.h"
+#include "kernel/grouped.h"
 #include "report/svg.h"
 
 namespace tetmend::report {
@@ -153,8 +153,8 @@ class Chart {
           coordinate(x(pass.begin)), coordinate(kPlot.top),
           coordinate(std::max(x(pass.end) - x(pass.begin), kNarrowest)), coordinate(kPlot.height()),
           escaped(pass.name), round, short_number(pass.end - pass.begin),
-          face::grouped(pass.attempts), face::grouped(pass.accepted),
-          face::grouped(pass.bad_before), face::grouped(pass.bad_after), short_number(pass.worst));
+          grouped(pass.attempts), grouped(pass.accepted),
+          grouped(pass.bad_before), grouped(pass.bad_after), short_number(pass.worst));
     }
     return text;
   }
@@ -224,9 +224,9 @@ std::string pass_table(const Figures& figures) {
         R"(<td data-sum="attempts">{2}</td><td data-sum="accepted">{3}{4}</td>)"
         R"(<td data-sum="gone">{5}{6}</td><td data-sum="seconds">{7}{8}</td></tr>)"
         "\n",
-        escaped(total.name), total.calls, face::grouped(total.attempts),
-        face::grouped(total.accepted), bar("kept", kept), total.gone < 0 ? "\u2212" : "",
-        face::grouped(static_cast<std::size_t>(std::abs(total.gone))),
+        escaped(total.name), total.calls, grouped(total.attempts),
+        grouped(total.accepted), bar("kept", kept), total.gone < 0 ? "\u2212" : "",
+        grouped(static_cast<std::size_t>(std::abs(total.gone))),
         fmt::format("{:.3f}", total.seconds), bar("cost", total.seconds / time),
         breakable(total.name));
   }

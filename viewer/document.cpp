@@ -12,6 +12,7 @@
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
+#include "kernel/grouped.h"
 #include "viewer/debugger/call_highlight.h"
 #include "viewer/debugger/flat_drawing.h"
 #include "viewer/mesh/tet_values.h"
@@ -57,6 +58,34 @@ std::string named_beside(const MeshData& data) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// Readers of meshes would speak of extensions.
+void refuse_what_is_no_mesh(const std::filesystem::path& file) {
+  std::error_code none;
+  if (std::filesystem::is_directory(file, none)) {
+    throw Error(fmt::format("{}: this is a folder", file.string()));
+  }
+  if (file.extension() != ".trace" || !std::filesystem::exists(file, none)) return;
+  throw Error(std::filesystem::is_empty(file, none)
+                  ? fmt::format("{}: the file is empty", file.string())
+                  : fmt::format("{}: this is no trace: it does not begin as one", file.string()));
+}
+
+/// What was put right in a mesh, or is wrong with it.
+std::vector<std::string> notes_of(const BuildReport& report) {
+  std::vector<std::string> notes;
+  if (report.mirrored) {
+    notes.emplace_back("the mesh was mirrored: two vertices were swapped in every tet");
+  }
+  const auto note = [&](std::size_t count, std::string_view what) {
+    if (count > 0) notes.push_back(fmt::format("{} {}", grouped(count), what));
+  };
+  note(report.reordered_tets, "tets listed the vertices the other way round: corrected");
+  note(report.inverted_tets, "tets have negative volume");
+  note(report.flat_tets, "tets have no volume");
+  note(report.unused_points, "points are in no tet");
+  return notes;
+}
+
 }  // namespace
 
 void Document::resize(const Canvas& size) {
@@ -67,32 +96,40 @@ void Document::resize(const Canvas& size) {
 
 void Document::open(const std::filesystem::path& file) {
   if (is_trace(file)) return open_trace(file);
+  refuse_what_is_no_mesh(file);
   MeshData data = read_mesh(file);
   const std::string beside = named_beside(data);
-  TetMesh read = build_tet_mesh(file, std::move(data));
+  BuildReport report;
+  TetMesh read = build_tet_mesh(file, std::move(data), MeshOrder::of_file, &report);
   read.set_standard(standard_);
   MeasuredMesh mesh(std::move(read));
   live.forget();
   followed_ = LiveState::idle;
   set_mesh(std::move(mesh), file.string());
   not_saved_ = beside;
+  notes_ = notes_of(report);
+  if (report.mirrored) message.text += "; " + notes_.front();
 }
 
 void Document::open_trace(const std::filesystem::path& file) {
   auto debugger = std::make_unique<Debugger>(file);
-  if (debugger_ == nullptr) view.scene.isolate = true;  // else nothing of a call inside is seen
+  // At first: else nothing of a call inside is seen.
+  const bool isolate = debugger_ == nullptr || view.scene.isolate;
   live.forget();
   followed_ = LiveState::idle;
   set_mesh(MeasuredMesh(debugger->mesh()), file.string());
   debugger_ = std::move(debugger);
+  view.scene.isolate = isolate;
+  teaching = debugger_->lesson().has_value();
   standard_ = debugger_->file().initial_mesh().standard();
   shown_mesh_ = debugger_->mesh_number();
-  shown_root_ = kNoCall;
+  shown_root_ = shown_call_ = kNoCall;
   show_trace();
   const std::string& damage = debugger_->file().damage();
-  message = {damage.empty() ? fmt::format("{}: {} events, {} calls", file.filename().string(),
-                                          debugger_->end(), debugger_->file().calls().size())
-                            : damage,
+  message = {damage.empty()
+                 ? fmt::format("{}: {} events, {} calls", file.filename().string(),
+                               grouped(debugger_->end()), grouped(debugger_->file().calls().size()))
+                 : damage,
              !damage.empty()};
 }
 
@@ -108,10 +145,19 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 }
 
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
+  if (debugger_ != nullptr) view.scene.isolate = false;  // it is for the calls of a trace
   debugger_.reset();
+  target_ = {};
+  caller_edge_.reset();
+  call_legend_.clear();
+  call_names_.clear();
+  pointed_ = {};
+  hovered = {};
+  teaching = false;
   not_saved_.clear();
+  notes_.clear();
   marks_ = {};
-  near_.reset();
+  near_.clear();
   const bool keep_view = has_mesh() && is_alike(ball_, mesh.ball);
   mesh_ = std::move(mesh.mesh);
   file_ = name;
@@ -124,7 +170,7 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   if (!keep_view) go_home();
   message = {
       fmt::format("{}: {} tets, {} of them bad", std::filesystem::path(name).filename().string(),
-                  statistics_.tets, statistics_.n_bad),
+                  grouped(statistics_.tets), grouped(statistics_.n_bad)),
       false};
 }
 
@@ -181,15 +227,12 @@ void Document::show_trace() {
       follow_changes(step.tets);
     }
   }
-  const CallStudy* study = debugger_->study();
-  marks_ = study != nullptr ? highlight_covering(*study, ball_.centre) : Highlight();
-  near_.reset();
-  if (study != nullptr) near_ = tets_of(mesh_, *study);
-  isolated_.settings.reset();
-  select(call == kNoCall ? Selection() : target_of(call));
-  const std::uint32_t root = call == kNoCall ? kNoCall : debugger_->stack().front();
-  if (root != shown_root_ && root != kNoCall && follow_trace) fit();
-  shown_root_ = root;
+  pointed_ = {};
+  hovered = {};
+  target_ = call == kNoCall ? Selection() : target_of(call);
+  mark_call();
+  select(target_);
+  follow_call();
 }
 
 /// What a call aims at, in the mesh as it is.
@@ -265,6 +308,9 @@ bool Document::awaits_live() const {
 void Document::select(const Selection& selection) {
   selection_ = selection;
   highlight_.reset();
+  legend_.clear();
+  is_named_ = false;
+  isolated_.settings.reset();
   ++highlight_revision_;
 }
 
@@ -274,58 +320,12 @@ void Document::pick(double x, double y) {
   select(hit ? refine(mesh_, *hit, pick_kind, view.camera, canvas) : Selection());
 }
 
-void Document::go_home() {
-  view.camera.look_from("home");
-  view.camera.fit(box_, canvas);
-}
-
-void Document::fit_first() {
-  if (call_in_view()) {
-    fit();
-  } else {
-    go_home();
-  }
-}
-
-/// Around the call at hand, unless something else is selected.
-std::optional<Ball> Document::call_in_view() {
-  const CallStudy* study = debugger_ ? debugger_->study() : nullptr;
-  if (study == nullptr) return std::nullopt;
-  const Selection target = target_of(study->call);
-  if (selection_ != target && !std::holds_alternative<std::monostate>(selection_)) {
-    return std::nullopt;
-  }
-  return ball_around(*study);
-}
-
-void Document::fit() {
-  constexpr double kSurroundings = 1.3;
-  if (const auto call = call_in_view()) {
-    view.camera.fit({call->centre, kSurroundings * call->radius}, canvas);
-  } else if (std::holds_alternative<std::monostate>(selection_)) {
-    view.camera.fit(box_, canvas);
-  } else {
-    view.camera.fit(ball_around(mesh_, selection_), canvas);
-  }
-}
-
 const Histogram& Document::histogram() {
   return lists_.histogram(mesh_, view.scene.measure);
 }
 
 const std::vector<TetHandle>& Document::worst() {
   return lists_.worst(mesh_, view.scene.measure);
-}
-
-void Document::fly_to_worst(std::size_t i) {
-  if (i >= worst().size()) {
-    throw Error(
-        fmt::format("the list of the worst has {} tets, there is no {}", worst().size(), i + 1));
-  }
-  select(worst()[i]);
-  // Close enough to see the tet, far enough to see where it is.
-  const Ball around = ball_around(mesh_, selection_);
-  view.camera.fit({around.centre, std::max(3 * around.radius, 1e-3 * ball_.radius)}, canvas);
 }
 
 std::optional<std::size_t> Document::place_among_worst() {
@@ -346,20 +346,9 @@ unsigned Document::scene_revision() {
   return scene_revision_;
 }
 
-const Highlight& Document::highlighted() {
-  if (!highlight_) {
-    highlight_ = highlight(mesh_, selection_, ball_.centre);
-    highlight_->lines.insert(highlight_->lines.end(), marks_.lines.begin(), marks_.lines.end());
-  }
-  return *highlight_;
-}
-
-unsigned Document::highlight_revision() {
-  return highlight_revision_;
-}
-
 void Document::update_scene() {
-  const bool isolated = view.scene.isolate && near_.has_value();
+  const std::vector<TetHandle> only = isolated();
+  const bool isolated = !only.empty();
   Drawing& drawing = isolated ? isolated_ : whole_;
   SceneSettings settings = view.scene;
   settings.isolate = false;  // does not matter for what is drawn of the whole mesh
@@ -372,7 +361,7 @@ void Document::update_scene() {
   if (settings.peel == 0) layers_.clear();
   if (settings.peel > 0 && layers_.empty()) layers_ = distances_from_boundary(mesh_);
   SceneInput input{mesh_, settings, {values(), layers_}, {}, {}, {}, ball_};
-  if (isolated) input.only = *near_;
+  if (isolated) input.only = only;
   if (settings.colour != "region") {
     input.colour_values = lists_.values(mesh_, settings.colour);
     input.colour_range = find_tet_value(settings.colour).range;

@@ -19,6 +19,7 @@
 #include "viewer/mesh/scene.h"
 #include "viewer/mesh/selection.h"
 #include "viewer/mesh/tet_lists.h"
+#include "viewer/mesh/view_history.h"
 #include "viewer/mesh/view_settings.h"
 
 namespace tetmend::viewer {
@@ -31,6 +32,22 @@ struct Message {
 
 /// What the window is to ask the user for a file for.
 enum class FileQuestion : std::uint8_t { none, open, save, schedule };
+
+/// What the user points at in one of the views; the others light it up.
+struct Pointed {
+  std::vector<VertexHandle> vertices;  ///< one, an edge, a face or a tet
+  std::uint32_t call = kNoCall;        ///< of a trace; then the vertices are its target
+  bool is_nothing() const { return vertices.empty() && call == kNoCall; }
+  /// All of them are pointed at, and there is one.
+  bool contains(std::span<const VertexHandle> all) const;
+  friend bool operator==(const Pointed&, const Pointed&) = default;
+};
+
+/// A colour of the picture and what it means.
+struct LegendEntry {
+  Colour colour;
+  std::string text;
+};
 
 /// Change `view`, `canvas` and the like freely; all that follows from them is computed when it is
 /// asked for, and kept until something it depends on has changed.
@@ -46,7 +63,11 @@ class Document {
   bool show_panels = true;  ///< beside the picture
   FileQuestion question = FileQuestion::none;
   bool offer_choices = false;  ///< a menu of what can be done with the selection
+  bool ask_place = false;  ///< the user wants to say where to go
   bool quit = false;
+  /// Of a trace, for a lecture hall: large text, the picture, the text of the lesson, the shell and
+  /// the algorithm, and no more. On when a lesson is opened.
+  bool teaching = false;
 
   /// The mesh takes the whole window.
   void resize(const Canvas& size);
@@ -71,7 +92,8 @@ class Document {
   const Debugger* debugger() const { return debugger_.get(); }
   /// Makes the document show the place at which the debugger is.
   void show_trace();
-  bool follow_trace = true;  ///< the camera goes to each outermost call
+  /// The camera goes to each outermost call, and to each isolated one that it does not see.
+  bool follow_trace = true;
 
   /// Reads a mesh for its statistics only: the state before. @throws Error, and nothing changes.
   void compare_with(const std::filesystem::path& file);
@@ -100,6 +122,31 @@ class Document {
   const MeshStatistics& statistics() const;
   const std::optional<MeshStatistics>& statistics_before() const { return before_; }
   const std::vector<Label>& regions() const { return regions_; }
+  /// What reading the file has put right, in sentences: "the mesh was mirrored: ...".
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// Views for undo. What is shown now is kept, unless it is kept already.
+  void keep_view() { history_.keep(view); }
+  /// False if there is none.
+  bool undo_view();
+  bool redo_view();
+
+  /// What is pointed at: by the mouse, else by a script. A move in a trace forgets it.
+  const Pointed& pointed() const { return hovered.is_nothing() ? pointed_ : hovered; }
+  void point_at(Pointed what) { pointed_ = std::move(what); }
+  /// A call of the trace, by its target. Precondition: there is such a call.
+  Pointed pointed_call(std::uint32_t call) const;
+  Pointed hovered;   ///< by the mouse, in the last layout
+  Pointed hovering;  ///< likewise, in the one that is being made
+
+  /// The vertices whose numbers stand in the picture: those of the call at hand and of the shell of
+  /// its caller, or of the selection.
+  const std::vector<NamedVertex>& names();
+  /// The named vertex, or the edge between two of them, at a pixel of the window; or nothing.
+  /// `reach`: in pixels.
+  Pointed find_named(double x, double y, double reach);
+  /// What the colours of the highlight mean.
+  const std::vector<LegendEntry>& legend();
 
   const Selection& selection() const { return selection_; }
   /// Precondition: it names something in the mesh.
@@ -119,7 +166,9 @@ class Document {
   /// The worst by that measure.
   static constexpr std::size_t kWorstListed = TetLists::kWorstListed;
   const std::vector<TetHandle>& worst();
-  /// Selects entry i of worst() and moves the camera there.
+  /// Selects it and moves the camera there. Precondition: it names something in the mesh.
+  void fly_to(const Selection& selection);
+  /// Selects entry i of worst(), shows it alone, and moves the camera to where it is seen best.
   void fly_to_worst(std::size_t i);
   std::optional<std::size_t> place_among_worst();  ///< of the selected tet
 
@@ -139,12 +188,21 @@ class Document {
   std::optional<Ball> call_in_view();
   void mark_live_call(const LiveProgress& run);
   Selection target_of(std::uint32_t call);
+  void mark_call();
+  void mark_caller(const CallStudy& study);
+  void mark(const Highlight& highlight, const Colour& colour, std::string text);
+  void name_call(const CallStudy& study);
+  void follow_call();
+  bool is_seen(const Ball& ball) const;
+  std::vector<TetHandle> isolated() const;
+  void update_names();
   void update_scene();
 
   TetMesh mesh_;
   Standard standard_ = Standard(Goal{});
   std::string file_;
   std::string not_saved_;  // what the file holds beside its mesh
+  std::vector<std::string> notes_;
   Ball ball_;
   std::array<glm::dvec3, 8> box_{};  // corners of the box around the mesh
   MeshStatistics statistics_;
@@ -155,10 +213,15 @@ class Document {
   std::size_t followed_call_ = 0;         // of a run: whose place is marked
 
   std::unique_ptr<Debugger> debugger_;
-  std::size_t shown_mesh_ = 0;                  // see Debugger::mesh_number()
-  std::uint32_t shown_root_ = kNoCall;          // outermost call that the camera went to
-  Highlight marks_;                             // of the call at hand
-  std::optional<std::vector<TetHandle>> near_;  // tets of that call
+  std::size_t shown_mesh_ = 0;          // see Debugger::mesh_number()
+  std::uint32_t shown_root_ = kNoCall;  // outermost call that the camera went to
+  std::uint32_t shown_call_ = kNoCall;  // and the innermost
+  Selection target_;                    // of the call at hand
+  std::optional<TetEdge> caller_edge_;  // of the recursion around it
+  Highlight marks_;                     // of the call at hand
+  std::vector<LegendEntry> call_legend_;
+  std::vector<NamedVertex> call_names_;
+  std::vector<TetHandle> near_;  // tets of that call, ascending; empty: no call
 
   mutable StatisticsCache trace_statistics_;  // of the mesh, while a trace is open
   TetLists lists_;
@@ -172,6 +235,12 @@ class Document {
   Drawing whole_, isolated_;
   bool is_isolated_ = false;  // which of them is seen
   std::optional<Highlight> highlight_;
+  std::vector<LegendEntry> legend_;
+  bool is_named_ = false;  // the next two are up to date
+  std::vector<NamedVertex> names_;
+  std::vector<std::array<VertexHandle, 2>> named_edges_;
+  ViewHistory history_;
+  Pointed pointed_;
   unsigned scene_revision_ = 0;
   unsigned highlight_revision_ = 0;
 };

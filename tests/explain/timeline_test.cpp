@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "explain/timeline.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "kernel/statistics.h"
@@ -27,7 +29,7 @@ TEST_CASE("the curves are those of the mesh at each sample") {
   Replay replay(file);
   const Timeline timeline = make_timeline(file, replay, 60);
   CHECK(replay.position() == 0);
-  REQUIRE(timeline.samples.size() > 60);
+  REQUIRE(timeline.samples.size() > 20);
   CHECK(timeline.samples.size() < 130);
   CHECK(timeline.samples.front().position == 0);
   CHECK(timeline.samples.back().position == file.event_count());
@@ -83,6 +85,19 @@ TEST_CASE("the curves follow a run that changes its goal") {
           timeline.changes_before(sample.position - 1) + 1);
   }
   CHECK(goals == 2);
+}
+
+TEST_CASE("a small trace has a sample wherever a number changes") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  const Timeline timeline = make_timeline(file, replay);
+  for (std::size_t i = 1; i + 1 < timeline.samples.size(); ++i) {
+    const Timeline::Sample& now = timeline.samples[i];
+    const Timeline::Sample& last = timeline.samples[i - 1];
+    CHECK((now.n_bad != last.n_bad || now.q_worst != last.q_worst));
+    CHECK(std::binary_search(timeline.changes.begin(), timeline.changes.end(), now.position));
+  }
 }
 
 TEST_CASE("the sample of a position is the last one that is not after it") {

@@ -10,12 +10,11 @@
 #include <fmt/format.h>
 #include <tetmend/improve.h>
 
-#include "face/grouped.h"
+#include "kernel/grouped.h"
 #include "tests/support/layered_mesh.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
-using face::grouped;
 
 namespace {
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/document.h"
 
+#include <fstream>
+#include <utility>
+
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
@@ -86,4 +89,30 @@ TEST_CASE("a scene is made again only when something it shows has changed") {
   CHECK(s.document.scene_revision() == first);
   s.document.view.scene.peel = 1;
   CHECK(s.document.scene_revision() != first);
+}
+
+TEST_CASE("a folder, an empty trace and a file that is none are told as what they are") {
+  const test::TempFolder folder;
+  Document document;
+  CHECK_THROWS_WITH_AS(document.open(folder / "."), doctest::Contains("this is a folder"), Error);
+  std::ofstream(folder / "a.trace").flush();
+  CHECK_THROWS_WITH_AS(document.open(folder / "a.trace"), doctest::Contains("a.trace: the file is empty"),
+                       Error);
+  std::ofstream(folder / "b.trace") << "nonsense that is long enough";
+  CHECK_THROWS_WITH_AS(document.open(folder / "b.trace"), doctest::Contains("this is no trace"), Error);
+}
+
+TEST_CASE("a mirrored mesh is told of") {
+  const test::TempFolder folder;
+  MeshData mesh = test::kuhn_cube(2, 0, 1);
+  write_mesh(folder / "right.mesh", mesh);
+  for (auto& tet : mesh.tets) std::swap(tet.vertices[0], tet.vertices[1]);
+  write_mesh(folder / "mirrored.mesh", mesh);
+  Document document;
+  document.open(folder / "mirrored.mesh");
+  REQUIRE(document.notes().size() == 1);
+  CHECK(document.notes()[0].starts_with("the mesh was mirrored"));
+  CHECK(document.message.text.find("mirrored:") != std::string::npos);
+  document.open(folder / "right.mesh");
+  CHECK(document.notes().empty());
 }

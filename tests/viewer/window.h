@@ -96,17 +96,18 @@ inline bool can_test_window() {
   return true;
 }
 
-/// The viewer with a mesh of assets/, or another file by its whole path, in an empty current
-/// folder. One at a time.
+/// The viewer with a mesh of assets/, another file by its whole path, or nothing, in an empty
+/// current folder. One at a time.
 class Viewer {
  public:
   explicit Viewer(const std::filesystem::path& file, const std::string& size = "1000x700") {
     const std::filesystem::path meshes = TETMEND_SOURCE_DIR "/assets/meshes";
     std::filesystem::current_path(folder_ / ".");
     err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
-    program_.emplace(std::vector<std::string>{"--size", size, "--scale", "1", "--report",
-                                              "report.json", (meshes / file).string()},
-                     "out", err_);
+    std::vector<std::string> arguments = {"--size", size, "--scale", "1", "--report",
+                                          "report.json"};
+    if (!file.empty()) arguments.push_back((meshes / file).string());
+    program_.emplace(arguments, "out", err_);
     type("search --sync --onlyvisible --name tetmend-view >/dev/null");
     type("mousemove 500 350");
   }

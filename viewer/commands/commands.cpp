@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <new>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "kernel/error.h"
 #include "viewer/commands/command_group.h"
 
 namespace tetmend::viewer {
@@ -53,12 +54,20 @@ const Command* command_for_keys(std::string_view keys) {
   return nullptr;
 }
 
-void run_from_window(const Command& command, Session& session, const json& arguments) {
+bool guarded(Document& document, const std::function<void()>& work) {
   try {
-    command.run(session, arguments);
-  } catch (const Error& error) {
-    session.document.message = {error.what(), true};
+    work();
+    return true;
+  } catch (const std::bad_alloc&) {
+    document.message = {"out of memory", true};
+  } catch (const std::exception& error) {
+    document.message = {error.what(), true};
   }
+  return false;
+}
+
+void run_from_window(const Command& command, Session& session, const json& arguments) {
+  guarded(session.document, [&] { command.run(session, arguments); });
 }
 
 std::string command_reference() {

@@ -2,6 +2,7 @@
 // What a user can tell the viewer: one list for menus, keys and scripts.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,7 +51,10 @@ const Command& find_command(std::string_view name);
 /// The command of a key such as "Ctrl+Shift+N", or null.
 const Command* command_for_keys(std::string_view keys);
 
-/// Runs it as a menu or key does: an error becomes the message of the document.
+/// Does it. Whatever is thrown becomes the message of the document, and the result is false.
+bool guarded(Document& document, const std::function<void()>& work);
+
+/// Runs it as a menu or key does: guarded.
 void run_from_window(const Command& command, Session& session,
                      const nlohmann::json& arguments = nlohmann::json::array());
 

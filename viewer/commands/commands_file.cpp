@@ -2,6 +2,7 @@
 // Commands about files, the clipboard and the program.
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "viewer/commands/command_group.h"
 #include "viewer/mesh/image.h"
@@ -42,8 +43,17 @@ json reload(Session& s, const json&) {
   return nullptr;
 }
 
+/// "tetmend-view.png", or with a number that is not taken yet.
+std::string new_picture() {
+  std::string name = "tetmend-view.png";
+  for (unsigned i = 2; std::filesystem::exists(name); ++i) {
+    name = fmt::format("tetmend-view-{}.png", i);
+  }
+  return name;
+}
+
 json screenshot(Session& s, const json& a) {
-  const std::string file = a.empty() ? "tetmend-view.png" : Arguments("screenshot", a).text(0);
+  const std::string file = a.empty() ? new_picture() : Arguments("screenshot", a).text(0);
   write_png(file, s.host.render(s.document));
   s.document.message = {"wrote " + file, false};
   return nullptr;
@@ -74,8 +84,10 @@ constexpr std::array kCommands = {
     Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
     Command{"compare", "", "", "compare(\"FILE\")",
             "Show the statistics of another mesh beside: the state before", &compare},
-    Command{"screenshot", "P", kFile, "screenshot(\"FILE.png\")",
-            "Write the picture; without a name to tetmend-view.png", &screenshot},
+    Command{
+        "screenshot", "P", kFile, "screenshot(\"FILE.png\")",
+        "Write the picture; without a name to tetmend-view.png, or with a number if that is there",
+        &screenshot},
     Command{"copy_view", "Ctrl+C", kFile, "copy_view()", "Copy the view as JSON", &copy_view},
     Command{"paste_view", "Ctrl+V", kFile, "paste_view()", "Take the view from the clipboard",
             &paste_view},

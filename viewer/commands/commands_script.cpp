@@ -117,6 +117,14 @@ json state_of(Document& document) {
   } else if (const auto* v = std::get_if<VertexHandle>(&document.selection())) {
     selection = {{"kind", "vertex"}, {"vertex", v->index()}};
   }
+  json names = json::array();
+  for (const NamedVertex& name : document.names()) {
+    names.push_back({{"vertex", name.vertex.index()}, {"role", name.role}});
+  }
+  json legend = json::array();
+  for (const LegendEntry& entry : document.legend()) legend.push_back(entry.text);
+  json pointed = json::array();
+  for (const VertexHandle v : document.pointed().vertices) pointed.push_back(v.index());
   const Scene& scene = document.scene();
   json trace;
   if (document.debugger() != nullptr) trace = trace_state_of(document);
@@ -133,6 +141,11 @@ json state_of(Document& document) {
           {"run", to_string(document.live.state())},
           {"message", document.message.text},
           {"selection", selection},
+          {"notes", document.notes()},
+          {"names", names},
+          {"legend", legend},
+          {"pointed", pointed},
+          {"teaching", document.teaching},
           {"trace", trace},
           {"view", to_json(document.view)}};
 }

@@ -2,6 +2,7 @@
 // Commands that pick and select.
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 #include "kernel/shell.h"
 #include "kernel/workspace.h"
@@ -66,8 +67,39 @@ json select_edge(Session& s, const json& a) {
   return nullptr;
 }
 
+/// What "tet 17", "edge 3 17", "vertex 5" or "17" name in the mesh. @throws Error otherwise.
+json go_to(Session& s, const json& a) {
+  need_mesh(s.document);
+  if (a.empty()) {
+    s.document.ask_place = true;
+    return nullptr;
+  }
+  const std::string text = Arguments("go_to", a).text(0);
+  std::string words = text;
+  std::replace(words.begin(), words.end(), '-', ' ');  // "edge 3-17"
+  std::istringstream in(words);
+  std::string kind = "tet";
+  if (words.find_first_not_of("0123456789 ") != std::string::npos) in >> kind;
+  json numbers = json::array();
+  for (std::uint32_t number = 0; in >> number;) numbers.push_back(number);
+  const bool is_whole = in.eof();
+  if (is_whole && kind == "tet" && numbers.size() == 1) {
+    select_tet(s, numbers);
+  } else if (is_whole && kind == "edge" && numbers.size() == 2) {
+    select_edge(s, numbers);
+  } else if (is_whole && kind == "vertex" && numbers.size() == 1) {
+    select_vertex(s, numbers);
+  } else {
+    throw Error(fmt::format(
+        "go_to: '{}' is not understood: tet NUMBER, edge FROM TO or vertex NUMBER", text));
+  }
+  s.document.fly_to(Selection(s.document.selection()));
+  return state_of(s.document)["selection"];
+}
+
 json deselect(Session& s, const json&) {
   s.document.show_keys = false;
+  if (s.document.debugger() == nullptr) s.document.view.scene.isolate = false;
   s.document.select({});
   return nullptr;
 }
@@ -103,9 +135,12 @@ constexpr std::array kCommands = {
     Command{"select_edge", "", "", "select_edge(FROM, TO)", "Select the edge of two vertices",
             &select_edge},
     Command{"select_vertex", "", "", "select_vertex(NUMBER)", "Select a vertex", &select_vertex},
+    Command{"go_to", "Ctrl+G", kSelect, "go_to(\"edge 3 17\")",
+            "Select a tet NUMBER, an edge FROM TO or a vertex NUMBER, and go there", &go_to},
     Command{"deselect", "Escape", kSelect, "deselect()", "Select nothing", &deselect},
     Command{"worst", "W", kSelect, "worst(N)",
-            "Select the N-th worst tet and go there; the result is its number", &worst},
+            "Show the N-th worst tet alone, from where it is seen best; the result is its number",
+            &worst},
     Command{"next_worst", "N", kSelect, "next_worst()", "Go to the next worst tet", &step_worst<1>},
     Command{"previous_worst", "Shift+N", kSelect, "previous_worst()", "Go to the one before",
             &step_worst<-1>},

@@ -144,6 +144,7 @@ json show_all(Session& s, const json&) {
   scene.shrink = 0;
   scene.hidden_regions.clear();
   for (CutPlane& plane : scene.cuts) plane.on = false;
+  if (s.document.debugger() == nullptr) scene.isolate = false;
   return nullptr;
 }
 
@@ -153,6 +154,9 @@ constexpr std::array kCommands = {
     Command{"edges", "E", kShow, "edges()", "Edges on or off", &edges},
     Command{"bad", "B", kShow, "bad()", "Bad tets in red, seen through the rest",
             &toggle<&SceneSettings::bad>},
+    Command{"bad_beyond_cuts", "Shift+B", kShow, "bad_beyond_cuts()",
+            "Bad tets also where cuts and peeling hide them",
+            &toggle<&SceneSettings::bad_beyond_cuts>},
     Command{"constraints", "C", kShow, "constraints()", "Constraint faces inside the volume",
             &toggle<&SceneSettings::constraints>},
     Command{"ghosts", "G", kShow, "ghosts(0.15)", "Ghosts of hidden tets; opacity", &ghosts},
@@ -180,7 +184,7 @@ constexpr std::array kCommands = {
     Command{"cut_forward", "]", kShow, "cut_forward()", "Move the cut planes forwards",
             &move_cuts<1>},
     Command{"cut_back", "[", kShow, "cut_back()", "Move the cut planes back", &move_cuts<-1>},
-    Command{"show_all", "A", kShow, "show_all()", "No filter, cut, peeling or shrinking",
+    Command{"show_all", "A", kShow, "show_all()", "No filter, cut, peeling, shrinking or isolation",
             &show_all},
 };
 

@@ -2,6 +2,7 @@
 // Commands that move through a trace.
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 #include "viewer/commands/command_group.h"
 
@@ -194,8 +195,9 @@ json change_speed(Session& s, const json&) {
   return nullptr;
 }
 
+/// Of a mesh without a trace: the selection.
 json isolate(Session& s, const json&) {
-  need_trace(s.document);
+  need_mesh(s.document);
   s.document.view.scene.isolate = !s.document.view.scene.isolate;
   return nullptr;
 }
@@ -206,6 +208,52 @@ json follow(Session& s, const json&) {
   s.document.message = {
       s.document.follow_trace ? "the camera follows the calls" : "the camera stays where it is",
       false};
+  return nullptr;
+}
+
+json teaching(Session& s, const json&) {
+  need_trace(s.document);
+  s.document.teaching = !s.document.teaching;
+  return nullptr;
+}
+
+/// "vertex 5", "edge 3 17", "face 1 2 3", "tet 1 2 3 4" by its vertices, or "call 12"; nothing to end
+/// it.
+json point_at(Session& s, const json& a) {
+  need_mesh(s.document);
+  if (a.empty()) {
+    s.document.point_at({});
+    return nullptr;
+  }
+  constexpr std::array<std::string_view, 4> kKinds = {"vertex", "edge", "face", "tet"};
+  const std::string text = Arguments("point_at", a).text(0);
+  std::istringstream in(text);
+  std::string kind;
+  in >> kind;
+  std::vector<VertexHandle> vertices;
+  for (std::uint32_t number = 0; in >> number;) vertices.emplace_back(number);
+  if (kind == "call" && vertices.size() == 1) {
+    const std::size_t calls = need_trace(s.document).file().calls().size();
+    const std::uint32_t call = vertices[0].index();
+    if (call >= calls) throw Error(fmt::format("point_at: the trace has {} calls", calls));
+    s.document.point_at(s.document.pointed_call(call));
+    return nullptr;
+  }
+  const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
+  const auto size = static_cast<std::size_t>(found - kKinds.begin()) + 1;
+  if (found == kKinds.end() || vertices.size() != size || !in.eof()) {
+    throw Error(fmt::format(
+        "point_at: '{}' is not understood: vertex, edge, face or tet with its vertices, or call "
+        "NUMBER",
+        text));
+  }
+  for (const VertexHandle v : vertices) {
+    const TetMesh& mesh = s.document.mesh();
+    if (v.index() >= mesh.vertex_slots() || mesh.is_deleted(v)) {
+      throw Error(fmt::format("point_at: there is no vertex {}", v.index()));
+    }
+  }
+  s.document.point_at({std::move(vertices)});
   return nullptr;
 }
 
@@ -275,10 +323,15 @@ constexpr std::array kCommands = {
             "To the next step of the lesson", &to_lesson_step<kForward>},
     Command{"last_lesson_step", "Shift+K", kTrace, "last_lesson_step()",
             "To the step of the lesson before", &to_lesson_step<kBack>},
-    Command{"isolate", "I", kTrace, "isolate()", "Show only the tets of the call at hand",
-            &isolate},
+    Command{"isolate", "I", kTrace, "isolate()",
+            "Show only the tets of the call at hand, or of the selection", &isolate},
     Command{"follow", "Shift+F", kTrace, "follow()",
-            "The camera goes to each outermost call, or stays", &follow},
+            "The camera goes to each call that it does not see, or stays", &follow},
+    Command{"teaching", "Shift+T", kTrace, "teaching()",
+            "Layout for teaching: large text, the picture, the shell, the algorithm", &teaching},
+    Command{"point_at", "", "", "point_at(\"edge 3 17\")",
+            "Light up a vertex, edge, face or tet by its vertices, or a call, in all views",
+            &point_at},
     Command{"blend", "V", kTrace, "blend(0.5)",
             "The shell before and after side by side, or blended", &blend},
 };

@@ -70,6 +70,26 @@ json size(Session& s, const json& a) {
   return nullptr;
 }
 
+json numbers(Session& s, const json&) {
+  s.document.view.numbers = !s.document.view.numbers;
+  return nullptr;
+}
+
+json legend(Session& s, const json&) {
+  s.document.view.legend = !s.document.view.legend;
+  return nullptr;
+}
+
+json undo_view(Session& s, const json&) {
+  if (!s.document.undo_view()) throw Error("there is no view before this one");
+  return nullptr;
+}
+
+json redo_view(Session& s, const json&) {
+  if (!s.document.redo_view()) throw Error("there is no view after this one");
+  return nullptr;
+}
+
 constexpr std::string_view kView = "View";
 
 constexpr std::array kCommands = {
@@ -82,11 +102,16 @@ constexpr std::array kCommands = {
     Command{"from_top", "5", kView, "from_top()", "Look from +z", &look_along<'+', 'z'>},
     Command{"from_bottom", "6", kView, "from_bottom()", "Look from -z", &look_along<'-', 'z'>},
     Command{"look_from", "", "", "look_from(\"+x\")", "Look from a side, or \"home\"", &look_from},
+    Command{"undo_view", "Ctrl+Z", kView, "undo_view()", "Back to the view before", &undo_view},
+    Command{"redo_view", "Ctrl+Y", kView, "redo_view()", "To the view that was undone", &redo_view},
     Command{"orthographic", "O", kView, "orthographic()", "Orthographic or perspective",
             &orthographic},
     Command{"theme", "T", kView, "theme(\"dark\")", "Light or dark", &theme},
     Command{"panels", "Tab", kView, "panels()", "Panels on or off", &panels},
     Command{"keys", "F1", kView, "keys()", "This list of keys", &keys},
+    Command{"numbers", "#", kView, "numbers()",
+            "Numbers of the vertices of the call at hand or of the selection", &numbers},
+    Command{"legend", "", kView, "legend()", "Of a trace: what the colours mean", &legend},
     Command{"view", "", "", "view{peel = 2}",
             "Change settings by name; the result is the whole view", &view},
     Command{"size", "", "", "size(WIDTH, HEIGHT)", "Size of the picture in pixels", &size},

@@ -68,20 +68,15 @@ void Controller::key(std::string_view keys) {
 }
 
 void Controller::drop(const std::filesystem::path& file) {
-  try {
-    if (file.extension() != ".json") {
-      session_.document.open(file);
-      return;
-    }
+  guarded(session_.document, [&] {
+    if (file.extension() != ".json") return session_.document.open(file);
     std::ifstream in(file);
     std::stringstream text;
     if (!in || !(text << in.rdbuf())) {
       throw Error(fmt::format("{}: cannot read the view", file.string()));
     }
     apply_json_text(session_.document.view, text.str());
-  } catch (const Error& error) {
-    session_.document.message = {error.what(), true};
-  }
+  });
 }
 
 }  // namespace tetmend::viewer

@@ -60,6 +60,7 @@ void run_command(const Command& command, Session& session, WordCall& call) {
   json arguments = json::array();
   for (int i = 1; i <= call.argument_count(); ++i) arguments.push_back(to_json(call.argument(i)));
   session.host.arrange(session.document);  // places below are those of the next picture
+  session.document.keep_view();
   const json result = command.run(session, arguments);
   if (session.document.quit) throw ScriptStop();
   call.give(to_value(result));

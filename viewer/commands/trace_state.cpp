@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "explain/paper_lines.h"
+#include "explain/removal.h"
 #include "viewer/commands/commands.h"
 
 namespace tetmend::viewer {
@@ -106,6 +107,8 @@ json trace_state_of(Document& document) {
   result["tets_before"] = study->before.size();
   result["tets_after"] = study->after.size();
   result["undone"] = study->undone;
+  const auto removal = removal_of(debugger.file(), study->call);
+  if (removal) result["removal"] = to_text(*removal);
   result["reason"] = explain_end(debugger.file(), *study);
   if (study->picture && study->picture->ring.size() >= 3) {
     const Call& call = debugger.file().calls()[study->call];

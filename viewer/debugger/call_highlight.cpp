@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "kernel/shell.h"
+#include "kernel/star.h"
 #include "kernel/workspace.h"
 #include "viewer/mesh/visibility.h"
 
@@ -41,6 +43,58 @@ Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin) {
     line(side.from, side.to, kCoreColour, 5);
   }
   return highlight;
+}
+
+Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& origin) {
+  constexpr std::uint8_t kFaint = 26;
+  Highlight highlight;
+  Colour fill = kGhostColour;
+  fill.alpha = kFaint;
+  for (const TetEdge e : shell(mesh, edge)) {
+    const auto c = corners(mesh, e.tet());
+    for (const auto& f : kFaceVertices) {
+      add_triangle(highlight.faces, {c[f[0]], c[f[1]], c[f[2]]}, fill, origin);
+    }
+    for (const auto& ends : kEdgeVertices) {
+      highlight.lines.push_back(
+          {glm::vec3(c[ends[0]] - origin), glm::vec3(c[ends[1]] - origin), kGhostColour, 1.5F});
+    }
+  }
+  return highlight;
+}
+
+Highlight highlight_face(const TetMesh& mesh, const std::array<VertexHandle, 3>& face,
+                         const glm::dvec3& origin) {
+  constexpr std::uint8_t kClear = 120;
+  Highlight highlight;
+  std::array<glm::dvec3, 3> c;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (face[i].index() >= mesh.vertex_slots() || mesh.is_deleted(face[i])) return {};
+    c[i] = to_glm(mesh.point(face[i]));
+  }
+  Colour fill = kFaceToRemoveColour;
+  fill.alpha = kClear;
+  add_triangle(highlight.faces, c, fill, origin);
+  for (unsigned i = 0; i < 3; ++i) {
+    highlight.lines.push_back(
+        {glm::vec3(c[i] - origin), glm::vec3(c[(i + 1) % 3] - origin), kFaceToRemoveColour, 2});
+  }
+  return highlight;
+}
+
+std::vector<TetHandle> tets_of(const TetMesh& mesh, const Selection& selection) {
+  std::vector<TetHandle> found;
+  if (const auto* t = std::get_if<TetHandle>(&selection)) {
+    found.push_back(*t);
+  } else if (const auto* e = std::get_if<TetEdge>(&selection)) {
+    for (const TetEdge other : shell(mesh, *e)) found.push_back(other.tet());
+  } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
+    if (!mesh.tet_of(*v).is_valid()) return found;
+    Workspace workspace(mesh);
+    for (const TetHandle around : star(mesh, *v, workspace)) found.push_back(around);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 Selection target_in(const TetMesh& mesh, const Call& call, std::span<const TetHandle> around) {

@@ -2,6 +2,7 @@
 // What the picture of a mesh shows of the call at hand.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,11 +17,26 @@ namespace tetmend::viewer {
 /// top of the picture. Empty without a covering.
 Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin);
 
+/// The tets around an edge, as the caller of a recursive call has them now: a ghost.
+Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& origin);
+
+/// The face that a recursive call is to remove. Empty if one of its vertices is gone.
+Highlight highlight_face(const TetMesh& mesh, const std::array<VertexHandle, 3>& face,
+                         const glm::dvec3& origin);
+
+/// The tets of something in the mesh, each once, ascending: a tet, a shell, a ball.
+std::vector<TetHandle> tets_of(const TetMesh& mesh, const Selection& selection);
+
 /// The target as something to select in the mesh as it is now, or nothing. `around` lists the tets
 /// that contain it.
 Selection target_in(const TetMesh& mesh, const Call& call, std::span<const TetHandle> around);
 
 /// The tets of the mesh that the call found or made, each once.
 std::vector<TetHandle> tets_of(const TetMesh& mesh, const CallStudy& study);
+
+inline constexpr Colour kGhostColour{100, 110, 125, 255};
+inline constexpr Colour kFaceToRemoveColour{112, 48, 205, 255};
+inline constexpr Colour kChordColour{0, 150, 136, 255};
+inline constexpr Colour kCoreColour{235, 168, 20, 255};
 
 }  // namespace tetmend::viewer

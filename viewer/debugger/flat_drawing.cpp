@@ -40,9 +40,11 @@ class PolygonDrawer {
   void outline() {
     for (std::size_t i = 0; i < size_; ++i) {
       const std::size_t j = (i + 1) % size_;
-      drawing_.strokes.push_back({place(i), place(j), kSkirtColour, 3, false, {}});
-      drawing_.labels.push_back(
-          {kNames * in_plane(shell_.place(i)), fmt::format("{}", shell_.ring[i].index()), true});
+      drawing_.strokes.push_back({place(i), place(j), kSkirtColour, 3, false, {}, ends(i, j)});
+      drawing_.labels.push_back({kNames * in_plane(shell_.place(i)),
+                                 fmt::format("{}", shell_.ring[i].index()),
+                                 true,
+                                 {shell_.ring[i]}});
     }
   }
 
@@ -56,7 +58,8 @@ class PolygonDrawer {
                       shell_.ring[chord->from].index(), shell_.ring[chord->to].index(),
                       chord->on[0], chord->back[0], usable ? "" : "; not better than the old tets");
       drawing_.strokes.push_back({place(chord->from), place(chord->to),
-                                  faint(kChordColour, usable ? 0.9 : 0.35), 1.5, !usable, tip});
+                                  faint(kChordColour, usable ? 0.9 : 0.35), 1.5, !usable, tip,
+                                  ends(chord->from, chord->to)});
     }
   }
 
@@ -68,7 +71,8 @@ class PolygonDrawer {
       drawing_.strokes.push_back(
           {place(side.from), place(side.to), kCoreColour, 4, dashed,
            fmt::format("side of the core {} - {}: {:.4f}", shell_.ring[side.from].index(),
-                       shell_.ring[side.to].index(), side.quality)});
+                       shell_.ring[side.to].index(), side.quality),
+           ends(side.from, side.to)});
     }
   }
 
@@ -78,6 +82,9 @@ class PolygonDrawer {
   }
 
  private:
+  std::vector<VertexHandle> ends(std::size_t i, std::size_t j) const {
+    return {shell_.ring[i], shell_.ring[j]};
+  }
   glm::dvec2 place(std::size_t i) const { return kRadius * in_plane(shell_.place(i)); }
 
   /// Each side of the core with the edge ab, a tet, is a slice from its middle.
@@ -86,25 +93,42 @@ class PolygonDrawer {
     for (const auto& side : covering.core) middle += place(side.from);
     middle /= static_cast<double>(covering.core.size());
     for (const auto& side : covering.core) {
-      drawing_.areas.push_back(
-          {{middle, place(side.from), place(side.to)}, faint(colour_of(side.quality, map_), 0.75)});
-      drawing_.strokes.push_back(
-          {middle, place(side.from), faint(kSupportingEdgeColour, 0.6), 1, false, {}});
+      std::vector<VertexHandle> tet = ends(side.from, side.to);
+      tet.insert(tet.end(), {shell_.a, shell_.b});
+      drawing_.areas.push_back({{middle, place(side.from), place(side.to)},
+                                faint(colour_of(side.quality, map_), 0.75),
+                                std::move(tet)});
+      drawing_.strokes.push_back({middle,
+                                  place(side.from),
+                                  faint(kSupportingEdgeColour, 0.6),
+                                  1,
+                                  false,
+                                  {},
+                                  {shell_.a, shell_.b, shell_.ring[side.from]}});
       const glm::dvec2 on_side = (place(side.from) + place(side.to)) / 2.0;
-      drawing_.labels.push_back({0.3 * middle + 0.7 * on_side, number(side.quality), false});
+      drawing_.labels.push_back({0.3 * middle + 0.7 * on_side, number(side.quality), false, {}});
     }
-    drawing_.labels.push_back({middle, "ab", true});
+    drawing_.labels.push_back({middle, "ab", true, {shell_.a, shell_.b}});
   }
 
   void triangle(const FlatCovering::Triangle& t, bool dashed) {
     const std::array<glm::dvec2, 3> c = {place(t.corners[0]), place(t.corners[1]),
                                          place(t.corners[2])};
     const double opacity = dashed ? 0.35 : 0.75;
-    drawing_.areas.push_back({{c[0], c[1], c[2]}, faint(colour_of(t.quality, map_), opacity)});
+    drawing_.areas.push_back(
+        {{c[0], c[1], c[2]},
+         faint(colour_of(t.quality, map_), opacity),
+         {shell_.ring[t.corners[0]], shell_.ring[t.corners[1]], shell_.ring[t.corners[2]]}});
     for (unsigned i = 0; i < 3; ++i) {
-      drawing_.strokes.push_back({c[i], c[(i + 1) % 3], kChordColour, 2, dashed, {}});
+      drawing_.strokes.push_back({c[i],
+                                  c[(i + 1) % 3],
+                                  kChordColour,
+                                  2,
+                                  dashed,
+                                  {},
+                                  ends(t.corners[i], t.corners[(i + 1) % 3])});
     }
-    drawing_.labels.push_back({(c[0] + c[1] + c[2]) / 3.0, number(t.quality), false});
+    drawing_.labels.push_back({(c[0] + c[1] + c[2]) / 3.0, number(t.quality), false, {}});
   }
 
   const ShellPicture& shell_;
@@ -159,7 +183,9 @@ FlatDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, cons
       const Colour full = colour_of(tet.quality, map);
       const double light = kDarkest + (1 - kDarkest) * towards;
       const auto dim = [&](std::uint8_t x) { return static_cast<std::uint8_t>(light * x); };
-      FlatDrawing::Area area{{}, faint({dim(full.red), dim(full.green), dim(full.blue)}, opacity)};
+      FlatDrawing::Area area{{},
+                             faint({dim(full.red), dim(full.green), dim(full.blue)}, opacity),
+                             {tet.vertices.begin(), tet.vertices.end()}};
       for (const glm::dvec3& p : c) {
         area.corners.emplace_back(glm::dot(p, right) / ball.radius, glm::dot(p, up) / ball.radius);
       }

@@ -20,18 +20,21 @@ struct FlatDrawing {
   struct Area {
     std::vector<glm::dvec2> corners;  ///< convex
     Colour colour;
+    std::vector<VertexHandle> vertices;  ///< of the tet or triangle that it stands for, or none
   };
   struct Stroke {
     glm::dvec2 from, to;
     Colour colour;
     double width = 1;  ///< pixels at scale 1
     bool dashed = false;
-    std::string tip;  ///< told when the mouse is on it
+    std::string tip;                     ///< told when the mouse is on it
+    std::vector<VertexHandle> vertices;  ///< of the edge that it stands for, or none
   };
   struct Label {
     glm::dvec2 at;  ///< its middle
     std::string text;
-    bool strong = false;  ///< a name; otherwise a number
+    bool strong = false;                 ///< a name; otherwise a number
+    std::vector<VertexHandle> vertices;  ///< that it names, or none
   };
   std::vector<Area> areas;
   std::vector<Stroke> strokes;

@@ -33,9 +33,22 @@ void divide_by_alpha(Colour& pixel) {
   pixel.blue = divided(pixel.blue);
 }
 
+[[noreturn]] void fail_without_egl(const char* reason) {
+  throw Error(
+      fmt::format("cannot draw without a display: {}; install libegl1 and "
+                  "libgl1-mesa-dri, or another driver",
+                  reason));
+}
+
 }  // namespace
 
 HeadlessContext::HeadlessContext() {
+  // A function that no library has would end the program.
+  if (!epoxy_has_egl()) fail_without_egl("there is no libEGL");
+  if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base") ||
+      !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+    fail_without_egl("no driver of EGL offers contexts without a surface");
+  }
   display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display_ == EGL_NO_DISPLAY) fail("a display");
   if (eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) fail("to start");

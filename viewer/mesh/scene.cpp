@@ -87,6 +87,16 @@ class SceneWork {
            : list == kThrough ? scene_.through_tets
                               : scene_.ghost_tets;
   }
+  /// Beyond a cut it is, too, if the settings say so.
+  bool is_seen_as_bad(TetHandle t) const {
+    return triangles_.is_bad(t) && (settings_.bad_beyond_cuts ||
+                                    (!filter_.is_cut_away(t) && !triangles_.is_cut_away(t)));
+  }
+  /// 1 if something of the tet is shown; remembered for what changes later.
+  std::uint8_t counts(std::uint32_t slot) {
+    k_.counted_[slot] = k_.shown_[slot] != 0 && !triangles_.is_cut_away(TetHandle(slot)) ? 1 : 0;
+    return k_.counted_[slot];
+  }
   bool shrinks_all() const {
     return scene_.tets_shown <= kMostShrunkTets || triangles_.cuts_tets();
   }
@@ -109,7 +119,7 @@ void SceneWork::build() {
   take_worst(bad);
   for_each_slot([&](std::uint32_t slot) {
     if (k_.shown_[slot] != 0 && filter_.is_cut_away(TetHandle(slot))) k_.shown_[slot] = 0;
-    scene_.tets_shown += k_.shown_[slot];
+    scene_.tets_shown += counts(slot);
   });
   draw_all();
   write_note();
@@ -123,12 +133,13 @@ void SceneWork::clear() {
   const std::size_t slots = mesh_.tet_slots();
   if (k_.only_ && in_.only && k_.shown_.size() == slots) {  // little was written last time
     for (const std::uint32_t slot : *k_.only_) {
-      k_.shown_[slot] = k_.taken_[slot] = 0;
+      k_.shown_[slot] = k_.taken_[slot] = k_.counted_[slot] = 0;
       k_.bad_quality_[slot] = kNotBad;
     }
   } else {
     k_.shown_.assign(slots, 0);
     k_.taken_.assign(slots, 0);
+    k_.counted_.assign(slots, 0);
     k_.bad_quality_.assign(slots, kNotBad);
   }
   k_.only_.reset();
@@ -141,7 +152,7 @@ void SceneWork::choose(std::uint32_t slot, std::vector<SceneKeeper::Bad>& bad) {
   const TetHandle t(slot);
   if (!filter_.is_chosen(t)) return;
   k_.shown_[slot] = 1;
-  if (!triangles_.is_bad(t)) return;
+  if (!is_seen_as_bad(t)) return;
   k_.bad_quality_[slot] = mesh_.quality(t);
   bad.emplace_back(mesh_.quality(t), slot);
 }
@@ -216,6 +227,7 @@ bool SceneWork::update(std::span<const TetHandle> changed) {
   const std::size_t slots = std::max(mesh_.tet_slots(), k_.shown_.size());
   k_.shown_.resize(slots, 0);
   k_.taken_.resize(slots, 0);
+  k_.counted_.resize(slots, 0);
   k_.bad_quality_.resize(slots, kNotBad);
   for (SceneKeeper::Chains& chains : k_.chains_) chains.first.resize(slots, kNone);
   std::vector<std::uint32_t> looks;
@@ -266,10 +278,10 @@ void SceneWork::chain(List list) {
 void SceneWork::choose_again(std::uint32_t slot, std::vector<std::uint32_t>& looks) {
   const TetHandle t(slot);
   const bool is_there = slot < mesh_.tet_slots() && filter_.is_chosen(t);
-  change_bad(slot, is_there && triangles_.is_bad(t) ? mesh_.quality(t) : kNotBad, looks);
-  scene_.tets_shown -= k_.shown_[slot];
+  change_bad(slot, is_there && is_seen_as_bad(t) ? mesh_.quality(t) : kNotBad, looks);
+  scene_.tets_shown -= k_.counted_[slot];
   k_.shown_[slot] = is_there && !filter_.is_cut_away(t) ? 1 : 0;
-  scene_.tets_shown += k_.shown_[slot];
+  scene_.tets_shown += counts(slot);
 }
 
 void SceneWork::change_bad(std::uint32_t slot, Quality quality, std::vector<std::uint32_t>& looks) {

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "kernel/statistics.h"
 
@@ -169,8 +170,7 @@ class Teller {
                                     mesh_.point(v[3])};
     row("tet", fmt::format("{}", t.index()));
     row("region", fmt::format("{}", mesh_.label(t)));
-    row("vertices",
-        fmt::format("{} {} {} {}", v[0].index(), v[1].index(), v[2].index(), v[3].index()));
+    list("vertices", v);
     const bool is_bad = mesh_.quality(t) < kBadThreshold;
     row("quality", fmt::format("{:.4f}{}", mesh_.quality(t),
                                !is_bad                 ? ""
@@ -183,37 +183,50 @@ class Teller {
     const auto angles = dihedral_angles(p[0], p[1], p[2], p[3]);
     for (unsigned e = 0; e < 6; ++e) {
       const auto& ends = kEdgeVertices[e];
-      row(fmt::format("angle {}-{}", v[ends[0]].index(), v[ends[1]].index()), angle(angles[e]));
+      row(fmt::format("angle {}-{}", v[ends[0]].index(), v[ends[1]].index()), angle(angles[e]),
+          {TetEdge(t, e)});
     }
+    std::vector<TetHandle> neighbours;
+    for (const HalfFace n : mesh_.neighbours(t)) {
+      if (!n.is_outside()) neighbours.push_back(n.tet());
+    }
+    list("neighbours", neighbours);
   }
   void tell(TetEdge edge) {
     const auto ends = mesh_.vertices(edge);
     Shell found;
     const ShellKind kind = find_shell(mesh_, edge, found);
-    row("supporting edge", fmt::format("{} - {}", ends[0].index(), ends[1].index()));
+    list("supporting edge", ends);
     row("length", fmt::format("{:.4g}", mesh_.scale().to_file(glm::distance(at(mesh_, ends[0]),
                                                                             at(mesh_, ends[1])))));
     row("shell", name_of_shell(kind));
-    unsigned tets = 0;
     Quality worst = std::numeric_limits<Quality>::infinity();
-    std::string ids;
+    std::vector<TetHandle> tets;
     for (const TetEdge e : shell(mesh_, edge)) {
-      ++tets;
       worst = std::min(worst, mesh_.quality(e.tet()));
-      ids += fmt::format("{}{}", ids.empty() ? "" : " ", e.tet().index());
+      tets.push_back(e.tet());
     }
-    row("degree (tets)", fmt::format("{}", tets));
+    row("degree (tets)", fmt::format("{}", tets.size()));
     row("worst quality", fmt::format("{:.4f}", worst));
-    row("tets", ids);
+    list("tets", tets);
     const bool is_closed = kind == ShellKind::closed;
     if (!is_closed) return;
-    std::string ring;
-    for (unsigned i = 0; i < found.degree; ++i) {
-      ring += fmt::format("{}{}", i == 0 ? "" : " ", found.ring[i].index());
-    }
-    row("skirt polygon", ring);
+    list("skirt polygon",
+         std::vector<VertexHandle>(found.ring.begin(), found.ring.begin() + found.degree));
     row("supporting faces", fmt::format("{}", found.degree));
     row("link faces", fmt::format("{}", 2 * found.degree));
+  }
+  void link_to_edges(VertexHandle v, const std::vector<VertexHandle>& neighbours) {
+    Workspace workspace(mesh_);
+    std::vector<std::string> words;
+    std::vector<Selection> links;
+    for (const VertexHandle w : neighbours) {
+      const auto edge = find_edge(mesh_, v, w, workspace);
+      if (!edge) continue;
+      words.push_back(fmt::format("{}", w.index()));
+      links.emplace_back(*edge);
+    }
+    row("edges to", fmt::format("{}", fmt::join(words, " ")), std::move(links));
   }
   void tell(VertexHandle v) {
     const Point p = mesh_.point_in_file(v);
@@ -226,18 +239,32 @@ class Teller {
     for (const TetHandle t : ball) worst = std::min(worst, mesh_.quality(t));
     row("ball (tets)", fmt::format("{}", ball.size()));
     row("worst quality", fmt::format("{:.4f}", worst));
-    row("one-ring", fmt::format("{} vertices", vertices_around(mesh_, v, ball).size()));
+    const auto neighbours = vertices_around(mesh_, v, ball);
+    row("one-ring", fmt::format("{} vertices", neighbours.size()));
+    link_to_edges(v, {neighbours.begin(), neighbours.end()});
+    list("tets", ball);
   }
 
-  Rows take() { return std::move(rows_); }
+  std::vector<Row> take() { return std::move(rows_); }
 
  private:
-  void row(std::string name, std::string value) {
-    rows_.emplace_back(std::move(name), std::move(value));
+  void row(std::string name, std::string value, std::vector<Selection> links = {}) {
+    rows_.push_back({std::move(name), std::move(value), std::move(links)});
+  }
+  /// Numbers, each of which leads to what it names.
+  template <class Handles>
+  void list(std::string name, const Handles& handles) {
+    std::vector<std::string> words;
+    std::vector<Selection> links;
+    for (const auto handle : handles) {
+      words.push_back(fmt::format("{}", handle.index()));
+      links.emplace_back(handle);
+    }
+    row(std::move(name), fmt::format("{}", fmt::join(words, " ")), std::move(links));
   }
 
   const TetMesh& mesh_;
-  Rows rows_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace
@@ -342,7 +369,36 @@ Highlight highlight_points(std::span<const Point> corners, const glm::dvec3& ori
   return marks;
 }
 
-Rows describe(const TetMesh& mesh, const Selection& selection) {
+std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selection) {
+  std::vector<NamedVertex> names;
+  if (const auto* t = std::get_if<TetHandle>(&selection)) {
+    for (const VertexHandle v : mesh.vertices(*t)) names.push_back({v, {}});
+  } else if (const auto* e = std::get_if<TetEdge>(&selection)) {
+    const auto ends = mesh.vertices(*e);
+    names = {{ends[0], "a"}, {ends[1], "b"}};
+    Shell found;
+    if (find_shell(mesh, *e, found) == ShellKind::closed) {
+      for (unsigned i = 0; i < found.degree; ++i) {
+        names.push_back({found.ring[i], fmt::format("p{}", i + 1)});
+      }
+      return names;
+    }
+    for (const TetEdge other : shell(mesh, *e)) {
+      for (const VertexHandle v : mesh.vertices(other.tet())) {
+        const auto same = [&](const NamedVertex& name) { return name.vertex == v; };
+        if (std::none_of(names.begin(), names.end(), same)) names.push_back({v, {}});
+      }
+    }
+  } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
+    names.push_back({*v, "v"});
+    if (!mesh.tet_of(*v).is_valid()) return names;
+    Workspace workspace(mesh);
+    for (const VertexHandle w : one_ring(mesh, *v, workspace)) names.push_back({w, {}});
+  }
+  return names;
+}
+
+std::vector<Row> describe(const TetMesh& mesh, const Selection& selection) {
   Teller teller(mesh);
   std::visit([&](const auto& what) { teller.tell(what); }, selection);
   return teller.take();

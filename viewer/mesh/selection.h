@@ -52,8 +52,22 @@ Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::
 /// that may not have it any more.
 Highlight highlight_points(std::span<const Point> corners, const glm::dvec3& origin);
 
-/// Rows of a table: name and value. Words of the paper.
-using Rows = std::vector<std::pair<std::string, std::string>>;
-Rows describe(const TetMesh& mesh, const Selection& selection);
+/// A row of a table, in words of the paper.
+struct Row {
+  std::string name, value;
+  /// What the value names: one for the whole of it, or one for each of its words.
+  std::vector<Selection> links;
+};
+std::vector<Row> describe(const TetMesh& mesh, const Selection& selection);
+
+/// A vertex with its number to be written beside it. The role is "a", "b", "p1", ... in a shell, or
+/// empty.
+struct NamedVertex {
+  VertexHandle vertex;
+  std::string role;
+  friend bool operator==(const NamedVertex&, const NamedVertex&) = default;
+};
+/// Of a tet its corners, of an edge its shell, of a vertex it and its neighbours.
+std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selection);
 
 }  // namespace tetmend::viewer

@@ -46,6 +46,34 @@ bool TetTriangles::is_bad(TetHandle t) const {
   return static_cast<double>(static_cast<Quality>(of_angles)) < settings_.bad_below;
 }
 
+bool TetTriangles::is_cut_away(TetHandle t) const {
+  if (exact_.empty()) return false;
+  const auto c = corners(mesh_, t);
+  bool is_whole = true;
+  for (const Plane& plane : exact_) {
+    unsigned below = 0;
+    for (const glm::dvec3& p : c) below += plane.height(p) < 0 ? 1 : 0;
+    if (below == 0) return true;
+    is_whole = is_whole && below == 4;
+  }
+  if (is_whole || exact_.size() == 1) return false;
+  // Two planes may take away together what neither does alone.
+  for (const auto& f : kFaceVertices) {
+    if (remains(to_polygon({c[f[0]], c[f[1]], c[f[2]]}), exact_.size())) return false;
+  }
+  for (std::size_t i = 0; i < exact_.size(); ++i) {
+    if (remains(cross_section(c, exact_[i]), i)) return false;
+  }
+  return true;
+}
+
+bool TetTriangles::remains(Polygon polygon, std::size_t skipped_plane) const {
+  for (std::size_t i = 0; i < exact_.size() && polygon.size > 0; ++i) {
+    if (i != skipped_plane) polygon = clip(polygon, exact_[i], false);
+  }
+  return polygon.size > 0;
+}
+
 Colour TetTriangles::colour_of(TetHandle t) const {
   if (in_.colour_values.empty()) return is_bad(t) ? kBadColour : region_colour(mesh_.label(t));
   const auto value = static_cast<double>(in_.colour_values[t.index()]);

@@ -18,6 +18,8 @@ class TetTriangles {
 
   /// A needle whose angles are good is not bad.
   bool is_bad(TetHandle t) const;
+  /// Exact cuts leave nothing of it.
+  bool is_cut_away(TetHandle t) const;
   /// Planes cut through tets.
   bool cuts_tets() const { return !exact_.empty(); }
   /// Tets are drawn shrunk; `all` of them, or those next to what is seen.
@@ -33,6 +35,7 @@ class TetTriangles {
   bool is_shown(TetHandle t) const { return shown_[t.index()] != 0; }
   bool is_exposed(HalfFace face) const;
   bool is_near_the_eye(TetHandle t) const;
+  bool remains(Polygon polygon, std::size_t skipped_plane) const;
   Colour colour_of(TetHandle t) const;
   std::uint8_t alpha_of(Quality quality) const;
   std::array<glm::dvec3, 4> shrunk(TetHandle t) const;

@@ -175,6 +175,7 @@ void visit(Visitor& v, View& view) {
   v("map", s.map);
   v("measure", s.measure);
   v("bad", s.bad);
+  v("bad_beyond_cuts", s.bad_beyond_cuts);
   v("bad_below", s.bad_below, {-1, 2});
   v("filtered", s.filtered);
   v("range", s.range);
@@ -195,6 +196,8 @@ void visit(Visitor& v, View& view) {
   v("isolate", s.isolate);
   v("hidden_regions", s.hidden_regions);
   v("edges", view.edges);
+  v("numbers", view.numbers);
+  v("legend", view.legend);
   v("blended", view.blended);
   v("blend", view.blend, {0, 1});
   v("theme", view.theme);

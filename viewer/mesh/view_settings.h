@@ -30,6 +30,7 @@ struct SceneSettings {
   std::string map = "ember";
   std::string measure = "quality";  ///< of the histogram, the filter and the list of the worst
   bool bad = true;                  ///< bad tets in red, seen through the rest
+  bool bad_beyond_cuts = true;      ///< also those that cuts and peeling hide
   double bad_below = 1;             ///< tets whose angles are of less quality; 1: the goal
   bool filtered = false;            ///< show only tets whose value lies in `range`
   Range range;
@@ -40,7 +41,7 @@ struct SceneSettings {
   double shrink = 0;  ///< of each tet towards its centre, 0 to 0.9
   double ghosts = 0;  ///< opacity of the boundary of hidden tets, 0 to 1
   bool constraints = false;
-  bool isolate = false;  ///< of a trace: only the tets of the call at hand
+  bool isolate = false;  ///< only the tets of the call at hand, or of the selection
   std::vector<Label> hidden_regions;
   friend bool operator==(const SceneSettings&, const SceneSettings&) = default;
 };
@@ -52,6 +53,8 @@ struct ViewSettings {
   Camera camera;
   SceneSettings scene;
   bool edges = true;
+  bool numbers = true;          ///< of the vertices of the call at hand or of the selection
+  bool legend = true;           ///< of a trace: what the colours in the picture mean
   bool blended = false;         ///< of a trace: the shell before and after in one picture
   double blend = 0.5;           ///< share of the shell after the call in it
   std::string theme = "light";  ///< or "dark"

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/ui/file_browser.h"
 
+#include <exception>
 #include <system_error>
 #include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "kernel/error.h"
+#include "explain/lesson_guide.h"
 #include "kernel/formats/mesh_io.h"
 
 namespace tetmend::viewer::ui {
@@ -18,14 +19,23 @@ constexpr const char* kPopup = "##file";
 
 const char* title_of(FileQuestion question) {
   if (question == FileQuestion::save) return "Save the mesh as";
-  return question == FileQuestion::schedule ? "Choose a schedule" : "Open a mesh";
+  return question == FileQuestion::schedule ? "Choose a schedule" : "Open a mesh or a trace";
 }
 
 std::vector<std::string_view> extensions_of(FileQuestion question) {
   if (question == FileQuestion::schedule) return {".lua"};
   std::vector<std::string_view> extensions;
   for (const MeshFormat& format : mesh_formats()) extensions.push_back(format.extension);
+  if (question == FileQuestion::open) extensions.emplace_back(".trace");
   return extensions;
+}
+
+/// Of the file that is open, or the current one.
+std::filesystem::path folder_of(const std::string& file) {
+  std::error_code trouble;
+  const auto here = std::filesystem::current_path(trouble);
+  const auto folder = file.empty() ? here : (here / file).parent_path();
+  return folder.empty() ? std::filesystem::path("/") : folder;
 }
 
 }  // namespace
@@ -35,9 +45,7 @@ void FileBrowser::begin(const Document& document) {
   wants_focus_ = true;
   trouble_.clear();
   typed_.clear();
-  if (folder_.empty()) {
-    folder_ = std::filesystem::absolute(document.file()).parent_path();
-  }
+  if (folder_.empty()) folder_ = folder_of(document.file());
   go_to(folder_);
 }
 
@@ -47,7 +55,7 @@ void FileBrowser::go_to(const std::filesystem::path& folder) {
     entries_ = list_folder(folder, extensions);
     folder_ = folder.lexically_normal();
     trouble_.clear();
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     trouble_ = error.what();
   }
 }
@@ -80,6 +88,15 @@ void FileBrowser::list(float scale) {
   if (!next.empty()) go_to(next);
 }
 
+/// They are traces in a folder of their own.
+void FileBrowser::offer_lessons() {
+  const auto lessons = find_lessons();
+  if (lessons.empty()) return;
+  const float width = ImGui::CalcTextSize("lessons").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  if (ImGui::SmallButton("lessons")) go_to(folder_of(lessons.front().string()));
+}
+
 /// The dialog stays when that does not work.
 void FileBrowser::finish(Session& session) {
   wants_focus_ = true;
@@ -92,9 +109,9 @@ void FileBrowser::finish(Session& session) {
     if (question_ == FileQuestion::open) session.document.open(file);
     if (question_ == FileQuestion::save) session.document.save(file);
     if (question_ == FileQuestion::schedule) session.document.live.choose_schedule(file.string());
-    folder_ = std::filesystem::absolute(file).parent_path();
+    folder_ = folder_of(file.string());
     ImGui::CloseCurrentPopup();
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     trouble_ = error.what();
   }
 }
@@ -113,6 +130,7 @@ void FileBrowser::draw(Session& session, float scale) {
   }
   ImGui::TextUnformatted(title_of(question_));
   ImGui::TextDisabled("%s", folder_.string().c_str());
+  if (question_ == FileQuestion::open) offer_lessons();
   is_accepted_ = false;
   list(scale);
   if (std::exchange(wants_focus_, false)) ImGui::SetKeyboardFocusHere();

@@ -22,6 +22,7 @@ class FileBrowser {
   void begin(const Document& document);
   void go_to(const std::filesystem::path& folder);
   void list(float scale);
+  void offer_lessons();
   void finish(Session& session);
   std::filesystem::path chosen() const { return folder_ / typed_; }
 

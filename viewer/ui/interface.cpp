@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/ui/interface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "explain/lesson_guide.h"
 #include "kernel/error.h"
+#include "kernel/grouped.h"
+#include "viewer/commands/menu.h"
 #include "viewer/overlay.h"
 #include "viewer/ui/drawing_canvas.h"
+#include "viewer/ui/overlay.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 
@@ -20,35 +26,20 @@ namespace tetmend::viewer::ui {
 namespace {
 
 constexpr float kFontSize = 16;  // pixels at scale 1
-constexpr float kSideWidth = 290;
-constexpr float kTraceSideWidth = 450;
-constexpr float kMenuHeight = 24;
-constexpr float kStatusHeight = 26;
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-void load_font(float scale) {
+ImFont* load_font(float scale) {
   ImFontConfig config;
   config.OversampleH = 2;
   ImFontAtlas* fonts = ImGui::GetIO().Fonts;
   const float size = std::round(kFontSize * scale);
-  if (std::filesystem::exists(kFont)) {
-    fonts->AddFontFromFileTTF(kFont, size, &config);
-  } else {
-    config.SizePixels = size;
-    fonts->AddFontDefault(&config);
-  }
-}
-
-float side_width(const Document& document) {
-  return document.debugger() != nullptr ? kTraceSideWidth : kSideWidth;
-}
-
-float strip_height(const Document& document) {
-  return document.debugger() != nullptr ? kStripHeight : 0;
+  if (std::filesystem::exists(kFont)) return fonts->AddFontFromFileTTF(kFont, size, &config);
+  config.SizePixels = size;
+  return fonts->AddFontDefault(&config);
 }
 
 bool is_shown(const Panel& panel, const Document& document) {
@@ -83,7 +74,7 @@ Choice list_lessons(bool (*entry)(const char* title)) {
     try {
       const Lesson lesson = read_lesson(file);
       if (entry(lesson.title.c_str())) choice = {&find_command("open"), {lesson.trace.string()}};
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       ImGui::TextDisabled("%s", error.what());
     }
   }
@@ -113,14 +104,18 @@ Choice start_page() {
   return choice;
 }
 
-Choice menu() {
+Choice menu(Document& document) {
   Choice choice;
   if (!ImGui::BeginMainMenuBar()) return choice;
   for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
     if (!ImGui::BeginMenu(title)) continue;
     for (const Command& command : commands()) {
       if (command.menu != title) continue;
-      if (ImGui::MenuItem(c_text(command.help), c_text(command.keys))) choice.command = &command;
+      const bool is_on = is_possible(command, document);
+      if (ImGui::MenuItem(menu_text(command).c_str(), c_text(command.keys), false, is_on)) {
+        choice.command = &command;
+      }
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", c_text(command.help));
     }
     ImGui::EndMenu();
   }
@@ -128,6 +123,109 @@ Choice menu() {
   if (lesson.command != nullptr) choice = std::move(lesson);
   ImGui::EndMainMenuBar();
   return choice;
+}
+
+ImVec2 corner_of(const Area& area) {
+  return {area.x, area.y};
+}
+
+/// A window that fills an area. False: it is empty; then do not end it.
+bool begin(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
+  if (area.is_empty()) return false;
+  ImGui::SetNextWindowPos(corner_of(area));
+  ImGui::SetNextWindowSize({area.width, area.height});
+  ImGui::Begin(name, nullptr, kFixed | more);
+  return true;
+}
+
+void list_panels(Session& session, Side side) {
+  const bool has_trace = session.document.debugger() != nullptr;
+  for (const Panel& panel : panels()) {
+    if (panel.side != side || !is_shown(panel, session.document)) continue;
+    ImGui::PushID(has_trace ? "trace" : "mesh");
+    const bool is_main = !has_trace || panel.subject != Subject::mesh;
+    if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
+      ImGui::SetNextItemOpen(true, ImGuiCond_Once);
+    }
+    const bool is_open = ImGui::CollapsingHeader(panel.title);
+    ImGui::PopID();
+    if (!is_open) continue;
+    ImGui::PushID(panel.title);
+    panel.draw(session);
+    ImGui::PopID();
+    ImGui::Spacing();
+  }
+}
+
+/// Takes the lower part of an area for the algorithm. It stays where it is, whatever is above.
+Area dock_algorithm(Area& area, float share) {
+  const float wanted = algorithm_height();
+  const float height = std::min(wanted, share * area.height);
+  area.height -= height;
+  return {area.x, area.y + area.height, area.width, height};
+}
+
+void teach(Session& session, const Layout& layout) {
+  constexpr float kMostOfColumn = 0.62F;
+  Area above = layout.right;
+  const Area code = dock_algorithm(above, kMostOfColumn);
+  if (begin("##teaching", above)) {
+    draw_stack(session);
+    draw_ring(session);
+    ImGui::End();
+  }
+  if (begin("##code", code)) {
+    draw_algorithm_panel(session);
+    ImGui::End();
+  }
+  if (begin("##lesson", layout.strip)) {
+    if (session.document.debugger()->lesson()) draw_lesson_panel(session);
+    draw_last_event(session);
+    ImGui::End();
+  }
+}
+
+void show_status(Session& session, const Area& area, float scale) {
+  const Document& document = session.document;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale, 3 * scale});
+  if (begin("##status", area, ImGuiWindowFlags_NoScrollbar)) {
+    if (document.message.is_error) {
+      ImGui::TextColored({0.85F, 0.2F, 0.2F, 1}, "%s", document.message.text.c_str());
+    } else if (document.has_mesh()) {
+      const Scene& scene = session.document.scene();
+      ImGui::TextUnformatted(document.message.text.c_str());
+      ImGui::SameLine();
+      ImGui::TextDisabled("  shown: %s  %s", grouped(scene.tets_shown).c_str(), scene.note.c_str());
+    } else {
+      ImGui::TextDisabled("drop a mesh here, or press Ctrl+O; F1 shows all keys");
+    }
+    ImGui::End();
+  }
+  ImGui::PopStyleVar();
+}
+
+void show_keys(Session& session, float scale) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(window.x, 900 * scale), std::min(window.y, 640 * scale)});
+  ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
+  if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45F);
+    const auto row = [](std::string_view keys, std::string_view effect) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(c_text(keys));
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(c_text(effect));
+    };
+    for (const auto& gesture : mouse_gestures()) row(gesture.first, gesture.second);
+    for (const Command& command : commands()) {
+      if (!command.keys.empty()) row(command.keys, command.help);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
 }
 
 }  // namespace
@@ -138,6 +236,7 @@ Interface::Interface(float scale) : scale_(scale) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   load_font(scale);
+  large_ = load_font(kTeachingText * scale);
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -173,35 +272,48 @@ void Interface::apply_theme(const std::string& theme) {
 void Interface::arrange(Document& document) const {
   const Canvas window = document.window;
   document.resize(window);
-  if (!document.show_panels) return;
-  const int side = static_cast<int>(side_width(document) * scale_);
-  const int top = static_cast<int>(kMenuHeight * scale_);
-  const int bottom = static_cast<int>((kStatusHeight + strip_height(document)) * scale_);
-  if (2 * window.width < 5 * side || window.height < 6 * top + bottom)
-    return;  // no room: panels cover the mesh
-  document.canvas_corner = {side, top};
-  document.canvas = {window.width - 2 * side, window.height - top - bottom};
+  const Area canvas = lay_out(document, scale_).canvas;
+  document.canvas_corner = {static_cast<int>(canvas.x), static_cast<int>(canvas.y)};
+  document.canvas = {std::max(static_cast<int>(canvas.width), 1),
+                     std::max(static_cast<int>(canvas.height), 1)};
 }
 
 void Interface::build(Session& session) {
-  apply_theme(session.document.view.theme);
+  Document& document = session.document;
+  apply_theme(document.view.theme);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
+  const Layout layout = lay_out(document, scale_);
+  document.hovering = {};
+  ImFont* font = layout.is_teaching ? large_ : ImGui::GetFont();
   Choice choice;
-  if (session.document.show_panels) {
-    choice = menu();
-    if (!session.document.has_mesh()) {
-      Choice at_start = start_page();
-      if (at_start.command != nullptr) choice = std::move(at_start);
+  const bool is_whole = guarded(document, [&] {
+    if (document.show_panels) {
+      choice = menu(document);
+      if (!document.has_mesh()) {
+        Choice at_start = start_page();
+        if (at_start.command != nullptr) choice = std::move(at_start);
+      }
+      show_status(session, layout.status, scale_);
     }
-    sides(session);
-    if (session.document.debugger() != nullptr) strip(session);
-    status_line(session);
-  }
-  draw_choices(session);
-  if (session.document.show_keys) keys_page(session);
-  paint(draw_overlay(session.document, scale_), *ImGui::GetBackgroundDrawList());
-  browser_.draw(session, scale_);
+    draw_choices(session);
+    if (document.show_keys) show_keys(session, scale_);
+    browser_.draw(session, scale_);
+    place_dialog_.draw(session);
+  });
+  if (!is_whole) ImGui::ErrorCheckEndFrameRecover(nullptr);
+  ImGui::PushFont(font);
+  const bool is_done = guarded(document, [&] {
+    if (!ImGui::GetIO().WantCaptureMouse) {
+      point_by_mouse(document, ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
+    }
+    if (document.show_panels) panels_around(session, layout);
+    draw_overlay(document);
+    paint(draw_overlay(document, scale_), *ImGui::GetBackgroundDrawList());
+  });
+  if (!is_done) ImGui::ErrorCheckEndFrameRecover(nullptr);
+  ImGui::PopFont();
+  document.hovered = document.hovering;
   ImGui::Render();
   if (choice.command != nullptr) run_from_window(*choice.command, session, choice.arguments);
 }
@@ -210,90 +322,30 @@ void Interface::draw() const {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Interface::strip(Session& session) const {
-  const Document& document = session.document;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float side = side_width(document) * scale_;
-  const float height = strip_height(document) * scale_;
-  ImGui::SetNextWindowPos({side, window.y - kStatusHeight * scale_ - height});
-  ImGui::SetNextWindowSize({window.x - 2 * side, height});
-  ImGui::Begin("##strip", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
-  draw_timeline_strip(session);
-  ImGui::End();
-}
-
-void Interface::sides(Session& session) const {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const bool has_trace = session.document.debugger() != nullptr;
-  const float width = side_width(session.document) * scale_;
-  const float top = kMenuHeight * scale_;
-  const float height = window.y - top - kStatusHeight * scale_;
-  for (const Side side : {Side::left, Side::right}) {
-    ImGui::SetNextWindowPos({side == Side::left ? 0 : window.x - width, top});
-    ImGui::SetNextWindowSize({width, height});
-    ImGui::Begin(side == Side::left ? "##left" : "##right", nullptr, kFixed);
-    for (const Panel& panel : panels()) {
-      if (panel.side != side || !is_shown(panel, session.document)) continue;
-      ImGui::PushID(has_trace ? "trace" : "mesh");
-      const bool is_main = !has_trace || panel.subject != Subject::mesh;
-      if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
-        ImGui::SetNextItemOpen(true, ImGuiCond_Once);
-      }
-      const bool is_open = ImGui::CollapsingHeader(panel.title);
-      ImGui::PopID();
-      if (!is_open) continue;
-      ImGui::PushID(panel.title);
-      panel.draw(session);
-      ImGui::PopID();
-      ImGui::Spacing();
-    }
+void Interface::panels_around(Session& session, const Layout& layout) {
+  constexpr float kMostOfColumn = 0.42F;
+  if (layout.is_teaching) return teach(session, layout);
+  if (begin("##left", layout.left)) {
+    list_panels(session, Side::left);
     ImGui::End();
   }
-}
-
-void Interface::status_line(Session& session) const {
-  const Document& document = session.document;
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0, window.y - kStatusHeight * scale_});
-  ImGui::SetNextWindowSize({window.x, kStatusHeight * scale_});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale_, 3 * scale_});
-  ImGui::Begin("##status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
-  if (document.message.is_error) {
-    ImGui::TextColored({0.85F, 0.2F, 0.2F, 1}, "%s", document.message.text.c_str());
-  } else if (document.has_mesh()) {
-    const Scene& scene = session.document.scene();
-    ImGui::TextUnformatted(document.message.text.c_str());
-    ImGui::SameLine();
-    ImGui::TextDisabled("  shown: %zu  %s", scene.tets_shown, scene.note.c_str());
-  } else {
-    ImGui::TextDisabled("drop a mesh here, or press Ctrl+O; F1 shows all keys");
-  }
-  ImGui::End();
-  ImGui::PopStyleVar();
-}
-
-void Interface::keys_page(Session& session) const {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(window.x, 900 * scale_), std::min(window.y, 640 * scale_)});
-  ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
-  if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45F);
-    const auto row = [](std::string_view keys, std::string_view effect) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(c_text(keys));
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(c_text(effect));
-    };
-    for (const auto& gesture : mouse_gestures()) row(gesture.first, gesture.second);
-    for (const Command& command : commands()) {
-      if (!command.keys.empty()) row(command.keys, command.help);
+  Area right = layout.right;
+  const bool has_trace = session.document.debugger() != nullptr;
+  if (has_trace && !right.is_empty()) {
+    if (begin("##algorithm", dock_algorithm(right, kMostOfColumn))) {
+      draw_algorithm_panel(session);
+      ImGui::End();
     }
-    ImGui::EndTable();
   }
-  ImGui::End();
+  if (begin("##right", right)) {
+    if (layout.is_one_column) list_panels(session, Side::left);
+    list_panels(session, Side::right);
+    ImGui::End();
+  }
+  if (has_trace && begin("##strip", layout.strip, ImGuiWindowFlags_NoScrollbar)) {
+    draw_timeline_strip(session);
+    ImGui::End();
+  }
 }
 
 }  // namespace tetmend::viewer::ui

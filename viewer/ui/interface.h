@@ -6,6 +6,10 @@
 
 #include "viewer/commands/commands.h"
 #include "viewer/ui/file_browser.h"
+#include "viewer/ui/layout.h"
+#include "viewer/ui/place_dialog.h"
+
+struct ImFont;
 
 namespace tetmend::viewer::ui {
 
@@ -20,22 +24,22 @@ class Interface {
 
   /// Gives the document the part of the window that the panels leave.
   void arrange(Document& document) const;
-  /// Everything but the mesh. Between begin_frame() of whoever feeds events and draw().
+  /// Everything but the mesh. Between begin_frame() of whoever feeds events and draw(). What goes
+  /// wrong in a panel becomes the message of the document.
   void build(Session& session);
   /// Draws what build() has laid out into the current framebuffer.
   void draw() const;
   float scale() const { return scale_; }
 
  private:
-  void strip(Session& session) const;
-  void sides(Session& session) const;
-  void status_line(Session& session) const;
-  void keys_page(Session& session) const;
+  void panels_around(Session& session, const Layout& layout);
   void apply_theme(const std::string& theme);
 
   float scale_;
   std::string theme_;
+  ImFont* large_ = nullptr;  // for teaching
   FileBrowser browser_;
+  PlaceDialog place_dialog_;
 };
 
 }  // namespace tetmend::viewer::ui

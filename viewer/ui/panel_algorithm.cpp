@@ -11,10 +11,24 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-void show_code(const Pseudocode& code, unsigned line) {
+constexpr float kCallerLines = 3.5F;  // below the code
+constexpr float kGap = 1;             // between its lines, in pixels
+
+/// As high as all lines, or as there is room for.
+void begin_lines(const Pseudocode& code) {
+  const float all =
+      static_cast<float>(code.lines.size()) * (ImGui::GetTextLineHeight() + kGap) + 4 * kGap;
+  const float room =
+      ImGui::GetContentRegionAvail().y - kCallerLines * ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("##lines", {0, std::min(all, std::max(room, 3 * ImGui::GetFontSize()))});
+}
+
+/// `is_new`: the line is to be brought into sight.
+void show_code(const Pseudocode& code, unsigned line, bool is_new) {
   ImGui::TextWrapped("%s", code.title.data());
+  begin_lines(code);
   ImDrawList* list = ImGui::GetWindowDrawList();
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 1});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, kGap});
   for (unsigned i = 1; i <= code.lines.size(); ++i) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (i == line) {
@@ -26,11 +40,32 @@ void show_code(const Pseudocode& code, unsigned line) {
     ImGui::TextDisabled("%2u", i);
     ImGui::SameLine(2.2F * ImGui::GetFontSize());
     ImGui::TextUnformatted(code.lines[i - 1].data());  // literals
+    if (i == line && is_new) ImGui::SetScrollHereY(0.5F);
   }
   ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+/// True for some layouts after a move: sizes are known from the second on only.
+bool is_new_place(std::uint64_t position) {
+  constexpr int kLayouts = 4;
+  ImGuiStorage* storage = ImGui::GetStateStorage();
+  const int here = static_cast<int>(position) + 1;
+  int* shown = storage->GetIntRef(ImGui::GetID("##shown"), 0);
+  int* since = storage->GetIntRef(ImGui::GetID("##since"), 0);
+  if (*shown != here) *since = 0;
+  *shown = here;
+  return (*since)++ < kLayouts;
 }
 
 }  // namespace
+
+float algorithm_height() {
+  constexpr float kMostLines = 16;
+  return kMostLines * (ImGui::GetTextLineHeight() + kGap) +
+         (kCallerLines + 1) * ImGui::GetTextLineHeightWithSpacing() +
+         2 * ImGui::GetStyle().WindowPadding.y;
+}
 
 void draw_algorithm_panel(Session& session) {
   const Debugger& debugger = *session.document.debugger();
@@ -44,7 +79,7 @@ void draw_algorithm_panel(Session& session) {
     ImGui::TextDisabled(stack.empty() ? "no call here" : "an operator that is not described");
     return;
   }
-  show_code(*here.code, here.line);
+  show_code(*here.code, here.line, is_new_place(debugger.position()));
   if (stack.empty()) return;
   const CodePlace caller = stack.size() > 1 ? place_of(stack.size() - 2) : pass;
   if (caller.code == nullptr) return;

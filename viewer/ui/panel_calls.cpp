@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The tree of calls: level, target, degree, quality, and how each ended, as a colour.
+#include <array>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "explain/outcome_colour.h"
@@ -35,11 +38,51 @@ void outcome_dot(const Debugger& debugger, const Call& call) {
   ImGui::Dummy({size, size});
 }
 
+/// Pointed at, or its target is.
+bool is_lit(const Pointed& pointed, std::uint32_t number, const Call& call) {
+  if (pointed.call != kNoCall) return pointed.call == number;
+  return pointed.vertices.size() == call.target_size && pointed.contains(call.target());
+}
+
+/// The colours of the dots, in two rows.
+void explain_dots() {
+  constexpr std::array<std::pair<Outcome, const char*>, 6> kMeanings = {
+      {{Outcome::accepted, "accepted"},
+       {Outcome::no_improvement, "nothing better"},
+       {Outcome::rejected, "tried, undone"},
+       {Outcome::limit, "level or budget spent"},
+       {Outcome::constrained, "constrained"},
+       {Outcome::unfinished, "hollow: under way"}}};
+  const float size = ImGui::GetFontSize();
+  const float width = ImGui::GetContentRegionAvail().x / 3;
+  for (std::size_t i = 0; i < kMeanings.size(); ++i) {
+    if (i % 3 != 0)
+      ImGui::SameLine(width * static_cast<float>(i % 3) + ImGui::GetCursorStartPos().x);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 middle = {at.x + size / 2, at.y + size / 2};
+    const ImU32 colour = to_imgui(outcome_colour(kMeanings[i].first));
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    if (kMeanings[i].first == Outcome::unfinished) {
+      list->AddCircle(middle, 0.3F * size, colour, 0, 0.12F * size);
+    } else {
+      list->AddCircleFilled(middle, 0.3F * size, colour);
+    }
+    ImGui::Dummy({size, size});
+    ImGui::SameLine(0, 0.2F * size);
+    ImGui::TextUnformatted(kMeanings[i].second);
+  }
+}
+
 void draw_row(Session& session, const CallRow& row) {
   Debugger& debugger = *session.document.debugger();
   const Call& call = debugger.file().calls()[row.call];
   ImGui::PushID(static_cast<int>(row.call));
   ImGui::TableNextRow();
+  if (is_lit(session.document.pointed(), row.call, call)) {
+    Colour light = kPointedColour;
+    light.alpha = 110;
+    ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, to_imgui(light));
+  }
   ImGui::TableNextColumn();
   const float step = 0.5F * ImGui::GetFontSize();
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + step * static_cast<float>(row.indent));
@@ -58,6 +101,7 @@ void draw_row(Session& session, const CallRow& row) {
   }
   offer_history(session, call.target());
   if (ImGui::IsItemHovered()) {
+    session.document.hovering = session.document.pointed_call(row.call);
     const std::string tried =
         call.accepted() || call.worst_before == 0
             ? ""
@@ -96,7 +140,7 @@ void draw_calls_panel(Session& session) {
   Debugger& debugger = *session.document.debugger();
   const std::vector<CallRow>& rows = debugger.rows();
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  const float height = 24 * ImGui::GetTextLineHeightWithSpacing();
+  const float height = 22 * ImGui::GetTextLineHeightWithSpacing();
   if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
   const float font = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -113,6 +157,7 @@ void draw_calls_panel(Session& session) {
     }
   }
   ImGui::EndTable();
+  explain_dots();
 }
 
 }  // namespace tetmend::viewer::ui

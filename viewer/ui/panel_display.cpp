@@ -101,11 +101,17 @@ void draw_display_panel(Session& session) {
     ImGui::SetTooltip("misses the goal: an angle below %g° or above %g°", goal.min_angle,
                       goal.max_angle);
   }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!scene.bad);
+  ImGui::Checkbox("beyond cuts", &scene.bad_beyond_cuts);
+  ImGui::EndDisabled();
   slide("bad below", scene.bad_below, 0, 2, "%.2f");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("1: the goal is just met");
   ImGui::Checkbox("edges", &view.edges);
   ImGui::SameLine();
   ImGui::Checkbox("constraints", &scene.constraints);
+  ImGui::SameLine();
+  ImGui::Checkbox("numbers", &view.numbers);
   constexpr int kMostLayers = 20;
   ImGui::SliderInt("peel", &scene.peel, 0, std::max(kMostLayers, scene.peel), "%d layers");
   scene.peel = std::max(scene.peel, 0);

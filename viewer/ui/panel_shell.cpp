@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The shell of the call at hand: its polygon drawn flat, its tets before and after.
+#include <algorithm>
 #include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <imgui.h>
 
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
@@ -15,16 +22,75 @@ bool is_refused(const Debugger& debugger) {
   return !call.accepted() && debugger.position() >= call.events.end;
 }
 
-void show_blended(ViewSettings& view, std::span<const FlatDrawing> drawings, float side) {
+FlatDrawing polygon_of(const Document& document, const CallStudy& study) {
+  const Debugger& debugger = *document.debugger();
+  return draw_polygon(study, debugger.position(), is_refused(debugger),
+                      find_colour_map(document.view.scene.map));
+}
+
+void show_blended(Document& document, std::span<const FlatDrawing> drawings, float side) {
   constexpr double kLow = 0;
   constexpr double kHigh = 1;
-  show_flat("##blended", drawings, side);
+  ViewSettings& view = document.view;
+  show_flat("##blended", drawings, side, document);
   ImGui::SetNextItemWidth(side);
   ImGui::SliderScalar("##blend", ImGuiDataType_Double, &view.blend, &kLow, &kHigh, "after %.2f");
 }
 
+/// A row of a table, which stands for vertices.
+void point_at_row(Document& document, const std::string& name, std::vector<VertexHandle> vertices) {
+  ImGui::Selectable(name.c_str(), document.pointed().contains(vertices),
+                    ImGuiSelectableFlags_SpanAllColumns);
+  if (ImGui::IsItemHovered()) document.hovering = {std::move(vertices)};
+}
+
+/// One of the tables of Algorithm 2: rows i, columns j.
+void show_table(Document& document, const ShellPicture& shell, bool is_quality) {
+  const PocketTables& tables = shell.tables;
+  const auto m = static_cast<int>(tables.size);
+  if (!ImGui::BeginTable(is_quality ? "##q" : "##k", m + 1, ImGuiTableFlags_Borders)) return;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled(is_quality ? "M_q" : "M_k");
+  for (const VertexHandle v : shell.ring) {
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%u", v.index());
+  }
+  for (std::size_t i = 0; i < tables.size; ++i) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%u", shell.ring[i].index());
+    for (std::size_t j = 0; j < tables.size; ++j) {
+      ImGui::TableNextColumn();
+      const unsigned k = tables.k(i, j);
+      if (k >= tables.size) continue;
+      const std::string text = is_quality ? fmt::format("{:.2f}", tables.q(i, j))
+                                          : fmt::format("{}", shell.ring[k].index());
+      ImGui::PushID(static_cast<int>(i * tables.size + j));
+      std::vector<VertexHandle> triangle = {shell.ring[i], shell.ring[k], shell.ring[j]};
+      ImGui::Selectable(text.c_str(), document.pointed().contains(triangle));
+      if (ImGui::IsItemHovered()) document.hovering = {std::move(triangle)};
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndTable();
+}
+
+/// Rows and columns are vertices of the ring; a cell is the pocket from its row on to its column.
+void show_tables(Document& document, const ShellPicture& shell) {
+  if (shell.tables.size == 0) return;
+  if (!ImGui::TreeNodeEx("tables M_q and M_k (Algorithm 2)", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {
+    return;
+  }
+  wrapped_text(
+      "best worst quality of the pocket from the row on to the column, and the corner of "
+      "its triangle at the chord");
+  show_table(document, shell, true);
+  show_table(document, shell, false);
+}
+
 /// Chords of the polygon with their pockets, as they were before the edit; best first.
-void list_chords(const ShellPicture& shell) {
+void list_chords(Document& document, const ShellPicture& shell) {
   ImGui::SetNextItemOpen(true, ImGuiCond_Once);
   if (!ImGui::TreeNodeEx("chords and their pockets", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
   const std::vector<Chord> chords = chords_of(shell);
@@ -50,7 +116,9 @@ void list_chords(const ShellPicture& shell) {
   for (const Chord& chord : chords) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::Text("%u - %u", shell.ring[chord.from].index(), shell.ring[chord.to].index());
+    const std::string name =
+        fmt::format("{} - {}", shell.ring[chord.from].index(), shell.ring[chord.to].index());
+    point_at_row(document, name, {shell.ring[chord.from], shell.ring[chord.to]});
     quality(chord.on);
     quality(chord.back);
   }
@@ -72,15 +140,15 @@ void show_tets(Document& document, const CallStudy& study, float side) {
     ImGui::Text("%zu tets, %s %zu", study.before.size(), name, study.after.size());
     const std::array drawings = {draw(study.before, kOpacity * (1 - view.blend)),
                                  draw(study.after, kOpacity * view.blend)};
-    return show_blended(view, drawings, side);
+    return show_blended(document, drawings, side);
   }
   ImGui::Text("before: %zu tets", study.before.size());
-  show_flat("##before", draw(study.before, kOpacity), side);
+  show_flat("##before", draw(study.before, kOpacity), side, document);
   if (study.after.empty()) {
     ImGui::TextDisabled("nothing was tried");
   } else {
     ImGui::Text("%s: %zu tets", name, study.after.size());
-    show_flat("##after", draw(study.after, kOpacity), side);
+    show_flat("##after", draw(study.after, kOpacity), side, document);
   }
 }
 
@@ -96,12 +164,10 @@ void draw_shell_panel(Session& session) {
   const float width = ImGui::GetContentRegionAvail().x;
   const bool has_polygon = study->picture && study->picture->ring.size() >= 3;
   if (has_polygon) {
-    const Debugger& debugger = *document.debugger();
-    const FlatDrawing drawing = draw_polygon(*study, debugger.position(), is_refused(debugger),
-                                             find_colour_map(document.view.scene.map));
+    const FlatDrawing drawing = polygon_of(document, *study);
     wrapped_text(drawing.caption);
     ImGui::BeginGroup();
-    show_flat("##polygon", drawing, 0.6F * width);
+    show_flat("##polygon", drawing, 0.6F * width, document);
     ImGui::Checkbox("blended", &document.view.blended);
     ImGui::EndGroup();
     ImGui::SameLine(0.64F * width);
@@ -109,7 +175,24 @@ void draw_shell_panel(Session& session) {
   ImGui::BeginGroup();
   show_tets(document, *study, 0.35F * width);
   ImGui::EndGroup();
-  if (has_polygon) list_chords(*study->picture);
+  if (!has_polygon) return;
+  list_chords(document, *study->picture);
+  show_tables(document, *study->picture);
+}
+
+void draw_ring(Session& session) {
+  Document& document = session.document;
+  const CallStudy* study = document.debugger()->study();
+  if (study == nullptr) return ImGui::TextDisabled("no call here");
+  if (!study->picture || study->picture->ring.size() < 3) {
+    return show_tets(document, *study, 0.45F * ImGui::GetContentRegionAvail().y);
+  }
+  const FlatDrawing drawing = polygon_of(document, *study);
+  wrapped_text(drawing.caption);
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float side = std::max(std::min(room.x, room.y), 6 * ImGui::GetFontSize());
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + (room.x - side) / 2);
+  show_flat("##polygon", drawing, side, document);
 }
 
 }  // namespace tetmend::viewer::ui

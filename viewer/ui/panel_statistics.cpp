@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "kernel/grouped.h"
 #include "kernel/statistics.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -16,16 +18,16 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {"tets", [](const MeshStatistics& s) { return fmt::format("{}", s.tets); }},
-    {"vertices", [](const MeshStatistics& s) { return fmt::format("{}", s.vertices); }},
-    {"triangles", [](const MeshStatistics& s) { return fmt::format("{}", s.boundary_triangles); }},
+    {"tets", [](const MeshStatistics& s) { return grouped(s.tets); }},
+    {"vertices", [](const MeshStatistics& s) { return grouped(s.vertices); }},
+    {"triangles", [](const MeshStatistics& s) { return grouped(s.boundary_triangles); }},
     {"theta_min", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_min); }},
     {"theta_max", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_max); }},
     {"lambda", [](const MeshStatistics& s) { return fmt::format("{:.3f} %", s.lambda); }},
-    {"bad tets", [](const MeshStatistics& s) { return fmt::format("{}", s.n_bad); }},
+    {"bad tets", [](const MeshStatistics& s) { return grouped(s.n_bad); }},
     {"worst sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
     {"mean bad sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
-    {"inverted", [](const MeshStatistics& s) { return fmt::format("{}", s.inverted); }},
+    {"inverted", [](const MeshStatistics& s) { return grouped(s.inverted); }},
     {"volume", [](const MeshStatistics& s) { return volume_text(s, 6); }},
 };
 
@@ -53,6 +55,7 @@ void draw_statistics_panel(Session& session) {
     ImGui::TextUnformatted(row.value(document.statistics()).c_str());
   }
   ImGui::EndTable();
+  for (const std::string& note : document.notes()) wrapped_text(note);
 }
 
 }  // namespace tetmend::viewer::ui

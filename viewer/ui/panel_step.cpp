@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include "explain/outcome_colour.h"
+#include "explain/removal.h"
 #include "viewer/ui/flat_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
@@ -68,6 +69,13 @@ void show_breadcrumb(Session& session) {
   }
 }
 
+/// Which face a step of the recursion is to remove.
+void show_removal(const Debugger& debugger) {
+  if (debugger.call() == kNoCall) return;
+  const auto removal = removal_of(debugger.file(), debugger.call());
+  if (removal) wrapped_text(to_text(*removal));
+}
+
 void show_end(Debugger& debugger) {
   const CallStudy* study = debugger.study();
   if (study == nullptr) return;
@@ -89,9 +97,18 @@ void show_end(Debugger& debugger) {
 void draw_step_panel(Session& session) {
   show_buttons(session);
   ImGui::Separator();
+  draw_stack(session);
+  draw_last_event(session);
+}
+
+void draw_stack(Session& session) {
   show_breadcrumb(session);
+  show_removal(*session.document.debugger());
+}
+
+void draw_last_event(Session& session) {
   Debugger& debugger = *session.document.debugger();
-  ImGui::Text("%s", debugger.last_event().c_str());
+  ImGui::TextUnformatted(debugger.last_event().c_str());
   show_end(debugger);
 }
 

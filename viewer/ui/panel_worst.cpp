@@ -10,12 +10,12 @@ namespace tetmend::viewer::ui {
 void draw_worst_panel(Session& session) {
   Document& document = session.document;
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  const float height =
-      std::max(ImGui::GetContentRegionAvail().y - ImGui::GetFontSize(), 8 * ImGui::GetFontSize());
+  constexpr float kRows = 10.2F;  // always as many, so that no row moves away from the mouse
+  const float height = kRows * ImGui::GetTextLineHeightWithSpacing();
   if (!ImGui::BeginTable("##worst", 3, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.4F);
-  ImGui::TableSetupColumn("tet");
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.25F);
+  ImGui::TableSetupColumn("tet", ImGuiTableColumnFlags_WidthStretch, 0.35F);
   ImGui::TableSetupColumn(document.view.scene.measure.c_str());
   ImGui::TableHeadersRow();
   const auto place = document.place_among_worst();
@@ -26,7 +26,11 @@ void draw_worst_panel(Session& session) {
     ImGui::TableNextColumn();
     if (ImGui::Selectable(fmt::format("{}", i + 1).c_str(), place == i,
                           ImGuiSelectableFlags_SpanAllColumns)) {
-      document.fly_to_worst(i);
+      guarded(document, [&] { document.fly_to_worst(i); });
+    }
+    if (ImGui::IsItemHovered()) {
+      const TetVertices& v = document.mesh().vertices(worst[i]);
+      document.hovering = {{v.begin(), v.end()}};
     }
     if (document.debugger() != nullptr) offer_history(session, document.mesh().vertices(worst[i]));
     ImGui::TableNextColumn();

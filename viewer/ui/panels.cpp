@@ -8,7 +8,7 @@ namespace tetmend::viewer::ui {
 std::span<const Panel> panels() {
   using enum Side;
   using enum Subject;
-  static constexpr std::array<Panel, 14> kPanels = {
+  static constexpr std::array<Panel, 13> kPanels = {
       {{"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
        {"Histogram", left, mesh, &draw_histogram_panel},
@@ -19,12 +19,11 @@ std::span<const Panel> panels() {
        {"History", right, trace, &draw_history_panel,
         [](const Document& d) { return d.debugger()->history().has_value(); }},
        {"Shell", right, trace, &draw_shell_panel},
-       {"Algorithm", right, trace, &draw_algorithm_panel},
        {"Statistics", right, mesh, &draw_statistics_panel},
        {"Run", right, mesh, &draw_live_panel,
         [](const Document& d) { return d.live.state() != LiveState::idle; }},
-       {"Selection", right, mesh, &draw_selection_panel},
-       {"Worst tets", right, mesh, &draw_worst_panel}}};
+       {"Worst tets", right, mesh, &draw_worst_panel},
+       {"Selection", right, mesh, &draw_selection_panel}}};
   return kPanels;
 }
 

@@ -31,11 +31,14 @@ void draw_worst_panel(Session& session);
 void draw_statistics_panel(Session& session);
 void draw_selection_panel(Session& session);
 void draw_live_panel(Session& session);
-// With a trace; the last one with a lesson.
+// With a trace; the lesson with one that has a lesson.
 void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);
 void draw_step_panel(Session& session);
+/// The algorithm that the call at hand follows, with its line in sight. Fills the current window.
 void draw_algorithm_panel(Session& session);
+/// What it would like to have, in pixels.
+float algorithm_height();
 void draw_shell_panel(Session& session);
 void draw_lesson_panel(Session& session);
 void draw_history_panel(Session& session);
@@ -43,5 +46,13 @@ void draw_history_panel(Session& session);
 void offer_history(Session& session, std::span<const VertexHandle> subject);
 /// The menu of a right click on the mesh.
 void draw_choices(Session& session);
+
+// Parts of these, for the layout for teaching.
+/// The calls as a breadcrumb, and what the innermost is to do.
+void draw_stack(Session& session);
+/// What happened last, the verdict and its reason.
+void draw_last_event(Session& session);
+/// The polygon of the shell alone, as large as the window allows.
+void draw_ring(Session& session);
 
 }  // namespace tetmend::viewer::ui

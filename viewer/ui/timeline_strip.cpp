@@ -8,6 +8,7 @@
 
 #include "explain/icicle.h"
 #include "explain/outcome_colour.h"
+#include "kernel/grouped.h"
 #include "viewer/ui/flat_canvas.h"
 
 namespace tetmend::viewer::ui {
@@ -59,6 +60,7 @@ void draw_passes(const Band& band, const TraceFile& file) {
   for (const TracedPass& pass : file.passes()) {
     const float left = band.x(pass.events.begin);
     const float right = band.x(pass.events.end);
+    if (right <= left) continue;
     if (is_odd) {
       list->AddRectFilled({left, band.corner.y}, {right, band.corner.y + band.size.y},
                           ImGui::GetColorU32(ImGuiCol_Text, 0.06F));
@@ -84,10 +86,16 @@ void draw_curves(const Band& band, const Timeline& timeline) {
   constexpr double kUsed = 0.66;
   std::vector<ImVec2> bad;
   std::vector<ImVec2> worst;
-  for (const auto& s : timeline.samples) {
-    const float x = band.x(s.position);
-    bad.emplace_back(x, band.y(kUsed * static_cast<double>(s.n_bad) / static_cast<double>(most)));
-    worst.emplace_back(x, band.y(kUsed * std::max(s.q_worst, 0.0) / best));
+  // The number holds from one event on to the next: steps, one at a pixel at most.
+  const auto step = [](std::vector<ImVec2>& curve, float x, float y) {
+    if (!curve.empty()) curve.emplace_back(x, curve.back().y);
+    curve.emplace_back(x, y);
+  };
+  for (float x = 0; x <= band.size.x; ++x) {
+    const auto& s = timeline.at(band.position(band.corner.x + x));
+    const float left = band.corner.x + x;
+    step(bad, left, band.y(kUsed * static_cast<double>(s.n_bad) / static_cast<double>(most)));
+    step(worst, left, band.y(kUsed * std::max(s.q_worst, 0.0) / best));
   }
   const float width = ImGui::GetFontSize() / 9;
   list->AddPolyline(bad.data(), static_cast<int>(bad.size()), to_imgui(kBadColour), 0, width);
@@ -137,7 +145,8 @@ CallWindow window_of(const Debugger& debugger) {
   return call_window(debugger.file(), debugger.stack().front());
 }
 
-void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, float height) {
+void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, float height,
+              bool is_pointed) {
   const Call& call = debugger.file().calls()[bar.call];
   const float left = band.corner.x + band.size.x * static_cast<float>(bar.left);
   const float right = band.corner.x + band.size.x * static_cast<float>(bar.right);
@@ -147,25 +156,37 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled({left, top}, {std::max(right - 1, left + 1), top + height - 1},
                       to_imgui(colour), 2);
+  if (is_pointed && bar.count == 1) {
+    list->AddRectFilled({left, top}, {right - 1, top + height - 1}, to_imgui(kPointedColour), 2);
+  }
   if (debugger.call() == bar.call && bar.count == 1) {
     list->AddRect({left, top}, {right - 1, top + height - 1}, ImGui::GetColorU32(ImGuiCol_Text), 2,
                   0, 2);
   }
   if (bar.count > 1) return;
+  if (height < ImGui::GetFontSize()) return;
   write_inside(left, right, top,
                fmt::format("{} {}", short_name(debugger.file(), call), format_target(call)),
-               IM_COL32_WHITE);
+               is_pointed ? IM_COL32_BLACK : IM_COL32_WHITE);
 }
 
 void draw_icicles(Session& session, const Band& band, const CallWindow& window) {
   const Debugger& debugger = *session.document.debugger();
   frame(band);
-  const float height = 1.15F * ImGui::GetFontSize();
+  // All rows are whole.
+  unsigned deepest = 0;
+  for (std::uint32_t k = window.first_call; k < window.last_call; ++k) {
+    const auto& calls = debugger.file().calls();
+    deepest = std::max<unsigned>(deepest, calls[k].depth - calls[window.first_call].depth);
+  }
+  const float height =
+      std::min(1.15F * ImGui::GetFontSize(), band.size.y / static_cast<float>(deepest + 1));
   const auto bars = lay_out_icicle(debugger.file(), window,
                                    2.0 / static_cast<double>(std::max(band.size.x, 1.0F)));
   ImGui::GetWindowDrawList()->PushClipRect(
       band.corner, {band.corner.x + band.size.x, band.corner.y + band.size.y}, true);
-  for (const IcicleBar& bar : bars) draw_bar(debugger, band, bar, height);
+  const std::uint32_t pointed = session.document.pointed().call;
+  for (const IcicleBar& bar : bars) draw_bar(debugger, band, bar, height, bar.call == pointed);
   cursor_line(band, debugger.position());
   ImGui::GetWindowDrawList()->PopClipRect();
   ImGui::SetCursorScreenPos(band.corner);
@@ -177,6 +198,7 @@ void draw_icicles(Session& session, const Band& band, const CallWindow& window) 
              static_cast<unsigned>(std::max(0.0F, (mouse.y - band.corner.y) / height)));
   if (bar == nullptr) return;
   const Call& call = debugger.file().calls()[bar->call];
+  session.document.hovering = session.document.pointed_call(bar->call);
   ImGui::SetTooltip("call %u: %s %s, level %u, %s%s", bar->call,
                     short_name(debugger.file(), call).c_str(), format_target(call).c_str(),
                     call.level, outcome_text(call, debugger.end()).c_str(),
@@ -184,34 +206,64 @@ void draw_icicles(Session& session, const Band& band, const CallWindow& window) 
   if (ImGui::IsItemClicked()) run_from_window(find_command("enter"), session, {bar->call});
 }
 
-void draw_legend(const Debugger& debugger) {
+/// Where the window of the strip lies in the trace; dragging goes there.
+void draw_overview(Session& session, const Band& band, const CallWindow& window) {
+  const Debugger& debugger = *session.document.debugger();
+  frame(band);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {band.x(window.begin), band.corner.y},
+      {std::max(band.x(window.end), band.x(window.begin) + 2), band.corner.y + band.size.y},
+      ImGui::GetColorU32(ImGuiCol_Header));
+  cursor_line(band, debugger.position());
+  seek_by_mouse(session, "##overview", band);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the whole trace, and the part of it below");
+}
+
+std::string name_of(const Debugger& debugger, const CallWindow& window) {
+  const TraceFile& file = debugger.file();
+  if (!debugger.stack().empty()) {
+    const std::uint32_t call = debugger.stack().front();
+    return fmt::format("call {}, {} {}", call, short_name(file, file.calls()[call]),
+                       format_target(file.calls()[call]));
+  }
+  const bool is_all = window.begin == 0 && window.end == file.event_count();
+  return is_all ? "the whole trace" : "the pass at hand";
+}
+
+void draw_legend(const Debugger& debugger, const CallWindow& window) {
   const auto& s = debugger.timeline().at(debugger.position());
-  ImGui::Text("event %llu of %llu", static_cast<unsigned long long>(debugger.position()),
-              static_cast<unsigned long long>(debugger.end()));
+  ImGui::Text("event %s of %s", grouped(debugger.position()).c_str(),
+              grouped(debugger.end()).c_str());
   ImGui::SameLine();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kBadColour)), "  n_bad %zu", s.n_bad);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kBadColour)), "  n_bad %s",
+                     grouped(s.n_bad).c_str());
   ImGui::SameLine();
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kWorstColour)), "  q_worst %.4f",
                      s.q_worst);
+  ImGui::SameLine();
+  ImGui::TextDisabled("  below: %s, events %s to %s", name_of(debugger, window).c_str(),
+                      grouped(window.begin).c_str(), grouped(window.end).c_str());
 }
 
 }  // namespace
 
+/// Curves and icicles have one range and one cursor; where it lies in the trace is above.
 void draw_timeline_strip(Session& session) {
   const Debugger& debugger = *session.document.debugger();
-  draw_legend(debugger);
+  const CallWindow window = window_of(debugger);
+  draw_legend(debugger, window);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = ImGui::GetStyle().ItemSpacing.y;
-  const float upper = 0.36F * (room.y - gap);
-  draw_timeline(session, {at, {room.x, upper}, 0, static_cast<double>(debugger.end())});
-  const CallWindow window = window_of(debugger);
-  draw_icicles(session,
-               {{at.x, at.y + upper + gap},
-                {room.x, room.y - upper - gap},
-                static_cast<double>(window.begin),
-                static_cast<double>(window.end)},
-               window);
+  const float overview = 0.6F * ImGui::GetFontSize();
+  const float height = room.y - overview - 2 * gap;
+  const float upper = 0.36F * height;
+  const auto begin = static_cast<double>(window.begin);
+  const auto end = static_cast<double>(window.end);
+  draw_overview(session, {at, {room.x, overview}, 0, static_cast<double>(debugger.end())}, window);
+  const float top = at.y + overview + gap;
+  draw_timeline(session, {{at.x, top}, {room.x, upper}, begin, end});
+  draw_icicles(session, {{at.x, top + upper + gap}, {room.x, height - upper}, begin, end}, window);
 }
 
 }  // namespace tetmend::viewer::ui

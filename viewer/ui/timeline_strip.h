@@ -6,9 +6,6 @@
 
 namespace tetmend::viewer::ui {
 
-/// Height in units of the scale.
-inline constexpr float kStripHeight = 230;
-
 /// Fills the current window. Precondition: a trace is open.
 void draw_timeline_strip(Session& session);
 

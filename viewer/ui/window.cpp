@@ -126,7 +126,9 @@ class Window : public Host {
     constexpr double kLongest = 0.1;
     glfwWaitEventsTimeout(std::min(1 / debugger->speed, kLongest));
     const double now = glfwGetTime();
-    if (debugger->advance(now - played_)) document_.show_trace();
+    guarded(document_, [&] {
+      if (debugger->advance(now - played_)) document_.show_trace();
+    });
     played_ = now;
   }
 
@@ -138,14 +140,14 @@ class Window : public Host {
       inputs_.pop_front();
       if (input.is_button) lay_out();  // for the place of the mouse
       const bool is_for_panels = input.is_button || panels_take_keys();
-      input.deliver();
+      guarded(document_, input.deliver);
       if (document_.question != FileQuestion::none) settle();
       if (is_for_panels) lay_out();
     }
   }
 
   void lay_out() {
-    document_.follow_live();
+    guarded(document_, [&] { document_.follow_live(); });
     glfwGetFramebufferSize(window_, &document_.window.width, &document_.window.height);
     document_.window.width = std::max(document_.window.width, 1);
     document_.window.height = std::max(document_.window.height, 1);
@@ -166,7 +168,7 @@ class Window : public Host {
 
   void frame() {
     settle();
-    renderer_->draw(document_, {interface_->scale(), false});
+    guarded(document_, [&] { renderer_->draw(document_, {interface_->scale(), false}); });
     interface_->draw();
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/commands.h"
 
+#include <filesystem>
+#include <new>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -93,4 +95,100 @@ TEST_CASE("commands without a mesh are refused or do nothing") {
     }
     CHECK(document.scene().surface.empty());
   }
+}
+
+TEST_CASE("whatever a command throws becomes a message") {
+  TestSession s(test::one_tet());
+  CHECK(guarded(s.document, [] {}));
+  CHECK_FALSE(guarded(s.document, [] { throw std::filesystem::filesystem_error("no path", {}); }));
+  CHECK(s.document.message.is_error);
+  CHECK(s.document.message.text.find("no path") != std::string::npos);
+  CHECK_FALSE(guarded(s.document, [] { throw std::bad_alloc(); }));
+  CHECK(s.document.message.text == "out of memory");
+}
+
+TEST_CASE("a picture without a name replaces none") {
+  const test::TempFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder / ".");
+  TestSession s(test::one_tet());
+  for (int i = 0; i < 3; ++i) s.run("screenshot", nlohmann::json::array());
+  CHECK(s.document.message.text == "wrote tetmend-view-3.png");
+  for (const char* name : {"tetmend-view.png", "tetmend-view-2.png", "tetmend-view-3.png"}) {
+    CHECK(std::filesystem::exists(name));
+  }
+  std::filesystem::current_path(before);
+}
+
+TEST_CASE("a script undoes and redoes changes of the view") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  run_script(s.session, R"lua(
+    peel(1)
+    shrink(0.2)
+    undo_view()
+    expect(view().shrink == 0 and view().peel == 1, "one back")
+    undo_view()
+    expect(view().peel == 0, "two back")
+    redo_view()
+    redo_view()
+    expect(view().shrink > 0, "and on again")
+  )lua",
+             "test");
+  CHECK_THROWS_WITH_AS(s.run("redo_view"), doctest::Contains("no view after"), Error);
+}
+
+TEST_CASE("go_to selects what it is told and shows it in the middle") {
+  TestSession s(test::shell_mesh({.degree = 6}));
+  CHECK(s.run("go_to", {"edge 0-1"})["kind"] == "edge");
+  CHECK(s.run("go_to", {"vertex 3"})["vertex"] == 3);
+  CHECK(s.run("go_to", {"4"})["tet"] == 4);
+  const nlohmann::json at = s.run("locate");
+  CHECK(static_cast<double>(at["x"]) == doctest::Approx(200).epsilon(0.02));
+  CHECK_THROWS_WITH_AS(s.run("go_to", {"edge 0"}), doctest::Contains("edge FROM TO"), Error);
+  CHECK_THROWS_WITH_AS(s.run("go_to", {"face 0 1 2"}), doctest::Contains("not understood"), Error);
+  CHECK_THROWS_WITH_AS(s.run("go_to", {"tet 99"}), doctest::Contains("from 0 to 5"), Error);
+  s.run("go_to", nlohmann::json::array());
+  CHECK(s.document.ask_place);
+}
+
+TEST_CASE("the worst tet is shown alone, and Escape brings the mesh back") {
+  TestSession s(test::delaunay_ball(100, 1));
+  const std::size_t all = s.document.scene().tets_shown;
+  s.run("worst", nlohmann::json::array());
+  CHECK(s.document.scene().tets_shown == 1);
+  s.run("deselect");
+  CHECK(s.document.scene().tets_shown == all);
+  s.run("select_vertex", {5});
+  CHECK(s.document.scene().tets_shown == all);
+  s.run("isolate");
+  const std::size_t ball = s.document.scene().tets_shown;
+  CHECK(ball > 1);
+  CHECK(ball < all);
+}
+
+TEST_CASE("what a selection names can be pointed at, and it has numbers in the picture") {
+  TestSession s(test::shell_mesh({.degree = 6}));
+  s.run("select_edge", {0, 1});
+  const auto& names = s.document.names();
+  REQUIRE(names.size() == 8);
+  CHECK(names[0] == NamedVertex{VertexHandle(0), "a"});
+  CHECK(names[1] == NamedVertex{VertexHandle(1), "b"});
+  CHECK(names[2].role == "p1");
+  CHECK(names[7].role == "p6");
+  s.run("fit");
+  const auto pixel = [&](unsigned v) {
+    const Point& p = s.document.mesh().point(VertexHandle(v));
+    return *s.document.view.camera.project({p.x(), p.y(), p.z()}, s.document.canvas);
+  };
+  const glm::dvec2 a = pixel(0);
+  const glm::dvec2 b = pixel(1);
+  CHECK(s.document.find_named(a.x + 2, a.y, 8).vertices == std::vector{VertexHandle(0)});
+  CHECK(s.document.find_named((a.x + b.x) / 2, (a.y + b.y) / 2 + 1, 8).vertices.size() == 2);
+  CHECK(s.document.find_named(1, 1, 8).is_nothing());
+  s.run("point_at", {"edge 0 1"});
+  CHECK(state_of(s.document)["pointed"] == nlohmann::json{0, 1});
+  CHECK_THROWS_WITH_AS(s.run("point_at", {"edge 0"}), doctest::Contains("not understood"), Error);
+  CHECK_THROWS_WITH_AS(s.run("point_at", {"vertex 99"}), doctest::Contains("no vertex 99"), Error);
+  s.run("point_at", nlohmann::json::array());
+  CHECK(s.document.pointed().is_nothing());
 }

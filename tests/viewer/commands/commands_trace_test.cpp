@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <set>
+
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
 #include "tests/support/example_traces.h"
 #include "tests/viewer/session.h"
 #include "viewer/commands/script.h"
+#include "viewer/debugger/call_highlight.h"
+#include "viewer/debugger/flat_drawing.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;
@@ -118,4 +123,76 @@ TEST_CASE("moves in a trace tell what is wrong with their arguments") {
   CHECK_THROWS_WITH_AS(s.run("enter", {3}), doctest::Contains("from 0 to 2"), Error);
   CHECK_THROWS_WITH_AS(s.run("next_lesson_step"), doctest::Contains("no lesson"), Error);
   CHECK_THROWS_WITH_AS(s.run("last_bookmark"), doctest::Contains("no further"), Error);
+}
+
+TEST_CASE("the camera finds each isolated call, and what is isolated is never nothing") {
+  const test::TracedBall trace;
+  TraceSession s(trace.path());
+  const std::size_t calls = s.document.debugger()->file().calls().size();
+  REQUIRE(calls > 100);
+  for (std::size_t k = 0; k < 300 && k < calls; ++k) {
+    CAPTURE(k);
+    s.run("enter", {k});
+    REQUIRE(s.document.view.scene.isolate);
+    CHECK(s.document.scene().tets_shown > 0);
+    const auto ball = ball_around(*s.document.debugger()->study());
+    if (!ball) continue;
+    const auto at = s.document.view.camera.project(ball->centre, s.document.canvas);
+    REQUIRE(at);
+    CHECK(at->x > 0);
+    CHECK(at->x < s.document.canvas.width);
+    CHECK(at->y > 0);
+    CHECK(at->y < s.document.canvas.height);
+  }
+}
+
+TEST_CASE("what a call makes is not shown before it has made it") {
+  const test::TracedBall trace;
+  TraceSession s(trace.path());
+  const auto has_chords = [&] {
+    const auto& lines = s.document.highlighted().lines;
+    return std::any_of(lines.begin(), lines.end(),
+                       [](const Line& line) { return line.colour == kChordColour; });
+  };
+  Debugger& debugger = *s.document.debugger();
+  unsigned seen = 0;
+  for (std::uint32_t k = 0; k < debugger.file().calls().size() && seen < 5; ++k) {
+    if (debugger.file().calls()[k].algorithm != Algorithm::shell_transformation) continue;
+    s.run("enter", {k});
+    const CallStudy study = *debugger.study();
+    if (!study.covering || study.covering->triangles.empty()) continue;
+    ++seen;
+    s.run("seek", {study.first_edit - 1});
+    CHECK_FALSE(has_chords());
+    s.run("seek", {study.first_edit});
+    if (debugger.call() == k) CHECK(has_chords());
+  }
+  CHECK(seen == 5);
+}
+
+TEST_CASE("a step of the recursion shows the shell of its caller and the face to remove") {
+  TraceSession s(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace");
+  CHECK(s.document.teaching);
+  s.run("seek", {2});
+  CHECK(state_of(s.document)["trace"]["removal"] == "to remove: edge e = 0 1, level 0");
+  s.run("seek", {9});
+  const auto state = state_of(s.document);
+  CHECK(state["trace"]["removal"] == "to remove: face f = 0 1 5 at its link edge e = 1 5, level 1");
+  const auto has = [&](const char* text) {
+    const auto& legend = state["legend"];
+    return std::find(legend.begin(), legend.end(), text) != legend.end();
+  };
+  CHECK(has("shell of the caller, 0 1"));
+  CHECK(has("face f to remove, 0 1 5"));
+  const auto& faces = s.document.highlighted().faces;
+  CHECK(std::any_of(faces.begin(), faces.end(), [](const SurfaceVertex& v) {
+    return v.colour.red == kFaceToRemoveColour.red && v.colour.blue == kFaceToRemoveColour.blue;
+  }));
+  std::set<std::string> roles;
+  for (const auto& name : state["names"]) roles.insert(name["role"].get<std::string>());
+  for (const char* role : {"a", "b", "p1", "p2", "p3"}) CHECK(roles.contains(role));
+  s.run("point_at", {"call 0"});
+  CHECK(state_of(s.document)["pointed"].size() == 2);
+  s.run("step_into");
+  CHECK(s.document.pointed().is_nothing());
 }

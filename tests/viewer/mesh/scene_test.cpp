@@ -143,6 +143,34 @@ TEST_CASE("bad tets are seen where a cut or peeling hides them, but not where a 
   }
 }
 
+TEST_CASE("bad tets beyond a cut can be left out") {
+  TestSession s(test::delaunay_ball(200, 2));
+  s.run("cut", {1, {{"exact", true}}});
+  const std::size_t all = s.document.scene().bad_shown;
+  s.run("bad_beyond_cuts");
+  const std::size_t left = s.document.scene().bad_shown;
+  CHECK(left < all);
+  CHECK(left > 0);
+  s.run("cut", {1, {{"exact", false}}});
+  CHECK(s.document.scene().bad_shown < all);
+}
+
+TEST_CASE("what exact cuts take away is not counted as shown") {
+  TestSession s(test::kuhn_cube(4, 0, 1));
+  CHECK(s.document.scene().tets_shown == 384);
+  s.run("cut", {1, {{"exact", true}}});
+  CHECK(s.document.scene().tets_shown == 192);
+  s.run("cut", {2, {{"exact", true}}});
+  s.run("cut", {3, {{"exact", true}}});
+  CHECK(s.document.scene().tets_shown == 48);
+  // A slanted plane cuts through tets: these are shown.
+  s.run("show_all");
+  s.run("cut", {1, {{"exact", true}, {"normal", {1, 0.3, 0.2}}, {"position", 0.1}}});
+  const std::size_t shown = s.document.scene().tets_shown;
+  CHECK(shown > 192);
+  CHECK(shown < 384);
+}
+
 TEST_CASE("constraint faces inside the volume are drawn from both sides") {
   TestSession s(test::constrained_face());
   s.run("bad");

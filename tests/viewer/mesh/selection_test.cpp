@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "tests/viewer/session.h"
@@ -15,9 +16,9 @@ using test::TestSession;
 
 namespace {
 
-std::string value_of(const Rows& rows, const std::string& name) {
+std::string value_of(const std::vector<Row>& rows, const std::string& name) {
   for (const auto& row : rows) {
-    if (row.first == name) return row.second;
+    if (row.name == name) return row.value;
   }
   return "(no row)";
 }
@@ -72,7 +73,7 @@ TEST_CASE("a click near a corner takes the vertex, near an edge the edge, else t
 TEST_CASE("an edge is described by its shell, in the words of the paper") {
   TestSession s(test::shell_mesh({.degree = 6}));
   s.run("select_edge", {0, 1});
-  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  const std::vector<Row> rows = describe(s.document.mesh(), s.document.selection());
   CHECK(value_of(rows, "supporting edge") == "0 - 1");
   CHECK(value_of(rows, "shell") == "closed");
   CHECK(value_of(rows, "degree (tets)") == "6");
@@ -88,7 +89,7 @@ TEST_CASE("an edge is described by its shell, in the words of the paper") {
 TEST_CASE("the shell of a boundary edge is open") {
   TestSession s(test::shell_mesh({.degree = 6, .open = true}));
   s.run("select_edge", {0, 1});
-  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  const std::vector<Row> rows = describe(s.document.mesh(), s.document.selection());
   CHECK(value_of(rows, "shell").starts_with("open"));
   CHECK(value_of(rows, "degree (tets)") == "5");
 }
@@ -96,12 +97,12 @@ TEST_CASE("the shell of a boundary edge is open") {
 TEST_CASE("a tet is described by its number, region, quality and six angles") {
   TestSession s(test::one_tet());
   s.run("select_tet", {0});
-  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  const std::vector<Row> rows = describe(s.document.mesh(), s.document.selection());
   CHECK(value_of(rows, "tet") == "0");
   CHECK(value_of(rows, "quality") == "1.8856");  // of 1 where the goal is just met
   CHECK(value_of(rows, "min_sine") == "0.9428");
   CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& row) {
-          return row.first.starts_with("angle") && row.second == "70.53°";
+          return row.name.starts_with("angle") && row.value == "70.53°";
         }) == 6);
 }
 
@@ -126,9 +127,34 @@ TEST_CASE("of a bad tet it is told whether it misses the goal or is a needle") {
 TEST_CASE("a vertex is described by its ball") {
   TestSession s(test::shell_mesh({.degree = 5}));
   s.run("select_vertex", {0});
-  const Rows rows = describe(s.document.mesh(), s.document.selection());
+  const std::vector<Row> rows = describe(s.document.mesh(), s.document.selection());
   CHECK(value_of(rows, "ball (tets)") == "5");
   CHECK(value_of(rows, "one-ring") == "6 vertices");
+}
+
+TEST_CASE("what a description names leads to it: angles to edges, vertices, tets") {
+  TestSession s(test::shell_mesh({.degree = 5}));
+  const TetMesh& mesh = s.document.mesh();
+  const auto links_of = [&](const Selection& selection, const std::string& name) {
+    for (const Row& row : describe(mesh, selection)) {
+      if (row.name == name) return row.links;
+    }
+    return std::vector<Selection>();
+  };
+  const TetVertices& v = mesh.vertices(TetHandle(0));
+  CHECK(links_of(TetHandle(0), "vertices").size() == 4);
+  CHECK(links_of(TetHandle(0), "neighbours").size() == 2);
+  for (unsigned e = 0; e < 6; ++e) {
+    const auto& ends = kEdgeVertices[e];
+    const auto links = links_of(
+        TetHandle(0), fmt::format("angle {}-{}", v[ends[0]].index(), v[ends[1]].index()));
+    REQUIRE(links.size() == 1);
+    CHECK(links[0] == Selection(TetEdge(TetHandle(0), e)));
+  }
+  s.run("select_edge", {0, 1});
+  CHECK(links_of(s.document.selection(), "tets").size() == 5);
+  CHECK(links_of(s.document.selection(), "skirt polygon").size() == 5);
+  CHECK(links_of(VertexHandle(0), "edges to").size() == 6);
 }
 
 TEST_CASE("what is not in the mesh cannot be selected") {

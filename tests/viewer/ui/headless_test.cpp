@@ -192,3 +192,39 @@ TEST_CASE("what is wrong is said in one line, with an exit status") {
   fails({"--nonsense"}, 2, "--nonsense");
   CHECK_FALSE(std::filesystem::exists(out));
 }
+
+TEST_CASE("without a driver of EGL there is one line and status 1") {
+  const TempFolder folder;
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", (folder / "none.json").c_str(), 1);
+  const Outcome outcome = run_program({"--render", (folder / "out.png").string(), kSheet});
+  ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("cannot draw without a display") != std::string::npos);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+}
+
+TEST_CASE("in a small window the columns give way to the picture") {
+  const TempFolder folder;
+  const Outcome outcome = run_script(folder, R"lua(
+    panels()
+    open()lua" + in_quotes(kSheet) + R"lua()
+    local function middle(width, height)
+      size(width, height)
+      select_tet(17)
+      fit()
+      local p = locate()
+      return p.x / width, p.y / height
+    end
+    local x = middle(1400, 800)
+    expect(math.abs(x - 0.5) < 0.02, "two columns: in the middle")
+    x = middle(640, 400)
+    expect(math.abs(x - (640 - 290) / 2 / 640) < 0.02, "one column, at the right")
+    x = middle(400, 300)
+    expect(math.abs(x - 0.5) < 0.02, "none")
+    screenshot()lua" + in_quotes(folder / "small.png") +
+                                                 R"lua()
+  )lua");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}

@@ -117,3 +117,46 @@ TEST_CASE("panels of a trace are drawn in both themes: tree, polygon, timeline")
   CHECK(outcome.status == 0);
   CHECK(read_png(folder / "a.png").width == 1300);
 }
+
+TEST_CASE("what is pointed at lights up in the picture and in the ring") {
+  const TempFolder folder;
+  const auto picture = [&](const char* name) { return (folder / name).string(); };
+  const Outcome outcome =
+      run_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace",
+                 fmt::format(R"lua(
+    size(1500, 940)
+    panels()
+    seek(9)
+    screenshot("{}")
+    point_at("vertex 1")
+    screenshot("{}")
+    point_at("call 2")
+    screenshot("{}")
+    teaching()
+    point_at()
+    screenshot("{}")
+    point_at("call 2")
+    screenshot("{}")
+  )lua",
+                             picture("a.png"), picture("b.png"), picture("c.png"),
+                             picture("d.png"), picture("e.png")));
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.status == 0);
+  const auto lit = [](const viewer::Image& image, int left, int right) {
+    std::size_t count = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = left; x < right; ++x) {
+        const viewer::Colour& c = image.at(x, y);
+        if (c.red > 240 && c.green > 200 && c.blue < 60) ++count;
+      }
+    }
+    return count;
+  };
+  const int column = 1500 * 62 / 100;  // of the layout for teaching
+  const viewer::Image before = read_png(folder / "a.png");
+  CHECK(lit(before, 0, 1500) == 0);
+  CHECK(lit(read_png(folder / "b.png"), 0, column) > 20);    // in the picture
+  CHECK(lit(read_png(folder / "c.png"), 0, column) > 20);    // the target of the call
+  CHECK(lit(read_png(folder / "e.png"), 450, 1050) > 20);    // likewise, between the columns
+  CHECK(lit(read_png(folder / "d.png"), 450, 1050) == 0);
+}

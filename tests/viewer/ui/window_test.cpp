@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/example_traces.h"
+
 using namespace tetmend;
 using namespace tetmend::test;
 using viewer::count_red;
@@ -50,4 +52,31 @@ TEST_CASE("keys and mouse work in the window") {
   CHECK(state["view"]["filtered"] == true);
   CHECK(state["view"]["range"][1] > state["view"]["range"][0]);
   CHECK(state["shown"] < state["tets"]);
+}
+
+TEST_CASE("without a file the dialog opens, lists traces and opens what is typed") {
+  if (!can_test_window()) return;
+  const HandmadeTrace trace;
+  Viewer viewer("", "1000x700");
+  std::filesystem::copy_file(trace.path(), "here.trace");
+  type("key ctrl+o");
+  click(500, 262);  // the first entry below "../": the only file
+  type("key Return");
+  type("mousemove 500 350");
+  const auto state = viewer.quit();
+  CHECK(state["file"].get<std::string>().ends_with("here.trace"));
+}
+
+TEST_CASE("a dialog asks where to go, and says when there is no such place") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  type("key ctrl+g");
+  type("type 'edge 1'");
+  type("key Return");
+  type("key ctrl+a");
+  type("type 'tet 17'");
+  type("key Return");
+  type("mousemove 500 350");
+  const auto state = viewer.quit();
+  CHECK(state["selection"]["tet"] == 17);
 }

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace tetmend::face {
+namespace tetmend {
 
 /// 1234567 as 1,234,567.
 inline std::string grouped(std::size_t count) {
@@ -27,4 +27,4 @@ inline std::string decimal(double value, int digits) {
   return tiny || huge ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, digits);
 }
 
-}  // namespace tetmend::face
+}  // namespace tetmend

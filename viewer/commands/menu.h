@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Commands as menus have them: in few words, and greyed where they would do nothing.
+#pragma once
+
+#include <string>
+
+#include "viewer/commands/commands.h"
+
+namespace tetmend::viewer {
+
+/// "Open ...", "Step over": without full sentences, and without what is for scripts.
+std::string menu_text(const Command& command);
+
+/// False where the command would only complain: without a mesh, a trace, a run, a selection.
+bool is_possible(const Command& command, Document& document);
+
+}  // namespace tetmend::viewer

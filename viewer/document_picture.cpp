@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+// What stands out in the picture of a document, and where its camera goes.
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "explain/removal.h"
+#include "kernel/error.h"
+#include "kernel/shell.h"
+#include "viewer/debugger/call_highlight.h"
+#include "viewer/debugger/flat_drawing.h"
+#include "viewer/document.h"
+#include "viewer/mesh/direction.h"
+
+namespace tetmend::viewer {
+
+namespace {
+
+constexpr std::size_t kMostNamed = 80;  // more numbers cannot be read
+
+void add_name(std::vector<NamedVertex>& names, VertexHandle v, std::string role = {}) {
+  const auto same = [&](const NamedVertex& name) { return name.vertex == v; };
+  if (names.size() >= kMostNamed || std::any_of(names.begin(), names.end(), same)) return;
+  names.push_back({v, std::move(role)});
+}
+
+/// Around tets, without their surroundings; nothing if there are none.
+std::optional<Ball> ball_of(const TetMesh& mesh, const std::vector<TetHandle>& tets) {
+  if (tets.empty()) return std::nullopt;
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high = -low;
+  for (const TetHandle t : tets) {
+    for (const glm::dvec3& p : corners(mesh, t)) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  return Ball{(low + high) / 2.0, std::max(glm::distance(low, high) / 2, 1e-12)};
+}
+
+/// Around both, if the other is not so much larger that the one would be lost in it.
+Ball join(const Ball& one, const Ball& other) {
+  constexpr double kMost = 2.5;
+  const double apart = glm::distance(one.centre, other.centre);
+  const double radius =
+      std::max((apart + one.radius + other.radius) / 2, std::max(one.radius, other.radius));
+  if (radius > kMost * one.radius) return one;
+  if (apart + one.radius <= other.radius) return other;
+  if (apart + other.radius <= one.radius) return one;
+  const glm::dvec3 along = (other.centre - one.centre) / apart;
+  return {one.centre + (radius - one.radius) * along, radius};
+}
+
+double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  const glm::dvec2 d = b - a;
+  const double length2 = glm::dot(d, d);
+  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0;
+  return glm::distance(p, a + t * d);
+}
+
+}  // namespace
+
+bool Pointed::contains(std::span<const VertexHandle> all) const {
+  return !all.empty() && std::all_of(all.begin(), all.end(), [&](VertexHandle v) {
+    return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+  });
+}
+
+// --- the camera ----------------------------------------------------------------------------------
+
+void Document::go_home() {
+  view.camera.look_from("home");
+  view.camera.fit(box_, canvas);
+}
+
+void Document::fit_first() {
+  if (call_in_view()) {
+    fit();
+  } else {
+    go_home();
+  }
+}
+
+/// Around the call at hand and the shell of its caller, unless something else is selected.
+std::optional<Ball> Document::call_in_view() {
+  const CallStudy* study = debugger_ ? debugger_->study() : nullptr;
+  if (study == nullptr) return std::nullopt;
+  if (selection_ != target_ && !std::holds_alternative<std::monostate>(selection_)) {
+    return std::nullopt;
+  }
+  auto ball = ball_around(*study);
+  if (!ball) ball = ball_of(mesh_, near_);
+  if (!ball || !caller_edge_) return ball;
+  const auto caller = ball_of(mesh_, tets_of(mesh_, Selection(*caller_edge_)));
+  return caller ? join(*ball, *caller) : *ball;
+}
+
+void Document::fit() {
+  constexpr double kSurroundings = 1.3;
+  if (const auto call = call_in_view()) {
+    view.camera.fit({call->centre, kSurroundings * call->radius}, canvas);
+  } else if (std::holds_alternative<std::monostate>(selection_)) {
+    view.camera.fit(box_, canvas);
+  } else {
+    view.camera.fit(ball_around(mesh_, selection_), canvas);
+  }
+}
+
+void Document::fly_to(const Selection& selection) {
+  select(selection);
+  if (view.scene.isolate) return fit();
+  // Close enough to see it, far enough to see where it is.
+  const Ball around = ball_around(mesh_, selection_);
+  view.camera.fit({around.centre, std::max(3 * around.radius, 1e-3 * ball_.radius)}, canvas);
+}
+
+void Document::fly_to_worst(std::size_t i) {
+  if (i >= worst().size()) {
+    throw Error(
+        fmt::format("the list of the worst has {} tets, there is no {}", worst().size(), i + 1));
+  }
+  const TetHandle tet = worst()[i];
+  view.scene.isolate = true;
+  turn_to(view.camera, corners(mesh_, tet));
+  select(tet);
+  fit();
+}
+
+/// Its centre lies in the canvas, and it is neither a dot nor much larger than the canvas.
+bool Document::is_seen(const Ball& ball) const {
+  constexpr double kLeast = 0.06;  // of the height
+  constexpr double kMost = 0.8;
+  const auto centre = view.camera.project(ball.centre, canvas);
+  const auto top = view.camera.project(ball.centre + ball.radius * view.camera.up(), canvas);
+  if (!centre || !top) return false;
+  const bool is_inside =
+      centre->x > 0 && centre->y > 0 && centre->x < canvas.width && centre->y < canvas.height;
+  const double share = glm::distance(*centre, *top) / std::max(canvas.height, 1);
+  return is_inside && share > kLeast && share < kMost;
+}
+
+void Document::follow_call() {
+  const std::uint32_t call = debugger_->call();
+  const std::uint32_t root = call == kNoCall ? kNoCall : debugger_->stack().front();
+  const bool is_new = call != shown_call_;
+  const bool is_elsewhere = root != shown_root_;
+  shown_call_ = call;
+  shown_root_ = root;
+  if (!follow_trace || call == kNoCall) return;
+  const auto ball = call_in_view();
+  if (is_elsewhere || (is_new && view.scene.isolate && ball && !is_seen(*ball))) fit();
+}
+
+bool Document::undo_view() {
+  const auto before = history_.undo(view);
+  if (before) view = *before;
+  return before.has_value();
+}
+
+bool Document::redo_view() {
+  const auto after = history_.redo(view);
+  if (after) view = *after;
+  return after.has_value();
+}
+
+// --- what stands out -----------------------------------------------------------------------------
+
+/// The tets to show. Empty: all.
+std::vector<TetHandle> Document::isolated() const {
+  if (!view.scene.isolate) return {};
+  const bool is_own = selection_ != target_ && !std::holds_alternative<std::monostate>(selection_);
+  if (!is_own) return near_;
+  std::vector<TetHandle> selected = tets_of(mesh_, selection_);
+  const bool is_among = std::any_of(selected.begin(), selected.end(), [&](TetHandle t) {
+    return std::binary_search(near_.begin(), near_.end(), t);
+  });
+  return is_among ? near_ : selected;
+}
+
+void Document::mark(const Highlight& highlight, const Colour& colour, std::string text) {
+  if (highlight.lines.empty() && highlight.faces.empty()) return;
+  marks_.lines.insert(marks_.lines.end(), highlight.lines.begin(), highlight.lines.end());
+  marks_.faces.insert(marks_.faces.end(), highlight.faces.begin(), highlight.faces.end());
+  call_legend_.push_back({colour, std::move(text)});
+}
+
+void Document::mark_call() {
+  marks_ = {};
+  near_.clear();
+  call_legend_.clear();
+  call_names_.clear();
+  caller_edge_.reset();
+  isolated_.settings.reset();
+  const CallStudy* study = debugger_->study();
+  if (study == nullptr) return;
+  near_ = tets_of(mesh_, *study);
+  mark_caller(*study);
+  name_call(*study);
+  if (near_.empty() && caller_edge_) {  // the target is gone, and nothing was done
+    near_ = tets_of(mesh_, Selection(*caller_edge_));
+  }
+  const bool is_made = study->covering && debugger_->position() >= study->first_edit;
+  if (!is_made) return;
+  const char* tense = study->undone ? "tried" : "made";
+  mark(highlight_covering(*study, ball_.centre), kChordColour,
+       fmt::format("triangles of the pockets, {}", tense));
+  if (!study->covering->core.empty()) {
+    call_legend_.push_back({kCoreColour, "core: there the edge stays"});
+  }
+}
+
+/// The shell that a recursive call is to make smaller, and the face that it is to remove.
+void Document::mark_caller(const CallStudy& study) {
+  const TraceFile& file = debugger_->file();
+  const std::uint32_t caller = caller_of(file, study.call);
+  if (caller == kNoCall) return;
+  const Selection edge = target_of(caller);
+  if (!std::holds_alternative<TetEdge>(edge)) return;
+  caller_edge_ = std::get<TetEdge>(edge);
+  const auto ends = mesh_.vertices(*caller_edge_);
+  mark(highlight_caller(mesh_, *caller_edge_, ball_.centre), kGhostColour,
+       fmt::format("shell of the caller, {} {}", ends[0].index(), ends[1].index()));
+  const auto removal = removal_of(file, study.call);
+  if (!removal || !removal->face) return;
+  const auto& f = *removal->face;
+  for (const TetEdge e : shell(mesh_, *caller_edge_)) {
+    if (mesh_.local_index(e.tet(), f[2]) >= 4) continue;
+    return mark(
+        highlight_face(mesh_, f, ball_.centre), kFaceToRemoveColour,
+        fmt::format("face f to remove, {} {} {}", f[0].index(), f[1].index(), f[2].index()));
+  }
+}
+
+void Document::name_call(const CallStudy& study) {
+  const auto add = [&](VertexHandle v, std::string role = {}) {
+    const bool is_there =
+        v.index() < mesh_.vertex_slots() && !mesh_.is_deleted(v) && mesh_.tet_of(v).is_valid();
+    if (is_there) add_name(call_names_, v, std::move(role));
+  };
+  if (study.picture && study.picture->ring.size() >= 3) {
+    add(study.picture->a, "a");
+    add(study.picture->b, "b");
+    for (std::size_t i = 0; i < study.picture->ring.size(); ++i) {
+      add(study.picture->ring[i], fmt::format("p{}", i + 1));
+    }
+  }
+  const auto target = debugger_->file().calls()[study.call].target();
+  if (target.size() == 1) add(target[0], "v");
+  for (const auto* tets : {&study.before, &study.after}) {
+    for (const LocalTet& tet : *tets) {
+      for (const VertexHandle v : tet.vertices) add(v);
+    }
+  }
+  if (!caller_edge_) return;
+  for (const TetEdge e : shell(mesh_, *caller_edge_)) {
+    for (const VertexHandle v : mesh_.vertices(e.tet())) add(v);
+  }
+}
+
+const Highlight& Document::highlighted() {
+  if (highlight_) return *highlight_;
+  highlight_ = highlight(mesh_, selection_, ball_.centre);
+  highlight_->lines.insert(highlight_->lines.end(), marks_.lines.begin(), marks_.lines.end());
+  highlight_->faces.insert(highlight_->faces.end(), marks_.faces.begin(), marks_.faces.end());
+  return *highlight_;
+}
+
+unsigned Document::highlight_revision() {
+  return highlight_revision_;
+}
+
+const std::vector<LegendEntry>& Document::legend() {
+  legend_ = call_legend_;
+  if (const auto* edge = std::get_if<TetEdge>(&selection_)) {
+    const auto ends = mesh_.vertices(*edge);
+    legend_.push_back({kSupportingEdgeColour, fmt::format("supporting edge {} {} and its faces",
+                                                          ends[0].index(), ends[1].index())});
+    legend_.push_back({kSkirtColour, "skirt polygon"});
+  }
+  if (std::holds_alternative<TetHandle>(selection_)) {
+    legend_.push_back({kSelectionColour, "selected tet"});
+  }
+  if (scene().bad_shown > 0) legend_.push_back({kBadColour, "bad tets"});
+  return legend_;
+}
+
+// --- names, and pointing -------------------------------------------------------------------------
+
+void Document::update_names() {
+  if (is_named_) return;
+  is_named_ = true;
+  names_.clear();
+  named_edges_.clear();
+  const bool is_of_call =
+      debugger_ != nullptr &&
+      (selection_ == target_ || std::holds_alternative<std::monostate>(selection_));
+  for (const NamedVertex& name : is_of_call ? call_names_ : names_of(mesh_, selection_)) {
+    add_name(names_, name.vertex, name.role);
+  }
+  const auto is_named = [&](VertexHandle v) {
+    return std::any_of(names_.begin(), names_.end(),
+                       [&](const NamedVertex& name) { return name.vertex == v; });
+  };
+  const std::vector<TetHandle> tets =
+      is_of_call || names_.empty() ? near_ : tets_of(mesh_, selection_);
+  for (const TetHandle t : tets) {
+    const TetVertices& v = mesh_.vertices(t);
+    for (const auto& e : kEdgeVertices) {
+      if (is_named(v[e[0]]) && is_named(v[e[1]])) named_edges_.push_back({v[e[0]], v[e[1]]});
+    }
+  }
+}
+
+const std::vector<NamedVertex>& Document::names() {
+  update_names();
+  return names_;
+}
+
+Pointed Document::pointed_call(std::uint32_t call) const {
+  const auto target = debugger_->file().calls()[call].target();
+  return {{target.begin(), target.end()}, call};
+}
+
+Pointed Document::find_named(double x, double y, double reach) {
+  update_names();
+  const glm::dvec2 mouse = to_canvas(x, y);
+  const auto pixel_of = [&](VertexHandle v) {
+    return view.camera.project(to_glm(mesh_.point(v)), canvas);
+  };
+  Pointed found;
+  double nearest = reach;
+  for (const NamedVertex& name : names_) {
+    const auto at = pixel_of(name.vertex);
+    if (!at || glm::distance(*at, mouse) >= nearest) continue;
+    nearest = glm::distance(*at, mouse);
+    found.vertices = {name.vertex};
+  }
+  if (!found.is_nothing()) return found;
+  nearest = reach / 2;
+  for (const auto& edge : named_edges_) {
+    const auto from = pixel_of(edge[0]);
+    const auto to = pixel_of(edge[1]);
+    if (!from || !to) continue;
+    const double away = distance_to_segment(mouse, *from, *to);
+    if (away >= nearest) continue;
+    nearest = away;
+    found.vertices = {edge[0], edge[1]};
+  }
+  return found;
+}
+
+}  // namespace tetmend::viewer

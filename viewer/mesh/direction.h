@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// From where something small is seen best.
+#pragma once
+
+#include <array>
+
+#include "viewer/mesh/camera.h"
+
+namespace tetmend::viewer {
+
+/// Area of the shadow that a tet throws along a direction of unit length.
+double shadow_of(const std::array<glm::dvec3, 4>& tet, const glm::dvec3& direction);
+
+/// Turns the camera, no further than it must, to where the shadow of the tet is nearly as large as
+/// it can be: a flat tet is not seen from its edge. The target stays.
+void turn_to(Camera& camera, const std::array<glm::dvec3, 4>& tet);
+
+}  // namespace tetmend::viewer

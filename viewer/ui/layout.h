@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Where picture, columns of panels, strip and status line are.
+#pragma once
+
+#include "viewer/document.h"
+
+namespace tetmend::viewer::ui {
+
+/// In pixels of the window.
+struct Area {
+  float x = 0, y = 0, width = 0, height = 0;
+  bool is_empty() const { return width <= 0 || height <= 0; }
+};
+
+/// An empty area is not shown.
+struct Layout {
+  Area canvas;
+  Area left, right;
+  Area strip;  ///< under the picture
+  Area status;
+  bool is_one_column = false;  ///< no room for two: all panels are in the right one
+  bool is_teaching = false;
+  float text = 1;  ///< size of text in panels, in units of the usual one
+};
+
+/// Larger text for a lecture hall.
+inline constexpr float kTeachingText = 1.5F;
+
+/// Of a window that is too small for all of them, columns and then the strip are left out, so that
+/// the picture has at least two fifths of its width.
+Layout lay_out(const Document& document, float scale);
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/ui/place_dialog.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace tetmend::viewer::ui {
+
+void PlaceDialog::draw(Session& session) {
+  constexpr const char* kPopup = "##place";
+  Document& document = session.document;
+  bool wants_focus = false;
+  if (document.ask_place) {
+    document.ask_place = false;
+    trouble_.clear();
+    typed_.clear();
+    wants_focus = true;
+    ImGui::OpenPopup(kPopup);
+  }
+  ImGui::SetNextWindowSize({24 * ImGui::GetFontSize(), 0});
+  if (!ImGui::BeginPopupModal(kPopup, nullptr,
+                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar)) {
+    return;
+  }
+  ImGui::TextUnformatted("Go to");
+  if (wants_focus) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool is_entered = ImGui::InputTextWithHint("##where", "tet 17, edge 3 17 or vertex 5",
+                                                   &typed_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool is_accepted = ImGui::Button("Go") || is_entered;
+  ImGui::SameLine();
+  const bool is_cancelled =
+      ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if (!trouble_.empty()) ImGui::TextWrapped("%s", trouble_.c_str());
+  if (is_cancelled) {
+    ImGui::CloseCurrentPopup();
+  } else if (is_accepted && !typed_.empty()) {
+    trouble_.clear();
+    if (guarded(document, [&] { find_command("go_to").run(session, {typed_}); })) {
+      ImGui::CloseCurrentPopup();
+    } else {
+      trouble_ = document.message.text;
+    }
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace tetmend::viewer::ui
