@@ -52,13 +52,6 @@ Ball join(const Ball& one, const Ball& other) {
   return {one.centre + (radius - one.radius) * along, radius};
 }
 
-double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-  const glm::dvec2 d = b - a;
-  const double length2 = glm::dot(d, d);
-  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0;
-  return glm::distance(p, a + t * d);
-}
-
 }  // namespace
 
 bool Pointed::contains(std::span<const VertexHandle> all) const {
@@ -218,7 +211,7 @@ void Document::mark_caller(const CallStudy& study) {
   const Selection edge = target_of(caller);
   if (!std::holds_alternative<TetEdge>(edge)) return;
   caller_edge_ = std::get<TetEdge>(edge);
-  const auto ends = mesh_.vertices(*caller_edge_);
+  const auto ends = file.calls()[caller].target();
   mark(highlight_caller(mesh_, *caller_edge_, ball_.centre), kGhostColour,
        fmt::format("shell of the caller, {} {}", ends[0].index(), ends[1].index()));
   const auto removal = removal_of(file, study.call);
@@ -274,8 +267,10 @@ const std::vector<LegendEntry>& Document::legend() {
   legend_ = call_legend_;
   if (const auto* edge = std::get_if<TetEdge>(&selection_)) {
     const auto ends = mesh_.vertices(*edge);
-    legend_.push_back({kSupportingEdgeColour, fmt::format("supporting edge {} {} and its faces",
-                                                          ends[0].index(), ends[1].index())});
+    const auto from = std::min<std::uint32_t>(ends[0].index(), ends[1].index());
+    const auto to = std::max<std::uint32_t>(ends[0].index(), ends[1].index());
+    legend_.push_back(
+        {kSupportingEdgeColour, fmt::format("supporting edge {} {} and its faces", from, to)});
     legend_.push_back({kSkirtColour, "skirt polygon"});
   }
   if (std::holds_alternative<TetHandle>(selection_)) {

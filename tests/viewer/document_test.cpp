@@ -96,10 +96,11 @@ TEST_CASE("a folder, an empty trace and a file that is none are told as what the
   Document document;
   CHECK_THROWS_WITH_AS(document.open(folder / "."), doctest::Contains("this is a folder"), Error);
   std::ofstream(folder / "a.trace").flush();
-  CHECK_THROWS_WITH_AS(document.open(folder / "a.trace"), doctest::Contains("a.trace: the file is empty"),
-                       Error);
+  CHECK_THROWS_WITH_AS(document.open(folder / "a.trace"),
+                       doctest::Contains("a.trace: the file is empty"), Error);
   std::ofstream(folder / "b.trace") << "nonsense that is long enough";
-  CHECK_THROWS_WITH_AS(document.open(folder / "b.trace"), doctest::Contains("this is no trace"), Error);
+  CHECK_THROWS_WITH_AS(document.open(folder / "b.trace"), doctest::Contains("this is no trace"),
+                       Error);
 }
 
 TEST_CASE("a mirrored mesh is told of") {

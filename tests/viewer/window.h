@@ -104,8 +104,8 @@ class Viewer {
     const std::filesystem::path meshes = TETMEND_SOURCE_DIR "/assets/meshes";
     std::filesystem::current_path(folder_ / ".");
     err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
-    std::vector<std::string> arguments = {"--size", size, "--scale", "1", "--report",
-                                          "report.json"};
+    std::vector<std::string> arguments = {"--size", size,       "--scale",
+                                          "1",      "--report", "report.json"};
     if (!file.empty()) arguments.push_back((meshes / file).string());
     program_.emplace(arguments, "out", err_);
     type("search --sync --onlyvisible --name tetmend-view >/dev/null");

@@ -36,6 +36,13 @@ void for_each_direction(Camera camera, Visit visit) {
 
 }  // namespace
 
+double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+  const glm::dvec2 d = b - a;
+  const double length2 = glm::dot(d, d);
+  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0;
+  return glm::distance(p, a + t * d);
+}
+
 void turn_to(Camera& camera, const std::array<glm::dvec3, 4>& tet) {
   constexpr double kNearly = 0.85;
   double largest = 0;

@@ -9,6 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "kernel/statistics.h"
+#include "kernel/star.h"
+#include "kernel/workspace.h"
+#include "viewer/mesh/direction.h"
 
 namespace tetmend::viewer {
 
@@ -32,13 +35,6 @@ double distance_to(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, con
   if (x < 0 || y < 0 || x + y > 1) return kNone;
   const double t = glm::dot(v, q) / det;
   return t >= 0 ? t : kNone;
-}
-
-double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
-  const glm::dvec2 d = b - a;
-  const double length2 = glm::dot(d, d);
-  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0) : 0;
-  return glm::distance(p, a + t * d);
 }
 
 glm::dvec3 at(const TetMesh& mesh, VertexHandle v) {

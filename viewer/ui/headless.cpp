@@ -6,6 +6,7 @@
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/ui/interface.h"
+#include "viewer/ui/overlay.h"
 
 namespace tetmend::viewer {
 
@@ -25,7 +26,7 @@ class HeadlessHost : public Host {
     const gl::OffscreenPicture picture(document.window);
     const ViewSettings& view = document.view;
     const bool has_interface = document.show_panels || document.show_keys || view.colour_bar ||
-                               view.scale_bar || !view.title.empty();
+                               view.scale_bar || !view.title.empty() || ui::has_overlay(document);
     if (has_interface) {
       prepare_interface();
       build_interface(document);
@@ -45,6 +46,7 @@ class HeadlessHost : public Host {
 
   void build_interface(Document& document) {
     constexpr int kFrames = 3;  // panels take their sizes from the last frame
+    prepare_interface();
     ImGui::GetIO().DisplaySize = {static_cast<float>(document.window.width),
                                   static_cast<float>(document.window.height)};
     Session session{document, *this};

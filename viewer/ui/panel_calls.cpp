@@ -50,7 +50,7 @@ void explain_dots() {
       {{Outcome::accepted, "accepted"},
        {Outcome::no_improvement, "nothing better"},
        {Outcome::rejected, "tried, undone"},
-       {Outcome::limit, "level or budget spent"},
+       {Outcome::limit, "limit reached"},
        {Outcome::constrained, "constrained"},
        {Outcome::unfinished, "hollow: under way"}}};
   const float size = ImGui::GetFontSize();

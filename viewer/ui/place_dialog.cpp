@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/ui/place_dialog.h"
 
+#include <utility>
+
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -9,12 +11,11 @@ namespace tetmend::viewer::ui {
 void PlaceDialog::draw(Session& session) {
   constexpr const char* kPopup = "##place";
   Document& document = session.document;
-  bool wants_focus = false;
   if (document.ask_place) {
     document.ask_place = false;
     trouble_.clear();
     typed_.clear();
-    wants_focus = true;
+    wants_focus_ = true;
     ImGui::OpenPopup(kPopup);
   }
   ImGui::SetNextWindowSize({24 * ImGui::GetFontSize(), 0});
@@ -23,7 +24,7 @@ void PlaceDialog::draw(Session& session) {
     return;
   }
   ImGui::TextUnformatted("Go to");
-  if (wants_focus) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(wants_focus_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool is_entered = ImGui::InputTextWithHint("##where", "tet 17, edge 3 17 or vertex 5",
                                                    &typed_, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -40,6 +41,7 @@ void PlaceDialog::draw(Session& session) {
       ImGui::CloseCurrentPopup();
     } else {
       trouble_ = document.message.text;
+      wants_focus_ = true;
     }
   }
   ImGui::EndPopup();

@@ -17,6 +17,7 @@ class PlaceDialog {
  private:
   std::string typed_;
   std::string trouble_;
+  bool wants_focus_ = false;
 };
 
 }  // namespace tetmend::viewer::ui

@@ -206,6 +206,24 @@ void draw_icicles(Session& session, const Band& band, const CallWindow& window) 
   if (ImGui::IsItemClicked()) run_from_window(find_command("enter"), session, {bar->call});
 }
 
+/// While the mouse drags, the window stays: else what is under the mouse would be another place.
+CallWindow held_window(const Debugger& debugger) {
+  ImGuiStorage* storage = ImGui::GetStateStorage();
+  const ImGuiID call_id = ImGui::GetID("##held call");
+  const ImGuiID place_id = ImGui::GetID("##held place");
+  if (!ImGui::IsMouseDown(0)) {
+    storage->SetInt(call_id, debugger.stack().empty() ? -1 : static_cast<int>(debugger.stack()[0]));
+    storage->SetInt(place_id, static_cast<int>(debugger.position()));
+    return window_of(debugger);
+  }
+  const int call = storage->GetInt(call_id, -1);
+  const auto calls = static_cast<int>(debugger.file().calls().size());
+  if (call >= 0 && call < calls) {
+    return call_window(debugger.file(), static_cast<std::uint32_t>(call));
+  }
+  return pass_around(debugger.file(), static_cast<std::uint64_t>(storage->GetInt(place_id, 0)));
+}
+
 /// Where the window of the strip lies in the trace; dragging goes there.
 void draw_overview(Session& session, const Band& band, const CallWindow& window) {
   const Debugger& debugger = *session.document.debugger();
@@ -250,7 +268,7 @@ void draw_legend(const Debugger& debugger, const CallWindow& window) {
 /// Curves and icicles have one range and one cursor; where it lies in the trace is above.
 void draw_timeline_strip(Session& session) {
   const Debugger& debugger = *session.document.debugger();
-  const CallWindow window = window_of(debugger);
+  const CallWindow window = held_window(debugger);
   draw_legend(debugger, window);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();

@@ -89,7 +89,9 @@ class Window : public Host {
       if (document_.quit) break;
       frame();
       glfwSwapBuffers(window_);
-      if (inputs_.empty()) wait();
+      if (!inputs_.empty()) continue;
+      keep_view();
+      wait();
     }
   }
 
@@ -115,6 +117,12 @@ class Window : public Host {
   }
 
  private:
+  /// For undo: not in the middle of a drag.
+  void keep_view() {
+    const bool is_held = std::find(buttons_.begin(), buttons_.end(), true) != buttons_.end();
+    if (!is_held && !ImGui::IsAnyItemActive()) document_.keep_view();
+  }
+
   /// For events, or, while a trace plays, for its next step.
   void wait() {
     constexpr double kLook = 0.1;  // seconds

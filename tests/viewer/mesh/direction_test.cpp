@@ -8,8 +8,7 @@ using namespace tetmend::viewer;
 namespace {
 
 /// Flat, in the plane x = 0, and a little thick.
-const std::array<glm::dvec3, 4> kSliver = {
-    {{0, 0, 0}, {0.01, 1, 1}, {-0.01, 1, 0}, {0, 0, 1}}};
+const std::array<glm::dvec3, 4> kSliver = {{{0, 0, 0}, {0.01, 1, 1}, {-0.01, 1, 0}, {0, 0, 1}}};
 
 }  // namespace
 

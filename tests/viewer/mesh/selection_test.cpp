@@ -74,7 +74,7 @@ TEST_CASE("an edge is described by its shell, in the words of the paper") {
   TestSession s(test::shell_mesh({.degree = 6}));
   s.run("select_edge", {0, 1});
   const std::vector<Row> rows = describe(s.document.mesh(), s.document.selection());
-  CHECK(value_of(rows, "supporting edge") == "0 - 1");
+  CHECK(value_of(rows, "supporting edge") == "0 1");
   CHECK(value_of(rows, "shell") == "closed");
   CHECK(value_of(rows, "degree (tets)") == "6");
   CHECK(value_of(rows, "supporting faces") == "6");
@@ -135,21 +135,21 @@ TEST_CASE("a vertex is described by its ball") {
 TEST_CASE("what a description names leads to it: angles to edges, vertices, tets") {
   TestSession s(test::shell_mesh({.degree = 5}));
   const TetMesh& mesh = s.document.mesh();
-  const auto links_of = [&](const Selection& selection, const std::string& name) {
+  const auto links_of = [&](const viewer::Selection& selection, const std::string& name) {
     for (const Row& row : describe(mesh, selection)) {
       if (row.name == name) return row.links;
     }
-    return std::vector<Selection>();
+    return std::vector<viewer::Selection>();
   };
   const TetVertices& v = mesh.vertices(TetHandle(0));
   CHECK(links_of(TetHandle(0), "vertices").size() == 4);
   CHECK(links_of(TetHandle(0), "neighbours").size() == 2);
   for (unsigned e = 0; e < 6; ++e) {
     const auto& ends = kEdgeVertices[e];
-    const auto links = links_of(
-        TetHandle(0), fmt::format("angle {}-{}", v[ends[0]].index(), v[ends[1]].index()));
+    const auto links =
+        links_of(TetHandle(0), fmt::format("angle {}-{}", v[ends[0]].index(), v[ends[1]].index()));
     REQUIRE(links.size() == 1);
-    CHECK(links[0] == Selection(TetEdge(TetHandle(0), e)));
+    CHECK(links[0] == viewer::Selection(TetEdge(TetHandle(0), e)));
   }
   s.run("select_edge", {0, 1});
   CHECK(links_of(s.document.selection(), "tets").size() == 5);

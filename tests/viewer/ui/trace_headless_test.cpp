@@ -138,8 +138,8 @@ TEST_CASE("what is pointed at lights up in the picture and in the ring") {
     point_at("call 2")
     screenshot("{}")
   )lua",
-                             picture("a.png"), picture("b.png"), picture("c.png"),
-                             picture("d.png"), picture("e.png")));
+                             picture("a.png"), picture("b.png"), picture("c.png"), picture("d.png"),
+                             picture("e.png")));
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
   const auto lit = [](const viewer::Image& image, int left, int right) {
@@ -155,8 +155,8 @@ TEST_CASE("what is pointed at lights up in the picture and in the ring") {
   const int column = 1500 * 62 / 100;  // of the layout for teaching
   const viewer::Image before = read_png(folder / "a.png");
   CHECK(lit(before, 0, 1500) == 0);
-  CHECK(lit(read_png(folder / "b.png"), 0, column) > 20);    // in the picture
-  CHECK(lit(read_png(folder / "c.png"), 0, column) > 20);    // the target of the call
-  CHECK(lit(read_png(folder / "e.png"), 450, 1050) > 20);    // likewise, between the columns
+  CHECK(lit(read_png(folder / "b.png"), 0, column) > 20);  // in the picture
+  CHECK(lit(read_png(folder / "c.png"), 0, column) > 20);  // the target of the call
+  CHECK(lit(read_png(folder / "e.png"), 450, 1050) > 20);  // likewise, between the columns
   CHECK(lit(read_png(folder / "d.png"), 450, 1050) == 0);
 }
