@@ -20,8 +20,6 @@ namespace {
 
 constexpr std::size_t kWidth = 80;
 
-using apps::grouped;
-
 using Values = std::vector<std::string>;
 
 /// Rows of a name and one value for each mesh.

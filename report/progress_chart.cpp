@@ -152,9 +152,9 @@ class Chart {
           "{} tried, {} kept; bad tets {} to {}; worst quality {}</title></rect>",
           coordinate(x(pass.begin)), coordinate(kPlot.top),
           coordinate(std::max(x(pass.end) - x(pass.begin), kNarrowest)), coordinate(kPlot.height()),
-          escaped(pass.name), round, short_number(pass.end - pass.begin),
-          grouped(pass.attempts), grouped(pass.accepted),
-          grouped(pass.bad_before), grouped(pass.bad_after), short_number(pass.worst));
+          escaped(pass.name), round, short_number(pass.end - pass.begin), grouped(pass.attempts),
+          grouped(pass.accepted), grouped(pass.bad_before), grouped(pass.bad_after),
+          short_number(pass.worst));
     }
     return text;
   }
@@ -219,16 +219,16 @@ std::string pass_table(const Figures& figures) {
     const double kept = total.attempts == 0 ? 0
                                             : static_cast<double>(total.accepted) /
                                                   static_cast<double>(total.attempts);
-    rows += fmt::format(
-        R"(<tr data-pass="{0}"><th scope="row">{9}</th><td data-sum="calls">{1}</td>)"
-        R"(<td data-sum="attempts">{2}</td><td data-sum="accepted">{3}{4}</td>)"
-        R"(<td data-sum="gone">{5}{6}</td><td data-sum="seconds">{7}{8}</td></tr>)"
-        "\n",
-        escaped(total.name), total.calls, grouped(total.attempts),
-        grouped(total.accepted), bar("kept", kept), total.gone < 0 ? "\u2212" : "",
-        grouped(static_cast<std::size_t>(std::abs(total.gone))),
-        fmt::format("{:.3f}", total.seconds), bar("cost", total.seconds / time),
-        breakable(total.name));
+    rows +=
+        fmt::format(R"(<tr data-pass="{0}"><th scope="row">{9}</th><td data-sum="calls">{1}</td>)"
+                    R"(<td data-sum="attempts">{2}</td><td data-sum="accepted">{3}{4}</td>)"
+                    R"(<td data-sum="gone">{5}{6}</td><td data-sum="seconds">{7}{8}</td></tr>)"
+                    "\n",
+                    escaped(total.name), total.calls, grouped(total.attempts),
+                    grouped(total.accepted), bar("kept", kept), total.gone < 0 ? "\u2212" : "",
+                    grouped(static_cast<std::size_t>(std::abs(total.gone))),
+                    fmt::format("{:.3f}", total.seconds), bar("cost", total.seconds / time),
+                    breakable(total.name));
   }
   return fmt::format(
       "<table class=\"passes\"><thead><tr><th>pass</th><th>calls</th><th>tried</th><th>kept</th>"

@@ -63,7 +63,7 @@ class Document {
   bool show_panels = true;  ///< beside the picture
   FileQuestion question = FileQuestion::none;
   bool offer_choices = false;  ///< a menu of what can be done with the selection
-  bool ask_place = false;  ///< the user wants to say where to go
+  bool ask_place = false;      ///< the user wants to say where to go
   bool quit = false;
   /// Of a trace, for a lecture hall: large text, the picture, the text of the lesson, the shell and
   /// the algorithm, and no more. On when a lesson is opened.

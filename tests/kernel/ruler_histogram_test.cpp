@@ -72,8 +72,11 @@ TEST_CASE("every tet and every face is in one bin, inverted ones in the first or
   CHECK(sum_of(of(Ruler::non_orthogonality)) == rulers.inner_faces);
   CHECK(sum_of(of(Ruler::skewness)) > rulers.inner_faces);
   CHECK(of(Ruler::sicn).front() > 0);
-  CHECK(of(Ruler::condition).back() > 0);
-  CHECK(of(Ruler::aspect_ratio).back() == of(Ruler::condition).back());
+  std::size_t inverted = 0;
+  for (const TetHandle t : contract::live_tets(mesh)) inverted += mesh.quality(t) < 0 ? 1 : 0;
+  REQUIRE(inverted > 0);
+  CHECK(of(Ruler::condition).back() >= inverted);
+  CHECK(of(Ruler::aspect_ratio).back() >= inverted);
 }
 
 TEST_CASE("the number of threads does not show in a histogram") {

@@ -36,7 +36,5 @@ std::vector<TetHandle> tets_of(const TetMesh& mesh, const CallStudy& study);
 
 inline constexpr Colour kGhostColour{100, 110, 125, 255};
 inline constexpr Colour kFaceToRemoveColour{112, 48, 205, 255};
-inline constexpr Colour kChordColour{0, 150, 136, 255};
-inline constexpr Colour kCoreColour{235, 168, 20, 255};
 
 }  // namespace tetmend::viewer

@@ -89,8 +89,8 @@ class SceneWork {
   }
   /// Beyond a cut it is, too, if the settings say so.
   bool is_seen_as_bad(TetHandle t) const {
-    return triangles_.is_bad(t) && (settings_.bad_beyond_cuts ||
-                                    (!filter_.is_cut_away(t) && !triangles_.is_cut_away(t)));
+    return triangles_.is_bad(t) &&
+           (settings_.bad_beyond_cuts || (!filter_.is_cut_away(t) && !triangles_.is_cut_away(t)));
   }
   /// 1 if something of the tet is shown; remembered for what changes later.
   std::uint8_t counts(std::uint32_t slot) {

@@ -95,10 +95,10 @@ class SceneKeeper {
   using Bad = std::pair<Quality, std::uint32_t>;  // and its slot
 
   Scene scene_;
-  std::vector<std::uint8_t> shown_;   // by slot
-  std::vector<Quality> bad_quality_;  // by slot; infinite for a tet that is not bad
+  std::vector<std::uint8_t> shown_;    // by slot
+  std::vector<Quality> bad_quality_;   // by slot; infinite for a tet that is not bad
   std::vector<std::uint8_t> counted_;  // by slot: among tets_shown
-  std::vector<std::uint8_t> taken_;   // by slot: bad, and seen through the rest
+  std::vector<std::uint8_t> taken_;    // by slot: bad, and seen through the rest
   std::size_t bad_count_ = 0;
   std::optional<std::vector<std::uint32_t>> only_;  // slots of the last build
   bool is_followed_ = false;                        // what comes now is there

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "kernel/statistics.h"
 #include "kernel/star.h"
+#include "kernel/statistics.h"
 #include "kernel/workspace.h"
 #include "viewer/mesh/direction.h"
 
