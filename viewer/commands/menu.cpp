@@ -84,7 +84,15 @@ constexpr auto kTexts = std::to_array<Text>({{"open", "Open ..."},
                                              {"follow", "Camera follows"},
                                              {"teaching", "Layout for teaching"},
                                              {"blend", "Blend before and after"},
+                                             {"figure", "Save figures of the call"},
+                                             {"colour_bar", "Colour bar"},
+                                             {"scale_bar", "Scale bar"},
+                                             {"background", "Next background"},
+                                             {"history", "History of the selection"},
                                              {"live_run", "Run"},
+                                             {"live_start", "Run, paused at first"},
+                                             {"live_follow", "Camera follows the run"},
+                                             {"live_step_call", "To the next call"},
                                              {"live_pause", "Pause"},
                                              {"live_continue", "Continue"},
                                              {"live_step", "To the next change"},
@@ -102,7 +110,9 @@ bool is_trace_possible(std::string_view name, Document& document) {
 }
 
 bool is_run_possible(std::string_view name, Document& document) {
-  if (name == "live_run") return document.has_mesh() && !document.live.is_active();
+  if (name == "live_follow") return true;
+  if (name == "live_run" || name == "live_start")
+    return document.has_mesh() && !document.live.is_active();
   if (name == "live_debug") {
     return !document.live.is_active() && !document.live.progress().trace.empty();
   }
@@ -127,6 +137,7 @@ bool is_possible(const Command& command, Document& document) {
   const bool is_free =
       std::find(kWithoutMesh.begin(), kWithoutMesh.end(), command.name) != kWithoutMesh.end();
   if (!is_free && !document.has_mesh()) return false;
+  if (command.name == "figure") return document.debugger() != nullptr;
   if (command.name == "deselect") {
     return !std::holds_alternative<std::monostate>(document.selection());
   }

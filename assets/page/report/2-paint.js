@@ -56,6 +56,7 @@ class ShapePainter {
     if (gl.canvas.width !== width || gl.canvas.height !== height) Object.assign(gl.canvas, {width, height});
     gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
+    gl.depthMask(true);  // without it depths of the last picture stay
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);

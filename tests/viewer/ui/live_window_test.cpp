@@ -41,11 +41,11 @@ TEST_CASE("in the window a run is recorded, and opened in the debugger when it i
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
   click(800, 300);  // unfolds the panel
-  click(729, 462);  // record
-  click(737, 489);  // run
+  click(729, 489);  // record
+  click(737, 516);  // run
   wait_for("tetmend-live.trace");
   type("sleep 1");  // its last mesh is shown
-  click(890, 509);  // debug this run
+  click(890, 536);  // debug this run
   type("mousemove 500 350 key Right Right Right Right");
   const nlohmann::json state = viewer.quit();
   REQUIRE(state.contains("trace"));
