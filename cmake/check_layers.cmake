@@ -43,7 +43,7 @@ set(public_of_face check improve io measure mesh option_text trace)
 set(public_of_bindings tetmend)
 
 # <NAME.h> is a header of the system, unless it belongs to a library.
-set(headers_of_libraries imgui.h imgui_stdlib.h stb_image_write.h zlib.h zstd.h)
+set(headers_of_libraries imgui.h imgui_internal.h imgui_stdlib.h stb_image_write.h zlib.h zstd.h)
 set(system_headers "^(csignal|(sys|mach|mach-o|linux|net|netinet|arpa|asm)/.*|[^/]+\\.h)$")
 set(system_names "(_WIN32|__APPLE__|__linux__|__GLIBC__)")
 

@@ -34,10 +34,10 @@ std::string message_of_library(const std::string& name, const std::string& value
 
 TEST_CASE("the library knows the options of 'tetmend improve' by name, and takes the same") {
   const std::string help = run_program({"improve", "--help"}).out;
-  // Those that are about files, the terminal, and the program's watch over plugins.
-  const std::set<std::string> of_the_program = {"help",   "output",  "report",
-                                                "quiet",  "strict",  "label-array",
-                                                "format", "variant", "attempt-limit"};
+  // Those that are about files, the terminal, pieces, and the program's watch over plugins.
+  const std::set<std::string> of_the_program = {
+      "help",   "output",  "report",        "quiet",  "strict", "label-array",
+      "format", "variant", "attempt-limit", "pieces", "memory", "scratch"};
   const std::set<std::string> of_the_library = {"script", "limit"};
   std::set<std::string> names;
   const std::regex option(R"(\n +(?:-\w,\s*)?--([a-z-]+))");
