@@ -89,7 +89,7 @@ class Workshop:
         self.environment = dict(os.environ, PATH=f"{self.tools}:{os.environ['PATH']}", HOME=str(folder),
                                 OMP_NUM_THREADS="1", WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
         self.environment.pop("TETMEND_PLUGIN_PATH", None)
-        self.makers = {"part.mesh": self.make_mesh, "better.mesh": self.make_better, "part.geo": self.make_geometry,
+        self.makers = {"part.mesh": self.make_mesh, "huge.meshb": self.make_huge, "better.mesh": self.make_better, "part.geo": self.make_geometry,
                        "part.msh": self.make_gmsh, "job.inp": self.make_deck, "case": self.make_case}
 
     def run(self, command: str) -> subprocess.CompletedProcess:
@@ -128,6 +128,9 @@ class Workshop:
 
     def make_mesh(self) -> None:
         self.must(f"tetmend convert {shlex.quote(str(self.source))}/assets/meshes/bracket.meshb part.mesh")
+
+    def make_huge(self) -> None:
+        self.must(f"cp {shlex.quote(str(self.source))}/assets/meshes/bracket.meshb huge.meshb")
 
     def make_better(self) -> None:
         self.prepare("part.mesh")
