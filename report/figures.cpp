@@ -25,11 +25,11 @@ std::string as_data(std::string_view path, const json& value, std::string_view s
 }  // namespace
 
 const json& Figures::at(std::string_view path) const {
-  static const json nothing;
+  static const json kNothing;
   std::string pointer = "/" + std::string(path);
   std::replace(pointer.begin(), pointer.end(), '.', '/');
   const json::json_pointer place(pointer);
-  return report_.contains(place) ? report_.at(place) : nothing;
+  return report_.contains(place) ? report_.at(place) : kNothing;
 }
 
 double Figures::number(std::string_view path) const {
