@@ -169,17 +169,59 @@ def test_gmsh_keeps_what_is_embedded(gmsh):
         assert np.array_equal(tags, now[0]) and np.array_equal(xyz, now[1])
 
 
+@pytest.fixture
+def ball_in_a_box(gmsh):
+    """Two volumes that share a sphere, of second order."""
+    gmsh.model.add("curved")
+    box, ball = gmsh.model.occ.addBox(-1, -1, -1, 2, 2, 2), gmsh.model.occ.addSphere(0, 0, 0, 0.5)
+    gmsh.model.occ.fragment([(3, box)], [(3, ball)])
+    gmsh.model.occ.synchronize()
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 0.25)
+    gmsh.model.mesh.generate(3)
+    gmsh.model.mesh.setOrder(2)
+    return gmsh
+
+
+def test_gmsh_improves_curved_tets_and_keeps_the_curved_surface(ball_in_a_box, tmp_path):
+    import tetmend.gmsh
+    mesh, model = ball_in_a_box.model.mesh, ball_in_a_box.model
+    fixed = {key: mesh.getNodes(*key) for key in model.getEntities() if key[0] < 3}
+    faces = {tag: mesh.getElementsByType(9, tag) for _, tag in model.getEntities(2)}
+    volumes = [tag for _, tag in model.getEntities(3)]
+    result = tetmend.gmsh.improve()
+    assert result.before.n_bad > result.after.n_bad and result.tets.shape[1] == 10
+    for key, (tags, points, _) in fixed.items():
+        now = mesh.getNodes(*key)
+        assert np.array_equal(now[0], tags) and np.array_equal(now[1], points)
+    for tag, (tags, nodes) in faces.items():
+        now = mesh.getElementsByType(9, tag)
+        assert np.array_equal(now[0], tags) and np.array_equal(now[1], nodes)
+    # Gmsh's own judgement: all curved tets are positive, at the corners, too.
+    places = np.append(mesh.getIntegrationPoints(11, "Gauss8")[0], [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1])
+    signs = np.concatenate([mesh.getJacobians(11, places, volume)[1] for volume in volumes])
+    assert len(signs) == result.after.tets * len(places) / 3 and signs.min() > 0
+    on_file, xyz, _ = mesh.getNodes()
+    middle = dict(zip(on_file.tolist(), np.array(xyz).reshape(-1, 3)))
+    for four in mesh.getElementsByType(11, volumes[0])[1].reshape(-1, 10)[:200].tolist():
+        ends = [(0, 1), (1, 2), (2, 0), (0, 3), (2, 3), (1, 3)]  # in Gmsh's order of nodes
+        for (a, b), node in zip(ends, four[4:]):
+            chord = np.linalg.norm(middle[four[a]] - middle[four[b]])
+            assert np.linalg.norm(middle[node] - (middle[four[a]] + middle[four[b]]) / 2) < 0.2 * chord
+    ball_in_a_box.write(str(tmp_path / "curved.msh"))
+    assert tetmend.quality(tetmend.load(tmp_path / "curved.msh")).statistics.tets == result.after.tets
+
+
 def test_gmsh_refuses_what_it_cannot_keep_and_leaves_it(gmsh):
     import tetmend.gmsh
     with pytest.raises(ValueError, match="no tets in memory"):
         tetmend.gmsh.improve()
-    gmsh.model.add("curved")
+    gmsh.model.add("cubic")
     gmsh.model.occ.addBox(0, 0, 0, 1, 1, 1)
     gmsh.model.occ.synchronize()
     gmsh.model.mesh.generate(3)
-    gmsh.model.mesh.setOrder(2)
+    gmsh.model.mesh.setOrder(3)
     before = gmsh.model.mesh.getElements()[2]
-    with pytest.raises(ValueError, match="volume 1 has elements 'Tetrahedron 10'"):
+    with pytest.raises(ValueError, match="volume 1 has elements 'Tetrahedron 20'"):
         tetmend.gmsh.improve()
     assert all(np.array_equal(then, now) for then, now in zip(before, gmsh.model.mesh.getElements()[2]))
 

@@ -21,13 +21,16 @@ from numpy.typing import NDArray
 from tetmend._core import Error
 from tetmend._improve import Result, improve as improve_arrays
 
-_LINE, _TRIANGLE, _TET = 1, 2, 4  # Gmsh's numbers of elements
+# Gmsh's numbers of lines, triangles and tets, of first and second order, and of their nodes.
+_KINDS = {1: ((1, 2), (2, 3), (4, 4)), 2: ((8, 3), (9, 6), (11, 10))}
+_FROM_GMSH = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # nodes of a tet of second order in tetmend's order, and back
 
 
 @dataclass(frozen=True)
 class _Model:
-    """What of the mesh in memory matters. Elements have tags of nodes."""
+    """What of the mesh in memory matters. Elements have tags of nodes; triangles and edges those of their corners alone."""
 
+    order: int
     node_tags: NDArray[np.int64]  # ascending
     points: NDArray[np.float64]
     node_dimensions: NDArray[np.int64]
@@ -53,18 +56,27 @@ def _elements(gmsh: Any, entity: int, kind: int, width: int) -> tuple[NDArray[np
     return _integers(tags), _integers(nodes).reshape(-1, width)
 
 
-def _check_kinds(gmsh: Any, volume: int) -> None:
-    for kind in gmsh.model.mesh.getElementTypes(3, volume):
-        if kind != _TET:
-            name = gmsh.model.mesh.getElementProperties(kind)[0]
-            raise Error(f"volume {volume} has elements '{name}': tets of first order are improved in memory; "
-                        "name the volumes without them (tags=...), or improve a file")
+def _order(gmsh: Any, volumes: Sequence[int]) -> int:
+    """1 or 2: the same for all volumes."""
+    found: dict[int, int] = {}  # order, and a volume of it
+    for volume in volumes:
+        for kind in gmsh.model.mesh.getElementTypes(3, volume):
+            orders = [order for order, kinds in _KINDS.items() if kinds[2][0] == kind]
+            if not orders:
+                name = gmsh.model.mesh.getElementProperties(kind)[0]
+                raise Error(f"volume {volume} has elements '{name}': tets of first and second order are improved in memory; "
+                            "name the volumes without them (tags=...), or improve a file")
+            found.setdefault(orders[0], volume)
+    if len(found) > 1:
+        raise Error(f"volume {found[1]} has tets of first order, volume {found[2]} of second: improve one after the other (tags=...)")
+    return next(iter(found), 1)
 
 
-def _sheets(gmsh: Any, dimension: int, kind: int, width: int) -> NDArray[np.int64]:
-    """All elements of surfaces or curves."""
+def _sheets(gmsh: Any, dimension: int, order: int) -> NDArray[np.int64]:
+    """Corners of all elements of surfaces or curves."""
+    kind, width = _KINDS[order][dimension - 1]
     found = [_elements(gmsh, tag, kind, width)[1] for _, tag in gmsh.model.getEntities(dimension)]
-    return np.concatenate([np.empty((0, width), np.int64), *found])
+    return np.concatenate([np.empty((0, width), np.int64), *found])[:, : dimension + 1]
 
 
 def _nodes(gmsh: Any) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
@@ -82,10 +94,8 @@ def _nodes(gmsh: Any) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[n
 
 
 def _read(gmsh: Any, volumes: Sequence[int]) -> _Model:
-    elements = []
-    for volume in volumes:
-        _check_kinds(gmsh, volume)
-        elements.append(_elements(gmsh, volume, _TET, 4))
+    order = _order(gmsh, volumes)
+    elements = [_elements(gmsh, volume, *_KINDS[order][2]) for volume in volumes]
     tets = np.concatenate([nodes for _, nodes in elements])
     if len(tets) == 0:
         raise Error(f"there are no tets in volumes {list(volumes)}: generate a mesh first")
@@ -98,9 +108,11 @@ def _read(gmsh: Any, volumes: Sequence[int]) -> _Model:
     def inside(nodes: NDArray[np.int64]) -> NDArray[np.int64]:
         return nodes[np.isin(nodes, kept).all(axis=1)]
 
-    return _Model(kept, points[used], dimensions[used], entities[used], tets, np.concatenate([tags for tags, _ in elements]),
+    if order == 2:
+        tets = tets[:, _FROM_GMSH]
+    return _Model(order, kept, points[used], dimensions[used], entities[used], tets, np.concatenate([tags for tags, _ in elements]),
                   np.concatenate([np.full(len(nodes), volume) for volume, (_, nodes) in zip(volumes, elements)]),
-                  inside(_sheets(gmsh, 2, _TRIANGLE, 3)), inside(_sheets(gmsh, 1, _LINE, 2)), int(tags.max()) + 1,
+                  inside(_sheets(gmsh, 2, order)), inside(_sheets(gmsh, 1, order)), int(tags.max()) + 1,
                   1 + max(int(_integers(each).max()) for each in gmsh.model.mesh.getElements()[1] if len(each)))
 
 
@@ -121,6 +133,7 @@ def _write(gmsh: Any, model: _Model, result: Result, volumes: Sequence[int]) -> 
     tet_tags[result.tet_map[kept]] = model.tet_tags[kept]
     tet_tags[tet_tags == 0] = model.next_element + np.arange(int((tet_tags == 0).sum()))
 
+    tets = result.tets if model.order == 1 else result.tets[:, _FROM_GMSH]
     mesh = gmsh.model.mesh
     mesh.clear([(3, volume) for volume in volumes])
     for volume in volumes:  # all nodes first: one that two volumes share is on one of them
@@ -128,7 +141,7 @@ def _write(gmsh: Any, model: _Model, result: Result, volumes: Sequence[int]) -> 
         mesh.addNodes(3, volume, tags[here], result.points[here].reshape(-1))
     for volume in volumes:
         here = result.labels == volume
-        mesh.addElementsByType(volume, _TET, tet_tags[here], tags[result.tets[here]].reshape(-1))
+        mesh.addElementsByType(volume, _KINDS[model.order][2][0], tet_tags[here], tags[tets[here]].reshape(-1))
     mesh.rebuildNodeCache(False)
     mesh.rebuildElementCache(False)
 
@@ -150,12 +163,14 @@ def _volumes(gmsh: Any, tags: int | str | Sequence[int | str]) -> list[int]:
 def improve(tags: int | str | Sequence[int | str] | None = None, **options: Any) -> Result:
     """Improves the tets of the current model in place, and returns the Result.
 
-    tags: the volumes to work on, by number or by the name of a physical group; left out, all that have tets. Nodes on points, curves and surfaces stay where they are, as do
-    physical groups, their names and the classification of each node and element. Nodes and tets that are still there keep
-    their tags. Tets have the tag of their volume as label: protect="label:3" keeps volume 3. Values of views that belong to
-    nodes or elements (post-processing) do not follow.
+    tags: the volumes to work on, by number or by the name of a physical group; left out, all that have tets. Nodes on points,
+    curves and surfaces stay where they are, as do physical groups, their names and the classification of each node and
+    element. Nodes and tets that are still there keep their tags. Tets have the tag of their volume as label:
+    protect="label:3" keeps volume 3. Tets of second order are improved, too, and those at a curved surface stay sound.
+    Values of views that belong to nodes or elements (post-processing) do not follow.
 
-    Raises Error, and leaves the model as it was, for a volume with other elements than tets of first order.
+    Raises Error, and leaves the model as it was, for a volume with other elements than tets of first or second order, and
+    for volumes of both.
     """
     import gmsh
 
@@ -165,6 +180,7 @@ def improve(tags: int | str | Sequence[int | str] | None = None, **options: Any)
         raise Error("there are no tets in memory: generate a mesh first")
     model = _read(gmsh, volumes)
     fixed = model.node_dimensions < 3
+    fixed[np.setdiff1d(np.arange(len(fixed)), model.index_of(model.tets[:, :4]))] = False  # edges hold their middle nodes
     result = improve_arrays(model.points, model.index_of(model.tets), labels=model.volumes,
                             triangles=model.index_of(model.triangles), edges=model.index_of(model.edges), required=fixed,
                             **{**options, "maps": True})
