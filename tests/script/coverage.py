@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reads what llvm-cov exports: the share of lines that were run, by layer.
 
-usage: coverage.py SOURCE_FOLDER [--files] <EXPORT
+usage: coverage.py SOURCE_FOLDER [--files] [--write FILE] <EXPORT
 """
 
 import json
@@ -20,14 +20,19 @@ for file in json.load(sys.stdin)["data"][0]["files"]:
         lines = file["summary"]["lines"]
         files[path.relative_to(SOURCE)] = (lines["covered"], lines["count"])
 missed = []
+table = ["# Which lines the tests run", "", "Written by `script/coverage`: of all tests that are programs of C++.", "",
+         "| Layer | Lines | Run % |", "|---|---|---|"]
 for layer in LAYERS:
     mine = {path: counts for path, counts in files.items() if path.parts[0] == layer}
     covered, count = (sum(counts[i] for counts in mine.values()) for i in (0, 1))
     share = 100 * covered / max(1, count)
     print(f"coverage: {layer:9} {share:5.1f} % of {count:,} lines")
+    table.append(f"| `{layer}/` | {count:,} | {share:.1f} |")
     if share < NEEDED.get(layer, 0):
         missed.append(layer)
     if "--files" in sys.argv:
         for path, (run, all_lines) in sorted(mine.items(), key=lambda item: item[1][0] - item[1][1]):
             print(f"    {str(path):48} {run:6} of {all_lines:6}")
+if "--write" in sys.argv:
+    Path(sys.argv[sys.argv.index("--write") + 1]).write_text("\n".join(table) + "\n")
 sys.exit(f"coverage: less than is needed in {', '.join(missed)}" if missed else 0)
