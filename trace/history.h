@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,13 @@ namespace tetmend {
 
 /// Whom a trace is asked about: 1 vertex, 2 of an edge, 3 of a face, 4 of a tet; ascending.
 using HistorySubject = std::vector<VertexHandle>;
+
+/// "vertex", "edge", "face" or "tet".
+std::string_view kind_of(std::span<const VertexHandle> part);
+/// "edge 3 17".
+std::string in_words(std::span<const VertexHandle> part);
+/// "edge:3,17", as find_subject() reads it.
+std::string as_question(std::span<const VertexHandle> part);
 
 /// A call that aimed at the subject or at a part of it.
 struct HistoryCall {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A history in words.
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 
@@ -11,14 +12,25 @@
 
 namespace tetmend {
 
-namespace {
-
-std::string name_of(const HistorySubject& part) {
+std::string_view kind_of(std::span<const VertexHandle> part) {
   constexpr std::array<std::string_view, 5> kKinds = {"", "vertex", "edge", "face", "tet"};
-  std::string text(kKinds[part.size()]);
+  return kKinds[part.size()];
+}
+
+std::string in_words(std::span<const VertexHandle> part) {
+  std::string text(kind_of(part));
   for (const VertexHandle v : part) text += fmt::format(" {}", v.index());
   return text;
 }
+
+std::string as_question(std::span<const VertexHandle> part) {
+  std::string text(kind_of(part));
+  for (const VertexHandle v : part)
+    text += fmt::format("{}{}", text.back() > '9' ? ':' : ',', v.index());
+  return text;
+}
+
+namespace {
 
 class Teller {
  public:
@@ -56,8 +68,7 @@ class Teller {
   }
   std::string call_in_words(std::uint32_t number) const {
     const auto target = call(number).target();
-    return fmt::format("call {} ({} of {})", number, operator_of(number),
-                       name_of({target.begin(), target.end()}));
+    return fmt::format("call {} ({} of {})", number, operator_of(number), in_words(target));
   }
   std::string pass_of(std::uint64_t event) const {
     for (const TracedPass& pass : file_.passes()) {
@@ -69,11 +80,11 @@ class Teller {
   }
 
   void who() {
-    std::string what = name_of(history_.subject);
+    std::string what = in_words(history_.subject);
     what[0] = 'T';
     if (history_.subject.size() < 4) {
-      say("{}{}.", static_cast<char>(std::toupper(name_of(history_.subject)[0])),
-          name_of(history_.subject).substr(1));
+      say("{}{}.", static_cast<char>(std::toupper(in_words(history_.subject)[0])),
+          in_words(history_.subject).substr(1));
       return;
     }
     const auto [least, most] = std::minmax_element(history_.angles.begin(), history_.angles.end());
@@ -149,8 +160,8 @@ class Teller {
     }
     if (nearest != nullptr && has_figures(call(nearest->nearest))) {
       const Call& best = call(nearest->nearest);
-      say("Nearest came {}: its worst tet had quality {:.4f} and needed more than {:.4f}: {}.",
-          call_in_words(nearest->nearest), best.worst_after, best.worst_before, file_.reason(best));
+      say("Nearest came {}: {}: {}.", call_in_words(nearest->nearest), figures_of(best),
+          file_.reason(best));
     } else if (nearest != nullptr) {
       say("Nothing that could be built was found; the last answer, of {}: {}.",
           call_in_words(nearest->nearest), file_.reason(call(nearest->nearest)));
@@ -167,6 +178,21 @@ class Teller {
     }
   }
 
+  /// What a refused call had to offer. The worst tet alone may be better: others count, too.
+  static std::string figures_of(const Call& call) {
+    if (call.worst_after < call.worst_before) {
+      return fmt::format("its worst tet had quality {:.4f} and needed more than {:.4f}",
+                         call.worst_after, call.worst_before);
+    }
+    std::string text = fmt::format("its worst tet had quality {:.4f}, as against {:.4f}",
+                                   call.worst_after, call.worst_before);
+    if (call.bad_after != call.bad_before) {
+      text += fmt::format(", with {} bad tet{} in place of {}", call.bad_after,
+                          call.bad_after == 1 ? "" : "s", call.bad_before);
+    }
+    return text;
+  }
+
   static bool has_figures(const Call& call) {
     return call.worst_before != 0 || call.worst_after != 0;
   }
@@ -178,18 +204,18 @@ class Teller {
   void table() {
     text_ +=
         fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}  {}\n", "part", "where", "calls", "accepted",
-                    "trials", "nearest refused call, its worst tet and what it needed");
+                    "trials", "nearest refused call, worst tet before and with it");
     for (const PartHistory& part : history_.parts) {
       const bool is_interesting = part.calls + part.in_trials > 0 || part.part.size() == 2;
       if (!is_interesting && &part != &whole()) continue;
-      text_ += fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}", name_of(part.part),
+      text_ += fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}", in_words(part.part),
                            part.on_surface ? "surface" : "inside", part.calls, part.accepted,
                            part.in_trials);
       if (part.nearest != kNoCall && !call(part.nearest).accepted()) {
         const Call& best = call(part.nearest);
         text_ += fmt::format("  {}: {}", part.nearest, best.verdict_text());
         if (has_figures(best)) {
-          text_ += fmt::format(", {:.4f} of {:.4f}", best.worst_after, best.worst_before);
+          text_ += fmt::format(", {:.4f} -> {:.4f}", best.worst_before, best.worst_after);
         }
       }
       text_ += '\n';
@@ -204,7 +230,7 @@ class Teller {
       const Call& c = call(each.call);
       const auto target = c.target();
       text_ += fmt::format("{:>9}  {:<32} {:<28} {:<16}", each.call, file_.name(c.operator_name),
-                           name_of({target.begin(), target.end()}), c.verdict_text());
+                           in_words(target), c.verdict_text());
       if (has_figures(c)) text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
       if (each.in_trial) text_ += "  in a trial that was undone";
       text_ += '\n';

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/judge.h"
 #include "trace/trace_audit.h"
 
 namespace tetmend {
@@ -13,6 +14,12 @@ namespace {
 
 char kind_of(const std::vector<std::byte>& frame) {
   return frame.empty() ? '\0' : static_cast<char>(frame.front());
+}
+
+/// Of qualities in ascending order.
+std::uint32_t count_bad(std::span<const Quality> qualities) {
+  return static_cast<std::uint32_t>(
+      std::lower_bound(qualities.begin(), qualities.end(), kBadThreshold) - qualities.begin());
 }
 
 /// What follows the kind.
@@ -177,6 +184,9 @@ void TraceFile::end_call(const TraceEvent& event) {
   call.verdict = event.verdict;
   if (!event.before.empty()) call.worst_before = event.before.front();
   if (!event.after.empty()) call.worst_after = event.after.front();
+  call.vector_improved = improves(event.after, event.before);
+  call.bad_before = count_bad(event.before);
+  call.bad_after = count_bad(event.after);
 }
 
 void TraceFile::index_event(const TraceEvent& event) {
@@ -279,8 +289,11 @@ std::string_view TraceFile::reason(const Call& call) const {
                    : "the target lies on the boundary or on a constraint";
     case Verdict::no_improvement:
       if (calls_others) return "what the calls in it reached is not enough";
-      return tried ? "the quality vector with the candidate is not better"
-                   : "no candidate is better than what is there";
+      if (!tried) return "no candidate is better than what is there";
+      if (!call.vector_improved) return "the quality vector with the candidate is not better";
+      return call.bad_after > call.bad_before
+                 ? "the quality vector is better, but the gain does not pay for more bad tets"
+                 : "the quality vector is better, but not all that its judge asks for is";
     case Verdict::inverted:
       return "a tet of the candidate is not certified positive";
     case Verdict::depth_spent:

@@ -43,10 +43,12 @@ struct Call {
   std::uint16_t depth = 0;       ///< number of calls around it
   std::uint8_t target_size = 0;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   bool candidate_found = false;  ///< it knew what to do
+  bool vector_improved = false;  ///< the vector of what was tried is the better one
   Algorithm algorithm = Algorithm::other;
   std::optional<Verdict> verdict;  ///< nothing if the trace ends before
   std::array<VertexHandle, 4> target_vertices;
-  Quality worst_before = 0, worst_after = 0;  ///< of the vectors; refused: of what was tried
+  Quality worst_before = 0, worst_after = 0;    ///< of the vectors; refused: of what was tried
+  std::uint32_t bad_before = 0, bad_after = 0;  ///< tets, likewise
 
   bool accepted() const { return verdict == Verdict::accepted; }
   /// "no improvement", ...; "cut off" if the trace ends before.
@@ -71,7 +73,7 @@ struct TracedPass {
   std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
 };
 
-/// Holds the compressed events and an index of them in memory: about 90 bytes a call.
+/// Holds the compressed events and an index of them in memory: about 100 bytes a call.
 class TraceFile {
  public:
   /// Reads all events once and follows the mesh with them, so that whoever opened a trace may play

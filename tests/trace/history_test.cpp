@@ -179,6 +179,46 @@ TEST_CASE("the worst tet, an edge and a vertex are asked for by numbers of the t
   CHECK(history_of(file, replay, find_subject(file, replay, vertex)).parts.size() == 1);
 }
 
+TEST_CASE("a refused call whose worst tet was better is told with what else counted") {
+  const TempFolder folder;
+  const std::filesystem::path path = folder / "refused.trace";
+  const TetMesh mesh = asset_mesh("sheet.mesh");
+  const TetVertices tet = mesh.vertices(TetHandle(0));
+  const std::array edge = {tet[0], tet[1]};
+  const std::vector<Quality> before = {0.6112F, 1.2F};
+  const std::vector<Quality> now = {0.6304F, 0.7F, 0.8F};
+  const auto paragraph_of = [&](const std::vector<Quality>& old,
+                                const std::vector<Quality>& tried) {
+    {
+      TraceRecorder recorder(path, mesh, {});
+      recorder.attempt_begins({"edge_contraction", edge, 0, {}});
+      recorder.candidate_found();
+      recorder.attempt_ends(Verdict::no_improvement, old, tried);
+      recorder.finish();
+    }
+    const TraceFile file(path);
+    Replay replay(file);
+    const HistorySubject subject = find_subject(file, replay, "tet:0");
+    return history_paragraph(file, history_of(file, replay, subject));
+  };
+  const auto says = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  const std::string dear = paragraph_of(before, now);
+  CAPTURE(dear);
+  CHECK(says(dear,
+             "its worst tet had quality 0.6304, as against 0.6112, with 3 bad tets in place "
+             "of 1: the quality vector is better, but the gain does not pay for more bad "
+             "tets."));
+  CHECK(says(paragraph_of(now, {0.7F, 0.7F, 0.7F}),
+             "quality 0.7000, as against 0.6304: the quality vector is better, but not all that "
+             "its judge asks for is."));
+  CHECK(
+      says(paragraph_of(now, before),
+           "had quality 0.6112 and needed more than 0.6304: the quality vector with the candidate "
+           "is not better."));
+}
+
 TEST_CASE("questions that name nothing are refused with a reason") {
   const Recorded run;
   const TraceFile file(run.path);
