@@ -46,6 +46,7 @@ struct Options {
   std::string background;
   std::string title;
   bool colour_bar = false;
+  bool numbers = false;
   bool scale_bar = false;
   bool panels = false;
   bool keys = false;
@@ -86,6 +87,7 @@ void prepare(const Options& options, Document& document) {
   }
   if (!options.title.empty()) document.view.title = options.title;
   document.view.colour_bar = document.view.colour_bar || options.colour_bar;
+  document.view.all_numbers = document.view.all_numbers || options.numbers;
   document.view.scale_bar = document.view.scale_bar || options.scale_bar;
 }
 
@@ -179,6 +181,8 @@ void add_options(CLI::App& app, Options& options) {
       ->type_name("JSON");
   app.add_flag("--colour-bar", options.colour_bar, "Pictures have a colour bar, with its measure");
   app.add_flag("--scale-bar", options.scale_bar, "Pictures have a scale bar");
+  app.add_flag("--numbers", options.numbers,
+               "Pictures have the numbers of the vertices that are\nseen, as far as there is room");
   app.add_option("--title", options.title, "Pictures have a title")->type_name("TEXT");
   app.add_option("--background", options.background,
                  "Behind the mesh: gradient, white or transparent")

@@ -9,10 +9,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "figure/markup.h"
+
 namespace tetmend::explain {
 
-/// Text as text, between tags and in quotes.
-std::string escaped(std::string_view text);
+using figure::escaped;
 
 /// JSON that nothing in it can end: no tag begins in it. Bytes that are no UTF-8 are replaced.
 std::string in_script(const nlohmann::ordered_json& json);

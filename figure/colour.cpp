@@ -63,6 +63,18 @@ const ColourMap& find_colour_map(std::string_view name) {
       fmt::format("there is no colour map '{}': expected one of {}", name, fmt::join(names, ", ")));
 }
 
+std::span<const Colour> region_colours() {
+  static constexpr std::array<Colour, 8> kRegions = {{{196, 206, 218},
+                                                      {226, 206, 158},
+                                                      {156, 196, 178},
+                                                      {188, 176, 214},
+                                                      {212, 220, 150},
+                                                      {150, 190, 214},
+                                                      {222, 190, 204},
+                                                      {178, 178, 168}}};
+  return kRegions;
+}
+
 Colour faint(Colour colour, double opacity) {
   colour.alpha = static_cast<std::uint8_t>(std::lround(255 * std::clamp(opacity, 0.0, 1.0)));
   return colour;

@@ -34,6 +34,9 @@ const ColourMap& find_colour_map(std::string_view name);
 /// The same colour, `opacity` from 0 to 1.
 Colour faint(Colour colour, double opacity);
 
+/// Quiet colours of regions, one after the other; then again from the first.
+std::span<const Colour> region_colours();
+
 inline constexpr Colour kBlack{0, 0, 0, 255};
 inline constexpr Colour kWhite{255, 255, 255, 255};
 inline constexpr Colour kGrey{96, 100, 108, 255};  ///< of what is said beside
@@ -42,6 +45,9 @@ inline constexpr Colour kGrey{96, 100, 108, 255};  ///< of what is said beside
 inline constexpr Colour kBadColour{222, 32, 38, 255};
 inline constexpr Colour kConstraintColour{242, 160, 30, 255};
 inline constexpr Colour kWorstColour{20, 120, 220, 255};  ///< of curves of the worst quality
+
+/// What the user points at, in all views.
+inline constexpr Colour kPointedColour{255, 214, 10, 255};
 
 /// Parts of a shell, and of what a call makes of it.
 inline constexpr Colour kSelectionColour{255, 196, 0, 255};

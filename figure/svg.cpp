@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "figure/drawing_file.h"
+#include "figure/markup.h"
 
 namespace tetmend::figure {
 
@@ -15,29 +16,6 @@ std::string number(double value) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 /// fill="#rrggbb" fill-opacity="0.5"
@@ -95,7 +73,7 @@ class SvgWriter {
         number(text.at.x), number(text.at.y), number(text.size), style,
         kAnchors[static_cast<std::size_t>(text.anchor)],
         number(text_width(text.text, text.size, text.font)), paint("fill", text.colour),
-        escaped(text.text));
+        escaped(printable(text.text)));
   }
 
   std::string take() { return std::move(out_); }
@@ -115,7 +93,8 @@ std::string svg_of(const Drawing& drawing) {
       "viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, 'Nimbus Sans', 'Liberation Sans', "
       "sans-serif\" xml:space=\"preserve\">\n<title>{2}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n{3}</svg>\n",
-      number(drawing.width), number(drawing.height), escaped(drawing.title), writer.take());
+      number(drawing.width), number(drawing.height), escaped(printable(drawing.title)),
+      writer.take());
 }
 
 }  // namespace tetmend::figure

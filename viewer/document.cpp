@@ -14,7 +14,7 @@
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/grouped.h"
 #include "viewer/debugger/call_highlight.h"
-#include "viewer/debugger/flat_drawing.h"
+#include "viewer/debugger/tets_drawing.h"
 #include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
@@ -33,7 +33,7 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
       return {run.error, true};
     case LiveState::paused:
       if (run.attempts == 0) return {"paused before the first call", false};
-      return {fmt::format("{} in {} after {} attempts{}",
+      return {fmt::format("{} in {} after call {}{}",
                           run.breakpoint.empty() ? "paused" : "breakpoint", run.phase, run.attempts,
                           run.breakpoint.empty() ? "" : ": " + run.breakpoint),
               false};

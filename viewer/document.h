@@ -136,6 +136,11 @@ class Document {
   void point_at(Pointed what) { pointed_ = std::move(what); }
   /// A call of the trace, by its target. Precondition: there is such a call.
   Pointed pointed_call(std::uint32_t call) const;
+  /// What is selected, by its vertices.
+  Pointed pointed_selection(const Selection& selection) const;
+  /// What has these vertices: a vertex, an edge, of a face one of its tets, a tet. Nothing if the
+  /// mesh has it not.
+  Selection selection_of(std::span<const VertexHandle> vertices) const;
   Pointed hovered;   ///< by the mouse, in the last layout
   Pointed hovering;  ///< likewise, in the one that is being made
 
@@ -147,6 +152,8 @@ class Document {
   Pointed find_named(double x, double y, double reach);
   /// What the colours of the highlight mean.
   const std::vector<LegendEntry>& legend();
+  /// What the call at hand is to make smaller, and the picture shows as a ghost.
+  std::vector<TetHandle> shell_of_caller() const;
 
   const Selection& selection() const { return selection_; }
   /// Precondition: it names something in the mesh.

@@ -9,7 +9,7 @@
 #include "kernel/error.h"
 #include "kernel/shell.h"
 #include "viewer/debugger/call_highlight.h"
-#include "viewer/debugger/flat_drawing.h"
+#include "viewer/debugger/tets_drawing.h"
 #include "viewer/document.h"
 #include "viewer/mesh/direction.h"
 
@@ -85,7 +85,7 @@ std::optional<Ball> Document::call_in_view() {
   auto ball = ball_around(*study);
   if (!ball) ball = ball_of(mesh_, near_);
   if (!ball || !caller_edge_) return ball;
-  const auto caller = ball_of(mesh_, tets_of(mesh_, Selection(*caller_edge_)));
+  const auto caller = ball_of(mesh_, shell_of_caller());
   return caller ? join(*ball, *caller) : *ball;
 }
 
@@ -191,7 +191,7 @@ void Document::mark_call() {
   mark_caller(*study);
   name_call(*study);
   if (near_.empty() && caller_edge_) {  // the target is gone, and nothing was done
-    near_ = tets_of(mesh_, Selection(*caller_edge_));
+    near_ = shell_of_caller();
   }
   const bool is_made = study->covering && debugger_->position() >= study->first_edit;
   if (!is_made) return;
@@ -223,6 +223,11 @@ void Document::mark_caller(const CallStudy& study) {
         highlight_face(mesh_, f, ball_.centre), kFaceToRemoveColour,
         fmt::format("face f to remove, {} {} {}", f[0].index(), f[1].index(), f[2].index()));
   }
+}
+
+std::vector<TetHandle> Document::shell_of_caller() const {
+  if (!caller_edge_) return {};
+  return tets_of(mesh_, Selection(*caller_edge_));
 }
 
 void Document::name_call(const CallStudy& study) {
@@ -315,6 +320,35 @@ const std::vector<NamedVertex>& Document::names() {
 Pointed Document::pointed_call(std::uint32_t call) const {
   const auto target = debugger_->file().calls()[call].target();
   return {{target.begin(), target.end()}, call};
+}
+
+Pointed Document::pointed_selection(const Selection& selection) const {
+  if (const auto* t = std::get_if<TetHandle>(&selection)) {
+    const TetVertices& v = mesh_.vertices(*t);
+    return {{v.begin(), v.end()}};
+  }
+  if (const auto* e = std::get_if<TetEdge>(&selection)) {
+    const auto ends = mesh_.vertices(*e);
+    return {{ends[0], ends[1]}};
+  }
+  if (const auto* v = std::get_if<VertexHandle>(&selection)) return {{*v}};
+  return {};
+}
+
+Selection Document::selection_of(std::span<const VertexHandle> vertices) const {
+  const auto is_there = [&](VertexHandle v) {
+    return v.index() < mesh_.vertex_slots() && !mesh_.is_deleted(v) && mesh_.tet_of(v).is_valid();
+  };
+  if (vertices.empty() || !std::all_of(vertices.begin(), vertices.end(), is_there)) return {};
+  if (vertices.size() == 1) return vertices[0];
+  for (const TetHandle t : tets_of(mesh_, Selection(vertices[0]))) {
+    const bool has_all = std::all_of(vertices.begin(), vertices.end(),
+                                     [&](VertexHandle v) { return mesh_.local_index(t, v) < 4; });
+    if (!has_all) continue;
+    if (vertices.size() == 2) return *edge_in(mesh_, t, vertices[0], vertices[1]);
+    return t;
+  }
+  return {};
 }
 
 Pointed Document::find_named(double x, double y, double reach) {

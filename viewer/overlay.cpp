@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "viewer/mesh/tet_values.h"
+#include "viewer/mesh/visibility.h"
 
 namespace tetmend::viewer {
 
@@ -22,13 +27,15 @@ constexpr double kTextSize = 15;
 constexpr double kTitleSize = 20;
 constexpr double kMargin = 18;
 constexpr double kLine = 22;
+constexpr std::size_t kMostNumbers = 300;  // of vertices that are seen
 
 /// Puts words and bars into the corners of the part of the window that shows the mesh.
 class OverlayDrawer {
  public:
-  OverlayDrawer(Document& document, double scale)
+  OverlayDrawer(Document& document, const OverlayLook& look)
       : document_(document),
-        scale_(scale),
+        look_(look),
+        scale_(look.scale),
         left_(document.canvas_corner.x),
         top_(document.canvas_corner.y),
         right_(left_ + document.canvas.width),
@@ -36,8 +43,58 @@ class OverlayDrawer {
     const bool on_dark =
         document.view.theme == "dark" && document.view.background == Background::gradient;
     ink_ = on_dark ? figure::kWhite : figure::kBlack;
+    ground_ = on_dark ? Colour{33, 36, 41, 255} : Colour{246, 247, 249, 255};
     drawing_.width = document.window.width;
     drawing_.height = document.window.height;
+  }
+
+  /// Numbers that would cover others are left out; those with a role come first.
+  void names() {
+    for (const NamedVertex& name : document_.names()) name_at(name);
+  }
+  void numbers_of_seen() {
+    for (const VertexHandle v : seen_vertices(document_, kMostNumbers)) name_at({v, {}});
+  }
+
+  void pointed() {
+    std::vector<Place> pixels;
+    for (const VertexHandle v : document_.pointed().vertices) {
+      const auto at = is_there(v) ? pixel_of(v) : std::nullopt;
+      if (!at) return;
+      pixels.push_back(*at);
+    }
+    const double text = look_.text_size;
+    if (pixels.size() == 3)
+      drawing_.add(figure::Area{pixels, figure::faint(kPointedColour, 0.27), {}});
+    constexpr std::size_t kMost = 4;
+    for (std::size_t i = 0; i < pixels.size() && pixels.size() <= kMost; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        drawing_.line(pixels[i], pixels[j], Pen{kPointedColour, text / 3});
+      }
+      circle(pixels[i], 0.6 * text, Pen{kPointedColour, text / 4});
+    }
+  }
+
+  /// At the lower left.
+  void legend() {
+    const auto& entries = document_.legend();
+    if (entries.empty()) return;
+    const double text = look_.text_size;
+    const double line = 1.25 * text;
+    double widest = 0;
+    for (const LegendEntry& entry : entries) {
+      widest = std::max(widest, look_.text_width(entry.text, text));
+    }
+    const double height = line * static_cast<double>(entries.size());
+    const double left = left_ + 0.6 * text;
+    double y = bottom_ - height - 0.6 * text;
+    drawing_.rectangle({left - 0.3 * text, y - 0.3 * text}, widest + 2.6 * text,
+                       height + 0.5 * text, figure::faint(ground_, 0.8));
+    for (const LegendEntry& entry : entries) {
+      drawing_.rectangle({left, y + 0.2 * text}, 1.4 * text, 0.8 * text, entry.colour);
+      words({left + 1.8 * text, y + line / 2}, entry.text, Anchor::start, text);
+      y += line;
+    }
   }
 
   void title() {
@@ -98,10 +155,62 @@ class OverlayDrawer {
 
  private:
   void words(Place middle, std::string text, Anchor anchor) {
-    Text words = figure::centred(middle, std::move(text), kTextSize * scale_);
+    words(middle, std::move(text), anchor, kTextSize * scale_);
+  }
+  void words(Place middle, std::string text, Anchor anchor, double size) {
+    Text words = figure::centred(middle, std::move(text), size);
     words.anchor = anchor;
     words.colour = ink_;
     drawing_.add(std::move(words));
+  }
+
+  bool is_there(VertexHandle v) const {
+    const TetMesh& mesh = document_.mesh();
+    return v.index() < mesh.vertex_slots() && !mesh.is_deleted(v);
+  }
+  std::optional<Place> pixel_of(VertexHandle v) const {
+    const auto at =
+        document_.view.camera.project(to_glm(document_.mesh().point(v)), document_.canvas);
+    if (!at) return std::nullopt;
+    return Place{left_ + at->x, top_ + at->y};
+  }
+
+  void circle(const Place& middle, double radius, const Pen& pen) {
+    constexpr int kCorners = 24;
+    figure::Stroke stroke{{}, pen};
+    for (int i = 0; i <= kCorners; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kCorners;
+      stroke.places.push_back(
+          {middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
+    }
+    drawing_.add(std::move(stroke));
+  }
+
+  /// The role, if there is one, then the number, above and to the right of a dot at the vertex.
+  void name_at(const NamedVertex& name) {
+    const auto at = pixel_of(name.vertex);
+    if (!at || at->x < left_ || at->x > right_ || at->y < top_ || at->y > bottom_) return;
+    const double text = look_.text_size;
+    const std::string number = fmt::format("{}", name.vertex.index());
+    const std::string role = name.role.empty() ? "" : name.role + " ";
+    const double role_width = look_.text_width(role, text);
+    const double left = at->x + 0.35 * text;
+    const double middle = at->y - 0.6 * text;
+    const figure::Box box = {left, left + role_width + look_.text_width(number, text),
+                             middle - 0.6 * text, middle + 0.6 * text};
+    for (const figure::Box& other : taken_) {
+      if (box.overlaps(other)) return;
+    }
+    taken_.push_back(box);
+    drawing_.add(figure::Dot{*at, 0.16 * text, ink_});
+    drawing_.rectangle({box.left - 2, box.top}, box.right - box.left + 4, box.bottom - box.top,
+                       figure::faint(ground_, 0.75));
+    const bool is_end = name.role == "a" || name.role == "b" || name.role == "v";
+    Text role_text = figure::centred({left, middle}, role, text);
+    role_text.anchor = Anchor::start;
+    role_text.colour = is_end ? kSupportingEdgeColour : kSkirtColour;
+    if (!role.empty()) drawing_.add(std::move(role_text));
+    words({left + role_width, middle}, number, Anchor::start, text);
   }
 
   void swatch(double left, double y, const Colour& colour, std::string text) {
@@ -129,10 +238,12 @@ class OverlayDrawer {
   }
 
   Document& document_;
+  const OverlayLook& look_;
   double scale_;
   double left_, top_, right_, bottom_;
-  Colour ink_;
+  Colour ink_, ground_;
   Drawing drawing_;
+  std::vector<figure::Box> taken_;  // by numbers
 };
 
 }  // namespace
@@ -145,13 +256,59 @@ double scale_bar_length(const Document& document, double most) {
   return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
 }
 
-Drawing draw_overlay(Document& document, double scale) {
-  OverlayDrawer drawer(document, scale);
-  if (document.has_mesh()) {
-    if (!document.view.title.empty()) drawer.title();
-    if (document.view.colour_bar) drawer.colour_bar();
-    if (document.view.scale_bar) drawer.scale_bar();
+std::vector<VertexHandle> seen_vertices(Document& document, std::size_t most) {
+  const Scene& scene = document.scene();
+  const TetMesh& mesh = document.mesh();
+  const Camera& camera = document.view.camera;
+  std::set<std::uint32_t> numbers;
+  for (const TetHandle t : scene.surface_tets) {
+    for (const VertexHandle v : mesh.vertices(t)) numbers.insert(v.index());
   }
+  std::vector<std::pair<double, VertexHandle>> near;  // by depth
+  for (const std::uint32_t number : numbers) {
+    const VertexHandle v(number);
+    const auto at = camera.project(to_glm(mesh.point(v)), document.canvas);
+    const bool is_inside = at && at->x >= 0 && at->y >= 0 && at->x < document.canvas.width &&
+                           at->y < document.canvas.height;
+    if (!is_inside) continue;
+    near.emplace_back(glm::dot(to_glm(mesh.point(v)) - camera.eye(), camera.forward()), v);
+  }
+  std::sort(near.begin(), near.end());
+  // So many triangles are looked at: a picture of a large mesh must not take seconds.
+  constexpr std::size_t kMostTests = 40'000'000;
+  const std::size_t tries = kMostTests / std::max<std::size_t>(scene.surface_tets.size(), 1);
+  std::vector<VertexHandle> seen;
+  for (std::size_t i = 0; i < std::min(near.size(), tries) && seen.size() < most; ++i) {
+    const glm::dvec3 point = to_glm(mesh.point(near[i].second));
+    const auto at = camera.project(point, document.canvas);
+    const Ray ray = camera.ray(at->x, at->y, document.canvas);
+    const auto hit = cast(scene, ray);
+    constexpr double kNear = 1e-6;  // of the distance: the triangles at the vertex itself
+    const double away = glm::distance(ray.origin, point);
+    const bool is_hidden = hit && glm::distance(ray.origin, hit->point) < (1 - kNear) * away;
+    if (!is_hidden) seen.push_back(near[i].second);
+  }
+  return seen;
+}
+
+bool has_overlay(Document& document) {
+  if (!document.has_mesh()) return false;
+  const ViewSettings& view = document.view;
+  return view.colour_bar || view.scale_bar || view.all_numbers || !view.title.empty() ||
+         (view.numbers && !document.names().empty()) || !document.pointed().is_nothing();
+}
+
+Drawing draw_overlay(Document& document, const OverlayLook& look) {
+  OverlayDrawer drawer(document, look);
+  if (!document.has_mesh()) return drawer.take();
+  const ViewSettings& view = document.view;
+  drawer.pointed();
+  if (view.numbers) drawer.names();
+  if (view.all_numbers) drawer.numbers_of_seen();
+  if (view.legend && document.show_panels && document.debugger() != nullptr) drawer.legend();
+  if (!view.title.empty()) drawer.title();
+  if (view.colour_bar) drawer.colour_bar();
+  if (view.scale_bar) drawer.scale_bar();
   return drawer.take();
 }
 

@@ -1,15 +1,34 @@
 // SPDX-License-Identifier: MIT
-// What a picture for a paper has on top of the mesh: colour bar, scale bar, title.
+// What lies over the picture of a mesh: numbers of vertices, what is pointed at, a legend; for papers
+// a colour bar, a scale bar, a title.
 #pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "figure/drawing.h"
 #include "viewer/document.h"
 
 namespace tetmend::viewer {
 
-/// What the view of the document asks for, in pixels of its window. `scale`: 1 for an ordinary
-/// screen, 2 for one with twice as many pixels in the same place. Nothing without a mesh.
-figure::Drawing draw_overlay(Document& document, double scale);
+/// How large it is, in pixels.
+struct OverlayLook {
+  double scale = 1;       ///< 1 for an ordinary screen, 2 for one with twice as many pixels
+  double text_size = 16;  ///< of numbers and legend
+  /// Of a text of that size, as it will be painted.
+  std::function<double(const std::string&, double)> text_width =
+      [](const std::string& text, double size) { return figure::text_width(text, size); };
+};
+
+/// What the view of the document asks for, in pixels of its window. Nothing without a mesh.
+figure::Drawing draw_overlay(Document& document, const OverlayLook& look);
+/// draw_overlay() would draw something.
+bool has_overlay(Document& document);
+
+/// Vertices that are seen in the picture, the nearest first, at most `most`; of scenes with more
+/// than 100,000 triangles fewer are looked for. Cost: for each a pass over the triangles.
+std::vector<VertexHandle> seen_vertices(Document& document, std::size_t most);
 
 /// The longest round length, in units of the file, that a scale bar of at most `most` pixels can
 /// show; at the target of the camera, as a picture with perspective has no scale elsewhere.

@@ -24,9 +24,9 @@ constexpr double kBestQuality = 2;  // of colours: the regular tet, with the goa
 
 }  // namespace
 
-Colour tet_colour(Quality quality) {
+Colour tet_colour(Quality quality, const figure::ColourMap& map) {
   if (quality < kBadThreshold) return figure::kBadColour;
-  return figure::colour_maps().front().at(static_cast<double>(quality) / kBestQuality);
+  return map.at(static_cast<double>(quality) / kBestQuality);
 }
 
 std::string quality_number(double quality) {

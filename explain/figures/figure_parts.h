@@ -21,8 +21,9 @@ inline constexpr double kNumberSize = 7;
 inline constexpr double kLineHeight = 1.35;  ///< in units of the size
 inline constexpr double kMargin = 10;
 
-/// Bad tets red, the others by the first colour map.
-figure::Colour tet_colour(Quality quality);
+/// Bad tets red, the others by a colour map.
+figure::Colour tet_colour(Quality quality,
+                          const figure::ColourMap& map = figure::colour_maps().front());
 /// As figures print it: "0.074".
 std::string quality_number(double quality);
 

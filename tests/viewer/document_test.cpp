@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/document.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <utility>
 
@@ -116,4 +118,26 @@ TEST_CASE("a mirrored mesh is told of") {
   CHECK(document.message.text.find("mirrored:") != std::string::npos);
   document.open(folder / "right.mesh");
   CHECK(document.notes().empty());
+}
+
+TEST_CASE("what has given vertices is found, and what the mesh has not is not") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  const TetMesh& mesh = s.document.mesh();
+  const TetVertices tet = mesh.vertices(TetHandle(5));
+  const Document& document = s.document;
+  CHECK(document.selection_of(tet) == viewer::Selection(TetHandle(5)));
+  const std::array edge = {tet[2], tet[0]};
+  const viewer::Selection found = document.selection_of(edge);
+  REQUIRE(std::holds_alternative<TetEdge>(found));
+  const auto vertices = document.pointed_selection(found).vertices;
+  CHECK(std::is_permutation(vertices.begin(), vertices.end(), edge.begin()));
+  const std::array face = {tet[3], tet[1], tet[0]};
+  REQUIRE(std::holds_alternative<TetHandle>(document.selection_of(face)));
+  const std::array vertex = {tet[1]};
+  CHECK(document.selection_of(vertex) == viewer::Selection(tet[1]));
+  const std::array far = {VertexHandle(0), VertexHandle(26)};  // opposite corners of two cells
+  CHECK(document.selection_of(far) == viewer::Selection());
+  const std::array gone = {VertexHandle(999)};
+  CHECK(document.selection_of(gone) == viewer::Selection());
+  CHECK(document.selection_of({}) == viewer::Selection());
 }

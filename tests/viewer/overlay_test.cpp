@@ -31,16 +31,16 @@ bool has(const std::vector<std::string>& words, const std::string& word) {
 
 TEST_CASE("nothing lies over the mesh unless the view asks for it") {
   TestSession s(test::kuhn_cube(2, 0, 1));
-  CHECK(draw_overlay(s.document, 1).shapes.empty());
+  CHECK(draw_overlay(s.document, {}).shapes.empty());
   s.document.view.title = "A cube";
-  CHECK(words_of(draw_overlay(s.document, 1)) == std::vector<std::string>{"A cube"});
+  CHECK(words_of(draw_overlay(s.document, {})) == std::vector<std::string>{"A cube"});
 }
 
 TEST_CASE("a colour bar has the name of the measure, and numbers at their places") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   s.run("colour", {"quality"});
   s.run("colour_bar");
-  const figure::Drawing drawing = draw_overlay(s.document, 1);
+  const figure::Drawing drawing = draw_overlay(s.document, {});
   const auto words = words_of(drawing);
   CHECK(has(words, "quality"));
   for (const char* number : {"0", "0.5", "1", "1.5", "2"}) CHECK(has(words, number));
@@ -50,7 +50,7 @@ TEST_CASE("a colour bar has the name of the measure, and numbers at their places
   REQUIRE(first != nullptr);
   CHECK(first->fill == map.at(1 - 0.5 / 128));
   s.run("colour", {"region"});
-  CHECK(has(words_of(draw_overlay(s.document, 1)),
+  CHECK(has(words_of(draw_overlay(s.document, {})),
             fmt::format("region {}", s.document.regions().front())));
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("a scale bar is as long as it says") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   s.document.view.camera.orthographic = true;
   s.run("scale_bar");
-  const figure::Drawing drawing = draw_overlay(s.document, 1);
+  const figure::Drawing drawing = draw_overlay(s.document, {});
   const auto words = words_of(drawing);
   REQUIRE(words.size() == 1);
   const double length = std::stod(words[0]);
@@ -78,10 +78,52 @@ TEST_CASE("a scale bar is as long as it says") {
 TEST_CASE("twice the scale makes words twice as large, at twice the distance from the border") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   s.document.view.title = "t";
-  const auto one = std::get<figure::Text>(draw_overlay(s.document, 1).shapes[0]);
+  const auto one = std::get<figure::Text>(draw_overlay(s.document, {}).shapes[0]);
   s.document.resize({800, 600});
-  const auto two = std::get<figure::Text>(draw_overlay(s.document, 2).shapes[0]);
+  const auto two = std::get<figure::Text>(draw_overlay(s.document, {.scale = 2}).shapes[0]);
   CHECK(two.size == 2 * one.size);
   CHECK(two.at.x == 2 * one.at.x);
   CHECK(two.at.y == doctest::Approx(2 * one.at.y));
+}
+
+TEST_CASE("numbers stand at the vertices that are seen, and at no hidden one") {
+  TestSession s(test::kuhn_cube(2, 0, 1));  // 27 vertices: 19 on the three faces in front
+  s.document.go_home();
+  const auto seen = seen_vertices(s.document, 100);
+  CHECK(seen.size() == 19);
+  for (const VertexHandle v : seen) {
+    const Point& p = s.document.mesh().point(v);
+    CHECK((p.x() == 1 || p.y() == 0 || p.z() == 1));  // from the right, in front, above
+  }
+  CHECK(seen_vertices(s.document, 5).size() == 5);
+  CHECK(draw_overlay(s.document, {}).shapes.empty());
+  s.run("all_numbers");
+  const auto words = words_of(draw_overlay(s.document, {.text_size = 6}));
+  CHECK(words.size() == 19);
+  for (const VertexHandle v : seen) CHECK(has(words, fmt::format("{}", v.index())));
+  // Large ones find room for some only, and none covers another.
+  const figure::Drawing large = draw_overlay(s.document, {.text_size = 40});
+  std::vector<figure::Box> boxes;
+  for (const figure::Shape& shape : large.shapes) {
+    if (const auto* text = std::get_if<figure::Text>(&shape)) boxes.push_back(box_of(*text));
+  }
+  CHECK(boxes.size() > 2);
+  CHECK(boxes.size() < 19);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) CHECK(!boxes[i].overlaps(boxes[j]));
+  }
+}
+
+TEST_CASE("the shell of a selected edge has its names, and what is pointed at is drawn over it") {
+  TestSession s(test::shell_mesh({.degree = 5}));
+  s.run("select_edge", {0, 1});
+  const auto words = words_of(draw_overlay(s.document, {.text_size = 4}));
+  for (const char* role : {"a ", "b ", "p1 ", "p5 "}) CHECK(has(words, role));
+  const std::size_t shapes = draw_overlay(s.document, {.text_size = 4}).shapes.size();
+  s.document.point_at({{VertexHandle(0), VertexHandle(1)}});
+  const figure::Drawing lit = draw_overlay(s.document, {.text_size = 4});
+  REQUIRE(lit.shapes.size() == shapes + 3);  // a line and two circles
+  const auto* line = std::get_if<figure::Stroke>(&lit.shapes[1]);
+  REQUIRE(line != nullptr);
+  CHECK(line->pen.colour == figure::kPointedColour);
 }

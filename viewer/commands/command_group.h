@@ -69,6 +69,26 @@ inline Debugger& need_trace(Document& document) {
   return *document.debugger();
 }
 
+inline bool& setting(Document& document, bool Document::*which) {
+  return document.*which;
+}
+inline bool& setting(Document& document, bool ViewSettings::*which) {
+  return document.view.*which;
+}
+inline bool& setting(Document& document, bool SceneSettings::*which) {
+  return document.view.scene.*which;
+}
+inline bool& setting(Document& document, bool Camera::*which) {
+  return document.view.camera.*which;
+}
+/// A command that turns a setting on or off.
+template <auto Setting>
+nlohmann::json toggle(Session& s, const nlohmann::json&) {
+  bool& value = setting(s.document, Setting);
+  value = !value;
+  return nullptr;
+}
+
 std::span<const Command> file_commands();
 std::span<const Command> figure_commands();
 std::span<const Command> view_commands();

@@ -23,7 +23,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kGestures
      {"wheel", "zoom to the mouse"},
      {"click", "pick"},
      {"double click", "pick and fit"},
-     {"right click, in a trace", "pick, and choose: history of what was picked"},
+     {"right click",
+      "go to what the mouse is on, in the picture or a panel, or ask for its history"},
      {"drag over the histogram", "filter; click there: filter off"},
      {"drop a file", "open it; a .json file is a view"}}};
 

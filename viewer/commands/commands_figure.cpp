@@ -123,16 +123,6 @@ json frames(Session& s, const json& a) {
   return range.count();
 }
 
-json colour_bar(Session& s, const json&) {
-  s.document.view.colour_bar = !s.document.view.colour_bar;
-  return nullptr;
-}
-
-json scale_bar(Session& s, const json&) {
-  s.document.view.scale_bar = !s.document.view.scale_bar;
-  return nullptr;
-}
-
 json title(Session& s, const json& a) {
   s.document.view.title = a.empty() ? "" : Arguments("title", a).text(0);
   return nullptr;
@@ -163,8 +153,9 @@ constexpr std::array kCommands = {
             &frames},
     Command{"colour_bar", "", kView, "colour_bar()",
             "A colour bar with the numbers of the measure on or off; of regions, their colours",
-            &colour_bar},
-    Command{"scale_bar", "", kView, "scale_bar()", "A scale bar on or off", &scale_bar},
+            &toggle<&ViewSettings::colour_bar>},
+    Command{"scale_bar", "", kView, "scale_bar()", "A scale bar on or off",
+            &toggle<&ViewSettings::scale_bar>},
     Command{"title", "", "", "title(\"TEXT\")", "A title over the mesh; without a text, none",
             &title},
     Command{"background", "", kView, "background(\"white\")",

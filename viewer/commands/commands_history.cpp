@@ -16,21 +16,8 @@ namespace {
 
 /// Vertices that are selected, or a table of numbers, as find_subject() reads them.
 std::string subject_of_selection(const Document& document) {
-  const TetMesh& mesh = document.mesh();
-  const auto list = [](const auto& vertices) {
-    std::vector<std::uint32_t> numbers;
-    for (const VertexHandle v : vertices) numbers.push_back(v.index());
-    return fmt::format("{}", fmt::join(numbers, ","));
-  };
-  if (const auto* t = std::get_if<TetHandle>(&document.selection())) {
-    return "tet:" + list(mesh.vertices(*t));
-  }
-  if (const auto* e = std::get_if<TetEdge>(&document.selection())) {
-    return "edge:" + list(mesh.vertices(*e));
-  }
-  if (const auto* v = std::get_if<VertexHandle>(&document.selection())) {
-    return fmt::format("vertex:{}", v->index());
-  }
+  const Pointed selected = document.pointed_selection(document.selection());
+  if (!selected.vertices.empty()) return as_question(selected.vertices);
   throw Error("history: select a tet, an edge or a vertex, or name one");
 }
 

@@ -12,27 +12,19 @@ using nlohmann::json;
 
 namespace {
 
-template <bool SceneSettings::*Switch>
-json toggle(Session& s, const json&) {
-  bool& value = s.document.view.scene.*Switch;
-  value = !value;
-  return nullptr;
-}
-
-json edges(Session& s, const json&) {
-  s.document.view.edges = !s.document.view.edges;
+/// A number from the script; without one, on and off.
+json set_or_toggle(Session& s, const json& a, const char* name, double& value, double usual) {
+  if (!a.empty()) {
+    apply_json(s.document.view, {{name, a[0]}});
+  } else {
+    value = value > 0 ? 0 : usual;
+  }
   return nullptr;
 }
 
 json ghosts(Session& s, const json& a) {
   constexpr double kFaint = 0.15;
-  if (!a.empty()) {
-    apply_json(s.document.view, {{"ghosts", a[0]}});
-  } else {
-    double& value = s.document.view.scene.ghosts;
-    value = value > 0 ? 0 : kFaint;
-  }
-  return nullptr;
+  return set_or_toggle(s, a, "ghosts", s.document.view.scene.ghosts, kFaint);
 }
 
 /// "region", then the values of tets.
@@ -94,13 +86,7 @@ json peel_by(Session& s, const json&) {
 
 json shrink(Session& s, const json& a) {
   constexpr double kUsual = 0.2;
-  if (!a.empty()) {
-    apply_json(s.document.view, {{"shrink", a[0]}});
-  } else {
-    double& value = s.document.view.scene.shrink;
-    value = value > 0 ? 0 : kUsual;
-  }
-  return nullptr;
+  return set_or_toggle(s, a, "shrink", s.document.view.scene.shrink, kUsual);
 }
 
 json cut(Session& s, const json& a) {
@@ -151,7 +137,7 @@ json show_all(Session& s, const json&) {
 constexpr std::string_view kShow = "Show";
 
 constexpr std::array kCommands = {
-    Command{"edges", "E", kShow, "edges()", "Edges on or off", &edges},
+    Command{"edges", "E", kShow, "edges()", "Edges on or off", &toggle<&ViewSettings::edges>},
     Command{"bad", "B", kShow, "bad()", "Bad tets in red, seen through the rest",
             &toggle<&SceneSettings::bad>},
     Command{"bad_beyond_cuts", "Shift+B", kShow, "bad_beyond_cuts()",

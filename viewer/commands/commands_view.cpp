@@ -32,11 +32,6 @@ json look_along(Session& s, const json&) {
   return nullptr;
 }
 
-json orthographic(Session& s, const json&) {
-  s.document.view.camera.orthographic = !s.document.view.camera.orthographic;
-  return nullptr;
-}
-
 json theme(Session& s, const json& a) {
   std::string& now = s.document.view.theme;
   if (a.empty()) {
@@ -44,16 +39,6 @@ json theme(Session& s, const json& a) {
   } else {
     apply_json(s.document.view, {{"theme", a[0]}});
   }
-  return nullptr;
-}
-
-json panels(Session& s, const json&) {
-  s.document.show_panels = !s.document.show_panels;
-  return nullptr;
-}
-
-json keys(Session& s, const json&) {
-  s.document.show_keys = !s.document.show_keys;
   return nullptr;
 }
 
@@ -67,16 +52,6 @@ json size(Session& s, const json& a) {
   const Arguments arguments("size", a);
   s.document.resize({static_cast<int>(std::max(1U, arguments.index(0, kMost + 1))),
                      static_cast<int>(std::max(1U, arguments.index(1, kMost + 1)))});
-  return nullptr;
-}
-
-json numbers(Session& s, const json&) {
-  s.document.view.numbers = !s.document.view.numbers;
-  return nullptr;
-}
-
-json legend(Session& s, const json&) {
-  s.document.view.legend = !s.document.view.legend;
   return nullptr;
 }
 
@@ -105,13 +80,19 @@ constexpr std::array kCommands = {
     Command{"undo_view", "Ctrl+Z", kView, "undo_view()", "Back to the view before", &undo_view},
     Command{"redo_view", "Ctrl+Y", kView, "redo_view()", "To the view that was undone", &redo_view},
     Command{"orthographic", "O", kView, "orthographic()", "Orthographic or perspective",
-            &orthographic},
+            &toggle<&Camera::orthographic>},
     Command{"theme", "T", kView, "theme(\"dark\")", "Light or dark", &theme},
-    Command{"panels", "Tab", kView, "panels()", "Panels on or off", &panels},
-    Command{"keys", "F1", kView, "keys()", "This list of keys", &keys},
+    Command{"panels", "Tab", kView, "panels()", "Panels on or off",
+            &toggle<&Document::show_panels>},
+    Command{"keys", "F1", kView, "keys()", "This list of keys", &toggle<&Document::show_keys>},
     Command{"numbers", "#", kView, "numbers()",
-            "Numbers of the vertices of the call at hand or of the selection", &numbers},
-    Command{"legend", "", kView, "legend()", "Of a trace: what the colours mean", &legend},
+            "Numbers of the vertices of the call at hand or of the selection",
+            &toggle<&ViewSettings::numbers>},
+    Command{"all_numbers", "", kView, "all_numbers()",
+            "Numbers of all vertices that are seen, as far as there is room",
+            &toggle<&ViewSettings::all_numbers>},
+    Command{"legend", "", kView, "legend()", "Of a trace: what the colours mean",
+            &toggle<&ViewSettings::legend>},
     Command{"view", "", "", "view{peel = 2}",
             "Change settings by name; the result is the whole view", &view},
     Command{"size", "", "", "size(WIDTH, HEIGHT)", "Size of the picture in pixels", &size},

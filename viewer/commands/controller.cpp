@@ -40,7 +40,7 @@ void Controller::release(double x, double y, double time) {
   drag_ = Drag::nothing;
   if (!session_.document.has_mesh()) return;
   if (is_click) click(x, y, time);
-  if (is_question && session_.document.debugger() != nullptr) ask(x, y);
+  if (is_question) ask(x, y);
 }
 
 /// What lies there, and what is to be done with it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The place in a trace as JSON, for scripts and tests.
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,18 @@ namespace tetmend::viewer {
 using nlohmann::json;
 
 namespace {
+
+/// Of each tet its vertices, ascending.
+json vertices_of(const TetMesh& mesh, const std::vector<TetHandle>& tets) {
+  json list = json::array();
+  for (const TetHandle t : tets) {
+    std::array<std::uint32_t, 4> numbers{};
+    for (unsigned i = 0; i < 4; ++i) numbers[i] = mesh.vertices(t)[i].index();
+    std::sort(numbers.begin(), numbers.end());
+    list.push_back(numbers);
+  }
+  return list;
+}
 
 json covering_state(const FlatCovering& covering) {
   json triangles = json::array();
@@ -109,6 +123,7 @@ json trace_state_of(Document& document) {
   result["undone"] = study->undone;
   const auto removal = removal_of(debugger.file(), study->call);
   if (removal) result["removal"] = to_text(*removal);
+  result["shell_of_caller"] = vertices_of(document.mesh(), document.shell_of_caller());
   result["reason"] = explain_end(debugger.file(), *study);
   if (study->picture && study->picture->ring.size() >= 3) {
     const Call& call = debugger.file().calls()[study->call];

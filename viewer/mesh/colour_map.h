@@ -17,6 +17,7 @@ using figure::kChordColour;
 using figure::kConstraintColour;
 using figure::kCoreColour;
 using figure::kLinkFaceColour;
+using figure::kPointedColour;
 using figure::kSelectionColour;
 using figure::kSkirtColour;
 using figure::kSupportingEdgeColour;

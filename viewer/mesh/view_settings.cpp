@@ -197,6 +197,7 @@ void visit(Visitor& v, View& view) {
   v("hidden_regions", s.hidden_regions);
   v("edges", view.edges);
   v("numbers", view.numbers);
+  v("all_numbers", view.all_numbers);
   v("legend", view.legend);
   v("blended", view.blended);
   v("blend", view.blend, {0, 1});

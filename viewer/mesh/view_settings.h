@@ -54,6 +54,7 @@ struct ViewSettings {
   SceneSettings scene;
   bool edges = true;
   bool numbers = true;          ///< of the vertices of the call at hand or of the selection
+  bool all_numbers = false;     ///< of the vertices that are seen, as far as there is room
   bool legend = true;           ///< of a trace: what the colours in the picture mean
   bool blended = false;         ///< of a trace: the shell before and after in one picture
   double blend = 0.5;           ///< share of the shell after the call in it

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "viewer/ui/flat_canvas.h"
-
 namespace tetmend::viewer::ui {
 
 namespace {
@@ -75,11 +73,78 @@ class Painter {
   ImDrawList& list_;
 };
 
+Colour light(std::uint8_t alpha) {
+  Colour colour = kPointedColour;
+  colour.alpha = alpha;
+  return colour;
+}
+
+/// A shape that is pointed at: light behind words and lines, and over areas.
+class Light {
+ public:
+  explicit Light(const Painter& painter) : painter_(painter) {}
+
+  void behind(const figure::Shape& shape) const {
+    if (const auto* stroke = std::get_if<figure::Stroke>(&shape)) {
+      figure::Stroke wide = *stroke;
+      wide.pen = {light(255), 2 * stroke->pen.width + 4, false};
+      painter_(wide);
+    } else if (const auto* text = std::get_if<figure::Text>(&shape)) {
+      const figure::Box box = figure::box_of(*text);
+      painter_(figure::Dot{
+          {(box.left + box.right) / 2, (box.top + box.bottom) / 2}, 0.8 * text->size, light(255)});
+    }
+  }
+
+  void over(const figure::Shape& shape) const {
+    const auto* area = std::get_if<figure::Area>(&shape);
+    if (area != nullptr) painter_(figure::Area{area->corners, light(90), {}});
+  }
+
+ private:
+  const Painter& painter_;
+};
+
 }  // namespace
+
+Colour colour_of(ImGuiCol part) {
+  const ImVec4 colour = ImGui::GetStyleColorVec4(part);
+  const auto byte = [](float x) { return static_cast<std::uint8_t>(std::lround(255 * x)); };
+  return {byte(colour.x), byte(colour.y), byte(colour.z), byte(colour.w)};
+}
 
 void paint(const figure::Drawing& drawing, ImDrawList& list) {
   const Painter painter(list);
   for (const figure::Shape& shape : drawing.shapes) std::visit(painter, shape);
+}
+
+Square square_at_cursor(float side) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  return {{corner.x + side / 2.0, corner.y + side / 2.0}, side / 2.0};
+}
+
+void show_linked(const char* id, std::span<const LinkedDrawing> drawings, float side,
+                 Document& document) {
+  ImGui::InvisibleButton(id, {side, side});
+  const bool is_hovered = ImGui::IsItemHovered();
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const Painter painter(*ImGui::GetWindowDrawList());
+  const Light light(painter);
+  const Pointed& pointed = document.pointed();
+  for (const LinkedDrawing& drawing : drawings) {
+    for (std::size_t i = 0; i < drawing.meanings.size(); ++i) {
+      const figure::Shape& shape = drawing.drawing.shapes[i];
+      const bool is_lit = pointed.contains(drawing.meanings[i].vertices);
+      if (is_lit) light.behind(shape);
+      std::visit(painter, shape);
+      if (is_lit) light.over(shape);
+    }
+    const Meaning* meaning =
+        is_hovered ? meaning_at(drawing, {mouse.x, mouse.y}, 0.8 * ImGui::GetFontSize()) : nullptr;
+    if (meaning == nullptr) continue;
+    if (!meaning->tip.empty()) ImGui::SetTooltip("%s", meaning->tip.c_str());
+    if (!meaning->vertices.empty()) document.hovering = {meaning->vertices};
+  }
 }
 
 }  // namespace tetmend::viewer::ui

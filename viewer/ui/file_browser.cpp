@@ -10,6 +10,7 @@
 
 #include "explain/lesson_guide.h"
 #include "kernel/formats/mesh_io.h"
+#include "viewer/ui/dialog_buttons.h"
 
 namespace tetmend::viewer::ui {
 
@@ -145,14 +146,10 @@ void FileBrowser::draw(Session& session, float scale) {
   const char* accept = replaces                          ? "Replace the file"
                        : question_ == FileQuestion::save ? "Save"
                                                          : "Open";
-  if (ImGui::Button(accept)) is_accepted_ = true;
-  ImGui::SameLine();
-  const bool is_cancelled =
-      ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  if (!trouble_.empty()) ImGui::TextWrapped("%s", trouble_.c_str());
-  if (is_cancelled) {
+  const Answer answer = dialog_buttons(accept, is_accepted_, trouble_);
+  if (answer == Answer::cancelled) {
     ImGui::CloseCurrentPopup();
-  } else if (is_accepted_ && !typed_.empty()) {
+  } else if (answer == Answer::accepted && !typed_.empty()) {
     finish(session);
   }
   ImGui::EndPopup();

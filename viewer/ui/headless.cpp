@@ -5,8 +5,8 @@
 
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/renderer.h"
+#include "viewer/overlay.h"
 #include "viewer/ui/interface.h"
-#include "viewer/ui/overlay.h"
 
 namespace tetmend::viewer {
 
@@ -25,8 +25,7 @@ class HeadlessHost : public Host {
     arrange(document);
     const gl::OffscreenPicture picture(document.window);
     const ViewSettings& view = document.view;
-    const bool has_interface = document.show_panels || document.show_keys || view.colour_bar ||
-                               view.scale_bar || !view.title.empty() || ui::has_overlay(document);
+    const bool has_interface = document.show_panels || document.show_keys || has_overlay(document);
     if (has_interface) {
       prepare_interface();
       build_interface(document);

@@ -16,8 +16,8 @@
 #include "kernel/grouped.h"
 #include "viewer/commands/menu.h"
 #include "viewer/overlay.h"
+#include "viewer/ui/dialog_buttons.h"
 #include "viewer/ui/drawing_canvas.h"
-#include "viewer/ui/overlay.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
 
@@ -83,6 +83,7 @@ Choice list_lessons(bool (*entry)(const char* title)) {
 
 Choice lessons_menu() {
   if (!ImGui::BeginMenu("Lessons")) return {};
+  close_by_escape();
   Choice choice = list_lessons([](const char* title) { return ImGui::MenuItem(title); });
   ImGui::EndMenu();
   return choice;
@@ -109,13 +110,21 @@ Choice menu(Document& document) {
   if (!ImGui::BeginMainMenuBar()) return choice;
   for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
     if (!ImGui::BeginMenu(title)) continue;
-    for (const Command& command : commands()) {
-      if (command.menu != title) continue;
+    close_by_escape();
+    const Command& quit = find_command("quit");
+    const auto offer = [&](const Command& command) {
       const bool is_on = is_possible(command, document);
       if (ImGui::MenuItem(menu_text(command).c_str(), c_text(command.keys), false, is_on)) {
         choice.command = &command;
       }
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", c_text(command.help));
+    };
+    for (const Command& command : commands()) {
+      if (command.menu == title && &command != &quit) offer(command);
+    }
+    if (quit.menu == title) {  // the last
+      ImGui::Separator();
+      offer(quit);
     }
     ImGui::EndMenu();
   }
@@ -166,7 +175,7 @@ Area dock_algorithm(Area& area, float share) {
 }
 
 void teach(Session& session, const Layout& layout) {
-  constexpr float kMostOfColumn = 0.62F;
+  constexpr float kMostOfColumn = 0.56F;
   Area above = layout.right;
   const Area code = dock_algorithm(above, kMostOfColumn);
   if (begin("##teaching", above)) {
@@ -226,6 +235,27 @@ void show_keys(Session& session, float scale) {
     ImGui::EndTable();
   }
   ImGui::End();
+}
+
+/// Words over the picture are as large as those of the panels.
+OverlayLook overlay_look(float scale) {
+  OverlayLook look;
+  look.scale = scale;
+  look.text_size = ImGui::GetFontSize();
+  look.text_width = [](const std::string& text, double size) {
+    const auto pixels = static_cast<float>(size);
+    return static_cast<double>(ImGui::GetFont()->CalcTextSizeA(pixels, 1e9F, 0, text.c_str()).x);
+  };
+  return look;
+}
+
+void point_by_mouse(Document& document, const ImVec2& mouse) {
+  constexpr float kReach = 0.75F;
+  const glm::dvec2 at = document.to_canvas(mouse.x, mouse.y);
+  const bool is_inside =
+      at.x >= 0 && at.y >= 0 && at.x < document.canvas.width && at.y < document.canvas.height;
+  if (!is_inside || !document.has_mesh()) return;
+  document.hovering = document.find_named(mouse.x, mouse.y, kReach * ImGui::GetFontSize());
 }
 
 }  // namespace
@@ -296,7 +326,6 @@ void Interface::build(Session& session) {
       }
       show_status(session, layout.status, scale_);
     }
-    draw_choices(session);
     if (document.show_keys) show_keys(session, scale_);
     browser_.draw(session, scale_);
     place_dialog_.draw(session);
@@ -305,11 +334,11 @@ void Interface::build(Session& session) {
   ImGui::PushFont(font);
   const bool is_done = guarded(document, [&] {
     if (!ImGui::GetIO().WantCaptureMouse) {
-      point_by_mouse(document, ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
+      point_by_mouse(document, ImGui::GetIO().MousePos);
     }
     if (document.show_panels) panels_around(session, layout);
-    draw_overlay(document);
-    paint(draw_overlay(document, scale_), *ImGui::GetBackgroundDrawList());
+    choices_.draw(session);
+    paint(draw_overlay(document, overlay_look(scale_)), *ImGui::GetBackgroundDrawList());
   });
   if (!is_done) ImGui::ErrorCheckEndFrameRecover(nullptr);
   ImGui::PopFont();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "viewer/commands/commands.h"
+#include "viewer/ui/choices.h"
 #include "viewer/ui/file_browser.h"
 #include "viewer/ui/layout.h"
 #include "viewer/ui/place_dialog.h"
@@ -40,6 +41,7 @@ class Interface {
   ImFont* large_ = nullptr;  // for teaching
   FileBrowser browser_;
   PlaceDialog place_dialog_;
+  Choices choices_;
 };
 
 }  // namespace tetmend::viewer::ui

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "explain/outcome_colour.h"
-#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -36,6 +36,14 @@ void outcome_dot(const Debugger& debugger, const Call& call) {
     list->AddCircle(middle, 0.32F * size, colour, 0, 0.12F * size);
   }
   ImGui::Dummy({size, size});
+}
+
+/// The text as far as the column has room for it.
+std::string fitting(std::string text) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  while (!text.empty() && ImGui::CalcTextSize((text + "...").c_str()).x > room) text.pop_back();
+  return text + "...";
 }
 
 /// Pointed at, or its target is.
@@ -95,19 +103,18 @@ void draw_row(Session& session, const CallRow& row) {
   const std::string name =
       fmt::format("{} {} {}", call.level, short_name(debugger.file(), call), numbers_of(call));
   if (ImGui::Selectable(
-          name.c_str(), debugger.call() == row.call,
+          fitting(name).c_str(), debugger.call() == row.call,
           ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
     run_from_window(find_command("enter"), session, {row.call});
   }
-  offer_history(session, call.target());
   if (ImGui::IsItemHovered()) {
     session.document.hovering = session.document.pointed_call(row.call);
     const std::string tried =
         call.accepted() || call.worst_before == 0
             ? ""
             : fmt::format("\ntried: {:.4f} -> {:.4f}", call.worst_before, call.worst_after);
-    ImGui::SetTooltip("call %u, %s%s", row.call, outcome_text(call, debugger.end()).c_str(),
-                      tried.c_str());
+    ImGui::SetTooltip("%s\ncall %u, %s%s", name.c_str(), row.call,
+                      outcome_text(call, debugger.end()).c_str(), tried.c_str());
   }
   const CallFacts& facts = debugger.facts(row.call);
   ImGui::TableNextColumn();

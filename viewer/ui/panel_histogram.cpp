@@ -6,7 +6,7 @@
 #include <imgui.h>
 
 #include "viewer/mesh/tet_values.h"
-#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {

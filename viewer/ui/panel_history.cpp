@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What a trace knows of one tet, face, edge or vertex; and the menu of a right click, which asks.
-#include <array>
-
+// What a trace knows of one tet, face, edge or vertex.
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include "explain/outcome_colour.h"
-#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
 namespace {
-
-std::string name_of(const HistorySubject& part, char between) {
-  constexpr std::array<const char*, 5> kKinds = {"", "vertex", "edge", "face", "tet"};
-  std::string text = kKinds[part.size()];
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? (between == ',' ? ':' : ' ') : between, part[i].index());
-  }
-  return text;
-}
 
 void ask_box(Session& session) {
   Debugger& debugger = *session.document.debugger();
@@ -44,13 +33,14 @@ void list_parts(Session& session, const History& history) {
     if (part.part.size() == history.subject.size()) continue;
     if (part.calls + part.in_trials == 0 && part.part.size() != 2) continue;
     std::string text =
-        fmt::format("{}{}: {} calls, {} accepted", name_of(part.part, ' '),
+        fmt::format("{}{}: {} calls, {} accepted", in_words(part.part),
                     part.on_surface ? ", on the surface" : "", part.calls, part.accepted);
     if (part.nearest != kNoCall) {
       const Call& call = file.calls()[part.nearest];
       if (!call.accepted()) text += fmt::format("; nearest {}", part.nearest);
     }
-    if (ImGui::Selectable(text.c_str())) asked = name_of(part.part, ',');
+    if (ImGui::Selectable(text.c_str())) asked = as_question(part.part);
+    if (ImGui::IsItemHovered()) session.document.hovering = {part.part};
   }
   if (!asked.empty()) run_from_window(find_command("history"), session, {asked});
 }
@@ -75,6 +65,7 @@ void list_calls(Session& session, const History& history, bool in_trials) {
     ImGui::PushID(static_cast<int>(each.call));
     if (ImGui::Selectable(text.c_str(), debugger.call() == each.call)) chosen = each.call;
     if (ImGui::IsItemHovered()) {
+      session.document.hovering = session.document.pointed_call(each.call);
       const std::string reason(debugger.file().reason(call));
       ImGui::SetTooltip("%s", reason.c_str());
     }
@@ -89,7 +80,7 @@ void draw_history_panel(Session& session) {
   ask_box(session);
   const std::optional<History> history = session.document.debugger()->history();
   if (!history) {
-    ImGui::TextDisabled("right click on the mesh, or Shift+H for the selection");
+    ImGui::TextDisabled("right click on what you want to know of, or Shift+H for the selection");
     return;
   }
   wrapped_text(history_paragraph(session.document.debugger()->file(), *history));
@@ -106,32 +97,6 @@ void draw_history_panel(Session& session) {
     list_parts(session, *history);
     ImGui::TreePop();
   }
-}
-
-void offer_history(Session& session, std::span<const VertexHandle> subject) {
-  if (subject.empty() || !ImGui::BeginPopupContextItem("##history")) return;
-  constexpr std::array<const char*, 5> kTexts = {"", "History of this vertex",
-                                                 "History of this edge", "History of this face",
-                                                 "History of this tet"};
-  if (ImGui::MenuItem(kTexts[subject.size()])) {
-    run_from_window(find_command("history"), session,
-                    {name_of({subject.begin(), subject.end()}, ',')});
-  }
-  ImGui::EndPopup();
-}
-
-void draw_choices(Session& session) {
-  Document& document = session.document;
-  if (document.offer_choices) ImGui::OpenPopup("##choices");
-  document.offer_choices = false;
-  if (!ImGui::BeginPopup("##choices")) return;
-  constexpr std::array<const char*, 4> kTexts = {"", "History of this tet", "History of this edge",
-                                                 "History of this vertex"};
-  const std::size_t kind = document.selection().index();
-  if (kind > 0 && document.debugger() != nullptr && ImGui::MenuItem(kTexts[kind], "Shift+H")) {
-    run_from_window(find_command("history"), session);
-  }
-  ImGui::EndPopup();
 }
 
 }  // namespace tetmend::viewer::ui

@@ -22,23 +22,9 @@ void legend(const char* text, const Colour& c) {
   ImGui::TextUnformatted(text);
 }
 
-/// What a link names, as vertices.
-Pointed pointed_by(const TetMesh& mesh, const Selection& link) {
-  if (const auto* t = std::get_if<TetHandle>(&link)) {
-    const TetVertices& v = mesh.vertices(*t);
-    return {{v.begin(), v.end()}};
-  }
-  if (const auto* e = std::get_if<TetEdge>(&link)) {
-    const auto ends = mesh.vertices(*e);
-    return {{ends[0], ends[1]}};
-  }
-  if (const auto* v = std::get_if<VertexHandle>(&link)) return {{*v}};
-  return {};
-}
-
 /// True if it was clicked.
 bool show_link(Document& document, const std::string& text, const Selection& link) {
-  const Pointed what = pointed_by(document.mesh(), link);
+  const Pointed what = document.pointed_selection(link);
   const bool is_lit = document.pointed().vertices == what.vertices;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/ui/flat_canvas.h"
+#include "explain/figures/ring_drawing.h"
+#include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
 
@@ -22,17 +23,34 @@ bool is_refused(const Debugger& debugger) {
   return !call.accepted() && debugger.position() >= call.events.end;
 }
 
-FlatDrawing polygon_of(const Document& document, const CallStudy& study) {
-  const Debugger& debugger = *document.debugger();
-  return draw_polygon(study, debugger.position(), is_refused(debugger),
-                      find_colour_map(document.view.scene.map));
+PolygonStage stage_at(const Debugger& debugger, const CallStudy& study) {
+  return stage_of(study, debugger.position(), is_refused(debugger));
 }
 
-void show_blended(Document& document, std::span<const FlatDrawing> drawings, float side) {
+/// The polygon as it is at the place in the trace.
+void show_polygon(Document& document, const CallStudy& study, float side) {
+  const Square square = square_at_cursor(side);
+  const double font = ImGui::GetFontSize();
+  RingLook look;
+  look.middle = square.middle;
+  look.half = square.half;
+  // Of a small polygon, small ones: they must not cover it.
+  look.name_size = std::min(font, 0.13 * double{side});
+  look.number_size = std::min(0.85 * font, 0.1 * double{side});
+  look.line = font / 16;
+  look.ink = colour_of(ImGuiCol_Text);
+  look.patch = colour_of(ImGuiCol_WindowBg);
+  look.patch.alpha = 190;
+  look.map = &find_colour_map(document.view.scene.map);
+  show_linked("##polygon", draw_polygon(study, stage_at(*document.debugger(), study), look), side,
+              document);
+}
+
+void show_blended(Document& document, std::span<const LinkedDrawing> drawings, float side) {
   constexpr double kLow = 0;
   constexpr double kHigh = 1;
   ViewSettings& view = document.view;
-  show_flat("##blended", drawings, side, document);
+  show_linked("##blended", drawings, side, document);
   ImGui::SetNextItemWidth(side);
   ImGui::SliderScalar("##blend", ImGuiDataType_Double, &view.blend, &kLow, &kHigh, "after %.2f");
 }
@@ -132,7 +150,7 @@ void show_tets(Document& document, const CallStudy& study, float side) {
   ViewSettings& view = document.view;
   const ColourMap& map = find_colour_map(view.scene.map);
   const auto draw = [&](const std::vector<LocalTet>& tets, double opacity) {
-    return draw_tets(tets, view.camera, *ball, map, opacity);
+    return draw_tets(tets, view.camera, *ball, square_at_cursor(side), map, opacity);
   };
   constexpr double kOpacity = 0.9;
   const char* name = study.undone ? "tried" : "after";
@@ -143,12 +161,12 @@ void show_tets(Document& document, const CallStudy& study, float side) {
     return show_blended(document, drawings, side);
   }
   ImGui::Text("before: %zu tets", study.before.size());
-  show_flat("##before", draw(study.before, kOpacity), side, document);
+  show_linked("##before", draw(study.before, kOpacity), side, document);
   if (study.after.empty()) {
     ImGui::TextDisabled("nothing was tried");
   } else {
     ImGui::Text("%s: %zu tets", name, study.after.size());
-    show_flat("##after", draw(study.after, kOpacity), side, document);
+    show_linked("##after", draw(study.after, kOpacity), side, document);
   }
 }
 
@@ -164,10 +182,9 @@ void draw_shell_panel(Session& session) {
   const float width = ImGui::GetContentRegionAvail().x;
   const bool has_polygon = study->picture && study->picture->ring.size() >= 3;
   if (has_polygon) {
-    const FlatDrawing drawing = polygon_of(document, *study);
-    wrapped_text(drawing.caption);
+    wrapped_text(caption_of(*study, stage_at(*document.debugger(), *study)));
     ImGui::BeginGroup();
-    show_flat("##polygon", drawing, 0.6F * width, document);
+    show_polygon(document, *study, 0.6F * width);
     ImGui::Checkbox("blended", &document.view.blended);
     ImGui::EndGroup();
     ImGui::SameLine(0.64F * width);
@@ -187,12 +204,11 @@ void draw_ring(Session& session) {
   if (!study->picture || study->picture->ring.size() < 3) {
     return show_tets(document, *study, 0.45F * ImGui::GetContentRegionAvail().y);
   }
-  const FlatDrawing drawing = polygon_of(document, *study);
-  wrapped_text(drawing.caption);
+  wrapped_text(caption_of(*study, stage_at(*document.debugger(), *study)));
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float side = std::max(std::min(room.x, room.y), 6 * ImGui::GetFontSize());
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + (room.x - side) / 2);
-  show_flat("##polygon", drawing, side, document);
+  show_polygon(document, *study, side);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -38,7 +38,8 @@ void draw_statistics_panel(Session& session) {
   const auto& before = document.statistics_before();
   if (!ImGui::BeginTable("##statistics", before ? 3 : 2, ImGuiTableFlags_RowBg)) return;
   if (before) {
-    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
+                            ImGui::CalcTextSize("mean bad sine").x);
     ImGui::TableSetupColumn("before");
     ImGui::TableSetupColumn("now");
     ImGui::TableHeadersRow();

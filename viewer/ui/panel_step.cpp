@@ -5,7 +5,7 @@
 
 #include "explain/outcome_colour.h"
 #include "explain/removal.h"
-#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
 
@@ -64,6 +64,9 @@ void show_breadcrumb(Session& session) {
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::Selectable(name.c_str(), i + 1 == stack.size(), 0, {width, 0})) {
       run_from_window(find_command("enter"), session, {stack[i]});
+    }
+    if (ImGui::IsItemHovered()) {
+      session.document.hovering = session.document.pointed_call(stack[i]);
     }
     ImGui::PopID();
   }

@@ -32,7 +32,6 @@ void draw_worst_panel(Session& session) {
       const TetVertices& v = document.mesh().vertices(worst[i]);
       document.hovering = {{v.begin(), v.end()}};
     }
-    if (document.debugger() != nullptr) offer_history(session, document.mesh().vertices(worst[i]));
     ImGui::TableNextColumn();
     ImGui::Text("%u", worst[i].index());
     ImGui::TableNextColumn();

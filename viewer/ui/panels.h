@@ -42,10 +42,6 @@ float algorithm_height();
 void draw_shell_panel(Session& session);
 void draw_lesson_panel(Session& session);
 void draw_history_panel(Session& session);
-/// A right click on the item before offers the history of these vertices. Only with a trace.
-void offer_history(Session& session, std::span<const VertexHandle> subject);
-/// The menu of a right click on the mesh.
-void draw_choices(Session& session);
 
 // Parts of these, for the layout for teaching.
 /// The calls as a breadcrumb, and what the innermost is to do.

@@ -6,6 +6,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/ui/dialog_buttons.h"
+
 namespace tetmend::viewer::ui {
 
 void PlaceDialog::draw(Session& session) {
@@ -28,14 +30,10 @@ void PlaceDialog::draw(Session& session) {
   ImGui::SetNextItemWidth(-1);
   const bool is_entered = ImGui::InputTextWithHint("##where", "tet 17, edge 3 17 or vertex 5",
                                                    &typed_, ImGuiInputTextFlags_EnterReturnsTrue);
-  const bool is_accepted = ImGui::Button("Go") || is_entered;
-  ImGui::SameLine();
-  const bool is_cancelled =
-      ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  if (!trouble_.empty()) ImGui::TextWrapped("%s", trouble_.c_str());
-  if (is_cancelled) {
+  const Answer answer = dialog_buttons("Go", is_entered, trouble_);
+  if (answer == Answer::cancelled) {
     ImGui::CloseCurrentPopup();
-  } else if (is_accepted && !typed_.empty()) {
+  } else if (answer == Answer::accepted && !typed_.empty()) {
     trouble_.clear();
     if (guarded(document, [&] { find_command("go_to").run(session, {typed_}); })) {
       ImGui::CloseCurrentPopup();

@@ -9,7 +9,7 @@
 #include "explain/icicle.h"
 #include "explain/outcome_colour.h"
 #include "kernel/grouped.h"
-#include "viewer/ui/flat_canvas.h"
+#include "viewer/ui/drawing_canvas.h"
 
 namespace tetmend::viewer::ui {
 
@@ -258,9 +258,13 @@ void draw_legend(const Debugger& debugger, const CallWindow& window) {
   ImGui::SameLine();
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kWorstColour)), "  q_worst %.4f",
                      s.q_worst);
+  const std::string below = fmt::format("  below: {}, events {} to {}", name_of(debugger, window),
+                                        grouped(window.begin), grouped(window.end));
   ImGui::SameLine();
-  ImGui::TextDisabled("  below: %s, events %s to %s", name_of(debugger, window).c_str(),
-                      grouped(window.begin).c_str(), grouped(window.end).c_str());
+  if (ImGui::CalcTextSize(below.c_str()).x > ImGui::GetContentRegionAvail().x) {
+    return ImGui::NewLine();
+  }
+  ImGui::TextDisabled("%s", below.c_str());
 }
 
 }  // namespace

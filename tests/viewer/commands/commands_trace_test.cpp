@@ -9,7 +9,7 @@
 #include "tests/viewer/session.h"
 #include "viewer/commands/script.h"
 #include "viewer/debugger/call_highlight.h"
-#include "viewer/debugger/flat_drawing.h"
+#include "viewer/debugger/tets_drawing.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;

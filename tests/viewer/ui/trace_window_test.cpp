@@ -75,3 +75,77 @@ TEST_CASE("the mouse goes to a place on the timeline") {
   const auto position = state["trace"]["position"].get<double>();
   CHECK(position / end == doctest::Approx(0.5).epsilon(0.05));
 }
+
+namespace {
+
+/// The fifth step of the lesson on two shells, with all panels: the recursion for edge 1 5 begins.
+void go_to_second_shell() {
+  type("mousemove 650 300 key shift+t");
+  for (int i = 0; i < 4; ++i) type("key shift+l");
+}
+
+const std::filesystem::path kLesson = TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace";
+
+}  // namespace
+
+TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, ring and picture") {
+  if (!can_test_window()) return;
+  struct Place {
+    int x, y;
+    std::vector<std::uint32_t> vertices;
+  };
+  const std::vector<Place> places = {{200, 109, {0, 1}},   // second row of the tree
+                                     {545, 731, {0, 1}},   // the same call in the icicles
+                                     {1060, 302, {1, 5}},  // the second crumb
+                                     {984, 473, {0}},      // the name of a corner of the ring
+                                     {627, 369, {0}},      // the vertex in the picture
+                                     {700, 150, {}}};      // nothing
+  for (const Place& place : places) {
+    CAPTURE(place.x);
+    CAPTURE(place.y);
+    Viewer viewer(kLesson, "1300x850");
+    go_to_second_shell();
+    type(fmt::format("mousemove {} {}", place.x, place.y));
+    const auto state = viewer.quit();
+    CHECK(state["trace"]["position"] == 8);
+    CHECK(state["pointed"] == nlohmann::json(place.vertices));
+  }
+}
+
+TEST_CASE("a right click goes to what the mouse is on, or asks for its history") {
+  if (!can_test_window()) return;
+  SUBCASE("to the call of a bar of the icicles") {
+    Viewer viewer(kLesson, "1300x850");
+    go_to_second_shell();
+    type("mousemove 545 731 click 3");
+    click(570, 747);  // Go to call 1
+    CHECK(viewer.quit()["trace"]["position"] == 4);
+  }
+  SUBCASE("to the edge that it aimed at") {
+    Viewer viewer(kLesson, "1300x850");
+    go_to_second_shell();
+    type("mousemove 545 731 click 3");
+    click(570, 788);  // Go to this edge
+    const auto state = viewer.quit();
+    CHECK(state["trace"]["position"] == 8);
+    CHECK(state["selection"]["kind"] == "edge");
+    CHECK(state["selection"]["from"].get<int>() + state["selection"]["to"].get<int>() == 1);
+  }
+  SUBCASE("the history of a vertex of the ring") {
+    Viewer viewer(kLesson, "1300x850");
+    go_to_second_shell();
+    type("mousemove 984 473 click 3");
+    click(1010, 530);  // History of this vertex
+    CHECK(viewer.quit()["message"] == "the history of vertex:0 is in the panel History");
+  }
+  SUBCASE("Escape closes the menu, and nothing else") {
+    Viewer viewer(kLesson, "1300x850");
+    go_to_second_shell();
+    type("mousemove 545 731 click 3");
+    type("key Escape");
+    click(570, 788);
+    const auto state = viewer.quit();
+    CHECK(state["selection"]["kind"] == "edge");  // that of the call at hand, as before
+    CHECK(state["selection"]["from"].get<int>() + state["selection"]["to"].get<int>() == 6);
+  }
+}

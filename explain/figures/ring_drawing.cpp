@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "explain/figures/ring_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "explain/figures/figure_parts.h"
+
+namespace tetmend::explain {
+
+using figure::Area;
+using figure::faint;
+using figure::Pen;
+using figure::Place;
+using figure::Text;
+
+namespace {
+
+constexpr double kRadius = 0.76;  // of the polygon
+constexpr double kGap = 0.05;     // between its corners and their names
+
+Place mix(const Place& p, const Place& q, double t) {
+  return {(1 - t) * p.x + t * q.x, (1 - t) * p.y + t * q.y};
+}
+
+class PolygonDrawer {
+ public:
+  PolygonDrawer(const ShellPicture& shell, const RingLook& look) : shell_(shell), look_(look) {}
+
+  void chords() {
+    const std::vector<Chord> chords = chords_of(shell_);
+    for (auto chord = chords.rbegin(); chord != chords.rend(); ++chord) {  // the best on top
+      const bool is_better = chord->best()[0] > shell_.floor;
+      line(corner(chord->from), corner(chord->to), chord_pen(look_.line, is_better),
+           {ends(chord->from, chord->to),
+            fmt::format("chord {} - {}: worst quality of its pockets {:.4f} and {:.4f}{}",
+                        shell_.ring[chord->from].index(), shell_.ring[chord->to].index(),
+                        chord->on[0], chord->back[0],
+                        is_better ? "" : "; not better than the old tets")});
+    }
+  }
+
+  void covering(const FlatCovering& covering, bool dashed) {
+    if (covering.core.size() >= 3) core(covering);
+    for (const FlatCovering::Triangle& t : covering.triangles) triangle(t, dashed);
+    if (covering.triangles.empty()) return;
+    for (const FlatCovering::Side& side : covering.core) {
+      Pen pen = core_pen(look_.line);
+      pen.dashed = dashed;
+      line(corner(side.from), corner(side.to), pen,
+           {ends(side.from, side.to),
+            fmt::format("side of the core {} - {}: {:.4f}", shell_.ring[side.from].index(),
+                        shell_.ring[side.to].index(), side.quality)});
+    }
+  }
+
+  /// Areas, then lines, then words on top of each other.
+  LinkedDrawing finish() {
+    LinkedDrawing all;
+    for (auto& [area, meaning] : areas_) all.add(std::move(area), std::move(meaning));
+    const std::size_t m = shell_.ring.size();
+    for (std::size_t i = 0; i < m; ++i) {
+      all.add(figure::Stroke{{corner(i), corner((i + 1) % m)}, skirt_pen(look_.line)},
+              {ends(i, (i + 1) % m), {}});
+    }
+    for (auto& [stroke, meaning] : lines_) all.add(std::move(stroke), std::move(meaning));
+    if (look_.name_size > 0) words(all);
+    return all;
+  }
+
+ private:
+  struct Number {
+    Text text;
+    std::vector<Place> places;
+    Meaning meaning;
+  };
+
+  std::vector<VertexHandle> ends(std::size_t i, std::size_t j) const {
+    return {shell_.ring[i], shell_.ring[j]};
+  }
+  Place corner(std::size_t i) const {
+    const Eigen::Vector2d at = shell_.place(i);
+    return {look_.middle.x + look_.half * kRadius * at.x(),
+            look_.middle.y - look_.half * kRadius * at.y()};
+  }
+
+  /// Outside of its corner, so far that it is clear of the polygon, and inside of the square.
+  Text name_of(std::size_t i) const {
+    const std::string number = fmt::format("{}", shell_.ring[i].index());
+    const Eigen::Vector2d out = shell_.place(i);
+    const double width = figure::text_width(number, look_.name_size, figure::Font::bold) / 2;
+    const double height = look_.name_size / 2;
+    const double away = kGap * look_.half + width * std::abs(out.x()) + height * std::abs(out.y());
+    const auto inside = [&](double middle, double at, double own) {
+      const double most = std::max(look_.half - own, 0.0);
+      return std::clamp(at, middle - most, middle + most);
+    };
+    const Place from = corner(i);
+    Text name = figure::centred({inside(look_.middle.x, from.x + away * out.x(), width),
+                                 inside(look_.middle.y, from.y - away * out.y(), height)},
+                                number, look_.name_size, figure::Font::bold);
+    name.colour = look_.ink;
+    return name;
+  }
+
+  figure::Colour colour_of(Quality quality, double opacity) const {
+    return faint(tet_colour(quality, *look_.map), opacity);
+  }
+
+  void line(Place from, Place to, const Pen& pen, Meaning meaning) {
+    lines_.emplace_back(figure::Stroke{{from, to}, pen}, std::move(meaning));
+  }
+
+  void number(std::string words, std::vector<Place> places, Meaning meaning = {}) {
+    Text text{{}, std::move(words), look_.number_size};
+    if (!meaning.is_nothing()) text.font = figure::Font::oblique;  // a name
+    text.colour = look_.ink;
+    text.patch = look_.patch;
+    numbers_.push_back({std::move(text), std::move(places), std::move(meaning)});
+  }
+
+  /// Each side of the core with the edge ab, a tet, is a slice from its middle.
+  void core(const FlatCovering& covering) {
+    Place middle;
+    for (const auto& side : covering.core) {
+      const double share = 1.0 / static_cast<double>(covering.core.size());
+      middle.x += share * corner(side.from).x;
+      middle.y += share * corner(side.from).y;
+    }
+    number("ab", {middle}, {{shell_.a, shell_.b}, {}});
+    for (const auto& side : covering.core) {
+      std::vector<VertexHandle> tet = ends(side.from, side.to);
+      tet.insert(tet.end(), {shell_.a, shell_.b});
+      areas_.emplace_back(
+          Area{{middle, corner(side.from), corner(side.to)}, colour_of(side.quality, 0.75), {}},
+          Meaning{std::move(tet), {}});
+      line(middle, corner(side.from), {faint(figure::kSupportingEdgeColour, 0.6), look_.line},
+           {{shell_.a, shell_.b, shell_.ring[side.from]}, {}});
+      const Place on_side = mix(corner(side.from), corner(side.to), 0.5);
+      number(quality_number(side.quality), {mix(middle, on_side, 0.68), mix(middle, on_side, 0.8),
+                                            mix(middle, on_side, 0.56), mix(middle, on_side, 0.9)});
+    }
+  }
+
+  void triangle(const FlatCovering::Triangle& t, bool dashed) {
+    std::array<Place, 3> c;
+    std::vector<VertexHandle> vertices;
+    for (unsigned i = 0; i < 3; ++i) {
+      c[i] = corner(t.corners[i]);
+      vertices.push_back(shell_.ring[t.corners[i]]);
+    }
+    areas_.emplace_back(Area{{c[0], c[1], c[2]}, colour_of(t.quality, dashed ? 0.35 : 0.75), {}},
+                        Meaning{std::move(vertices), {}});
+    Pen pen = pocket_pen(look_.line);
+    pen.dashed = dashed;
+    for (unsigned i = 0; i < 3; ++i) {
+      const unsigned j = (i + 1) % 3;
+      line(c[i], c[j], pen, {ends(t.corners[i], t.corners[j]), {}});
+    }
+    const Place middle = mix(mix(c[0], c[1], 0.5), c[2], 1.0 / 3);
+    std::vector<Place> places = {middle};
+    for (const double away : {0.2, 0.35, 0.5, -0.15}) {
+      for (const Place& p : c) places.push_back(mix(middle, p, away));
+    }
+    number(quality_number(t.quality), std::move(places));
+  }
+
+  void words(LinkedDrawing& all) {
+    LabelPlacer placer;
+    for (std::size_t i = 0; i < shell_.ring.size(); ++i) {
+      Text name = name_of(i);
+      placer.occupy(figure::box_of(name));
+      all.add(std::move(name), {{shell_.ring[i]}, {}});
+    }
+    const std::array<double, 3> sizes = {look_.number_size, 0.79 * look_.number_size,
+                                         0.64 * look_.number_size};
+    for (Number& number : numbers_) {
+      placer.place(all.drawing, std::move(number.text), number.places, sizes);
+      all.meanings.push_back(std::move(number.meaning));
+    }
+  }
+
+  const ShellPicture& shell_;
+  const RingLook& look_;
+  std::vector<std::pair<figure::Shape, Meaning>> areas_, lines_;
+  std::vector<Number> numbers_;
+};
+
+}  // namespace
+
+Pen skirt_pen(double line) {
+  return {figure::kSkirtColour, 3 * line};
+}
+
+Pen pocket_pen(double line) {
+  return {figure::kChordColour, 2 * line};
+}
+
+Pen core_pen(double line) {
+  return {figure::kCoreColour, 4 * line};
+}
+
+Pen chord_pen(double line, bool is_better) {
+  return {faint(figure::kChordColour, is_better ? 0.9 : 0.45), 1.5 * line, !is_better};
+}
+
+LinkedDrawing draw_polygon(const CallStudy& study, PolygonStage stage, const RingLook& look) {
+  const ShellPicture& shell = *study.picture;
+  PolygonDrawer drawer(shell, look);
+  switch (stage) {
+    case PolygonStage::made:
+      drawer.covering(*study.covering, false);
+      break;
+    case PolygonStage::best_triangulation:
+      drawer.chords();
+      drawer.covering(shell.full, true);
+      break;
+    case PolygonStage::before:
+      drawer.covering(shell.before, false);
+      drawer.chords();
+      break;
+  }
+  return drawer.finish();
+}
+
+}  // namespace tetmend::explain

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "explain/figures/ring_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "tests/support/example_traces.h"
+
+using namespace tetmend;
+using namespace tetmend::explain;
+
+namespace {
+
+constexpr double kHalf = 100;
+
+LinkedDrawing drawn(const CallStudy& study, std::uint64_t position, bool refused) {
+  RingLook look;
+  look.half = kHalf;
+  return draw_polygon(study, stage_of(study, position, refused), look);
+}
+
+template <class Shape>
+std::vector<Shape> all(const LinkedDrawing& drawing) {
+  std::vector<Shape> found;
+  for (const figure::Shape& shape : drawing.drawing.shapes) {
+    if (const auto* one = std::get_if<Shape>(&shape)) found.push_back(*one);
+  }
+  return found;
+}
+
+std::size_t dashed(const LinkedDrawing& drawing) {
+  const auto strokes = all<figure::Stroke>(drawing);
+  return static_cast<std::size_t>(
+      std::count_if(strokes.begin(), strokes.end(), [](const auto& s) { return s.pen.dashed; }));
+}
+
+bool has_number(const LinkedDrawing& drawing, Quality quality) {
+  const auto texts = all<figure::Text>(drawing);
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const auto& t) { return t.text == fmt::format("{:.3f}", quality); });
+}
+
+EventKind kind_of_event(const TraceFile& file, std::uint64_t number) {
+  EventCursor cursor(file);
+  cursor.move_to(number);
+  return cursor.next().kind;
+}
+
+/// No two words lie on each other, and all lie in the square.
+void check_words(const LinkedDrawing& drawing) {
+  std::vector<figure::Box> boxes;
+  for (const figure::Text& text : all<figure::Text>(drawing)) {
+    const figure::Box box = figure::box_of(text);
+    CHECK((box.left > -1.1 * kHalf && box.right < 1.1 * kHalf));
+    CHECK((box.top > -1.1 * kHalf && box.bottom < 1.1 * kHalf));
+    for (const figure::Box& other : boxes) CHECK(!box.overlaps(other));
+    boxes.push_back(box);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the polygon has the old tets before the edit and the new covering after it") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  unsigned seen = 0;
+  for (std::uint32_t k = 0; k < file.calls().size() && seen < 20; ++k) {
+    const Call& call = file.calls()[k];
+    if (!call.accepted() || call.algorithm != Algorithm::shell_transformation) continue;
+    ++seen;
+    const CallStudy study = study_call(file, replay, k);
+    const LinkedDrawing before = drawn(study, call.events.begin + 1, false);
+    const LinkedDrawing after = drawn(study, call.events.end, false);
+    CHECK(before.meanings.size() == before.drawing.shapes.size());
+    CHECK(all<figure::Area>(before).size() == study.picture->ring.size());
+    const auto& made = *study.covering;
+    CHECK(all<figure::Area>(after).size() == made.triangles.size() + made.core.size());
+    const auto stage_at = [&](std::uint64_t position) { return stage_of(study, position, false); };
+    CHECK(stage_at(study.first_edit) == PolygonStage::made);
+    CHECK(stage_at(study.first_edit - 1) == PolygonStage::before);
+    CHECK(kind_of_event(file, study.first_edit - 1) == EventKind::replace_cavity);
+    for (const auto& t : made.triangles) CHECK(has_number(after, t.quality));
+    for (const auto& side : made.core) CHECK(has_number(after, side.quality));
+    for (const auto& side : study.picture->before.core) CHECK(has_number(before, side.quality));
+    check_words(before);
+    check_words(after);
+  }
+  CHECK(seen == 20);
+}
+
+TEST_CASE("after a refusal without a candidate the best complete triangulation is dashed") {
+  const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
+  CallStudy study;
+  study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
+  const LinkedDrawing drawing = drawn(study, 9, true);
+  CHECK(all<figure::Area>(drawing).size() == 3);
+  std::size_t no_better = 0;
+  for (const Chord& chord : chords_of(*study.picture)) {
+    if (chord.best()[0] <= study.picture->floor) ++no_better;
+  }
+  CHECK(dashed(drawing) == 3 * 3 + no_better);
+  for (const auto& t : study.picture->full.triangles) CHECK(has_number(drawing, t.quality));
+}
+
+TEST_CASE("what lies under the mouse is told by its vertices: names, then lines, then areas") {
+  const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
+  CallStudy study;
+  study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
+  const ShellPicture& shell = *study.picture;
+  const LinkedDrawing drawing = drawn(study, 0, false);
+  const auto at = [&](double x, double y) {
+    const Meaning* meaning = meaning_at(drawing, {x, y}, 8);
+    return meaning == nullptr ? std::vector<VertexHandle>{} : meaning->vertices;
+  };
+  const Eigen::Vector2d first = 100 * shell.place(0);
+  const Eigen::Vector2d second = 100 * shell.place(1);
+  CHECK(at(0.89 * first.x(), -0.89 * first.y()) == std::vector{shell.ring[0]});
+  const Eigen::Vector2d side = 0.76 * (first + second) / 2;
+  CHECK(at(side.x(), -side.y()) == std::vector{shell.ring[0], shell.ring[1]});
+  CHECK(at(0, 0) == std::vector{shell.a, shell.b});
+  CHECK(at(99, 99).empty());
+  // Beside the lines, where no chord passes: a slice stands for its tet.
+  const Eigen::Vector2d slice = 0.9 * side;
+  const auto tet = at(slice.x(), -slice.y());
+  REQUIRE(tet.size() == 4);
+  for (const VertexHandle v : {shell.a, shell.b, shell.ring[0], shell.ring[1]}) {
+    CHECK(std::count(tet.begin(), tet.end(), v) == 1);
+  }
+}
