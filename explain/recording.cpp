@@ -16,6 +16,7 @@
 #include "explain/call_study.h"
 #include "explain/event_text.h"
 #include "explain/paper_lines.h"
+#include "explain/removal.h"
 #include "explain/stepper.h"
 #include "trace/traced_standard.h"
 
@@ -176,6 +177,8 @@ class Recording {
   void choose_tets() {
     constexpr std::size_t kSmall = 1000;
     takes_all_ = file_.initial_mesh().tet_count() <= kSmall;
+    replay_.seek(range_.begin);
+    for (const std::uint32_t around : call_stack(file_, range_.begin)) take_target(around);
     EventCursor cursor(file_);
     cursor.move_to(range_.begin);
     std::uint32_t next = first_call();
@@ -189,10 +192,14 @@ class Recording {
         const Call& call = file_.calls()[next++];
         if (takes_all_ || call.depth > range_.deepest) continue;
         replay_.seek(cursor.position());
-        for (const TetHandle t : replay_.tets_around(call.target())) {
-          slots_.insert(t.index());
-        }
+        take_target(next - 1);
       }
+    }
+  }
+
+  void take_target(std::uint32_t call) {
+    for (const TetHandle t : replay_.tets_around(file_.calls()[call].target())) {
+      slots_.insert(t.index());
     }
   }
 
@@ -321,6 +328,7 @@ class Recording {
     const Call& call = file_.calls()[k];
     row["settings"] = file_.name(call.settings);
     if (call.depth > range_.deepest) return row;
+    add_removal(row, k);
     const CallStudy study = study_call(file_, replay_, k);
     row["reason"] = explain_end(file_, study);
     row["before"] = numbers_of_tets(study.before);
@@ -331,6 +339,16 @@ class Recording {
       row["made"] = ring_at(call, study);
     }
     return row;
+  }
+
+  /// Of a step of the recursion: what it is to remove, and from whose shell.
+  void add_removal(Json& row, std::uint32_t k) const {
+    const auto removal = removal_of(file_, k);
+    if (!removal) return;
+    row["removal"] = to_text(*removal);
+    const std::uint32_t caller = caller_of(file_, k);
+    if (caller != kNoCall) row["caller"] = numbers_of(file_.calls()[caller].target());
+    if (removal->face) row["face"] = numbers_of(*removal->face);
   }
 
   Json numbers_of_tets(const std::vector<LocalTet>& tets) {

@@ -76,7 +76,8 @@ const fact = {position: Number(document.body.dataset.position), shown: Number(do
   event: texts("#event")[0], verdict: texts("#verdict")[0], reason: texts("#reason")[0], crumbs: texts("#crumbs button"),
   code: texts("#code-title")[0], lines: [...document.querySelectorAll("#code li")].flatMap((li, i) => li.classList.contains("here") ? [i + 1] : []),
   caller: texts("#caller")[0], tree: [...document.querySelectorAll("#tree tbody tr")].map((tr) => [Number(tr.dataset.call), ...[...tr.querySelectorAll("td")].map((td) => td.textContent)]),
-  painted: painted(), cut: cutOff(), lesson: texts("#lesson-text")[0]};
+  painted: painted(), cut: cutOff(), lesson: texts("#lesson-text")[0], removal: texts("#removal")[0], legend: texts("#legend li"),
+  caller_shell: scene.shellOfCaller.map((tet) => tets[tet].corners.map((corner) => points[corner].vertex).sort((x, y) => x - y))};
 const ring = document.getElementById("ring");
 if (isSeen(ring)) {
   fact.caption = texts("#caption")[0];
@@ -129,6 +130,8 @@ class Pages(unittest.TestCase):
         cls.desk.command("Emulation.setDeviceMetricsOverride", width=1920, height=1080, deviceScaleFactor=1, mobile=False)
         cls.desk.command("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
 
+    faces_to_remove = 0  # steps that mark one
+
     @classmethod
     def tearDownClass(cls) -> None:
         cls.desk.close()
@@ -178,6 +181,8 @@ class Pages(unittest.TestCase):
                     continue
                 for fact, state in zip(facts, viewer_states(LESSONS / f"{name}.trace", positions), strict=True):
                     self.compare(fact, state, f"{name}, step {fact['position']}")
+        if VIEWER is not None:
+            self.assertGreater(self.faces_to_remove, 5)
 
     def compare(self, fact: dict, state: dict, where: str) -> None:
         trace = state["trace"]
@@ -201,9 +206,22 @@ class Pages(unittest.TestCase):
         caller = stack[-2]["line"] if len(stack) > 1 else trace["pass_line"]
         self.assertEqual(re.findall(r"^called from line (\d+) of", fact["caller"]), [str(caller)] if caller else [], where)
         self.assertEqual(fact["reason"], "" if here["verdict"] == "under way" else trace["reason"], where)
+        self.compare_caller(fact, state, where)
         self.assertEqual("caption" in fact, "caption" in trace, where)
         if "caption" in trace:
             self.compare_shell(fact, trace, where)
+
+    def compare_caller(self, fact: dict, state: dict, where: str) -> None:
+        """The shell of the caller, as a ghost, and the face that is to go."""
+        trace = state["trace"]
+        self.assertEqual(fact["removal"], trace.get("removal", ""), where)
+        self.assertEqual(sorted(fact["caller_shell"]), sorted(trace["shell_of_caller"]), where)
+
+        def of_caller(legend: list[str]) -> list[str]:
+            return [text for text in legend if text.startswith(("shell of the caller", "face f"))]
+
+        self.assertEqual(of_caller(fact["legend"]), of_caller(state["legend"]), where)
+        type(self).faces_to_remove += len(of_caller(fact["legend"])) == 2
 
     def compare_shell(self, fact: dict, trace: dict, where: str) -> None:
         shell = trace["shell"]

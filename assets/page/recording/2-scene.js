@@ -43,13 +43,11 @@ function ancestorsOf(step) {
   return edges;
 }
 
-/** The face that the call is to remove from the shell of its caller: its edge and the caller's share a vertex. */
-function faceToRemove(step) {
-  const call = callOf(step);
-  const [edge] = ancestorsOf(step);
-  if (!call || !edge || call.target.length !== 2) return null;
-  const corners = new Set([...edge, ...call.target]);
-  return corners.size === 3 ? [...corners] : null;
+/** The tets around the edge of the caller, as they are now: the shell that the call is to make smaller. */
+function shellOfCaller(call) {
+  if (!call?.caller) return [];
+  const hasVertex = (tet, vertex) => tets[tet].corners.some((corner) => points[corner].vertex === vertex);
+  return [...present.tets].filter((tet) => call.caller.every((vertex) => hasVertex(tet, vertex)));
 }
 
 /** Lines of the polygon of the call: the ring, and what the covering makes of it once it is there. */
@@ -66,7 +64,7 @@ function ringLines(shell, position, line) {
 }
 
 function makeScene(step, cell, when, apart, showAround) {
-  const scene = {faces: [], lines: [], names: [], shown: 0, kinds: new Set(), places: []};
+  const scene = {faces: [], lines: [], names: [], shown: 0, kinds: new Set(), places: [], shellOfCaller: []};
   const call = callOf(step);
   const {full, around} = tetsShown(step, when);
   const places = placesIn(full, call?.before ?? [], present.tets);
@@ -104,7 +102,7 @@ function makeScene(step, cell, when, apart, showAround) {
   if (call) {
     const [a, b] = call.shell ? [call.shell.a, call.shell.b] : call.target;
     if (call.shell) ringLines(call.shell, when === "before" ? call.begin : step.position, line);
-    if (when === "now") markFace(scene, faceToRemove(step), places);
+    if (when === "now") markCaller(scene, call, places);
     for (const [from, to] of ancestorsOf(step)) line(from, to, "ancestor", 4, true);
     if (cell && call.shell) markCell(scene, call.shell, cell, places);
     const edgeIsThere = full.some((tet) => [a, b].every((v) => tets[tet].corners.some((corner) => points[corner].vertex === v)));
@@ -119,11 +117,11 @@ function makeScene(step, cell, when, apart, showAround) {
       call.shell.ring.forEach((vertex) => { if (!named.has(vertex)) named.set(vertex, {text: `${vertex}`}); });
     }
   }
-  const all = full.length <= 60;
-  for (const tet of full) {
+  const nameAll = full.length <= 60 ? [...full, ...scene.shellOfCaller] : scene.shellOfCaller;
+  for (const tet of nameAll) {
     for (const corner of tets[tet].corners) {
       const {vertex} = points[corner];
-      if (!named.has(vertex) && all) named.set(vertex, {text: `${vertex}`, quiet: Boolean(call?.shell)});
+      if (!named.has(vertex)) named.set(vertex, {text: `${vertex}`, quiet: Boolean(call?.shell)});
     }
   }
   for (const [vertex, name] of named) {
@@ -132,10 +130,24 @@ function makeScene(step, cell, when, apart, showAround) {
   return scene;
 }
 
-function markFace(scene, face, places) {
-  if (!face || !face.every((v) => places.has(v))) return;
-  scene.faces.push({corners: face.map((v) => places.get(v)), colour: colourOf("face"), opacity: 0.45, flat: true});
+/** The shell of the caller as a ghost, and the face f of it that the call is to remove. */
+function markCaller(scene, call, places) {
+  scene.shellOfCaller = shellOfCaller(call);
+  if (scene.shellOfCaller.length === 0) return;
+  scene.kinds.add("caller");
+  scene.caller = call.caller;
+  for (const tet of scene.shellOfCaller) {
+    const at = tets[tet].corners.map((corner) => points[corner].place);
+    for (const face of FACES) scene.faces.push({corners: face.map((i) => at[i]), colour: colourOf("caller"), opacity: 0.1, flat: true});
+    for (const [i, j] of EDGES) scene.lines.push({from: at[i], to: at[j], colour: colourOf("caller"), width: 1.5, opacity: 0.8});
+  }
+  const isThere = (vertex) => scene.shellOfCaller.some((tet) => tets[tet].corners.some((corner) => points[corner].vertex === vertex));
+  if (!call.face || !isThere(call.face[2])) return;
+  const corners = call.face.map((v) => places.get(v));
+  scene.faces.push({corners, colour: colourOf("face"), opacity: 0.45, flat: true});
+  corners.forEach((from, i) => scene.lines.push({from, to: corners[(i + 1) % 3], colour: colourOf("face"), width: 2, opacity: 1, top: true}));
   scene.kinds.add("face");
+  scene.faceToRemove = call.face;
 }
 
 /** The pocket of a cell, and the triangle that its M_k chooses with the tets on both sides of it. */

@@ -271,6 +271,7 @@ function showTold(step, enter) {
     return n === 0 ? [button] : ["\u203a", button];
   }));
   if (stack.length === 0) byId("crumbs").textContent = "outside of all calls";
+  byId("removal").textContent = call?.removal ?? "";
   byId("event").textContent = step.event;
   byId("verdict").textContent = call ? verdictOf(call, step.position) : "";
   byId("verdict").style.color = call ? `var(--${outcomeOf(call, step.position)})` : "";
@@ -291,7 +292,8 @@ function showLegend(scene) {
     colours.forEach((colour, n) => svg.append(svgElement("rect", {x: n * 22 / colours.length, y: 0, width: 22 / colours.length + 0.2, height: 9, fill: inCss(colour)})));
     return svg;
   };
-  if (scene.kinds.has("face")) items.push(make("li", {}, swatch([colourOf("face")]), "face f that is to go"));
+  if (scene.kinds.has("caller")) items.push(make("li", {}, swatch([colourOf("caller")]), `shell of the caller, ${scene.caller.join(" ")}`));
+  if (scene.kinds.has("face")) items.push(make("li", {}, swatch([colourOf("face")]), `face f to remove, ${scene.faceToRemove.join(" ")}`));
   if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "q from 1 to 2"));
   byId("legend").replaceChildren(...items);
 }
