@@ -86,8 +86,16 @@ void Portrait::draw_before(const TetMesh& mesh, const std::optional<MeshRulers>&
     const TetHandle t(static_cast<std::uint32_t>(slot));
     if (mesh.is_deleted(t)) continue;
     for (unsigned f = 0; f < 4; ++f) {
-      if (!mesh.neighbours(t)[f].is_outside()) continue;
-      auto& triangle = triangles.emplace_back();
+      const HalfFace behind = mesh.neighbours(t)[f];
+      const bool is_wall =
+          !behind.is_outside() && t < behind.tet() && mesh.label(t) != mesh.label(behind.tet());
+      if (!behind.is_outside() && !is_wall) continue;
+      auto& triangle = is_wall ? walls.emplace_back() : triangles.emplace_back();
+      if (is_wall) {
+        wall_labels.push_back({mesh.label(t), mesh.label(behind.tet())});
+      } else {
+        labels.push_back(mesh.label(t));
+      }
       for (std::size_t i = 0; i < 3; ++i) {
         const VertexHandle v = mesh.vertices(HalfFace(t, f))[i];
         std::uint32_t& place = number[v.index()];

@@ -29,9 +29,13 @@ struct DrawnTet {
 struct Portrait {
   std::vector<Point> points;                            ///< of the surface
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of the boundary, seen from outside
-  std::vector<DrawnTet> bad_before;                     ///< the worst first; why is not known
-  std::vector<DrawnTet> bad_after;                      ///< the worst first
-  bool are_reasons_known = false;                       ///< of `bad_after`; not if interrupted
+  std::vector<Label> labels;                            ///< of the tet at each triangle
+  /// Between tets of different labels: each once, seen from the second.
+  std::vector<std::array<std::uint32_t, 3>> walls;
+  std::vector<std::array<Label, 2>> wall_labels;  ///< of the tets behind and in front
+  std::vector<DrawnTet> bad_before;               ///< the worst first; why is not known
+  std::vector<DrawnTet> bad_after;                ///< the worst first
+  bool are_reasons_known = false;                 ///< of `bad_after`; not if interrupted
   std::optional<RulerHistograms> rulers_before, rulers_after;
 
   /// Takes the surface, the bad tets and the histograms of the input.

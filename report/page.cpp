@@ -44,6 +44,9 @@ std::string left_out(const nlohmann::json& about) {
     texts.push_back(fmt::format(
         "The surface has {} triangles, too many for a page: only {} of its sharp edges are drawn.",
         grouped(all), grouped(count("edges"))));
+  } else if (count("walls") < count("all_walls")) {
+    texts.push_back(fmt::format("The {} triangles between regions are not drawn.",
+                                grouped(count("all_walls"))));
   } else if (count("edges") < count("all_edges")) {
     texts.push_back(fmt::format("Of {} sharp edges {} are drawn.", grouped(count("all_edges")),
                                 grouped(count("edges"))));

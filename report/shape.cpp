@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "figure/colour.h"
 #include "kernel/formats/base64.h"
 #include "kernel/formats/compression.h"
 #include "kernel/hilbert.h"
@@ -72,6 +73,9 @@ std::vector<SharpEdge> find_sharp_edges(const Portrait& portrait) {
 struct Content {
   std::vector<Point> points;
   std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::array<Label, 1>> labels;
+  std::vector<std::array<Index, 3>> walls;
+  std::vector<std::array<Label, 2>> wall_labels;
   std::vector<std::array<Index, 2>> edges;
   std::vector<std::array<Index, 4>> before, after;
 };
@@ -166,17 +170,68 @@ class Bytes {
   std::string bytes_;
 };
 
+/// A triangle seen from outside as before, its smallest number first.
+std::array<Index, 3> turned(std::array<Index, 3> row, const Places& places) {
+  for (Index& entry : row) entry = places.number(entry);
+  std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
+  return row;
+}
+
+/// Triangles, and the places of their labels in a list, in the order of the triangles.
+template <std::size_t N>
+struct Labelled {
+  std::vector<std::array<Index, 3>> rows;
+  std::vector<std::array<Index, N>> places;
+};
+template <std::size_t N>
+Labelled<N> in_order(const std::vector<std::array<Index, 3>>& triangles,
+                     const std::vector<std::array<Label, N>>& labels,
+                     const std::vector<Label>& list, const Places& places) {
+  std::vector<std::pair<std::array<Index, 3>, std::array<Index, N>>> both;
+  both.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    auto& [row, numbers] = both.emplace_back(turned(triangles[i], places), std::array<Index, N>{});
+    for (std::size_t k = 0; k < N; ++k) {
+      numbers[k] = static_cast<Index>(std::lower_bound(list.begin(), list.end(), labels[i][k]) -
+                                      list.begin());
+    }
+  }
+  std::sort(both.begin(), both.end());
+  Labelled<N> made;
+  for (const auto& [row, numbers] : both) {
+    made.rows.push_back(row);
+    made.places.push_back(numbers);
+  }
+  return made;
+}
+
+std::vector<Label> labels_of(const Content& content) {
+  std::vector<Label> labels;
+  for (const auto& label : content.labels) labels.push_back(label[0]);
+  for (const auto& pair : content.wall_labels)
+    labels.insert(labels.end(), pair.begin(), pair.end());
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
+nlohmann::json with_colours(const std::vector<Label>& labels) {
+  const auto colours = figure::region_colours();
+  nlohmann::json list = nlohmann::json::array();
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const figure::Colour& c = colours[i % colours.size()];
+    list.push_back({{"label", labels[i]}, {"colour", {c.red, c.green, c.blue}}});
+  }
+  return list;
+}
+
 /// Rows with the numbers of places, in order. The smallest number of a row comes first.
 template <std::size_t N>
 std::vector<std::array<Index, N>> in_order(std::vector<std::array<Index, N>> rows,
                                            const Places& places) {
   for (std::array<Index, N>& row : rows) {
     for (Index& entry : row) entry = places.number(entry);
-    if constexpr (N == 3) {  // seen from outside as before
-      std::rotate(row.begin(), std::min_element(row.begin(), row.end()), row.end());
-    } else {
-      std::sort(row.begin(), row.end());
-    }
+    std::sort(row.begin(), row.end());
   }
   std::sort(rows.begin(), rows.end());
   return rows;
@@ -201,6 +256,11 @@ Content choose(const Portrait& portrait, const std::vector<SharpEdge>& sharp,
   if (portrait.triangles.size() <= limits.triangles) {
     content.points = portrait.points;
     content.triangles = portrait.triangles;
+    for (const Label label : portrait.labels) content.labels.push_back({label});
+    if (portrait.triangles.size() + portrait.walls.size() <= limits.triangles) {
+      content.walls = portrait.walls;
+      content.wall_labels = portrait.wall_labels;
+    }
   }
   const std::size_t edges = std::min(limits.edges, sharp.size());
   if (content.points.empty()) {  // those of the edges alone, and so large as the surface is
@@ -236,7 +296,13 @@ Shape pack(const Content& content, const Portrait& portrait) {
   const Places places(content, portrait.points);
   Bytes bytes;
   bytes.put_places(places.grid());
-  bytes.put_rows(in_order(content.triangles, places));
+  const std::vector<Label> labels = labels_of(content);
+  const Labelled<1> triangles = in_order(content.triangles, content.labels, labels, places);
+  bytes.put_rows(triangles.rows);
+  if (labels.size() > 1) bytes.put_rows(triangles.places);
+  const Labelled<2> walls = in_order(content.walls, content.wall_labels, labels, places);
+  bytes.put_rows(walls.rows);
+  bytes.put_rows(walls.places);
   bytes.put_rows(in_order(content.edges, places));
   bytes.put_rows(in_order(content.before, places));
   bytes.put_rows(in_order(content.after, places));
@@ -247,6 +313,8 @@ Shape pack(const Content& content, const Portrait& portrait) {
                  {"bytes", bytes.str().size()},
                  {"vertices", places.grid().size()},
                  {"triangles", content.triangles.size()},
+                 {"walls", content.walls.size()},
+                 {"labels", with_colours(labels)},
                  {"edges", content.edges.size()},
                  {"bad_before", content.before.size()},
                  {"bad_after", content.after.size()},
@@ -271,6 +339,7 @@ Shape pack_shape(const Portrait& portrait, const ShapeLimits& limits) {
     shape = pack(choose(portrait, sharp, within), portrait);
   }
   shape.about["all_triangles"] = portrait.triangles.size();
+  shape.about["all_walls"] = portrait.walls.size();
   shape.about["all_edges"] = sharp.size();
   shape.about["all_bad_before"] = portrait.bad_before.size();
   shape.about["all_bad_after"] = portrait.bad_after.size();

@@ -26,10 +26,13 @@ struct ShapeLimits {
 
 struct Shape {
   /// What is in the data, in its order: "origin" and "step" of the places, the "bytes" when
-  /// unpacked, then how many "vertices",
-  /// "triangles", "edges", "bad_before", "bad_after". And "all_triangles", "all_edges",
-  /// "all_bad_before", "all_bad_after": how many there are. "triangles" is 0 where the surface is too
-  /// large. "worst" has centre and radius of the first kMostWorst tets of bad_after, in steps.
+  /// unpacked, then how many "vertices", "triangles", "walls", "edges", "bad_before", "bad_after".
+  /// And "all_triangles", "all_walls", "all_edges", "all_bad_before", "all_bad_after": how many there
+  /// are. "triangles" is 0 where the surface is too large, and so are "walls", the triangles between
+  /// regions. "labels" has label and colour of each region. Behind the triangles the data have for
+  /// each its place in that list, if there is more than one, and behind the walls two: of the region
+  /// behind, and of that in front. "worst" has centre and radius of the first kMostWorst tets of
+  /// bad_after, in steps.
   nlohmann::json about;
   std::string data;
 };

@@ -278,6 +278,29 @@ class Reports(unittest.TestCase):
         self.assertEqual(again, away)
         self.assertNotEqual(turned, towards)
 
+    def test_the_surface_has_the_colours_of_its_regions(self) -> None:
+        colours = """const small = Object.assign(document.createElement("canvas"), {width: 200, height: 100}).getContext("2d");
+            small.drawImage(canvas, 0, 0, 200, 100);
+            const pixels = small.getImageData(0, 0, 200, 100).data;
+            const isNear = (i, colour) => { const p = [0, 1, 2].map((c) => pixels[i + c]); const light = Math.max(...p) / Math.max(...colour);
+              return light > 0.65 && light < 1.05 && colour.every((c, n) => Math.abs(p[n] - c * light) < 6); };
+            return shape.regions.map(({colour}) => { let n = 0; for (let i = 0; i < pixels.length; i += 4) n += pixels[i + 3] > 250 && isNear(i, colour); return n; });"""
+        page, _ = self.improve(MESHES / "two_materials.mesh")
+        self.open(self.desk, page)
+        self.assertEqual([region["label"] for region in self.desk.run("return about.labels")], [1, 2])
+        self.assertGreater(self.desk.run("return about.walls"), 100)
+        # Cut open, for one region lies inside of the other.
+        self.desk.run("document.querySelector('[data-surface=solid]').click(); document.querySelector('[data-across=y]').click(); drawPicture();")
+        plain = self.desk.run(colours)
+        self.desk.run("document.querySelector('[data-colour=label]').click(); drawPicture();")
+        for count, before in zip(self.desk.run(colours), plain, strict=True):
+            self.assertGreater(count, 200 + before)
+        self.assertEqual(self.desk.run("return [...document.querySelectorAll('#labels li')].map((li) => li.textContent)"), ["region 1", "region 2"])
+        self.assertEqual(self.desk.run(CUT_OFF), [])
+        page, _ = self.improve(MESHES / "bracket.meshb")
+        self.open(self.desk, page)
+        self.assertEqual(self.desk.run("return [about.labels.length, document.getElementById('choose-colour').hidden]"), [1, True])
+
     def test_scales_and_tips_of_histograms(self) -> None:
         page, _ = self.improve(MESHES / "sheet.mesh")
         self.open(self.desk, page)

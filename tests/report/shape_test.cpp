@@ -21,6 +21,9 @@ namespace {
 struct Unpacked {
   std::vector<Point> places;  ///< in lengths of the mesh
   std::vector<std::array<std::int64_t, 3>> triangles;
+  std::vector<std::array<std::int64_t, 1>> labels;  ///< of triangles: places in about.labels
+  std::vector<std::array<std::int64_t, 3>> walls;
+  std::vector<std::array<std::int64_t, 2>> wall_labels;
   std::vector<std::array<std::int64_t, 2>> edges;
   std::vector<std::array<std::int64_t, 4>> before, after;
 };
@@ -79,6 +82,11 @@ Unpacked unpack(const Shape& shape) {
     }
   }
   reader.rows(count_in(shape, "triangles"), made.triangles);
+  if (shape.about.at("labels").size() > 1) {
+    reader.rows(count_in(shape, "triangles"), made.labels);
+  }
+  reader.rows(count_in(shape, "walls"), made.walls);
+  reader.rows(count_in(shape, "walls"), made.wall_labels);
   reader.rows(count_in(shape, "edges"), made.edges);
   reader.rows(count_in(shape, "bad_before"), made.before);
   reader.rows(count_in(shape, "bad_after"), made.after);
@@ -144,6 +152,42 @@ TEST_CASE("what a page unpacks is the surface and the bad tets, to a 65,535th of
   std::sort(shown_sums.begin(), shown_sums.end());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     CHECK(shown_sums[i] == doctest::Approx(sums[i]).epsilon(12 * most));
+  }
+}
+
+TEST_CASE("each triangle has the label of the tet behind it; one label alone takes no room") {
+  MeshData data = contract::kuhn_cube(4, 0, 1);
+  for (auto& tet : data.tets) tet.label = 7;
+  CHECK(pack_shape(portrait_of(data)).about.at("labels").size() == 1);
+  // The lower half is another region.
+  for (auto& tet : data.tets) {
+    double height = 0;
+    for (const auto v : tet.vertices) height += data.points[v].z() / 4;
+    if (height < 0.5) tet.label = -3;
+  }
+  const Shape shape = pack_shape(portrait_of(data));
+  REQUIRE(shape.about.at("labels").size() == 2);
+  CHECK(shape.about.at("labels")[0].at("label") == -3);
+  CHECK(shape.about.at("labels")[1].at("label") == 7);
+  CHECK(shape.about.at("labels")[0].at("colour") != shape.about.at("labels")[1].at("colour"));
+  const Unpacked made = unpack(shape);
+  REQUIRE(made.labels.size() == made.triangles.size());
+  for (std::size_t i = 0; i < made.triangles.size(); ++i) {
+    double height = 0;
+    for (const auto v : made.triangles[i])
+      height += made.places.at(static_cast<std::size_t>(v)).z() / 3;
+    CHECK(made.labels[i][0] == (height < 0.5 ? 0 : 1));
+  }
+  // Between them lies a wall of 4 x 4 squares, which is seen from the region in front.
+  REQUIRE(made.walls.size() == 32);
+  for (std::size_t i = 0; i < made.walls.size(); ++i) {
+    std::array<Point, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = made.places.at(static_cast<std::size_t>(made.walls[i][k]));
+    const double up = (p[1] - p[0]).cross(p[2] - p[0]).z();
+    CHECK(p[0].z() == doctest::Approx(0.5).epsilon(1e-4));
+    const std::array<std::int64_t, 2> expected = {up > 0 ? 0 : 1, up > 0 ? 1 : 0};
+    CHECK(made.wall_labels[i] == expected);
   }
 }
 

@@ -61,10 +61,26 @@ function partsOf(tets, parts) {
   return new Uint32Array(corners);
 }
 
+/** Of each label its triangles on the surface, and its walls to others, seen from outside of the region. */
+function regionsOf(triangles, labels, walls, sides) {
+  if (labels.length === 0) return [];
+  const regions = about.labels.map((label) => ({...label, triangles: [], walls: []}));
+  labels.forEach((label, i) => regions[label].triangles.push(triangles[3 * i], triangles[3 * i + 1], triangles[3 * i + 2]));
+  for (let i = 0; i < walls.length / 3; ++i) {
+    const [a, b, c] = walls.subarray(3 * i, 3 * i + 3);
+    regions[sides[2 * i]].walls.push(a, b, c);
+    regions[sides[2 * i + 1]].walls.push(a, c, b);
+  }
+  return regions.map((region) => ({...region, triangles: new Uint32Array(region.triangles), walls: new Uint32Array(region.walls)}));
+}
+
 /** Lengths are shares of the longest side of the box. */
 async function readShape() {
   const numbers = new Numbers(await inflate(byId("shape").textContent));
-  const shape = {places: numbers.places(about.vertices), triangles: numbers.rows(about.triangles, 3), edges: numbers.rows(about.edges, 2), tets: {}};
+  const shape = {places: numbers.places(about.vertices), triangles: numbers.rows(about.triangles, 3), tets: {}};
+  const labels = about.labels.length > 1 ? numbers.rows(about.triangles, 1) : [];
+  shape.regions = regionsOf(shape.triangles, labels, numbers.rows(about.walls, 3), numbers.rows(about.walls, 2));
+  shape.edges = numbers.rows(about.edges, 2);
   for (const when of ["before", "after"]) {
     const tets = numbers.rows(about[`bad_${when}`], 4);
     shape.tets[when] = {count: tets.length / 4, faces: partsOf(tets, FACES), edges: partsOf(tets, EDGES)};

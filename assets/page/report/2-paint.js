@@ -33,6 +33,7 @@ class ShapePainter {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
     gl.bufferData(gl.ARRAY_BUFFER, shape.places, gl.STATIC_DRAW);
     this.surface = this.list(shape.triangles);
+    this.regions = shape.regions.map(({colour, triangles, walls}) => ({colour, surface: this.list(triangles), walls: this.list(walls)}));
     this.edges = this.list(shape.edges);
     this.tets = {};
     for (const when of ["before", "after"]) {
@@ -82,12 +83,21 @@ class ShapePainter {
     const {faces, edges} = this.tets[when];
     const [surface, inside, bad, ink] = ["surface", "inside", "bad", "skirt"].map(colourOf);
     gl.depthMask(true);
-    if (look.isSolid) this.fill(this.surface, surface, inside, [1, 1]);
+    if (look.isSolid) this.fillSurface(look, surface, inside, [1, 1]);
     this.fill(faces, bad, bad, [1, 1]);
     this.stroke(edges, bad.map((c) => 0.55 * c), 0.8, 0.0004);
     gl.depthMask(false);
-    if (!look.isSolid) this.fill(this.surface, surface, surface, [0.08, 0.55]);
+    if (!look.isSolid) this.fillSurface(look, surface, surface, look.byLabel ? [0.25, 0.75] : [0.08, 0.55]);
     this.stroke(this.edges, ink, look.isSolid ? 0.75 : 0.5, 0.0006);
+  }
+
+  fillSurface(look, colour, inside, opacity) {
+    if (!look.byLabel) return this.fill(this.surface, colour, inside, opacity);
+    const {gl} = this;
+    for (const region of this.regions) this.fill(region.surface, region.colour, look.isSolid ? inside : region.colour, opacity);
+    gl.enable(gl.CULL_FACE);  // of a wall that side which is the outside of its region
+    for (const region of this.regions) this.fill(region.walls, region.colour, region.colour, opacity);
+    gl.disable(gl.CULL_FACE);
   }
 
   fill(list, colour, inside, opacity) {

@@ -3,7 +3,7 @@
 const stage = byId("stage");
 const canvas = byId("canvas");
 const camera = new Camera();
-const look = {view: "after", isSolid: false, across: "view", normal: [0, 0, 1], cutAway: 0, cut: [0, 0, 1, 1e9], target: null};
+const look = {view: "after", isSolid: false, byLabel: false, across: "view", normal: [0, 0, 1], cutAway: 0, cut: [0, 0, 1, 1e9], target: null};
 let shape = null;
 let painter = null;
 
@@ -86,6 +86,26 @@ function setSurface(name) {
   redrawPicture();
 }
 
+function setColour(name) {
+  look.byLabel = name === "label" && shape !== null && shape.regions.length > 0;
+  byId("labels").hidden = !look.byLabel;
+  press();
+  redrawPicture();
+}
+
+/** A choice only where there is more than one label. */
+function listLabels() {
+  byId("choose-colour").hidden = shape.regions.length === 0;
+  const most = 12;
+  const items = shape.regions.slice(0, most).map(({label, colour}) => {
+    const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
+    svg.append(svgElement("rect", {width: 22, height: 9, fill: inCss(colour)}));
+    return make("li", {}, svg, `region ${label}`);
+  });
+  if (shape.regions.length > most) items.push(make("li", {}, `and ${shape.regions.length - most} more; colours repeat`));
+  byId("labels").replaceChildren(...items);
+}
+
 function setView(when) {
   look.view = when;
   press();
@@ -99,7 +119,7 @@ function setScale(scale) {
 
 /** Shows which of each choice is chosen. */
 function press() {
-  const chosen = {view: look.view, surface: look.isSolid ? "solid" : "clear", across: look.across, scale: document.documentElement.dataset.scale};
+  const chosen = {view: look.view, surface: look.isSolid ? "solid" : "clear", colour: look.byLabel ? "label" : "plain", across: look.across, scale: document.documentElement.dataset.scale};
   for (const [name, value] of Object.entries(chosen)) {
     for (const button of document.querySelectorAll(`button[data-${name}]`)) button.setAttribute("aria-pressed", String(button.dataset[name] === value));
   }
@@ -136,6 +156,7 @@ const KEYS = {
   1: () => setView("before"),
   2: () => setView("after"),
   s: () => setSurface(look.isSolid ? "clear" : "solid"),
+  r: () => setColour(look.byLabel ? "plain" : "label"),
   c: () => cutAcross("view"),
   h: () => { setCut(0); showWhole(); },
 };
@@ -146,7 +167,7 @@ function watchKeys() {
     if (event.target === canvas && turnByKey(event, camera)) return redrawPicture();
     if (KEYS[event.key] && !event.target.matches("input")) KEYS[event.key]();
   });
-  const all = {view: setView, surface: setSurface, across: cutAcross, scale: setScale};
+  const all = {view: setView, surface: setSurface, colour: setColour, across: cutAcross, scale: setScale};
   for (const [name, act] of Object.entries(all)) {
     for (const button of document.querySelectorAll(`button[data-${name}]`)) button.addEventListener("click", () => act(button.dataset[name]));
   }
@@ -174,6 +195,7 @@ async function begin() {
   }
   shape = await readShape();
   painter = ShapePainter.on(canvas, shape);
+  listLabels();
   canvas.hidden = !painter;
   byId("flat").toggleAttribute("hidden", Boolean(painter));
   watchHands(stage, camera, redrawPicture, {farthest: 400, takeOver: (event, by) => {
