@@ -4,15 +4,14 @@
 //   check names and folders | read | improve | write
 //   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual;
 //   later: what is left to do is done
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tetmend/catalogue.h>
 #include <tetmend/improve.h>
 #include <tetmend/option_text.h>
@@ -21,18 +20,17 @@
 #include "apps/files.h"
 #include "apps/improve_options.h"
 #include "apps/improve_report.h"
+#include "apps/improve_watched.h"
 #include "apps/interruption.h"
-#include "apps/plugin_watch.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
 #include "face/mesh_access.h"
 #include "face/recorded.h"
-#include "kernel/formats/output_file.h"
 #include "kernel/formats/standard_stream.h"
+#include "pieces/bytes.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
 #include "platform/platform.h"
-#include "report/page.h"
 
 namespace tetmend::apps {
 namespace {
@@ -55,9 +53,10 @@ class Stopwatch {
 constexpr std::array<std::string_view, 3> kReportExtensions = {".json", ".html", ".htm"};
 
 /// What would stop the run at its end is better found at its beginning.
-void check_files(const ImproveOptions& options) {
-  check_mesh_extension(options.input);
-  check_mesh_extension(options.output);
+void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known) {
+  for (const std::filesystem::path& file : {options.input, options.output}) {
+    if (known == nullptr || !known->is_one(file)) check_mesh_extension(file);
+  }
   check_variant(options.output, options.carry);
   for (const std::filesystem::path& report : options.reports) {
     check_extension(report, kReportExtensions);
@@ -74,53 +73,6 @@ void check_files(const ImproveOptions& options) {
   prepare_files(inputs, outputs);
 }
 
-/// Before the schedule signals end the program: there is nothing to be saved yet.
-/// @param interruption begins then
-/// @param work what is done with the options
-Result improve_watched(const ImproveOptions& all, ProgressLine& line,
-                       std::optional<Interruption>& interruption,
-                       const std::function<Result(const Options&)>& work) {
-  Options options = all.run;
-  std::mutex line_busy;  // the watch has a thread of its own
-  std::optional<PluginWatch> watch;
-  if (!options.plugin.empty()) {
-    note_crashes();
-    watch.emplace(all.attempt_limit, options.time_limit, [&](std::string_view text) {
-      const std::lock_guard lock(line_busy);
-      line.clear();
-      complain(kSuccess, text);
-    });
-  }
-  options.cancel = &Interruption::requested();
-  options.progress = [&](const Progress& progress) {
-    if (progress.stage == Stage::improving && !interruption) interruption.emplace();
-    if (watch) watch->show(progress.stage);
-    const std::lock_guard lock(line_busy);
-    line.show(progress);
-    return true;
-  };
-  options.note = [&](std::string_view text) {
-    const std::lock_guard lock(line_busy);
-    line.note(text);
-  };
-  try {
-    return work(options);
-  } catch (const OptionError& error) {
-    throw Error("--" + message_of(error));
-  }
-}
-
-void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
-  if (files.empty()) return;
-  const nlohmann::json json = to_json(report);
-  for (const std::filesystem::path& file : files) {
-    OutputFile out(file);
-    out.put(lower_extension(file) == ".json" ? json.dump(2) + '\n'
-                                             : report::write_page(json, report.portrait));
-    out.commit();
-  }
-}
-
 /// The worst tets by the numbers that the file of the mesh gives them.
 void number_tets(face::Portrait& portrait, const Mesh& mesh) {
   const std::vector<std::int64_t>& numbers = MeshAccess::data(mesh).tet_numbers;
@@ -129,8 +81,8 @@ void number_tets(face::Portrait& portrait, const Mesh& mesh) {
 }
 
 /// A run in pieces never has the whole mesh that the page draws.
-void check_reports(const ImproveOptions& options) {
-  if (options.pieces.memory == 0 && !options.pieces.is_divided()) return;
+void check_reports(const ImproveOptions& options, const pieces::Ranks* ranks) {
+  if (!options.pieces.is_divided() && ranks == nullptr) return;
   for (const std::filesystem::path& file : options.reports) {
     if (lower_extension(file) == ".json") continue;
     throw UsageError(
@@ -145,18 +97,29 @@ std::filesystem::path scratch_parent(const ImproveOptions& options) {
   return folder.empty() ? std::filesystem::path(".") : folder;
 }
 
-/// Reads, improves and writes with no more than a piece in memory.
+/// Reads, improves and writes with no more than a piece in memory, or with its share of each rank.
 void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
-                         std::optional<Interruption>& interruption, ImproveReport& report) {
+                         std::optional<Interruption>& interruption, ImproveReport& report,
+                         const Invocation& invocation) {
   if (formats::is_standard_stream(options.input) || formats::is_standard_stream(options.output)) {
-    throw UsageError("--memory: a mesh out of core is read from and written to files");
+    throw UsageError("a mesh in pieces is read from and written to files");
   }
-  const pieces::ScratchFolder scratch(scratch_parent(options));
+  pieces::Ranks* const ranks = invocation.ranks;
+  pieces::OutOfCore files;
+  files.array_files = invocation.array_files;
+  std::optional<pieces::ScratchFolder> scratch;
+  if (ranks == nullptr || !options.pieces.scratch.empty()) {
+    files.scratch = scratch.emplace(scratch_parent(options)).path();
+  }
+  files.input = options.input;
+  files.output = options.output;
+  files.memory = options.pieces.memory;
+  files.checkpoint = options.pieces.checkpoint;
   pieces::Division division;
   division.pieces = options.pieces.pieces;
+  pieces::OneRank alone;
   report.result = improve_watched(options, line, interruption, [&](const Options& run) {
-    return pieces::improve_files(
-        {options.input, options.output, scratch.path(), options.pieces.memory, {}}, run, division);
+    return pieces::improve_files(files, run, division, ranks != nullptr ? *ranks : alone);
   });
 }
 
@@ -194,21 +157,40 @@ std::string finish(TraceRecorder* trace) {
   return {};
 }
 
+/// Of all ranks.
+std::size_t largest(std::size_t mine, pieces::Ranks* ranks) {
+  if (ranks == nullptr) return mine;
+  std::string bytes;
+  pieces::put(std::uint64_t{mine}, bytes);
+  std::uint64_t most = 0;
+  for (const std::string& from : ranks->gather(bytes)) {
+    std::string_view rest = from;
+    std::uint64_t other = 0;
+    pieces::take(rest, other);
+    most = std::max(most, other);
+  }
+  return most;
+}
+
 int run_improve(ImproveOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
-  check_files(options);
+  const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
+  if (is_first) check_files(options, invocation.array_files);
   complete(options);
-  check_reports(options);
+  check_reports(options, invocation.ranks);
+  if (!is_first) options.quiet = true;
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};
   std::optional<Interruption> interruption;  // until all is written
   std::unique_ptr<TraceRecorder> trace;
-  if (options.pieces.memory > 0) {
-    improve_out_of_core(options, progress, interruption, report);
+  if (invocation.ranks != nullptr || options.pieces.memory > 0 ||
+      !options.pieces.checkpoint.empty()) {
+    improve_out_of_core(options, progress, interruption, report, invocation);
   } else {
     improve_in_core(options, progress, interruption, report, trace);
   }
-  report.peak_memory = platform::peak_memory();
+  report.peak_memory = largest(platform::peak_memory(), invocation.ranks);
+  if (!is_first) return kSuccess;
   write_reports(options.reports, report);
   invocation.wrote_files = true;
   const std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little

@@ -12,6 +12,10 @@
 namespace CLI {
 class App;
 }
+namespace tetmend::pieces {
+class ArrayFiles;
+class Ranks;
+}  // namespace tetmend::pieces
 
 namespace tetmend::apps {
 
@@ -32,6 +36,8 @@ struct Invocation {
   std::vector<std::string> arguments;  ///< without the name of the program
   std::function<int()> action;         ///< returns the exit status; @throws Error, UsageError
   bool wrote_files = false;            ///< then what was said besides is not what counts
+  pieces::Ranks* ranks = nullptr;      ///< that all run the same command; null: it is alone
+  const pieces::ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
 };
 
 // Precondition of each: `invocation` outlives the parser.
@@ -44,6 +50,7 @@ void add_schedules(CLI::App& app, Invocation& invocation);
 void add_check_plugin(CLI::App& app, Invocation& invocation);
 void add_lesson(CLI::App& app, Invocation& invocation);
 void add_surface(CLI::App& app, Invocation& invocation);
+void add_pieces(CLI::App& app, Invocation& invocation);
 void add_trace(CLI::App& app, Invocation& invocation);
 
 }  // namespace tetmend::apps

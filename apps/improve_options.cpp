@@ -72,6 +72,9 @@ void add_schedule_options(CLI::App& command, ImproveOptions& options) {
   add_value(command, run, "measure",
             "What tets are judged by: angles and needles,\nor with 'sine' angles alone, as "
             "in the\npaper (default: sine_and_length)");
+}
+
+void add_time_limit(CLI::App& command, Options& run) {
   add_value(command, run, "time-limit",
             "Stop improving after that time and\nwrite what was reached");
 }
@@ -96,9 +99,7 @@ void add_plugin_options(CLI::App& command, ImproveOptions& options) {
                    "thread");
 }
 
-void add_region_options(CLI::App& command, Options& options) {
-  add_values(command, options, "protect", "Leave these tets as they are; repeatable");
-  add_values(command, options, "only", "Leave all other tets as they are; repeatable");
+void add_layers_and_tets(CLI::App& command, Options& options) {
   add_value(command, options, "layers",
             "Boundary layers, prisms cut into tets, stay\n"
             "as they are (keep, the default) or are\n"
@@ -106,6 +107,12 @@ void add_region_options(CLI::App& command, Options& options) {
   add_value(command, options, "tets",
             "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all "
             "(default:\nas far as it pays)");
+}
+
+void add_region_options(CLI::App& command, Options& options) {
+  add_values(command, options, "protect", "Leave these tets as they are; repeatable");
+  add_values(command, options, "only", "Leave all other tets as they are; repeatable");
+  add_layers_and_tets(command, options);
   command.add_flag("--keep-size", options.keep_size,
                    "Make no edge that is shorter than half or\nlonger than twice what edges are "
                    "there in IN");
@@ -137,12 +144,27 @@ void add_trace_options(CLI::App& command, Options& options) {
 
 }  // namespace
 
+void add_options_of_pieces(CLI::App& command, ImproveOptions& options) {
+  add_schedule_options(command, options);
+  add_plugin_option(command, options.run.plugin);
+  add_layers_and_tets(command, options.run);
+  add_threads_option(command, options.run.threads);
+  command
+      .add_option(
+          "--report", options.reports,
+          "join: write all that is printed at the end,\nand more, as .json; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+}
+
 void add_improve_options(CLI::App& command, ImproveOptions& options) {
   command.add_option("IN", options.input, "Mesh to improve")->required()->type_name("");
   command.add_option("-o,--output", options.output, "File for the improved mesh; may be IN")
       ->required()
       ->type_name("OUT");
   add_schedule_options(command, options);
+  add_time_limit(command, options.run);
   add_plugin_options(command, options);
   add_threads_option(command, options.run.threads);
   add_piece_options(command, options.pieces);

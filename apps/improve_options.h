@@ -33,6 +33,9 @@ struct ImproveOptions {
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);
 
+/// Those that a run by `tetmend pieces` can have.
+void add_options_of_pieces(CLI::App& command, ImproveOptions& options);
+
 /// What the help says of a SPEC, for the end of the command's help.
 std::string region_help();
 

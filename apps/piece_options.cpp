@@ -34,6 +34,10 @@ void add_piece_options(CLI::App& command, PieceOptions& options) {
       .add_option("--scratch", options.scratch,
                   "Folder for the pieces that are not worked on\n(default: that of OUT)")
       ->type_name("FOLDER");
+  command
+      .add_option("--checkpoint", options.checkpoint,
+                  "Keep the pieces there after each division;\nthe same command goes on from them")
+      ->type_name("FOLDER");
 }
 
 }  // namespace tetmend::apps

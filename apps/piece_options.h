@@ -17,7 +17,9 @@ struct PieceOptions {
   std::uint64_t memory = 0;       ///< bytes; 0: not given
   std::filesystem::path scratch;  ///< empty: beside the output
 
-  bool is_divided() const { return pieces > 1 || memory > 0; }
+  std::filesystem::path checkpoint;  ///< folder; empty: none
+
+  bool is_divided() const { return pieces > 1 || memory > 0 || !checkpoint.empty(); }
 };
 
 void add_piece_options(CLI::App& command, PieceOptions& options);

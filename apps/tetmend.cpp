@@ -63,6 +63,7 @@ interrupted)",
   add_operators(*app, invocation);
   add_schedules(*app, invocation);
   add_trace(*app, invocation);
+  add_pieces(*app, invocation);
   add_check_plugin(*app, invocation);
   return app;
 }

@@ -12,7 +12,7 @@ if(NOT IS_DIRECTORY "${SOURCE_DIR}")
   message(FATAL_ERROR "usage: cmake -DSOURCE_DIR=FOLDER -P check_layers.cmake")
 endif()
 
-set(rooms platform kernel trace search figure explain ops contract schedule face report pieces bindings apps
+set(rooms platform kernel trace search figure explain ops contract schedule face report pieces mpi bindings apps
           viewer viewer/mesh viewer/debugger viewer/live viewer/commands viewer/gl viewer/ui)
 set(below_platform "")
 set(below_kernel platform)
@@ -26,6 +26,7 @@ set(below_schedule platform kernel trace search ops)
 set(below_face platform kernel trace search ops contract schedule)
 set(below_report platform kernel trace search figure explain ops contract schedule face)
 set(below_pieces platform kernel trace search ops contract schedule face)
+set(below_mpi platform kernel trace search ops contract schedule face pieces)
 set(below_bindings platform report)
 set(below_viewer/mesh platform kernel figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)
@@ -43,7 +44,7 @@ set(public_of_face check improve io measure mesh option_text trace)
 set(public_of_bindings tetmend)
 
 # <NAME.h> is a header of the system, unless it belongs to a library.
-set(headers_of_libraries imgui.h imgui_internal.h imgui_stdlib.h stb_image_write.h zlib.h zstd.h)
+set(headers_of_libraries hdf5.h imgui.h imgui_internal.h imgui_stdlib.h mpi.h stb_image_write.h zlib.h zstd.h)
 set(system_headers "^(csignal|(sys|mach|mach-o|linux|net|netinet|arpa|asm)/.*|[^/]+\\.h)$")
 set(system_names "(_WIN32|__APPLE__|__linux__|__GLIBC__)")
 

@@ -3,9 +3,12 @@
 #include "pieces/divided_mesh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "pieces/bytes.h"
 
 namespace tetmend::pieces {
 
@@ -89,16 +92,133 @@ class Messages {
 
 }  // namespace
 
-void DividedMesh::add_slice(const Piece& slice) {
-  if (state_.stored == 0 && !slice.points.empty()) state_.low = state_.high = slice.points[0];
+void append(const DivisionState& state, std::string& bytes) {
+  const auto put_point = [&](const Point& p) {
+    for (const double x : p) put(x, bytes);
+  };
+  put_point(state.low);
+  put_point(state.high);
+  put(state.next_id, bytes);
+  put(state.stored, bytes);
+  put(state.first_added, bytes);
+  put_point(state.parting.low);
+  put(state.parting.side, bytes);
+  put(state.parting.shift, bytes);
+  put(state.parting.cuts, bytes);
+  put(std::uint64_t{state.parting.zones.balls().size()}, bytes);
+  for (const Ball& ball : state.parting.zones.balls()) {
+    put_point(ball.centre);
+    put(ball.radius, bytes);
+    put(ball.zone, bytes);
+  }
+}
+
+DivisionState take_state(std::string_view& bytes) {
+  DivisionState state;
+  const auto take_point = [&](Point& p) {
+    for (double& x : p) take(bytes, x);
+  };
+  take_point(state.low);
+  take_point(state.high);
+  take(bytes, state.next_id);
+  take(bytes, state.stored);
+  take(bytes, state.first_added);
+  take_point(state.parting.low);
+  take(bytes, state.parting.side);
+  take(bytes, state.parting.shift);
+  take(bytes, state.parting.cuts);
+  std::uint64_t count = 0;
+  take(bytes, count);
+  std::vector<Ball> balls;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Ball& ball = balls.emplace_back();
+    take_point(ball.centre);
+    take(bytes, ball.radius);
+    take(bytes, ball.zone);
+  }
+  state.parting.zones = ZoneMap(std::move(balls));
+  return state;
+}
+
+std::vector<std::uint32_t> owners_of(const Parting& parting, std::size_t ranks) {
+  const std::size_t stretches = parting.stretches();
+  std::vector<std::uint32_t> owners(parting.parts());
+  std::vector<std::size_t> load(ranks, 0);
+  for (std::size_t part = 0; part < stretches; ++part) {
+    owners[part] = static_cast<std::uint32_t>(part * ranks / stretches);
+  }
+  std::vector<std::size_t> balls(parting.zones.count(), 0);
+  for (const Ball& ball : parting.zones.balls()) ++balls[ball.zone];
+  std::vector<std::size_t> largest_first(balls.size());
+  std::iota(largest_first.begin(), largest_first.end(), std::size_t{0});
+  std::stable_sort(largest_first.begin(), largest_first.end(),
+                   [&](std::size_t a, std::size_t b) { return balls[a] > balls[b]; });
+  for (const std::size_t zone : largest_first) {
+    const auto least = std::min_element(load.begin(), load.end());
+    *least += balls[zone];
+    owners[stretches + zone] = static_cast<std::uint32_t>(least - load.begin());
+  }
+  return owners;
+}
+
+DividedMesh::DividedMesh(Shelf& shelf, Ranks& ranks, DivisionState state)
+    : shelf_(&shelf), ranks_(ranks), state_(std::move(state)) {
+  if (state_.stored == 0) {
+    own_those_of(owners_of(state_.parting, ranks.count()));
+    return;
+  }
+  std::vector<std::uint32_t> owners(state_.stored);
+  for (std::size_t part = 0; part < owners.size(); ++part) {
+    owners[part] = static_cast<std::uint32_t>(part * ranks.count() / owners.size());
+  }
+  own_those_of(owners);
+}
+
+void DividedMesh::own_those_of(const std::vector<std::uint32_t>& owners) {
+  own_.clear();
+  for (std::size_t part = 0; part < owners.size(); ++part) {
+    if (owners[part] == ranks_.number()) own_.push_back(part);
+  }
+}
+
+void DividedMesh::add_slice(std::size_t number, const Piece& slice) {
   for (const Point& p : slice.points) {
+    if (!std::exchange(has_box_, true)) state_.low = state_.high = p;
     state_.low = state_.low.cwiseMin(p).eval();
     state_.high = state_.high.cwiseMax(p).eval();
   }
-  const std::size_t number = state_.stored;
   store(number, slice);
-  ++state_.stored;
-  state_.first_added.push_back(state_.next_id);
+  own_.push_back(number);
+}
+
+void DividedMesh::end_slices() {
+  struct Slices {
+    std::uint64_t count;
+    std::uint64_t has_box;
+    std::array<double, 6> box;
+  };
+  Slices mine{own_.size(), has_box_ ? 1U : 0U, {}};
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    mine.box[static_cast<std::size_t>(k)] = state_.low[k];
+    mine.box[static_cast<std::size_t>(k) + 3] = state_.high[k];
+  }
+  std::string bytes;
+  put(mine, bytes);
+  state_.stored = 0;
+  has_box_ = false;
+  for (const std::string& from : ranks_.gather(bytes)) {
+    std::string_view rest = from;
+    Slices other{};
+    take(rest, other);
+    state_.stored += other.count;
+    if (other.has_box == 0) continue;
+    const Point low(other.box[0], other.box[1], other.box[2]);
+    const Point high(other.box[3], other.box[4], other.box[5]);
+    const bool is_first = !std::exchange(has_box_, true);
+    state_.low = is_first ? low : state_.low.cwiseMin(low).eval();
+    state_.high = is_first ? high : state_.high.cwiseMax(high).eval();
+  }
+  state_.first_added.assign(state_.stored, state_.next_id);
 }
 
 Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift, ZoneMap zones) const {
@@ -107,50 +227,124 @@ Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift, ZoneMap zo
   if (pieces == 1) return parting;
   const HilbertCurve curve = shifted_curve(state_.low, side, shift);
   KeyHistogram histogram;
-  for (std::size_t part = 0; part < state_.stored; ++part) {
+  for (const std::size_t part : own_) {
     const Piece piece = stored(part);
     for (std::size_t v = 0; v < piece.ids.size(); ++v) {
       if (is_own(piece.marks[v])) histogram.count(curve.key(piece.points[v]));
     }
   }
+  ranks_.add(histogram.counts());
   parting.cuts = histogram.cuts(pieces);
   return parting;
 }
 
-void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones) {
-  state_.parting = make_parting(pieces, shift, std::move(zones));
-  for (std::size_t part = 0; part < parts(); ++part) shelf_.remove(gathered_name(part));
-  for (std::size_t part = 0; part < state_.stored; ++part) {
-    send(stored(part));
-    shelf_.remove(stored_name(part));
+/// Of all ranks: how many pieces one has at most.
+std::size_t DividedMesh::most_own() const {
+  std::string mine;
+  put(std::uint64_t{own_.size()}, mine);
+  std::uint64_t most = 0;
+  for (const std::string& from : ranks_.gather(mine)) {
+    std::string_view rest = from;
+    std::uint64_t count = 0;
+    take(rest, count);
+    most = std::max(most, count);
   }
+  return most;
+}
+
+/// All ranks send one piece at a time: so memory holds the messages of few.
+void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones, Shelf* next) {
+  state_.parting = make_parting(pieces, shift, std::move(zones));
+  Shelf& to = next == nullptr ? *shelf_ : *next;
+  const std::vector<std::uint32_t> owners = owners_of(state_.parting, ranks_.count());
+  for (std::size_t part = 0; part < parts(); ++part) to.remove(gathered_name(part));
+  const std::size_t rounds = most_own();
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<std::string> messages(ranks_.count());
+    if (round < own_.size()) {
+      messages = send(own_[round], owners, to);
+      if (next == nullptr) shelf_->remove(stored_name(own_[round]));
+    }
+    if (ranks_.count() == 1) continue;
+    for (const std::string& from : ranks_.exchange(std::move(messages))) {
+      received_ += from.size();
+      keep(from, to);
+    }
+  }
+  shelf_ = &to;
+  own_those_of(owners);
   state_.stored = 0;
   state_.first_added.clear();
 }
 
-void DividedMesh::send(const Piece& piece) {
+/// What is for this rank goes to the shelf, the rest is returned, by rank.
+std::vector<std::string> DividedMesh::send(std::size_t part,
+                                           const std::vector<std::uint32_t>& owners, Shelf& next) {
+  std::vector<std::string> to(ranks_.count());
+  const Piece piece = stored(part);
   Messages messages(piece, state_.parting);
-  for (std::size_t part = 0; part < parts(); ++part) {
-    const std::string bytes = messages.message(part);
-    if (!bytes.empty()) shelf_.append(gathered_name(part), bytes);
+  for (std::size_t target = 0; target < parts(); ++target) {
+    const std::string bytes = messages.message(target);
+    if (bytes.empty()) continue;
+    std::string head;
+    put(std::uint64_t{part}, head);
+    put(std::uint64_t{bytes.size()}, head);
+    if (owners[target] == ranks_.number()) {
+      next.append(gathered_name(target), head + bytes);
+      continue;
+    }
+    std::string& out = to[owners[target]];
+    put(std::uint64_t{target}, out);
+    out += head;
+    out += bytes;
+  }
+  return to;
+}
+
+void DividedMesh::keep(std::string_view messages, Shelf& next) {
+  while (!messages.empty()) {
+    std::uint64_t target = 0;
+    std::uint64_t source = 0;
+    std::uint64_t size = 0;
+    take(messages, target);
+    const char* begin = messages.data();
+    take(messages, source);
+    take(messages, size);
+    take_front(messages, size);
+    const auto length = static_cast<std::size_t>(messages.data() - begin);
+    next.append(gathered_name(target), std::string_view(begin, length));
   }
 }
 
+/// Messages come in any order; they are taken in that of the pieces that they are of.
 Piece DividedMesh::gathered(std::size_t part) const {
-  std::vector<Piece> messages;
+  std::vector<std::pair<std::uint64_t, Piece>> messages;
   {
-    const std::string bytes = shelf_.read(gathered_name(part));
-    for (std::string_view rest = bytes; !rest.empty();) messages.push_back(take_piece(rest));
+    const std::string bytes = shelf_->read(gathered_name(part));
+    for (std::string_view rest = bytes; !rest.empty();) {
+      std::uint64_t source = 0;
+      std::uint64_t size = 0;
+      take(rest, source);
+      take(rest, size);
+      std::string_view message = take_front(rest, size);
+      messages.emplace_back(source, take_piece(message));
+    }
   }
-  return merge(std::move(messages));
+  std::sort(messages.begin(), messages.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Piece> pieces;
+  for (auto& message : messages) pieces.push_back(std::move(message.second));
+  return merge(std::move(pieces));
 }
 
 void DividedMesh::store(std::size_t part, const Piece& piece) {
-  shelf_.remove(gathered_name(part));
-  shelf_.remove(stored_name(part));
   std::string bytes;
   append(piece, bytes);
-  shelf_.append(stored_name(part), bytes);
+  shelf_->put(stored_name(part), bytes);
+}
+
+void DividedMesh::remove_gathered(std::size_t part) {
+  shelf_->remove(gathered_name(part));
 }
 
 void DividedMesh::number_added(const std::vector<std::uint64_t>& added) {
@@ -163,7 +357,7 @@ void DividedMesh::number_added(const std::vector<std::uint64_t>& added) {
 }
 
 Piece DividedMesh::stored(std::size_t part) const {
-  const std::string bytes = shelf_.read(stored_name(part));
+  const std::string bytes = shelf_->read(stored_name(part));
   std::string_view rest = bytes;
   Piece piece = take_piece(rest);
   for (VertexId& id : piece.ids) {
@@ -171,6 +365,41 @@ Piece DividedMesh::stored(std::size_t part) const {
     id = state_.first_added[part] + (id - TaskResult::kNewVertex);
   }
   return piece;
+}
+
+void DividedMesh::copy_stored(Shelf& to) const {
+  for (const std::size_t part : own_) to.put(stored_name(part), shelf_->read(stored_name(part)));
+}
+
+void DividedMesh::take_from(const Shelf& from) {
+  for (const std::size_t part : own_) {
+    const std::string name = state_.stored > 0 ? stored_name(part) : gathered_name(part);
+    const std::string bytes = from.read(name);
+    if (bytes.empty() && state_.stored > 0) throw Error(fmt::format("there is no {}", name));
+    shelf_->put(name, bytes);
+  }
+}
+
+void DividedMesh::bring_to_first() {
+  if (ranks_.count() == 1) return;
+  const std::size_t rounds = most_own();
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<std::string> to(ranks_.count());
+    if (round < own_.size() && !ranks_.is_first()) {
+      const std::string name = stored_name(own_[round]);
+      put(std::uint64_t{own_[round]}, to[0]);
+      to[0] += shelf_->read(name);
+      shelf_->remove(name);
+    }
+    for (const std::string& from : ranks_.exchange(std::move(to))) {
+      if (from.empty()) continue;
+      std::string_view rest = from;
+      std::uint64_t part = 0;
+      take(rest, part);
+      shelf_->put(stored_name(part), rest);
+    }
+  }
+  own_those_of(std::vector<std::uint32_t>(state_.stored, 0));
 }
 
 }  // namespace tetmend::pieces

@@ -4,13 +4,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "pieces/parting.h"
 #include "pieces/piece.h"
 #include "pieces/piece_task.h"
+#include "pieces/ranks.h"
 #include "pieces/shelf.h"
 
 namespace tetmend::pieces {
@@ -20,42 +20,78 @@ struct DivisionState {
   Point low = Point::Zero();   ///< of the box around the mesh
   Point high = Point::Zero();  ///< likewise
   VertexId next_id = 0;        ///< of the next vertex that is added
-  std::uint64_t stored = 0;    ///< number of stored pieces
+  std::uint64_t stored = 0;    ///< number of stored pieces; 0: they are gathered
   /// By stored piece: the id of the first vertex that it has added.
   std::vector<VertexId> first_added;
   Parting parting;  ///< of the gathered pieces
 };
 
+void append(const DivisionState& state, std::string& bytes);
+/// @throws Error when the bytes end too early.
+DivisionState take_state(std::string_view& bytes);
+
 /// Stored pieces go when they are divided, gathered ones when they are stored again. Nothing but
-/// the content of pieces and their number enters: not who works on them, nor when.
+/// the content of pieces and their number enters: not who works on them, nor when. Each piece is on
+/// the shelf of one rank.
 class DividedMesh {
  public:
   /// @param vertices in the file
-  DividedMesh(Shelf& shelf, VertexId vertices) : shelf_(shelf) { state_.next_id = vertices; }
-  DividedMesh(Shelf& shelf, DivisionState state) : shelf_(shelf), state_(std::move(state)) {}
+  DividedMesh(Shelf& shelf, Ranks& ranks, VertexId vertices) : shelf_(&shelf), ranks_(ranks) {
+    state_.next_id = vertices;
+  }
+  /// Of pieces that are there: each rank has a range of them, see own().
+  DividedMesh(Shelf& shelf, Ranks& ranks, DivisionState state);
 
   const DivisionState& state() const { return state_; }
+  Ranks& ranks() const { return ranks_; }
+  /// The pieces of this rank, ascending: the stored ones, or where there are none the gathered ones.
+  const std::vector<std::size_t>& own() const { return own_; }
 
-  /// A slice of the file; slices come in their order. Each vertex is marked as its own in one.
-  void add_slice(const Piece& slice);
-  /// Divides the stored pieces by the shifted curve, and zones where there are any.
-  void divide(std::size_t pieces, unsigned shift, ZoneMap zones = {});
+  /// A slice of the file. Their numbers, from 0 on, are in their order there, whoever adds them. Each
+  /// vertex is marked as its own in one.
+  void add_slice(std::size_t number, const Piece& slice);
+  /// All ranks, when all slices are there.
+  void end_slices();
+  /// All ranks: divides the stored pieces by the shifted curve, and zones where there are any.
+  /// @param next where the gathered pieces go; the stored ones stay where they are then. Null: they go.
+  void divide(std::size_t pieces, unsigned shift, ZoneMap zones = {}, Shelf* next = nullptr);
   std::size_t parts() const { return state_.parting.parts(); }
   /// Precondition: it has been divided, and this one was not stored since.
   Piece gathered(std::size_t part) const;
-  /// In the place of the gathered piece of that number.
+  /// Beside the gathered piece of that number, which stays until it is removed.
   void store(std::size_t part, const Piece& piece);
+  void remove_gathered(std::size_t part);
   /// After all are stored: their new vertices get numbers. `added` is by part.
   void number_added(const std::vector<std::uint64_t>& added);
   /// A stored piece.
   Piece stored(std::size_t part) const;
+  /// Copies the stored pieces of this rank.
+  void copy_stored(Shelf& to) const;
+  /// Copies the pieces of this rank, stored or gathered, from a shelf that has those of all.
+  /// @throws Error when one is not there.
+  void take_from(const Shelf& from);
+  /// All ranks: the first has all stored pieces then.
+  void bring_to_first();
+  /// Bytes that came from other ranks so far.
+  std::uint64_t received() const { return received_; }
 
  private:
   Parting make_parting(std::size_t pieces, unsigned shift, ZoneMap zones) const;
-  void send(const Piece& piece);
+  std::size_t most_own() const;
+  std::vector<std::string> send(std::size_t part, const std::vector<std::uint32_t>& owners,
+                                Shelf& next);
+  void keep(std::string_view messages, Shelf& next);
+  void own_those_of(const std::vector<std::uint32_t>& owners);
 
-  Shelf& shelf_;
+  Shelf* shelf_;
+  Ranks& ranks_;
   DivisionState state_;
+  std::vector<std::size_t> own_;
+  bool has_box_ = false;
+  std::uint64_t received_ = 0;
 };
+
+/// Which rank has which part: neighbours on the curve together, zones where least is.
+std::vector<std::uint32_t> owners_of(const Parting& parting, std::size_t ranks);
 
 }  // namespace tetmend::pieces

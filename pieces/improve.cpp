@@ -57,7 +57,7 @@ class Improvement {
         watcher_(options),
         file_(mesh.file()),
         input_(MeshAccess::take(mesh)),
-        divided_(shelf, input_.points.size()) {}
+        divided_(shelf, ranks_, input_.points.size()) {}
 
   Result run() {
     try {
@@ -92,6 +92,7 @@ class Improvement {
   face::Watcher watcher_;
   const std::filesystem::path file_;
   MeshData input_;
+  OneRank ranks_;
   DividedMesh divided_;
   std::vector<std::uint32_t> tet_numbers_;  // in the input, by slot
   std::shared_ptr<const SizeField> size_field_;
@@ -135,6 +136,7 @@ void Improvement::prepare() {
   mesh = {};
   tet_numbers_ = {};
   add_slices(data, is_protected, divided_);
+  divided_.end_slices();
 }
 
 void Improvement::measure_before(const TetMesh& mesh) {
@@ -186,7 +188,7 @@ void Improvement::work() {
   PieceRun run(divided_, division_, task);
   run.set_limits(
       {result_.before.tets, result_.before.n_bad,
-       plan_.growth.most(result_.before.tets).value_or(std::numeric_limits<std::size_t>::max()),
+       plan_.growth.most(result_.before.tets).value_or(std::numeric_limits<std::uint64_t>::max()),
        options_.time_limit});
   run.set_stop([&] {
     return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());

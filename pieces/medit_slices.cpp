@@ -7,12 +7,13 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <queue>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "kernel/formats/output_file.h"
+#include "pieces/bytes.h"
+#include "pieces/numbering.h"
 
 namespace tetmend::pieces {
 
@@ -156,10 +157,12 @@ bool MeditSlices::list_sections() {
 }
 
 void MeditSlices::add_to(DividedMesh& mesh, std::size_t tets_of_slice) const {
-  const std::uint64_t slices = 1 + counts_.tets / tets_of_slice;
-  for (std::uint64_t i = 0; i < slices; ++i) {
-    mesh.add_slice(version_ == 4 ? read_slice<std::int64_t>(i, slices)
-                                 : read_slice<std::int32_t>(i, slices));
+  const std::uint64_t ranks = mesh.ranks().count();
+  const std::uint64_t rank = mesh.ranks().number();
+  const std::uint64_t slices = std::max(1 + counts_.tets / tets_of_slice, ranks);
+  for (std::uint64_t i = slices * rank / ranks; i < slices * (rank + 1) / ranks; ++i) {
+    mesh.add_slice(i, version_ == 4 ? read_slice<std::int64_t>(i, slices)
+                                    : read_slice<std::int32_t>(i, slices));
   }
 }
 
@@ -287,82 +290,64 @@ Piece MeditSlices::read_slice(std::uint64_t i, std::uint64_t slices) const {
 
 namespace {
 
-/// The numbers of vertices in the new file, by id: how many of lower id there are.
-class Numbering {
- public:
-  explicit Numbering(VertexId most)
-      : is_there_((most + 63) / 64, 0), before_((most + 63) / 64, 0) {}
-  void note(VertexId id) { is_there_[id / 64] |= std::uint64_t{1} << (id % 64); }
-  void count() {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < is_there_.size(); ++i) {
-      before_[i] = sum;
-      sum += static_cast<std::uint64_t>(__builtin_popcountll(is_there_[i]));
-    }
-    count_ = sum;
-  }
-  std::uint64_t size() const { return count_; }
-  std::uint64_t number(VertexId id) const {
-    const std::uint64_t bit = std::uint64_t{1} << (id % 64);
-    if ((is_there_[id / 64] & bit) == 0) {
-      throw Error("pieces do not fit: a vertex belongs to none");
-    }
-    return before_[id / 64] +
-           static_cast<std::uint64_t>(__builtin_popcountll(is_there_[id / 64] & (bit - 1)));
-  }
-
- private:
-  std::vector<std::uint64_t> is_there_;
-  std::vector<std::uint64_t> before_;
-  std::uint64_t count_ = 0;
-};
-
 /// What a vertex of the new file is, in the order of ids. Vertices come from all pieces: ranges of
 /// ids at a time, so that memory holds only some.
 struct FileVertex {
   VertexId id;
-  Point point;
+  std::array<double, 3> point;
   Label label;
-  std::uint8_t marks;
 };
 
+/// The first rank writes what all send it: a piece, or a range of vertices, at a time.
 class Writer {
  public:
-  Writer(OutputFile& out, const DividedMesh& mesh)
-      : out_(out), mesh_(mesh), numbering_(mesh.state().next_id) {}
+  /// @param out null on all ranks but the first
+  Writer(OutputFile* out, const DividedMesh& mesh)
+      : out_(out), mesh_(mesh), ranks_(mesh.ranks()), numbering_(mesh) {}
 
   void write() {
     count();
     choose_version();
-    out_.put_bytes(std::int32_t{1});
-    out_.put_bytes(version_);
+    put(std::int32_t{1});
+    put(version_);
     position_ = 2 * sizeof(std::int32_t);
     begin_section(dimension, sizeof(std::int32_t));
-    out_.put_bytes(std::int32_t{3});
+    put(std::int32_t{3});
     if (version_ == 4) {
       write_rows<std::int64_t>();
     } else {
       write_rows<std::int32_t>();
     }
-    out_.put_bytes(std::int32_t{end_of_mesh});
+    put(std::int32_t{end_of_mesh});
     put_position(0);
   }
 
  private:
   void count() {
-    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
+    std::vector<VertexId> required;
+    std::array<std::int64_t, 3> counts{};
+    for (const std::size_t i : mesh_.own()) {
       const Piece piece = mesh_.stored(i);
       for (std::size_t v = 0; v < piece.ids.size(); ++v) {
-        if ((piece.marks[v] & kOwn) == 0) continue;
-        numbering_.note(piece.ids[v]);
-        if ((piece.marks[v] & kRequired) != 0) required_.push_back(piece.ids[v]);
+        const bool is_listed = (piece.marks[v] & kOwn) != 0 && (piece.marks[v] & kRequired) != 0;
+        if (is_listed) required.push_back(piece.ids[v]);
       }
-      counts_.tets += piece.tets.size();
-      counts_.triangles += piece.triangles.size();
-      counts_.edges += piece.edges.size();
+      counts[0] += static_cast<std::int64_t>(piece.tets.size());
+      counts[1] += static_cast<std::int64_t>(piece.triangles.size());
+      counts[2] += static_cast<std::int64_t>(piece.edges.size());
     }
-    numbering_.count();
+    ranks_.add(counts);
     counts_.vertices = numbering_.size();
+    counts_.tets = static_cast<std::uint64_t>(counts[0]);
+    counts_.triangles = static_cast<std::uint64_t>(counts[1]);
+    counts_.edges = static_cast<std::uint64_t>(counts[2]);
+    std::string bytes;
+    pieces::put(required, bytes);
+    for (const std::string& from : ranks_.gather(bytes)) {
+      std::string_view rest = from;
+      pieces::take(rest, required);
+      required_.insert(required_.end(), required.begin(), required.end());
+    }
     std::sort(required_.begin(), required_.end());
   }
   /// As write_medit_binary() does.
@@ -373,20 +358,24 @@ class Writer {
                                16 * counts_.triangles + 4 * required_.size() + 20 * counts_.tets;
     version_ = most > INT32_MAX ? 4 : size > INT32_MAX ? 3 : 2;
   }
+  template <class Value>
+  void put(Value value) {
+    if (out_ != nullptr) out_->put_bytes(value);
+  }
   std::size_t position_size() const { return version_ >= 3 ? 8 : 4; }
   void put_position(std::uint64_t position) {
-    if (version_ >= 3) return out_.put_bytes(static_cast<std::int64_t>(position));
-    out_.put_bytes(static_cast<std::int32_t>(position));
+    if (version_ >= 3) return put(static_cast<std::int64_t>(position));
+    put(static_cast<std::int32_t>(position));
   }
   void begin_section(std::int32_t keyword, std::uint64_t content_size) {
     position_ += sizeof keyword + position_size() + content_size;
-    out_.put_bytes(keyword);
+    put(keyword);
     put_position(position_);
   }
   template <class Integer>
   void begin_rows(std::int32_t keyword, std::uint64_t rows, std::uint64_t row_size) {
     begin_section(keyword, sizeof(Integer) + rows * row_size);
-    out_.put_bytes(static_cast<Integer>(rows));
+    put(static_cast<Integer>(rows));
   }
   template <class Integer>
   void write_rows() {
@@ -396,13 +385,19 @@ class Writer {
     write_elements<Integer>(triangles, counts_.triangles, &Piece::triangles);
     if (!required_.empty()) {
       begin_rows<Integer>(required_vertices, required_.size(), sizeof(Integer));
-      for (const VertexId id : required_) put_number<Integer>(id);
+      for (const VertexId id : required_) put(number<Integer>(id));
     }
     write_elements<Integer>(tetrahedra, counts_.tets, &Piece::tets);
   }
   template <class Integer>
-  void put_number(VertexId id) {
-    out_.put_bytes(static_cast<Integer>(numbering_.number(id) + 1));
+  Integer number(VertexId id) const {
+    return static_cast<Integer>(numbering_.number(id) + 1);
+  }
+  /// What the ranks have for the file now, in their order.
+  std::vector<std::string> send_to_first(std::string bytes) const {
+    std::vector<std::string> to(ranks_.count());
+    to[0] = std::move(bytes);
+    return ranks_.exchange(std::move(to));
   }
 
   /// A range of ids at a time, from all pieces.
@@ -411,27 +406,34 @@ class Writer {
     constexpr VertexId kAtOnce = 2'000'000;
     const VertexId most = mesh_.state().next_id;
     for (VertexId begin = 0; begin < most; begin += kAtOnce) {
-      const std::vector<FileVertex> range = collect(begin, std::min(most, begin + kAtOnce));
+      std::vector<FileVertex> range;
+      for (const std::string& from :
+           send_to_first(collect(begin, std::min(most, begin + kAtOnce)))) {
+        for (std::string_view rest = from; !rest.empty();) {
+          pieces::take(rest, range.emplace_back());
+        }
+      }
+      std::sort(range.begin(), range.end(),
+                [](const FileVertex& a, const FileVertex& b) { return a.id < b.id; });
       for (const FileVertex& vertex : range) {
-        for (const double x : vertex.point) out_.put_bytes(x);
-        out_.put_bytes(static_cast<Integer>(vertex.label));
+        for (const double x : vertex.point) put(x);
+        put(static_cast<Integer>(vertex.label));
       }
     }
   }
-  std::vector<FileVertex> collect(VertexId begin, VertexId end) const {
-    std::vector<FileVertex> all;
-    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
+  std::string collect(VertexId begin, VertexId end) const {
+    std::string bytes;
+    for (const std::size_t i : mesh_.own()) {
       const Piece piece = mesh_.stored(i);
       const auto first = std::lower_bound(piece.ids.begin(), piece.ids.end(), begin);
       for (auto v = static_cast<std::size_t>(first - piece.ids.begin());
            v < piece.ids.size() && piece.ids[v] < end; ++v) {
         if ((piece.marks[v] & kOwn) == 0) continue;
-        all.push_back({piece.ids[v], piece.points[v], piece.label(v), piece.marks[v]});
+        const Point& p = piece.points[v];
+        pieces::put(FileVertex{piece.ids[v], {p.x(), p.y(), p.z()}, piece.label(v)}, bytes);
       }
     }
-    std::sort(all.begin(), all.end(),
-              [](const FileVertex& a, const FileVertex& b) { return a.id < b.id; });
-    return all;
+    return bytes;
   }
   template <class Integer, class Element>
   void write_elements(std::int32_t keyword, std::uint64_t rows,
@@ -440,16 +442,25 @@ class Writer {
     constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
     begin_rows<Integer>(keyword, rows, kNumbers * sizeof(Integer));
     for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
-      const Piece piece = mesh_.stored(i);
-      for (const Element& element : piece.*elements) {
-        for (const std::uint32_t v : element.vertices) put_number<Integer>(piece.ids[v]);
-        out_.put_bytes(static_cast<Integer>(element.label));
+      std::string bytes;
+      if (std::binary_search(mesh_.own().begin(), mesh_.own().end(), i)) {
+        const Piece piece = mesh_.stored(i);
+        for (const Element& element : piece.*elements) {
+          for (const std::uint32_t v : element.vertices) {
+            pieces::put(number<Integer>(piece.ids[v]), bytes);
+          }
+          pieces::put(static_cast<Integer>(element.label), bytes);
+        }
+      }
+      for (const std::string& from : send_to_first(std::move(bytes))) {
+        if (out_ != nullptr) out_->put(from);
       }
     }
   }
 
-  OutputFile& out_;
+  OutputFile* out_;
   const DividedMesh& mesh_;
+  Ranks& ranks_;
   Numbering numbering_;
   FileCounts counts_;
   std::vector<VertexId> required_;
@@ -460,9 +471,11 @@ class Writer {
 }  // namespace
 
 void write_medit_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
-  OutputFile out(file);
-  Writer(out, mesh).write();
-  out.commit();
+  std::optional<OutputFile> out;
+  if (mesh.ranks().is_first()) out.emplace(file);
+  Writer(out ? &*out : nullptr, mesh).write();
+  if (out) out->commit();
+  mesh.ranks().meet();
 }
 
 }  // namespace tetmend::pieces

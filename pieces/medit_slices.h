@@ -25,7 +25,7 @@ class MeditSlices {
   static std::optional<MeditSlices> open(const std::filesystem::path& file);
 
   const FileCounts& counts() const { return counts_; }
-  /// Adds all of it, about so many tets at a time.
+  /// All ranks: each adds its share, about so many tets at a time. Without end_slices().
   /// @throws Error when the file ends too early, or has a number out of range.
   void add_to(DividedMesh& mesh, std::size_t tets_of_slice) const;
 
@@ -46,8 +46,9 @@ class MeditSlices {
   Section vertices_, edges_, triangles_, tets_, required_;
 };
 
-/// Writes the stored pieces to a `.meshb` file, byte for byte as write_mesh() writes what join()
-/// gives. Takes a byte for each vertex and what two pieces take. @throws Error as write_mesh().
+/// All ranks: the first writes the stored pieces to a `.meshb` file, byte for byte as write_mesh()
+/// writes what join() gives. Takes a quarter of a byte for each vertex and what two pieces take.
+/// @throws Error as write_mesh().
 void write_medit_slices(const std::filesystem::path& file, const DividedMesh& mesh);
 
 }  // namespace tetmend::pieces

@@ -3,21 +3,19 @@
 #include "pieces/out_of_core.h"
 
 #include <chrono>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tetmend/io.h>
 
 #include "face/arena.h"
-#include "face/carry.h"
+#include "face/mesh_access.h"
 #include "face/plan.h"
 #include "face/watcher.h"
-#include "kernel/formats/mesh_io.h"
 #include "pieces/improve.h"
-#include "pieces/medit_slices.h"
+#include "pieces/run_folder.h"
 #include "pieces/slices.h"
-#include "platform/platform.h"
 
 namespace tetmend::pieces {
 
@@ -37,191 +35,235 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void check_options(const Options& options) {
-  const auto refuse = [](bool given, const char* name, std::string_view option) {
-    if (!given) return;
-    throw OptionError(name, fmt::format("{}: needs the whole mesh in memory", option));
-  };
-  refuse(!options.protect.empty(), "protect", "protect");
-  refuse(!options.only.empty(), "only", "only");
-  refuse(options.keep_size, "keep_size", "keep-size");
-  refuse(!options.conserve.empty(), "conserve", "conserve");
-  refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
-  refuse(!options.trace.empty(), "trace", "trace");
-  refuse(options.check_operators, "check_operators", "check-operators");
-}
-
 /// One call of improve_files().
 class FileRun {
  public:
-  FileRun(const OutOfCore& files, const Options& options, Division& division)
+  FileRun(const OutOfCore& files, const Options& options, Division& division, Ranks& ranks)
       : files_(files),
         options_(options),
         division_(division),
+        ranks_(ranks),
         plan_(options),
         watcher_(options),
-        shelf_(files.scratch) {}
-
-  Result run() {
-    result_.goal = options_.goal;
-    watcher_.begin(Stage::building);
-    {
-      const Stopwatch watch(result_.building);
-      if (!read()) return improve_whole();
+        checkpoint_(files.checkpoint) {
+    if (files.scratch.empty()) {
+      shelf_ = std::make_unique<MemoryShelf>();
+    } else {
+      shelf_ = std::make_unique<FolderShelf>(files.scratch);
     }
-    const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
-    TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
-    task.fault = files_.fault;
-    task.watch = [&](Run& run) {
-      run.set_listener(&watcher_);
-      run.set_cancel_flag(options_.cancel);
-      watcher_.watch(&run, now_);
-    };
-    task.unwatch = [&] { watcher_.watch(nullptr, now_); };
-    PieceRun run(*mesh_, division_, task);
-    measure_before(run);
-    work(run);
-    measure_after(run);
-    write();
-    watcher_.rethrow();
-    return std::move(result_);
   }
+
+  Result run();
 
  private:
   Result improve_whole();
+  Mesh gather_whole();
   bool read();
-  bool read_whole();
-  void measure_before(PieceRun& run);
-  void work(PieceRun& run);
-  void measure_after(PieceRun& run);
+  void measure_before();
+  bool go_on();
+  SavedRun saved() const;
+  void save() const;
+  void work();
+  void measure_after();
   void write();
   /// False for one.
   bool is_divided(std::size_t tets) {
-    if (division_.pieces == 0) division_.pieces = pieces_for(tets, files_.memory);
+    constexpr std::size_t kTetsOfPiece = 4'000'000;
+    if (division_.pieces == 0) {
+      division_.pieces = files_.memory > 0 ? pieces_for(tets, files_.memory)
+                                           : (tets + kTetsOfPiece - 1) / kTetsOfPiece;
+    }
     return division_.pieces > 1;
   }
 
   const OutOfCore& files_;
   const Options& options_;
   Division& division_;
+  Ranks& ranks_;
   face::Plan plan_;
   face::Watcher watcher_;
-  FolderShelf shelf_;
+  RunFolder checkpoint_;
+  std::unique_ptr<Shelf> shelf_;
   std::optional<DividedMesh> mesh_;
-  std::size_t vertices_ = 0;
+  std::optional<PieceRun> steps_;
+  std::uint64_t vertices_ = 0;
   QualityIndicators now_;
-  std::uint64_t surface_before_ = 0;
+  Figures before_;
   Result result_;
 };
 
+Result FileRun::run() {
+  result_.goal = options_.goal;
+  const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
+  TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
+  task.fault = files_.fault;
+  task.watch = [&](Run& run) {
+    run.set_listener(&watcher_);
+    run.set_cancel_flag(options_.cancel);
+    watcher_.watch(&run, now_);
+  };
+  task.unwatch = [&] { watcher_.watch(nullptr, now_); };
+  watcher_.begin(Stage::building);
+  if (go_on()) {
+    steps_.emplace(*mesh_, division_, task, checkpoint_.load().run);
+  } else {
+    {
+      const Stopwatch watch(result_.building);
+      if (!read()) return improve_whole();
+    }
+    steps_.emplace(*mesh_, division_, task);
+    measure_before();
+  }
+  work();
+  measure_after();
+  write();
+  watcher_.rethrow();
+  return std::move(result_);
+}
+
 /// There is memory enough for all of it.
 Result FileRun::improve_whole() {
-  Mesh mesh = load(files_.input, options_.threads);
-  Result result = tetmend::improve(mesh, options_);
-  save(files_.output, mesh, options_.threads);
+  const ArrayFiles* known = files_.array_files;
+  Mesh mesh = known != nullptr && known->is_one(files_.input) ? gather_whole()
+              : ranks_.is_first()                             ? load(files_.input, options_.threads)
+                                                              : Mesh();
+  Result result;
+  if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
+  if (known != nullptr && known->is_one(files_.output)) {
+    known->write(files_.output, ranks_.is_first() ? all_of(MeshAccess::data(mesh)) : RankArrays());
+  } else if (ranks_.is_first()) {
+    tetmend::save(files_.output, mesh, options_.threads);
+  }
+  ranks_.meet();
   return result;
 }
 
-/// False if one piece is enough: nothing was read then.
+/// On the first rank.
+Mesh FileRun::gather_whole() {
+  InputMesh input(files_.input, ranks_, files_.array_files);
+  MemoryShelf shelf;
+  DividedMesh pieces(shelf, ranks_, input.vertices());
+  const std::uint64_t vertices = input.vertices();
+  input.add_to(pieces, 1);
+  pieces.bring_to_first();
+  return ranks_.is_first() ? MeshAccess::make(join(pieces, vertices).data) : Mesh();
+}
+
+/// False if one piece is enough.
 bool FileRun::read() {
-  const std::optional<MeditSlices> slices = MeditSlices::open(files_.input);
-  if (!slices) return read_whole();
-  if (!is_divided(slices->counts().tets)) return false;
-  vertices_ = slices->counts().vertices;
-  mesh_.emplace(shelf_, vertices_);
-  slices->add_to(*mesh_, std::min(kTetsOfSlice, 1 + slices->counts().tets / division_.pieces));
+  InputMesh input(files_.input, ranks_, files_.array_files);
+  if (!is_divided(input.tets())) return false;
+  vertices_ = input.vertices();
+  mesh_.emplace(*shelf_, ranks_, vertices_);
+  input.add_to(*mesh_, division_.pieces);
   return true;
 }
 
-bool FileRun::read_whole() {
-  MeshData data = read_mesh(files_.input);
-  if (face::holds_more(data) || !data.mid_nodes.empty()) {
-    throw Error(
-        fmt::format("{}: holds more than tets, labels and constraints, which needs the "
-                    "whole mesh in memory",
-                    files_.input.string()));
-  }
-  if (!is_divided(data.tets.size())) return false;
-  vertices_ = data.points.size();
-  mesh_.emplace(shelf_, vertices_);
-  add_slices(data, {}, *mesh_);
-  return true;
-}
-
-void FileRun::measure_before(PieceRun& run) {
+void FileRun::measure_before() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  const Figures figures = run.measure_before();
-  const auto fail = [&](std::string_view what) {
-    throw Error(fmt::format("{}: {}", files_.input.string(), what));
-  };
-  if (figures.peculiar > 0) {
-    fail("some tets are inverted, flat or turned round, which needs the whole mesh in memory");
-  }
-  if (figures.layer_tets > 0 && options_.layers == Layers::keep) {
-    fail(
-        "has boundary layers: keeping them needs the whole mesh in memory; 'layers improve' "
-        "gives them up");
-  }
-  result_.before = figures.statistics;
-  surface_before_ = figures.surface;
-  result_.not_positive_before = figures.not_positive;
+  before_ = steps_->measure_before();
+  check_before(before_, options_, files_.input);
+  result_.before = before_.statistics;
+  steps_->set_limits({before_.statistics.tets, before_.statistics.n_bad,
+                      plan_.growth.most(before_.statistics.tets).value_or(RunLimits().most_tets)});
 }
 
-void FileRun::work(PieceRun& run) {
+/// What a checkpoint must be of to be gone on from.
+SavedRun FileRun::saved() const {
+  SavedRun run;
+  run.input = std::filesystem::absolute(files_.input).string();
+  run.output = std::filesystem::absolute(files_.output).string();
+  run.input_size = std::filesystem::file_size(files_.input);
+  run.vertices = vertices_;
+  run.options = texts_of(options_);
+  run.division = division_;
+  run.before = before_;
+  return run;
+}
+
+/// False: there is nothing to go on from.
+bool FileRun::go_on() {
+  if (files_.checkpoint.empty() || ranks_.any(!checkpoint_.has_run())) return false;
+  const SavedRun found = checkpoint_.load();
+  const SavedRun mine = saved();
+  if (found.input != mine.input || found.input_size != mine.input_size ||
+      found.options != mine.options || found.is_finished ||
+      (division_.pieces != 0 && division_.pieces != found.division.pieces)) {
+    throw Error(fmt::format("{}: has a run of another mesh, or with other options",
+                            files_.checkpoint.string()));
+  }
+  division_ = found.division;
+  vertices_ = found.vertices;
+  before_ = found.before;
+  result_.before = before_.statistics;
+  for (const StepRecord& record : found.run.records) result_.passes.push_back(to_pass(record));
+  if (!found.run.records.empty()) now_ = found.run.records.back().after.indicators;
+  mesh_.emplace(*shelf_, ranks_, found.mesh);
+  mesh_->take_from(FolderShelf(checkpoint_.pieces_of(found.run)));
+  return true;
+}
+
+/// All ranks: the pieces first, then the state that they are of.
+void FileRun::save() const {
+  const std::size_t step = RunFolder::step_of(steps_->state());
+  if (ranks_.is_first()) checkpoint_.make_step(step);
+  ranks_.meet();
+  FolderShelf shelf(checkpoint_.step(step), FolderShelf::Lasts::beyond_a_crash);
+  mesh_->copy_stored(shelf);
+  ranks_.meet();
+  if (!ranks_.is_first()) return;
+  SavedRun run = saved();
+  run.run = steps_->state();
+  run.mesh = mesh_->state();
+  checkpoint_.save(run);
+}
+
+void FileRun::work() {
   watcher_.begin(Stage::improving);
   const Stopwatch watch(result_.improving);
-  run.set_limits(
-      {result_.before.tets, result_.before.n_bad,
-       plan_.growth.most(result_.before.tets).value_or(std::numeric_limits<std::size_t>::max()),
-       options_.time_limit});
-  run.set_stop([&] {
+  RunLimits limits = steps_->state().limits;
+  limits.seconds = options_.time_limit;
+  steps_->set_limits(limits);
+  steps_->set_stop([&] {
     return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
   });
-  run.set_listener([&](const StepRecord& record) {
+  steps_->set_listener([&](const StepRecord& record) {
     now_ = record.after.indicators;
     result_.passes.push_back(to_pass(record));
+    if (!files_.checkpoint.empty() && !steps_->stopped()) save();
   });
-  run.run();
-  if (run.stopped()) {
-    result_.ending = run.out_of_time() ? Ending::time_limit : Ending::cancelled;
+  steps_->run();
+  if (steps_->stopped()) {
+    result_.ending = steps_->out_of_time() ? Ending::time_limit : Ending::cancelled;
   }
 }
 
-void FileRun::measure_after(PieceRun& run) {
+void FileRun::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  const Figures figures = run.measure_after();
-  result_.after = figures.statistics;
-  result_.surface_fingerprint = figures.surface;
-  result_.not_positive_after = figures.not_positive;
-  constexpr double kMostVolumeChange = 1e-9;
-  const bool fits = figures.surface == surface_before_ &&
-                    result_.after.boundary_triangles == result_.before.boundary_triangles &&
-                    result_.not_positive_after <= result_.not_positive_before &&
-                    result_.volume_change() <= kMostVolumeChange;
-  if (!fits) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
+  check_after(before_, steps_->measure_after(), result_);
 }
 
 void FileRun::write() {
   if (!result_.worse().empty()) {
-    result_.notes.push_back(fmt::format("the mesh is as it was: at the end there was {}",
-                                        fmt::join(result_.worse(), "; ")));
+    result_.notes.push_back(why_as_it_was(result_));
     watcher_.noted(result_.notes.back());
     result_.after = result_.before;
     read();  // slices are pieces, too
   }
-  if (files_.output.extension() == ".meshb") return write_medit_slices(files_.output, *mesh_);
-  const Joined joined = join(*mesh_, vertices_);
-  write_mesh(files_.output, MeshView(joined.data));
+  write_pieces(files_.output, *mesh_, vertices_, files_.array_files);
+  if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.remove();
 }
 
 }  // namespace
 
-Result improve_files(const OutOfCore& files, const Options& options, Division& division) {
-  check_options(options);
+Result improve_files(const OutOfCore& files, const Options& options, Division& division,
+                     Ranks& ranks) {
+  check_for_files(options);
   check(options, division);
-  return face::on_threads(options.threads, [&] { return FileRun(files, options, division).run(); });
+  return face::on_threads(options.threads,
+                          [&] { return FileRun(files, options, division, ranks).run(); });
 }
 
 }  // namespace tetmend::pieces

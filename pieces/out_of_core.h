@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Improves a mesh that does not fit into memory: from file to file, the pieces in a folder.
+// Improves a mesh from file to file in pieces: one that does not fit into memory, on one rank or many.
 #pragma once
 
 #include <filesystem>
@@ -7,26 +7,35 @@
 #include <tetmend/improve.h>
 
 #include "pieces/piece_run.h"
+#include "pieces/rank_arrays.h"
+#include "pieces/ranks.h"
+#include "pieces/shelf.h"
 
 namespace tetmend::pieces {
 
-/// What a run from file to file is to use.
+/// What a run from file to file is to use. All ranks see the same files.
 struct OutOfCore {
   std::filesystem::path input;
   std::filesystem::path output;
-  std::filesystem::path scratch;  ///< folder for the pieces, which is there
+  std::filesystem::path scratch;  ///< folder of this rank for the pieces; empty: they are in memory
   std::uint64_t memory = 0;       ///< bytes; for the number of pieces, where that is not given
+  /// Folder that has the pieces after each step: where there is a run of these files and options, it
+  /// goes on from there. Empty: none. What is in it goes when the output is there.
+  std::filesystem::path checkpoint = {};
+  const ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
   /// Changes each piece before it is stored, as a fault would: for tests of the final check.
   std::function<void(std::size_t part, Piece& piece)> fault = {};
 };
 
-/// The output has the bytes of improve() with the same number of pieces. Only of `.meshb` files no
-/// more than a piece is ever in memory; of other formats the arrays of the whole mesh are, while it
-/// is read and while it is written.
-/// @param division  0 pieces: as many as the memory asks for; the number that it was then
+/// All ranks; what they return is the same but for times. The output has the bytes of improve() with
+/// the same number of pieces. Only of `.meshb` files no more than a piece is ever in memory; of other
+/// formats the first rank has the arrays of the whole mesh, while it is read and while it is written.
+/// @param division  0 pieces: as many as the memory asks for, or one for each 4 million tets; the
+/// number that it was then. With one piece the first rank works alone, as improve() does.
 /// @throws OptionError for an option that needs the whole mesh: protect, only, keep_size, conserve,
 /// ignore_interior, trace, check_operators; Error as improve(), and for a mesh that has more than
 /// labels and constraints, inverted tets, or boundary layers that are to be kept.
-Result improve_files(const OutOfCore& files, const Options& options, Division& division);
+Result improve_files(const OutOfCore& files, const Options& options, Division& division,
+                     Ranks& ranks);
 
 }  // namespace tetmend::pieces

@@ -22,6 +22,8 @@ HilbertCurve shifted_curve(const Point& low, double side, unsigned shift);
 class KeyHistogram {
  public:
   void count(std::uint64_t key) { ++counts_[key >> kShift]; }
+  /// By cell of the curve; those of several histograms may be added up.
+  std::span<std::int64_t> counts() { return counts_; }
   /// Keys at which the parts begin; the first is 0.
   std::vector<std::uint64_t> cuts(std::size_t parts) const;
 

@@ -4,41 +4,17 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "pieces/bytes.h"
 
 namespace tetmend::pieces {
 
 namespace {
 
 constexpr std::uint32_t kGoneVertex = std::numeric_limits<std::uint32_t>::max();
-
-template <class Value>
-void append_array(const std::vector<Value>& values, std::string& bytes) {
-  const std::uint64_t count = values.size();
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
-  bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(Value));
-}
-
-[[noreturn]] void fail_short() {
-  throw Error("a piece ends too early");
-}
-
-template <class Value>
-void take_array(std::string_view& bytes, std::vector<Value>& values) {
-  std::uint64_t count = 0;
-  if (bytes.size() < sizeof(count)) fail_short();
-  std::memcpy(&count, bytes.data(), sizeof(count));
-  bytes.remove_prefix(sizeof(count));
-  if (count > bytes.size() / sizeof(Value)) fail_short();
-  values.resize(count);
-  if (count == 0) return;
-  std::memcpy(static_cast<void*>(values.data()), bytes.data(), count * sizeof(Value));
-  bytes.remove_prefix(count * sizeof(Value));
-}
 
 template <class Element>
 bool names_vertices_of(const std::vector<Element>& elements, std::size_t count) {
@@ -103,24 +79,24 @@ void take_vertices(const Piece& part, std::span<const std::uint32_t> places, Pie
 }  // namespace
 
 void append(const Piece& piece, std::string& bytes) {
-  append_array(piece.ids, bytes);
-  append_array(piece.points, bytes);
-  append_array(piece.labels, bytes);
-  append_array(piece.marks, bytes);
-  append_array(piece.tets, bytes);
-  append_array(piece.triangles, bytes);
-  append_array(piece.edges, bytes);
+  put(piece.ids, bytes);
+  put(piece.points, bytes);
+  put(piece.labels, bytes);
+  put(piece.marks, bytes);
+  put(piece.tets, bytes);
+  put(piece.triangles, bytes);
+  put(piece.edges, bytes);
 }
 
 Piece take_piece(std::string_view& bytes) {
   Piece piece;
-  take_array(bytes, piece.ids);
-  take_array(bytes, piece.points);
-  take_array(bytes, piece.labels);
-  take_array(bytes, piece.marks);
-  take_array(bytes, piece.tets);
-  take_array(bytes, piece.triangles);
-  take_array(bytes, piece.edges);
+  take(bytes, piece.ids);
+  take(bytes, piece.points);
+  take(bytes, piece.labels);
+  take(bytes, piece.marks);
+  take(bytes, piece.tets);
+  take(bytes, piece.triangles);
+  take(bytes, piece.edges);
   const std::size_t count = piece.ids.size();
   const bool fits = piece.points.size() == count && piece.marks.size() == count &&
                     (piece.labels.empty() || piece.labels.size() == count);

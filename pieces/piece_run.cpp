@@ -2,7 +2,9 @@
 #include "pieces/piece_run.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
+
+#include "pieces/bytes.h"
 
 namespace tetmend::pieces {
 
@@ -15,90 +17,178 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+struct PartFigures {
+  std::uint64_t part = 0;
+  Figures figures;
+};
+
+/// Over all ranks, in the order of the parts: sums of reals are the same for any number of ranks.
+Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks) {
+  std::string bytes;
+  for (const PartFigures& each : mine) put(each, bytes);
+  std::vector<PartFigures> parts;
+  for (const std::string& from : ranks.gather(bytes)) {
+    for (std::string_view rest = from; !rest.empty();) take(rest, parts.emplace_back());
+  }
+  std::sort(parts.begin(), parts.end(),
+            [](const PartFigures& a, const PartFigures& b) { return a.part < b.part; });
+  Figures all;
+  for (const PartFigures& each : parts) all.add(each.figures);
+  return all;
+}
+
 }  // namespace
 
 bool is_better(const Standing& now, const Standing& before) {
   return now.indicators.n_bad < before.indicators.n_bad || now.worst_angle > before.worst_angle;
 }
 
-void PieceRun::set_limits(const Limits& limits) {
+void append(const PartOutcome& outcome, std::string& bytes) {
+  put(outcome.part, bytes);
+  put(outcome.added, bytes);
+  put(outcome.stayed, bytes);
+  put(outcome.verdicts, bytes);
+  put(outcome.items, bytes);
+  put(outcome.deferred, bytes);
+  append(outcome.standing, bytes);
+}
+
+PartOutcome take_outcome(std::string_view& bytes) {
+  PartOutcome outcome;
+  take(bytes, outcome.part);
+  take(bytes, outcome.added);
+  take(bytes, outcome.stayed);
+  take(bytes, outcome.verdicts);
+  take(bytes, outcome.items);
+  take(bytes, outcome.deferred);
+  outcome.standing = take_standing(bytes);
+  return outcome;
+}
+
+void append(const RunState& state, std::string& bytes) {
+  put(state.limits, bytes);
+  put(state.is_divided, bytes);
+  put(std::uint64_t{state.records.size()}, bytes);
+  for (const StepRecord& record : state.records) {
+    put(record.is_zones, bytes);
+    put(record.number, bytes);
+    put(record.pieces, bytes);
+    put(record.stayed, bytes);
+    put(record.seconds, bytes);
+    put(record.verdicts, bytes);
+    put(record.items, bytes);
+    put(record.deferred, bytes);
+    append(record.after, bytes);
+  }
+}
+
+RunState take_run_state(std::string_view& bytes) {
+  RunState state;
+  take(bytes, state.limits);
+  take(bytes, state.is_divided);
+  std::uint64_t count = 0;
+  take(bytes, count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    StepRecord& record = state.records.emplace_back();
+    take(bytes, record.is_zones);
+    take(bytes, record.number);
+    take(bytes, record.pieces);
+    take(bytes, record.stayed);
+    take(bytes, record.seconds);
+    take(bytes, record.verdicts);
+    take(bytes, record.items);
+    take(bytes, record.deferred);
+    record.after = take_standing(bytes);
+  }
+  return state;
+}
+
+void PieceRun::set_limits(const RunLimits& limits) {
   start_ = std::chrono::steady_clock::now();
-  limits_ = limits;
+  state_.limits = limits;
 }
 
 double PieceRun::seconds_left() const {
-  return limits_.seconds - seconds_since(start_);
+  return state_.limits.seconds - seconds_since(start_);
 }
 
 bool PieceRun::is_to_stop() {
-  if (limits_.seconds > 0 && seconds_left() <= 0) out_of_time_ = true;
+  if (state_.limits.seconds > 0 && seconds_left() <= 0) out_of_time_ = true;
   stopped_ = stopped_ || out_of_time_ || (stop_ && stop_());
   return stopped_;
 }
 
-Figures PieceRun::measure_before() {
-  mesh_.divide(division_.pieces, 0);
-  is_divided_ = true;
-  Figures all;
-  for (std::size_t part = 0; part < mesh_.parts(); ++part) {
-    all.add(measure_own(mesh_.gathered(part), mesh_.state().parting,
-                        static_cast<std::uint32_t>(part), options_.standard.goal()));
+/// What stops one rank stops all.
+void PieceRun::agree_on_stop() {
+  is_to_stop();
+  std::array<std::int64_t, 2> votes = {stopped_ ? 1 : 0, out_of_time_ ? 1 : 0};
+  mesh_.ranks().add(votes);
+  stopped_ = votes[0] > 0;
+  out_of_time_ = votes[1] > 0;
+}
+
+Figures PieceRun::measure_before(Shelf* next) {
+  mesh_.divide(division_.pieces, 0, {}, next);
+  state_.is_divided = true;
+  std::vector<PartFigures> mine;
+  for (const std::size_t part : mesh_.own()) {
+    mine.push_back({part, measure_own(mesh_.gathered(part), mesh_.state().parting,
+                                      static_cast<std::uint32_t>(part), options_.standard.goal())});
   }
-  return all;
+  return sum(mine, mesh_.ranks());
 }
 
 void PieceRun::run() {
-  while (!is_to_stop()) {
-    StepRecord record;
-    if (!begin_step(record)) break;
+  agree_on_stop();
+  while (!stopped_) {
     const auto start = std::chrono::steady_clock::now();
-    work(record);
-    record.seconds = seconds_since(start);
-    limits_.tets = record.after.tets;
-    if (listener_) listener_(record);
-    records_.push_back(std::move(record));
+    std::optional<StepRecord> record = begin_step();
+    if (!record) break;
+    std::vector<PartOutcome> mine;
+    for (const std::size_t part : mesh_.own()) {
+      mine.push_back(work_on_part(part, *record));
+      mesh_.remove_gathered(part);
+    }
+    std::vector<PartOutcome> all = share(std::move(mine));
+    record->seconds = seconds_since(start);
+    agree_on_stop();
+    end_step(std::move(*record), std::move(all));
+    if (listener_) listener_(state_.records.back());
   }
 }
 
-/// False: all is done.
-bool PieceRun::begin_step(StepRecord& record) {
-  const auto step = static_cast<unsigned>(records_.size());
+std::optional<StepRecord> PieceRun::begin_step(Shelf* next) {
+  StepRecord record;
+  const auto step = static_cast<unsigned>(state_.records.size());
   if (step < division_.divisions) {
     record.number = step + 1;
-    if (!is_divided_) mesh_.divide(division_.pieces, step);
-    is_divided_ = false;
-    return true;
+    record.pieces = division_.pieces;
+    if (!state_.is_divided) mesh_.divide(division_.pieces, step, {}, next);
+    state_.is_divided = true;
+    return record;
   }
   const unsigned round = step - division_.divisions;
-  if (round >= division_.zone_rounds || records_.empty()) return false;
-  const Standing& last = records_.back().after;
-  if (last.indicators.n_bad == 0) return false;
-  if (round > 0 && !is_better(last, records_[step - 2].after)) return false;
-  const std::vector<WorstTet> worst = last.worst.take();
-  const std::size_t most = std::max(kLeastZone, last.tets / division_.pieces);
+  if (round >= division_.zone_rounds || state_.records.empty()) return std::nullopt;
+  const Standing& last = state_.records.back().after;
+  if (last.indicators.n_bad == 0) return std::nullopt;
   record.is_zones = true;
   record.number = round + 1;
-  mesh_.divide(division_.pieces, division_.divisions - 1, ZoneMap(worst, most));
-  return true;
+  if (!state_.is_divided) {
+    if (round > 0 && !is_better(last, state_.records[step - 2].after)) return std::nullopt;
+    const std::vector<WorstTet> worst = last.worst.take();
+    const std::size_t most = std::max<std::size_t>(kLeastZone, last.tets / division_.pieces);
+    mesh_.divide(division_.pieces, division_.divisions - 1, ZoneMap(worst, most), next);
+    state_.is_divided = true;
+  }
+  record.pieces = mesh_.parts() - mesh_.state().parting.stretches();
+  return record;
 }
 
 bool PieceRun::is_active(std::size_t part, const StepRecord& record) const {
   return !record.is_zones || part >= mesh_.state().parting.stretches();
 }
 
-void PieceRun::work(StepRecord& record) {
-  for (std::size_t part = 0; part < mesh_.parts(); ++part) {
-    record.pieces += is_active(part, record) ? 1 : 0;
-  }
-  std::vector<std::uint64_t> added(mesh_.parts(), 0);
-  for (std::size_t part = 0; part < mesh_.parts(); ++part) {
-    added[part] = work_on_part(part, record);
-  }
-  mesh_.number_added(added);
-}
-
-/// Returns how many vertices it has added.
-std::uint64_t PieceRun::work_on_part(std::size_t part, StepRecord& record) {
+PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
   const Piece gathered = mesh_.gathered(part);
   const Parting& parting = mesh_.state().parting;
   const auto number = static_cast<std::uint32_t>(part);
@@ -108,14 +198,51 @@ std::uint64_t PieceRun::work_on_part(std::size_t part, StepRecord& record) {
   } else {
     result = work_on(gathered, parting, number, options_, limits_of_a_piece(record));
   }
-  record.after.add(standing_of(result.piece, options_.standard, parting.side));
-  for (std::size_t i = 0; i < kVerdictCount; ++i) record.verdicts[i] += result.verdicts[i];
-  record.items += result.items;
-  record.deferred += result.deferred;
-  record.stayed += result.went_back ? 1 : 0;
+  PartOutcome outcome;
+  outcome.part = part;
+  outcome.added = result.added;
+  outcome.stayed = result.went_back;
+  outcome.standing = standing_of(result.piece, options_.standard, parting.side);
+  for (std::size_t i = 0; i < kVerdictCount; ++i) outcome.verdicts[i] = result.verdicts[i];
+  outcome.items = result.items;
+  outcome.deferred = result.deferred;
   if (options_.fault) options_.fault(part, result.piece);
   mesh_.store(part, result.piece);
-  return result.added;
+  return outcome;
+}
+
+/// Those of all ranks. Of the worst tets of a rank one list is enough.
+std::vector<PartOutcome> PieceRun::share(std::vector<PartOutcome> mine) {
+  if (mesh_.ranks().count() == 1) return mine;
+  std::string bytes;
+  WorstTets worst;
+  for (PartOutcome& outcome : mine) worst.add(std::exchange(outcome.standing.worst, {}));
+  if (!mine.empty()) mine.front().standing.worst = std::move(worst);
+  for (const PartOutcome& outcome : mine) append(outcome, bytes);
+  std::vector<PartOutcome> all;
+  for (const std::string& from : mesh_.ranks().gather(bytes)) {
+    for (std::string_view rest = from; !rest.empty();) all.push_back(take_outcome(rest));
+  }
+  return all;
+}
+
+void PieceRun::end_step(StepRecord record, std::vector<PartOutcome> outcomes) {
+  std::sort(outcomes.begin(), outcomes.end(),
+            [](const PartOutcome& a, const PartOutcome& b) { return a.part < b.part; });
+  std::vector<std::uint64_t> added;
+  for (const PartOutcome& outcome : outcomes) {
+    added.push_back(outcome.added);
+    record.after.add(outcome.standing);
+    for (std::size_t i = 0; i < kVerdictCount; ++i) record.verdicts[i] += outcome.verdicts[i];
+    record.items += outcome.items;
+    record.deferred += outcome.deferred;
+    record.stayed += outcome.stayed ? 1 : 0;
+  }
+  mesh_.number_added(added);
+  state_.limits.tets = record.after.tets;
+  state_.is_divided = false;
+  if (!state_.records.empty()) state_.records.back().after.worst = {};
+  state_.records.push_back(std::move(record));
 }
 
 /// Each has an equal share of what the mesh may grow by, and zones of the bad tets that were removed:
@@ -124,31 +251,34 @@ TaskLimits PieceRun::limits_of_a_piece(const StepRecord& record) const {
   TaskLimits limits;
   limits.is_zone = record.is_zones;
   if (!record.is_zones && record.number > 1) limits.rings = division_.rings;
-  if (limits_.most_tets != std::numeric_limits<std::size_t>::max()) {
-    limits.most_new_tets =
-        limits_.most_tets > limits_.tets ? (limits_.most_tets - limits_.tets) / record.pieces : 0;
+  if (state_.limits.most_tets != std::numeric_limits<std::uint64_t>::max()) {
+    limits.most_new_tets = state_.limits.most_tets > state_.limits.tets
+                               ? (state_.limits.most_tets - state_.limits.tets) / record.pieces
+                               : 0;
   }
   if (record.is_zones) {
-    const std::size_t now = records_.back().after.indicators.n_bad;
+    const std::size_t now = state_.records.back().after.indicators.n_bad;
     constexpr std::size_t kShare = 20;  // of what was gained
-    limits.spare_bad = limits_.n_bad > now ? (limits_.n_bad - now) / kShare / record.pieces : 0;
+    limits.spare_bad =
+        state_.limits.n_bad > now ? (state_.limits.n_bad - now) / kShare / record.pieces : 0;
   }
-  if (limits_.seconds > 0) limits.seconds = std::max(1e-3, seconds_left());
+  if (state_.limits.seconds > 0) limits.seconds = std::max(1e-3, seconds_left());
   return limits;
 }
 
-Figures PieceRun::measure_after() {
-  mesh_.divide(division_.pieces, division_.divisions);
-  Figures all;
-  const std::vector<std::uint64_t> none(mesh_.parts(), 0);
-  for (std::size_t part = 0; part < mesh_.parts(); ++part) {
+Figures PieceRun::measure_after(Shelf* next) {
+  mesh_.divide(division_.pieces, division_.divisions, {}, next);
+  std::vector<PartFigures> mine;
+  for (const std::size_t part : mesh_.own()) {
     const Piece gathered = mesh_.gathered(part);
     const auto number = static_cast<std::uint32_t>(part);
-    all.add(measure_own(gathered, mesh_.state().parting, number, options_.standard.goal()));
-    mesh_.store(part, own_part(gathered, mesh_.state().parting, number));
+    const Parting& parting = mesh_.state().parting;
+    mine.push_back({part, measure_own(gathered, parting, number, options_.standard.goal())});
+    mesh_.store(part, own_part(gathered, parting, number));
+    mesh_.remove_gathered(part);
   }
-  mesh_.number_added(none);
-  return all;
+  mesh_.number_added(std::vector<std::uint64_t>(mesh_.parts(), 0));
+  return sum(mine, mesh_.ranks());
 }
 
 }  // namespace tetmend::pieces

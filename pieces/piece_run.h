@@ -3,7 +3,12 @@
 // the worst tets of all.
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "pieces/divided_mesh.h"
@@ -37,60 +42,97 @@ struct StepRecord {
   std::size_t deferred = 0;
 };
 
+/// What became of one part in a step.
+struct PartOutcome {
+  std::uint64_t part = 0;
+  std::uint64_t added = 0;  ///< vertices
+  bool stayed = false;      ///< it would have become worse
+  std::array<std::uint64_t, kVerdictCount> verdicts{};
+  std::uint64_t items = 0;
+  std::uint64_t deferred = 0;
+  Standing standing;
+};
+void append(const PartOutcome& outcome, std::string& bytes);
+/// @throws Error when the bytes end too early.
+PartOutcome take_outcome(std::string_view& bytes);
+
+/// What the mesh is before a run, and what it may come to.
+struct RunLimits {
+  std::uint64_t tets = 0;   ///< that there are
+  std::uint64_t n_bad = 0;  ///< of them
+  std::uint64_t most_tets = std::numeric_limits<std::uint64_t>::max();
+  double seconds = 0;  ///< from now on; 0: none
+};
+
+/// All that a run knows between two steps, besides the mesh and the options.
+struct RunState {
+  RunLimits limits;
+  bool is_divided = false;          ///< the step that comes next has its pieces
+  std::vector<StepRecord> records;  ///< the worst tets of the last one alone
+};
+void append(const RunState& state, std::string& bytes);
+/// @throws Error when the bytes end too early.
+RunState take_run_state(std::string_view& bytes);
+
+/// All ranks of the mesh call the same functions, where nothing else is said.
 class PieceRun {
  public:
   /// All of these must outlive it.
   PieceRun(DividedMesh& mesh, const Division& division, const TaskOptions& options)
       : mesh_(mesh), division_(division), options_(options) {}
+  /// Goes on.
+  PieceRun(DividedMesh& mesh, const Division& division, const TaskOptions& options, RunState state)
+      : mesh_(mesh), division_(division), options_(options), state_(std::move(state)) {}
 
-  /// What the mesh is before the run, and what it may come to.
-  struct Limits {
-    std::size_t tets = 0;   ///< that there are
-    std::size_t n_bad = 0;  ///< of them
-    std::size_t most_tets = std::numeric_limits<std::size_t>::max();
-    double seconds = 0;  ///< from now on; 0: none
-  };
-  void set_limits(const Limits& limits);
+  void set_limits(const RunLimits& limits);
   /// Asked before each piece; true ends the run, with what is reached.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
-  /// Told after each step.
+  /// Told after each step, when its pieces are stored; also after one that was stopped.
   void set_listener(std::function<void(const StepRecord&)> listener) {
     listener_ = std::move(listener);
   }
 
   /// Figures of the mesh as it is, before the run; the first division is made for that.
-  Figures measure_before();
+  /// @param next  see DividedMesh::divide(); here and below
+  Figures measure_before(Shelf* next = nullptr);
   /// Works. Precondition: slices were added.
   void run();
   /// Divides once more and checks that all pieces fit: see measure_own(). Everything is stored again.
   /// @throws Error when they do not.
-  Figures measure_after();
+  Figures measure_after(Shelf* next = nullptr);
 
-  const std::vector<StepRecord>& records() const { return records_; }
+  // run() in steps:
+  /// Divides the mesh for the next step. Nothing: all is done.
+  std::optional<StepRecord> begin_step(Shelf* next = nullptr);
+  /// Which parts are worked on.
+  bool is_active(std::size_t part, const StepRecord& record) const;
+  /// This rank alone: works on the part, and stores it.
+  PartOutcome work_on_part(std::size_t part, const StepRecord& record);
+  /// When all parts are stored. `outcomes`: of all ranks, in any order.
+  void end_step(StepRecord record, std::vector<PartOutcome> outcomes);
+
+  const RunState& state() const { return state_; }
+  const std::vector<StepRecord>& records() const { return state_.records; }
   /// The time was up, or somebody asked it to stop.
   bool stopped() const { return stopped_; }
   bool out_of_time() const { return out_of_time_; }
 
  private:
-  bool begin_step(StepRecord& record);
-  void work(StepRecord& record);
-  std::uint64_t work_on_part(std::size_t part, StepRecord& record);
-  bool is_active(std::size_t part, const StepRecord& record) const;
+  std::vector<PartOutcome> share(std::vector<PartOutcome> mine);
   TaskLimits limits_of_a_piece(const StepRecord& record) const;
   double seconds_left() const;
   bool is_to_stop();
+  void agree_on_stop();
 
   DividedMesh& mesh_;
   const Division& division_;
   const TaskOptions& options_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  Limits limits_;
+  RunState state_;
   std::function<bool()> stop_;
   std::function<void(const StepRecord&)> listener_;
-  bool is_divided_ = false;
   bool stopped_ = false;
   bool out_of_time_ = false;
-  std::vector<StepRecord> records_;
 };
 
 /// Fewer bad tets, or a better worst one.

@@ -15,6 +15,7 @@
 #include "kernel/mesh_view.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
+#include "pieces/bytes.h"
 
 namespace tetmend::pieces {
 
@@ -323,6 +324,36 @@ void Standing::add(const Standing& other) {
   indicators.n_bad += other.indicators.n_bad;
   indicators.n_needles += other.indicators.n_needles;
   worst.add(other.worst);
+}
+
+void append(const Standing& standing, std::string& bytes) {
+  put(standing.tets, bytes);
+  put(standing.indicators, bytes);
+  put(standing.worst_angle, bytes);
+  const std::vector<WorstTet> worst = standing.worst.all();
+  put(std::uint64_t{worst.size()}, bytes);
+  for (const WorstTet& tet : worst) {
+    put(tet.quality, bytes);
+    for (const double x : tet.centre) put(x, bytes);
+    put(tet.reach, bytes);
+  }
+}
+
+Standing take_standing(std::string_view& bytes) {
+  Standing standing;
+  take(bytes, standing.tets);
+  take(bytes, standing.indicators);
+  take(bytes, standing.worst_angle);
+  std::uint64_t count = 0;
+  take(bytes, count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    WorstTet tet;
+    take(bytes, tet.quality);
+    for (double& x : tet.centre) take(bytes, x);
+    take(bytes, tet.reach);
+    standing.worst.add(tet);
+  }
+  return standing;
 }
 
 Standing standing_of(const Piece& piece, const Standard& standard, double side) {

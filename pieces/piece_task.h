@@ -75,6 +75,10 @@ struct Standing {
   void add(const Standing& other);
 };
 
+void append(const Standing& standing, std::string& bytes);
+/// @throws Error when the bytes end too early.
+Standing take_standing(std::string_view& bytes);
+
 /// Of all tets of a piece that may change. `side` of the mesh: of its size the qualities are free.
 Standing standing_of(const Piece& piece, const Standard& standard, double side);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/output_file.h"
 #include "platform/platform.h"
 
 namespace tetmend::pieces {
@@ -23,6 +24,10 @@ namespace {
 
 void MemoryShelf::append(const std::string& name, std::string_view bytes) {
   bytes_[name].append(bytes);
+}
+
+void MemoryShelf::put(const std::string& name, std::string_view bytes) {
+  bytes_[name] = bytes;
 }
 
 std::string MemoryShelf::read(const std::string& name) const {
@@ -41,7 +46,21 @@ void FolderShelf::append(const std::string& name, std::string_view bytes) {
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) fail("cannot write", file, errno);
-  written_ += bytes.size();
+}
+
+void FolderShelf::put(const std::string& name, std::string_view bytes) {
+  if (lasts_ == Lasts::until_the_end) {
+    remove(name);
+    return append(name, bytes);
+  }
+  OutputFile out(folder_ / name);
+  out.put(bytes);
+  out.commit();
+}
+
+bool FolderShelf::has(const std::string& name) const {
+  std::error_code ignored;
+  return std::filesystem::exists(folder_ / name, ignored);
 }
 
 std::string FolderShelf::read(const std::string& name) const {

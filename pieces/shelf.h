@@ -16,6 +16,8 @@ class Shelf {
   virtual ~Shelf() = default;
   /// Behind what has that name; the name is new otherwise. @throws Error for a full disk.
   virtual void append(const std::string& name, std::string_view bytes) = 0;
+  /// In the place of what has that name.
+  virtual void put(const std::string& name, std::string_view bytes) = 0;
   /// All of it; empty if there is none of that name. @throws Error for a file that cannot be read.
   virtual std::string read(const std::string& name) const = 0;
   virtual void remove(const std::string& name) = 0;
@@ -24,6 +26,7 @@ class Shelf {
 class MemoryShelf final : public Shelf {
  public:
   void append(const std::string& name, std::string_view bytes) override;
+  void put(const std::string& name, std::string_view bytes) override;
   std::string read(const std::string& name) const override;
   void remove(const std::string& name) override;
 
@@ -34,18 +37,22 @@ class MemoryShelf final : public Shelf {
 /// Each name is a file.
 class FolderShelf final : public Shelf {
  public:
+  enum class Lasts { until_the_end, beyond_a_crash };
+
   /// @param folder is there
-  explicit FolderShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  /// @param lasts beyond a crash: what is put has its name when it is complete and on the disk
+  explicit FolderShelf(std::filesystem::path folder, Lasts lasts = Lasts::until_the_end)
+      : folder_(std::move(folder)), lasts_(lasts) {}
 
   void append(const std::string& name, std::string_view bytes) override;
+  void put(const std::string& name, std::string_view bytes) override;
   std::string read(const std::string& name) const override;
   void remove(const std::string& name) override;
-  /// Bytes written so far.
-  std::uint64_t written() const { return written_; }
+  bool has(const std::string& name) const;
 
  private:
   std::filesystem::path folder_;
-  std::uint64_t written_ = 0;
+  Lasts lasts_;
 };
 
 /// A folder of its own for a run; goes with all that is in it.

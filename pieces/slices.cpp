@@ -79,7 +79,7 @@ void add_slices(const MeshData& data, std::span<const char> is_protected, Divide
     renumber(slice.tets, numbers);
     renumber(slice.triangles, numbers);
     renumber(slice.edges, numbers);
-    to.add_slice(slice);
+    to.add_slice(i, slice);
   }
 }
 

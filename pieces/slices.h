@@ -14,7 +14,8 @@ namespace tetmend::pieces {
 /// Slices of about so many tets. How many there are cannot show in the result.
 inline constexpr std::size_t kTetsOfSlice = 500'000;
 
-/// Adds a mesh to one that has nothing yet. `is_protected` has a mark for each tet, or none.
+/// Adds a mesh, on one rank, to one that has nothing yet; end_slices() is left to the caller.
+/// `is_protected` has a mark for each tet, or none.
 void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to);
 
 /// All of a mesh again, and where its parts come from.

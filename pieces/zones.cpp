@@ -73,6 +73,12 @@ std::vector<WorstTet> WorstTets::take() const {
   return std::move(tets);
 }
 
+std::vector<WorstTet> WorstTets::all() const {
+  WorstTets copy = *this;
+  copy.shorten();
+  return std::move(copy.tets_);
+}
+
 ZoneMap::ZoneMap(std::span<const WorstTet> worst, std::size_t most) {
   Clusters clusters;
   std::vector<Ball> balls;

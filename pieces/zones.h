@@ -37,6 +37,8 @@ class WorstTets {
   void add(const WorstTets& others);
   /// The worst first.
   std::vector<WorstTet> take() const;
+  /// All that take() may choose from once others are added.
+  std::vector<WorstTet> all() const;
 
  private:
   void shorten();

@@ -33,7 +33,7 @@ TAKES = {
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
     "--conserve": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
     "--min-dihedral": "", "--max-dihedral": "", "--list": "", "--tree": "", "--dot": "", "--at": "", "--extract": "",
-    "--pieces": "", "--memory": "", "--scratch": "file",
+    "--pieces": "", "--memory": "", "--scratch": "file", "--checkpoint": "file", "STEP": "<step>", "FOLDER": "file", "MORE": "mesh", "--share": "",
     "--history": "<subject>", "--figure": "<drawing>", "--call": "", "--look": "", "--size": "", "--view": "", "--video": ".mp4", "--frames": "", "--title": "", "--background": "<background>", "--scale": "",
 }
 
@@ -41,7 +41,7 @@ TAKES = {
 def with_derived_words(words: dict[str, list[str]]) -> dict[str, list[str]]:
     formats = [ending.removeprefix(".") for ending in words["extension"] if ending.startswith(".")]
     return {**words, "format": formats, "layers": ["keep", "improve"], "figure": [*words["measure"], "all"],
-            "subject": ["tet:worst"], "background": ["gradient", "white", "transparent"], "drawing": ["ring", "tree", "timeline", "shell"], "lesson": sorted(file.stem for file in LESSONS.glob("*.json"))}
+            "subject": ["tet:worst"], "background": ["gradient", "white", "transparent"], "drawing": ["ring", "tree", "timeline", "shell"], "step": ["split", "improve", "join"], "lesson": sorted(file.stem for file in LESSONS.glob("*.json"))}
 
 
 def values_of(command: str, option: Option, words: dict[str, list[str]]) -> Values:

@@ -37,7 +37,7 @@ TEST_CASE("the library knows the options of 'tetmend improve' by name, and takes
   // Those that are about files, the terminal, pieces, and the program's watch over plugins.
   const std::set<std::string> of_the_program = {
       "help",   "output",  "report",        "quiet",  "strict", "label-array",
-      "format", "variant", "attempt-limit", "pieces", "memory", "scratch"};
+      "format", "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint"};
   const std::set<std::string> of_the_library = {"script", "limit"};
   std::set<std::string> names;
   const std::regex option(R"(\n +(?:-\w,\s*)?--([a-z-]+))");

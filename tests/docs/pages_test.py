@@ -80,7 +80,7 @@ class Workshop:
         self.tools = folder / "bin"
         self.work.mkdir()
         self.tools.mkdir()
-        for program in ["tetmend", "tetmend-view"]:
+        for program in ["tetmend", "tetmend-view", "tetmend-mpi"]:
             if (build / "bin" / program).exists():
                 (self.tools / program).symlink_to(build / "bin" / program)
         (self.tools / "python3").symlink_to(DEBIAN_PYTHON)
@@ -88,6 +88,8 @@ class Workshop:
         (self.work / "build/release").symlink_to(build)
         self.environment = dict(os.environ, PATH=f"{self.tools}:{os.environ['PATH']}", HOME=str(folder),
                                 OMP_NUM_THREADS="1", WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
+        self.environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
         self.environment.pop("TETMEND_PLUGIN_PATH", None)
         self.makers = {"part.mesh": self.make_mesh, "huge.meshb": self.make_huge, "better.mesh": self.make_better, "part.geo": self.make_geometry,
                        "part.msh": self.make_gmsh, "job.inp": self.make_deck, "case": self.make_case}
@@ -106,6 +108,7 @@ class Workshop:
         """@throws Missing when a program or a module that it names is not there"""
         words = list(shlex.shlex(command, punctuation_chars=True, posix=True))
         programs = [words[0]] + [words[i + 1] for i, word in enumerate(words[:-1]) if word in ("|", "&&")]
+        programs += ["tetmend-mpi"] if "tetmend-mpi" in command else []
         for program in programs:
             known = shutil.which(program, path=self.environment["PATH"]) or (self.work / program).exists()
             if not known and program not in ("export", "cd"):

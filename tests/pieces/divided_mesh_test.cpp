@@ -21,6 +21,7 @@ void divide_idly(DividedMesh& mesh, std::size_t pieces, unsigned shift) {
   mesh.divide(pieces, shift);
   for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
     mesh.store(part, own_part(mesh.gathered(part), mesh.state().parting, part));
+    mesh.remove_gathered(part);
   }
   mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
 }
@@ -36,8 +37,10 @@ std::multiset<std::array<std::uint32_t, 4>> tets_of(const MeshData& data) {
 TEST_CASE("a mesh that was divided and joined is the same, with all that it names") {
   const MeshData data = test::lattice(8);
   MemoryShelf shelf;
-  DividedMesh mesh(shelf, data.points.size());
+  OneRank ranks;
+  DividedMesh mesh(shelf, ranks, data.points.size());
   add_slices(data, {}, mesh);
+  mesh.end_slices();
   for (const unsigned shift : {0u, 1u, 2u}) divide_idly(mesh, 5, shift);
   const Joined joined = join(mesh, data.points.size());
   CHECK(joined.data.points == data.points);
@@ -53,8 +56,10 @@ TEST_CASE("a mesh that was divided and joined is the same, with all that it name
 TEST_CASE("a gathered piece has all tets around its vertices, and each tet is the own of one") {
   const MeshData data = test::lattice(8);
   MemoryShelf shelf;
-  DividedMesh mesh(shelf, data.points.size());
+  OneRank ranks;
+  DividedMesh mesh(shelf, ranks, data.points.size());
   add_slices(data, {}, mesh);
+  mesh.end_slices();
   mesh.divide(6, 1);
   const Parting& parting = mesh.state().parting;
   const std::vector<std::uint32_t> parts = parting.parts_of(data.points);
@@ -77,13 +82,16 @@ TEST_CASE("a gathered piece has all tets around its vertices, and each tet is th
 
 TEST_CASE("into how many slices a file was cut does not show") {
   const MeshData data = test::lattice(7);
+  OneRank ranks;
   MemoryShelf one;
-  DividedMesh whole(one, data.points.size());
+  DividedMesh whole(one, ranks, data.points.size());
   add_slices(data, {}, whole);
+  whole.end_slices();
   divide_idly(whole, 4, 0);
   MemoryShelf other;
-  DividedMesh sliced(other, data.points.size());
-  for (std::size_t i = 0; i < whole.state().stored; ++i) sliced.add_slice(whole.stored(i));
+  DividedMesh sliced(other, ranks, data.points.size());
+  for (std::size_t i = 0; i < whole.state().stored; ++i) sliced.add_slice(i, whole.stored(i));
+  sliced.end_slices();
   divide_idly(sliced, 4, 0);
   divide_idly(whole, 4, 0);
   for (std::size_t i = 0; i < 4; ++i) {

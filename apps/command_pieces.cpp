@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// tetmend pieces: a run in pieces as programs that any task engine can start.
+#include <charconv>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tetmend/option_text.h>
+
+#include "apps/commands.h"
+#include "apps/files.h"
+#include "apps/improve_options.h"
+#include "apps/improve_report.h"
+#include "apps/improve_watched.h"
+#include "apps/standard_streams.h"
+#include "kernel/formats/output_file.h"
+#include "pieces/folder_run.h"
+#include "platform/platform.h"
+
+namespace tetmend::apps {
+namespace {
+
+struct PiecesOptions {
+  std::string step;
+  std::filesystem::path folder;
+  std::vector<std::string> more;
+  std::string share;
+  ImproveOptions improve;
+};
+
+std::size_t to_number(const std::string& text, std::string_view what) {
+  std::size_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end || text.empty()) {
+    throw UsageError(fmt::format("{}: '{}' is not a number", what, text));
+  }
+  return number;
+}
+
+/// For people and task engines: what is to be done next.
+void write_plan(const std::filesystem::path& folder, const pieces::FolderRun& run) {
+  nlohmann::json plan = {{"input", run.saved().input},
+                         {"output", run.saved().output},
+                         {"finished", run.is_finished()}};
+  if (!run.is_finished()) {
+    const pieces::Round round = run.round();
+    plan["round"] = round.number;
+    plan["name"] = round.name;
+    plan["pieces"] = round.pieces.size();
+  }
+  OutputFile out(folder / "plan.json");
+  out.put(plan.dump(2) + '\n');
+  out.commit();
+}
+
+void say_round(const pieces::FolderRun& run) {
+  const pieces::Round round = run.round();
+  say(stdout, fmt::format("round {}, {}: pieces 0 to {}\n", round.number, round.name,
+                          round.pieces.size() - 1));
+}
+
+int split(PiecesOptions& options, Invocation& invocation) {
+  ImproveOptions& improve = options.improve;
+  if (options.more.size() != 1)
+    throw UsageError("pieces split FOLDER IN: IN, one mesh, is missing");
+  if (improve.output.empty()) throw UsageError("pieces split: -o OUT is missing");
+  if (improve.pieces.pieces < 2)
+    throw UsageError("pieces split: --pieces N, 2 or more, is missing");
+  improve.input = options.more.front();
+  check_mesh_extension(improve.input);
+  check_mesh_extension(improve.output);
+  const NamedFile input = {"IN", improve.input, true};
+  const NamedFile output = {"-o", improve.output, true};
+  prepare_files({&input, 1}, {&output, 1});
+  complete(improve);
+  pieces::Division division;
+  division.pieces = improve.pieces.pieces;
+  try {
+    pieces::FolderRun::split(improve.input, improve.output, options.folder, improve.run, division);
+  } catch (const OptionError& error) {
+    throw Error("--" + message_of(error));
+  }
+  invocation.wrote_files = true;
+  const pieces::FolderRun run(options.folder);
+  write_plan(options.folder, run);
+  if (!improve.quiet) say_round(run);
+  return kSuccess;
+}
+
+/// The pieces of this call: those that are named, or of all that are open those of a share.
+std::vector<std::size_t> chosen(const PiecesOptions& options, const pieces::FolderRun& run) {
+  std::vector<std::size_t> numbers;
+  for (const std::string& text : options.more) numbers.push_back(to_number(text, "pieces improve"));
+  if (!numbers.empty() || run.is_finished()) return numbers;
+  std::size_t which = 0;
+  std::size_t count = 1;
+  if (!options.share.empty()) {
+    const std::size_t slash = options.share.find('/');
+    if (slash == std::string::npos) {
+      throw UsageError(fmt::format("--share: '{}' is not of the form I/N", options.share));
+    }
+    which = to_number(options.share.substr(0, slash), "--share");
+    count = to_number(options.share.substr(slash + 1), "--share");
+    if (which >= count) {
+      throw UsageError(fmt::format("--share {}: shares are counted from 0 to {}", options.share,
+                                   count == 0 ? 0 : count - 1));
+    }
+  }
+  for (const std::size_t part : run.round().open) {
+    if (part % count == which) numbers.push_back(part);
+  }
+  return numbers;
+}
+
+int improve(PiecesOptions& options, Invocation& invocation) {
+  pieces::FolderRun run(options.folder);
+  const std::vector<std::size_t> numbers = chosen(options, run);
+  if (run.is_finished())
+    return kSuccess;  // rounds are planned before it is known how many there are
+  ProgressLine line(!options.improve.quiet);
+  std::optional<Interruption> interruption;
+  std::size_t done = 0;
+  bool is_told_to_stop = false;
+  improve_watched(options.improve, line, interruption, [&](const Options& watched) {
+    done = run.improve(numbers, watched);
+    is_told_to_stop = watched.cancel->load();
+    return Result();
+  });
+  line.clear();
+  invocation.wrote_files = true;
+  if (!options.improve.quiet) {
+    say(stdout, fmt::format("{}: {} {} finished\n", run.round().name, done,
+                            done == 1 ? "piece" : "pieces"));
+  }
+  if (is_told_to_stop) return complain(kInterrupted, "interrupted: finished pieces are kept");
+  return kSuccess;
+}
+
+int join(PiecesOptions& options, Invocation& invocation) {
+  ImproveOptions& improve = options.improve;
+  pieces::FolderRun run(options.folder);
+  if (run.is_finished()) {
+    if (!improve.quiet) say(stdout, fmt::format("finished: {}\n", run.saved().output));
+    return kSuccess;
+  }
+  for (const std::filesystem::path& report : improve.reports) {
+    if (lower_extension(report) != ".json") {
+      throw UsageError(fmt::format("--report {}: a run in pieces has its report as .json alone",
+                                   report.string()));
+    }
+  }
+  const std::optional<Result> result = run.join(improve.run);
+  invocation.wrote_files = true;
+  write_plan(options.folder, run);
+  if (!result) {
+    if (!improve.quiet) say_round(run);
+    return kSuccess;
+  }
+  improve.input = run.saved().input;
+  improve.output = run.saved().output;
+  for (const auto& [name, value] : run.saved().options) set_option(improve.run, name, value);
+  ImproveReport report{.arguments = invocation.arguments, .options = improve};
+  report.result = *result;
+  report.peak_memory = platform::peak_memory();
+  write_reports(improve.reports, report);
+  if (!improve.quiet) {
+    say(stdout, fmt::format("tetmend {}: {} -> {}\n\n{}", version(), improve.input.string(),
+                            improve.output.string(), format_report(report)));
+  }
+  return kSuccess;
+}
+
+int run_pieces(PiecesOptions& options, Invocation& invocation) {
+  if (options.step == "split") return split(options, invocation);
+  const bool has_more = !options.improve.output.empty() || options.improve.pieces.pieces != 0;
+  if (has_more) throw UsageError("pieces: -o and --pieces are options of split");
+  if (options.step == "improve") return improve(options, invocation);
+  if (!options.more.empty()) throw UsageError("pieces join FOLDER: nothing may follow");
+  return join(options, invocation);
+}
+
+}  // namespace
+
+void add_pieces(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<PiecesOptions>();
+  CLI::App* command =
+      app.add_subcommand("pieces", "Improve a mesh in pieces, by tasks over the files of a folder");
+  command->add_option("STEP", options->step, "split, improve or join")
+      ->required()
+      ->type_name("")
+      ->check(CLI::IsMember({"split", "improve", "join"}));
+  command->add_option("FOLDER", options->folder, "Folder of the run; new for split")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option(
+          "MORE", options->more,
+          "split: the mesh. improve: numbers of pieces\n(default: all that are not finished)")
+      ->type_name("");
+  command
+      ->add_option("-o,--output", options->improve.output,
+                   "split: file for the improved mesh, which the\nlast join writes")
+      ->type_name("OUT");
+  command
+      ->add_option("--pieces", options->improve.pieces.pieces,
+                   "split: into how many pieces, 2 or more; the\nresult depends on it")
+      ->check(CLI::Range(std::size_t{2}, std::size_t{65'535}))
+      ->type_name("N");
+  command
+      ->add_option("--share", options->share,
+                   "improve: of the pieces that are not finished\nthose whose number leaves I when "
+                   "divided by N")
+      ->type_name("I/N");
+  add_options_of_pieces(*command, options->improve);
+  command->footer(
+      R"(A run has rounds: three divisions of the mesh, then up to three rounds of zones
+around the worst tets. 'split' divides the mesh for the first round. 'improve'
+works on pieces of the round, any number of times at once, on any machine that
+has the folder. 'join' begins the next round when all pieces are finished; in
+the end it checks everything and writes OUT. OUT has the bytes of
+'tetmend improve --pieces N' with the same options, which 'split' takes: they
+are the run's from then on, but for --threads.
+
+FOLDER/plan.json says what is to be done: "round", its "name", its number of
+"pieces", which count from 0, and whether all is "finished". Each program may be
+killed and started again; a piece that is finished is not worked on again. After
+the last round improve and join do nothing, so that seven rounds may be
+scheduled beforehand.
+
+Examples:
+  tetmend pieces split work part.meshb -o better.meshb --pieces 8
+  tetmend pieces improve work 3            piece 3 of this round
+  tetmend pieces improve work --share 0/4  a quarter of its pieces
+  tetmend pieces join work                 begins the next round, or writes OUT
+
+Exit status: 0 success, 1 the work failed, or join finds that a piece is
+missing, 2 wrong usage, 4 interrupted: the pieces that were finished are kept)");
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] { return run_pieces(*options, invocation); };
+  });
+}
+
+}  // namespace tetmend::apps

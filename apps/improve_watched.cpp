@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// A run that a person watches and may interrupt, and what it reports.
+#include "apps/improve_watched.h"
+
+#include <mutex>
+
+#include <nlohmann/json.hpp>
+#include <tetmend/option_text.h>
+
+#include "apps/commands.h"
+#include "apps/plugin_watch.h"
+#include "kernel/formats/output_file.h"
+#include "report/page.h"
+
+namespace tetmend::apps {
+
+Result improve_watched(const ImproveOptions& all, ProgressLine& line,
+                       std::optional<Interruption>& interruption,
+                       const std::function<Result(const Options&)>& work) {
+  Options options = all.run;
+  std::mutex line_busy;  // the watch has a thread of its own
+  std::optional<PluginWatch> watch;
+  if (!options.plugin.empty()) {
+    note_crashes();
+    watch.emplace(all.attempt_limit, options.time_limit, [&](std::string_view text) {
+      const std::lock_guard lock(line_busy);
+      line.clear();
+      complain(kSuccess, text);
+    });
+  }
+  options.cancel = &Interruption::requested();
+  options.progress = [&](const Progress& progress) {
+    if (progress.stage == Stage::improving && !interruption) interruption.emplace();
+    if (watch) watch->show(progress.stage);
+    const std::lock_guard lock(line_busy);
+    line.show(progress);
+    return true;
+  };
+  options.note = [&](std::string_view text) {
+    const std::lock_guard lock(line_busy);
+    line.note(text);
+  };
+  try {
+    return work(options);
+  } catch (const OptionError& error) {
+    throw Error("--" + message_of(error));
+  }
+}
+
+void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
+  if (files.empty()) return;
+  const nlohmann::json json = to_json(report);
+  for (const std::filesystem::path& file : files) {
+    OutputFile out(file);
+    out.put(lower_extension(file) == ".json" ? json.dump(2) + '\n'
+                                             : report::write_page(json, report.portrait));
+    out.commit();
+  }
+}
+
+}  // namespace tetmend::apps

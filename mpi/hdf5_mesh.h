@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Meshes in HDF5 files that all ranks read and write together, and the XDMF file by which ParaView
+// reads them.
+//
+//   /geometry  N x 3 double           /connect   M x 4 int64, vertices from 0
+//   /group     M int32, labels        /triangles K x 3 int64, /triangle_labels K int32
+//   /edges, /edge_labels              /required_vertices int64      /vertex_labels N int32
+//
+// The first two are what other programs have, too; of the rest a file has what its mesh has.
+#pragma once
+
+#include <filesystem>
+
+#include <mpi.h>
+
+#include "pieces/rank_arrays.h"
+
+namespace tetmend::mpi {
+
+/// All ranks: each reads an equal share of every array.
+/// @throws Error for a file that is none, lacks /geometry or /connect, or has arrays of another form
+pieces::RankArrays read_hdf5(const std::filesystem::path& file, MPI_Comm ranks);
+
+/// All ranks: writes the file, which has the same bytes for any number of ranks, and FILE.xdmf beside
+/// it. They take their names when they are complete. @throws Error with the reason
+void write_hdf5(const std::filesystem::path& file, const pieces::RankArrays& arrays,
+                MPI_Comm ranks);
+
+}  // namespace tetmend::mpi

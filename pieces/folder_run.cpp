@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+//   split: slices -> step-1/gathered-*
+//   improve: step-1/gathered-3 -> step-1/stored-3, then step-1/outcome-3
+//   join: all step-1/stored-* -> step-2/gathered-*, then the file `run`: from now on it is round 2
+#include "pieces/folder_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tetmend/option_text.h>
+
+#include "face/arena.h"
+#include "face/plan.h"
+#include "face/watcher.h"
+#include "pieces/bytes.h"
+#include "pieces/improve.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+constexpr auto kLasts = FolderShelf::Lasts::beyond_a_crash;
+
+std::string outcome_name(std::size_t part) {
+  return fmt::format("outcome-{}", part);
+}
+
+/// The options that a round needs, looked through.
+class Tools {
+ public:
+  explicit Tools(const Options& options)
+      : options_(options),
+        plan_(options),
+        watcher_(options),
+        in_zones_(zone_settings(plan_.schedule, options.set)),
+        task_{plan_.registry, plan_.schedule, options_.set, in_zones_, plan_.standard} {
+    task_.watch = [this](Run& run) {
+      run.set_listener(&watcher_);
+      run.set_cancel_flag(options_.cancel);
+      watcher_.watch(&run, now_);
+    };
+    task_.unwatch = [this] { watcher_.watch(nullptr, now_); };
+  }
+
+  const TaskOptions& task() const { return task_; }
+  const face::Plan& plan() const { return plan_; }
+  face::Watcher& watcher() { return watcher_; }
+  bool is_to_stop() const {
+    return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
+  }
+
+ private:
+  const Options& options_;
+  face::Plan plan_;
+  face::Watcher watcher_;
+  ScheduleSettings in_zones_;
+  QualityIndicators now_;
+  TaskOptions task_;
+};
+
+}  // namespace
+
+FolderRun::FolderRun(const std::filesystem::path& folder)
+    : folder_(folder), saved_(folder_.load()) {}
+
+FolderShelf FolderRun::shelf() const {
+  return FolderShelf(folder_.pieces_of(saved_.run), kLasts);
+}
+
+void FolderRun::split(const std::filesystem::path& input, const std::filesystem::path& output,
+                      const std::filesystem::path& folder, const Options& options,
+                      const Division& division) {
+  check_for_files(options);
+  check(options, division);
+  if (division.pieces < 2) throw OptionError("pieces", "pieces: at least 2 are needed");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_empty(folder, error)) {
+    throw Error(fmt::format("{}: {}", folder.string(),
+                            error ? error.message() : "is not empty: a new folder is needed"));
+  }
+  face::on_threads(options.threads, [&] {
+    const RunFolder run_folder(folder);
+    Tools tools(options);
+    OneRank ranks;
+    SavedRun saved;
+    saved.input = std::filesystem::absolute(input).string();
+    saved.output = std::filesystem::absolute(output).string();
+    saved.options = texts_of(options);
+    saved.division = division;
+    saved.run.is_divided = true;
+    try {
+      InputMesh mesh_file(input, ranks);
+      saved.input_size = std::filesystem::file_size(input);
+      saved.vertices = mesh_file.vertices();
+      FolderShelf slices(run_folder.make_step(0));
+      FolderShelf first(run_folder.make_step(1), kLasts);
+      DividedMesh mesh(slices, ranks, saved.vertices);
+      mesh_file.add_to(mesh, division.pieces);
+      PieceRun steps(mesh, saved.division, tools.task());
+      saved.before = steps.measure_before(&first);
+      check_before(saved.before, options, input);
+      const MeshStatistics& before = saved.before.statistics;
+      saved.run.limits = {before.tets, before.n_bad,
+                          tools.plan().growth.most(before.tets).value_or(RunLimits().most_tets)};
+      saved.mesh = mesh.state();
+      run_folder.save(saved);
+    } catch (...) {
+      run_folder.remove();
+      throw;
+    }
+  });
+}
+
+Options FolderRun::options_of_run(const Options& options) const {
+  Options all = options;
+  for (const auto& [name, value] : saved_.options) set_option(all, name, value);
+  return all;
+}
+
+/// A checkpoint is between two rounds: its next one is begun.
+void FolderRun::open() {
+  if (saved_.run.is_divided || saved_.is_finished) return;
+  const Options options = options_of_run({});
+  Tools tools(options);
+  OneRank ranks;
+  FolderShelf from = shelf();
+  FolderShelf to(folder_.make_step(RunFolder::step_of(saved_.run) + 1), kLasts);
+  DividedMesh mesh(from, ranks, saved_.mesh);
+  PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
+  if (!steps.begin_step(&to)) return;
+  saved_.run = steps.state();
+  saved_.mesh = mesh.state();
+  folder_.save(saved_);
+}
+
+Round FolderRun::round() const {
+  Round round;
+  round.number = RunFolder::step_of(saved_.run);
+  const std::size_t divisions = saved_.division.divisions;
+  round.name = round.number <= divisions ? fmt::format("division {}", round.number)
+                                         : fmt::format("zones {}", round.number - divisions);
+  if (!saved_.run.is_divided) return round;
+  const FolderShelf pieces = shelf();
+  for (std::size_t part = 0; part < saved_.mesh.parting.parts(); ++part) {
+    round.pieces.push_back(part);
+    if (!pieces.has(outcome_name(part))) round.open.push_back(part);
+  }
+  return round;
+}
+
+std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Options& options) {
+  const std::size_t parts = saved_.run.is_divided ? saved_.mesh.parting.parts() : 0;
+  for (const std::size_t part : pieces) {
+    if (part < parts) continue;
+    throw Error(fmt::format("there is no piece {} in this round: it has {}", part, parts));
+  }
+  const Options all = options_of_run(options);
+  return face::on_threads(options.threads, [&] {
+    Tools tools(all);
+    tools.watcher().begin(Stage::improving);
+    OneRank ranks;
+    FolderShelf from = shelf();
+    DividedMesh mesh(from, ranks, saved_.mesh);
+    PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
+    const std::optional<StepRecord> record = steps.begin_step();
+    std::size_t finished = 0;
+    for (const std::size_t part : pieces) {
+      if (from.has(outcome_name(part))) continue;
+      if (tools.is_to_stop()) break;
+      const PartOutcome outcome = steps.work_on_part(part, *record);
+      if (tools.is_to_stop()) break;  // it is not what it would have been
+      std::string bytes;
+      append(outcome, bytes);
+      from.put(outcome_name(part), bytes);
+      ++finished;
+    }
+    tools.watcher().rethrow();
+    return finished;
+  });
+}
+
+std::optional<Result> FolderRun::join(const Options& options) {
+  const Round now = round();
+  if (!now.open.empty()) {
+    throw Error(fmt::format("{}: {} of {} pieces are not finished yet: {}", now.name,
+                            now.open.size(), now.pieces.size(), fmt::join(now.open, ", ")));
+  }
+  const Options all = options_of_run(options);
+  return face::on_threads(options.threads, [&]() -> std::optional<Result> {
+    if (saved_.run.is_divided) {
+      Tools tools(all);
+      OneRank ranks;
+      FolderShelf from = shelf();
+      DividedMesh mesh(from, ranks, saved_.mesh);
+      PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
+      std::vector<PartOutcome> outcomes;
+      for (const std::size_t part : now.pieces) {
+        const std::string bytes = from.read(outcome_name(part));
+        std::string_view rest = bytes;
+        outcomes.push_back(take_outcome(rest));
+      }
+      std::optional<StepRecord> record = steps.begin_step();
+      steps.end_step(std::move(*record), std::move(outcomes));
+      saved_.run = steps.state();
+      saved_.mesh = mesh.state();
+    }
+    open();
+    if (saved_.run.is_divided) return std::nullopt;
+    return finish(all);
+  });
+}
+
+Result FolderRun::finish(const Options& options) {
+  Tools tools(options);
+  OneRank ranks;
+  FolderShelf from = shelf();
+  const std::size_t last = RunFolder::step_of(saved_.run) + 1;
+  FolderShelf to(folder_.make_step(last));
+  DividedMesh mesh(from, ranks, saved_.mesh);
+  PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
+  Result result;
+  result.goal = options.goal;
+  for (const StepRecord& record : saved_.run.records) result.passes.push_back(to_pass(record));
+  check_after(saved_.before, steps.measure_after(&to), result);
+  const std::filesystem::path output = saved_.output;
+  if (result.worse().empty()) {
+    write_pieces(output, mesh, saved_.vertices);
+  } else {
+    result.notes.push_back(why_as_it_was(result));
+    result.after = result.before;
+    FolderShelf again(folder_.make_step(last + 1));
+    DividedMesh slices(again, ranks, saved_.vertices);
+    InputMesh(saved_.input, ranks).add_to(slices, saved_.division.pieces);
+    write_pieces(output, slices, saved_.vertices);
+  }
+  saved_.is_finished = true;
+  folder_.save(saved_);
+  return result;
+}
+
+}  // namespace tetmend::pieces

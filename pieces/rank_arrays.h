@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// A mesh whose arrays lie on the ranks: each has a range of the vertices and some of the tets, which
+// name vertices by their numbers in the whole mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+#include "pieces/divided_mesh.h"
+
+namespace tetmend::pieces {
+
+/// What one rank has. Vertices are numbered through: those of the first rank first. Elements of one
+/// rank come before those of the next.
+struct RankArrays {
+  template <std::size_t N>
+  struct Element {
+    std::array<std::uint64_t, N> vertices{};  ///< of the whole mesh
+    Label label = 0;
+  };
+  std::vector<Point> points;
+  std::vector<Label> point_labels;  ///< of each point, or none
+  std::vector<Element<4>> tets;
+  std::vector<Element<3>> triangles;
+  std::vector<Element<2>> edges;
+  std::vector<std::uint64_t> required_vertices;  ///< in the whole mesh
+};
+
+/// Files that all ranks read and write together.
+class ArrayFiles {
+ public:
+  virtual ~ArrayFiles() = default;
+  virtual bool is_one(const std::filesystem::path& file) const = 0;
+  /// All ranks: each gets a share. @throws Error
+  virtual RankArrays read(const std::filesystem::path& file) const = 0;
+  /// All ranks. @throws Error
+  virtual void write(const std::filesystem::path& file, const RankArrays& arrays) const = 0;
+};
+
+/// All of a mesh, as the share of one rank.
+RankArrays all_of(const MeshData& data);
+
+/// All ranks: how many elements there are on all of them.
+struct ArrayCounts {
+  std::uint64_t points = 0, tets = 0, triangles = 0, edges = 0, required_vertices = 0;
+};
+ArrayCounts count_all(const RankArrays& arrays, Ranks& ranks);
+
+/// All ranks: adds the mesh to one that has nothing yet, with end_slices(). A rank has its share in
+/// memory, and what a slice of it needs from others.
+/// @throws Error for a vertex that is not there, a repeated one, and a coordinate that is not finite
+void add_arrays(const RankArrays& arrays, DividedMesh& to);
+
+/// All ranks: the stored pieces as such arrays. Vertices and elements have the order of join(),
+/// vertices are shared out evenly, elements stay where their pieces are. Precondition: each rank has a
+/// range of the pieces, as after a division without zones.
+RankArrays take_arrays(const DividedMesh& mesh);
+
+}  // namespace tetmend::pieces

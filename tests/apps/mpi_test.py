@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+"""tetmend-mpi and `tetmend pieces` from outside: the bytes of `tetmend improve --pieces`, also after a kill.
+
+usage: mpi_test.py TETMEND TETMEND_MPI|none SOURCE_FOLDER
+"""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PROGRAM, MPI_PROGRAM = sys.argv[1:3]
+MESHES = Path(sys.argv[3]) / "assets" / "meshes"
+MESH = MESHES / "bracket.meshb"
+PIECES = 6
+RANKS_MAY_SHARE_CORES = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                         "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+                         "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+failures = []
+
+
+def check(holds, what, *details):
+    if not holds:
+        failures.append(what)
+        print("FAIL:", what, *details)
+
+
+def run(*words, **environment):
+    return subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=280,
+                          env=dict(os.environ, **RANKS_MAY_SHARE_CORES, **environment))
+
+
+def mpi(ranks, *arguments):
+    return ["mpirun", "-n", str(ranks), MPI_PROGRAM, "improve", *map(str, arguments)]
+
+
+def improve(folder, *more):
+    return [MESH, "-o", folder / "out.meshb", "--pieces", PIECES, *more]
+
+
+def taken(folder):
+    """The bytes of the output, which is not there any more then."""
+    out = folder / "out.meshb"
+    if not out.exists():
+        return None
+    content = out.read_bytes()
+    out.unlink()
+    return content
+
+
+def ranks_of(starter):
+    """Processes of the program that mpirun has started, by what the system says of each process."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        try:
+            parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
+            if parent == starter and os.readlink(entry / "exe") == os.path.realpath(MPI_PROGRAM):
+                found.append(int(entry.name))
+        except (OSError, ValueError, IndexError):
+            pass
+    return found
+
+
+def any_number_of_ranks(folder, expected):
+    for ranks, threads in [(1, 2), (2, 1), (2, 2), (3, 1), (8, 1)]:
+        done = run(*mpi(ranks, *improve(folder, "--threads", threads, "-q")))
+        check(done.returncode == 0 and taken(folder) == expected, "other bytes", ranks, threads, done.stderr)
+    done = run(*mpi(3, *improve(folder, "-q")), TETMEND_MPI_MESSAGE_BYTES="4096")
+    check(done.returncode == 0 and taken(folder) == expected, "cut messages show", done.stderr)
+    report = folder / "report.json"
+    done = run(*mpi(2, *improve(folder, "--report", report)))
+    check("worse than before    nothing" in done.stdout, "there is no report", done.stdout)
+    check(json.loads(report.read_text())["after"]["n_bad"] == 0, "bad tets are left")
+    check(done.stdout.count("peak memory") == 1, "not one rank alone reports")
+    taken(folder)
+    whole = folder / "whole.meshb"
+    done = run(*mpi(2, MESH, "-o", whole, "-q"))
+    run(PROGRAM, "improve", MESH, "-o", folder / "alone.meshb", "-q")
+    check(whole.read_bytes() == (folder / "alone.meshb").read_bytes(), "one piece is not the run of improve")
+
+
+def mistakes(folder):
+    done = run(*mpi(3, folder / "none.meshb", "-o", folder / "out.meshb"))
+    check(done.returncode == 1 and done.stderr.count("none.meshb") == 1, "a missing mesh", done.returncode, done.stderr)
+    done = run(*mpi(2, *improve(folder, "--threads", "many")))
+    check(done.returncode == 2 and done.stderr.count("threads") == 1, "a wrong option", done.returncode, done.stderr)
+    done = run(*mpi(2, *improve(folder, "--protect", "label:1")))
+    check(done.returncode == 1 and "needs the whole mesh" in done.stderr, "protect", done.stderr)
+    check(taken(folder) is None, "there is an output after a mistake")
+
+
+def killed_rank(folder, expected):
+    saved = folder / "saved"
+    command = mpi(3, *improve(folder, "-q", "--checkpoint", saved))
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True,
+                          env=dict(os.environ, **RANKS_MAY_SHARE_CORES)) as starter:
+        while not (saved / "run").exists() and starter.poll() is None:
+            time.sleep(0.002)
+        ranks = ranks_of(starter.pid)
+        check(len(ranks) == 3, "there are not three ranks", ranks)
+        os.kill(ranks[1], signal.SIGKILL)
+        begin = time.monotonic()
+        said = starter.communicate(timeout=60)[1]
+        check(time.monotonic() - begin < 10, "the others go on without the one that died")
+        check(starter.returncode not in (0, None) and "signal 9" in said, "nobody says so", starter.returncode, said)
+    check(taken(folder) is None, "there is an output of a killed run")
+    check((saved / "run").exists(), "there is no checkpoint")
+    done = run(*mpi(2, *improve(folder, "-q", "--goal", "20", "--checkpoint", saved)))
+    check(done.returncode == 1 and "other options" in done.stderr, "the checkpoint of other options", done.stderr)
+    done = run(*mpi(2, *improve(folder, "-q", "--checkpoint", saved)))
+    check(done.returncode == 0 and taken(folder) == expected, "other bytes after a kill", done.stderr)
+    check(not saved.exists(), "the checkpoint is still there")
+
+
+def tasks(folder, expected):
+    work = folder / "work"
+    done = run(PROGRAM, "pieces", "split", work, *improve(folder))
+    check(done.returncode == 0 and "division 1: pieces 0 to 5" in done.stdout, "split", done.stdout, done.stderr)
+    check(run(PROGRAM, "pieces", "split", work, *improve(folder)).returncode == 1, "split into a folder with a run")
+    done = run(PROGRAM, "pieces", "join", work)
+    check(done.returncode == 1 and "6 of 6 pieces are not finished yet" in done.stderr, "join", done.stderr)
+    check(run(PROGRAM, "pieces", "improve", work, "6").returncode == 1, "a piece that is not there")
+    for wrong in (["--share", "2/2"], ["--share", "x"], ["one"], ["--pieces", "3"]):
+        check(run(PROGRAM, "pieces", "improve", work, *wrong).returncode == 2, "wrong usage", wrong)
+    victim = subprocess.Popen([PROGRAM, "pieces", "improve", str(work), "-q"])
+    while not list(work.glob("step-1/outcome-*")) and victim.poll() is None:
+        time.sleep(0.002)
+    victim.kill()
+    victim.wait()
+    rounds = 0
+    while not json.loads((work / "plan.json").read_text())["finished"]:
+        both = [subprocess.Popen([PROGRAM, "pieces", "improve", str(work), "-q", "--share", f"{i}/2"]) for i in (0, 1)]
+        check([each.wait() for each in both] == [0, 0], "a share")
+        done = run(PROGRAM, "pieces", "join", work)
+        check(done.returncode == 0, "join", done.stderr)
+        rounds += 1
+    check(3 <= rounds <= 6 and "worse than before    nothing" in done.stdout, "rounds", rounds, done.stdout)
+    check(taken(folder) == expected, "other bytes by tasks")
+    for step in ("improve", "join"):
+        check(run(PROGRAM, "pieces", step, work).returncode == 0, "a round too many", step)
+
+
+def main() -> int:
+    has_mpi = MPI_PROGRAM != "none" and shutil.which("mpirun") is not None
+    with tempfile.TemporaryDirectory(prefix="tetmend-") as name:
+        folder = Path(name)
+        done = run(PROGRAM, "improve", *improve(folder, "-q"))
+        expected = taken(folder)
+        check(done.returncode == 0 and expected is not None, "improve", done.stderr)
+        tasks(folder, expected)
+        if has_mpi:
+            any_number_of_ranks(folder, expected)
+            mistakes(folder)
+            killed_rank(folder, expected)
+        else:
+            print("tetmend-mpi or mpirun is not there: processes of MPI were not tried")
+    print(f"{len(failures)} failures")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
