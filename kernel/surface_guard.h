@@ -14,6 +14,7 @@
 
 #include "kernel/handles.h"
 #include "kernel/mesh_data.h"
+#include "kernel/territory.h"
 
 namespace tetmend {
 
@@ -39,6 +40,9 @@ class TETMEND_API SurfaceJournal {
   virtual ~SurfaceJournal() = default;
   /// What is in it cannot be undone any more. Keeps the memory.
   virtual void clear() noexcept = 0;
+
+  Territory territory;      ///< of the worker, at each replace()
+  bool met_border = false;  ///< set by replace(): it refused for what lies outside the territory
 };
 
 /// Knows patches and feature lines of the present surface, and decides about each change of it.
