@@ -16,7 +16,7 @@ using FaceKey = std::array<VertexHandle, 3>;
 using EdgeKey = std::array<VertexHandle, 2>;
 
 template <class Key>
-Key sorted(Key key) {
+Key in_order(Key key) {
   std::sort(key.begin(), key.end());
   return key;
 }
@@ -111,7 +111,7 @@ bool TetMesh::renew_triangles() {
   std::vector<FaceKey> keys(surface_.size());
   std::vector<std::pair<FaceKey, std::uint32_t>> inside;  // constrained faces
   for (std::uint32_t i = 0; i < surface_.size(); ++i) {
-    keys[i] = sorted(surface_[i].vertices);
+    keys[i] = in_order(surface_[i].vertices);
     if (surface_[i].interior && !surface_[i].loose) inside.emplace_back(keys[i], i);
   }
   std::sort(inside.begin(), inside.end());
@@ -130,9 +130,9 @@ bool TetMesh::renew_triangles() {
     const HalfFace other = twin(f);
     std::uint32_t number = kNone;
     if (other.is_outside()) {
-      if (sorted(vertices(f)) == keys[other.surface_triangle()]) number = other.surface_triangle();
+      if (in_order(vertices(f)) == keys[other.surface_triangle()]) number = other.surface_triangle();
     } else if (is_constrained(f) && label(f.tet()) <= label(other.tet())) {
-      number = find_inside(sorted(vertices(f)));
+      number = find_inside(in_order(vertices(f)));
     } else {
       continue;
     }
@@ -161,7 +161,7 @@ void TetMesh::take_triangles(const std::vector<char>& gone, const std::vector<Ha
   std::vector<std::pair<FaceKey, std::uint32_t>> numbers;
   for (std::uint32_t i = 0; i < surface_.size(); ++i) {
     if (!surface_[i].interior && !surface_[i].loose) {
-      numbers.emplace_back(sorted(surface_[i].vertices), i);
+      numbers.emplace_back(in_order(surface_[i].vertices), i);
     }
   }
   std::sort(numbers.begin(), numbers.end());
@@ -169,7 +169,7 @@ void TetMesh::take_triangles(const std::vector<char>& gone, const std::vector<Ha
     const HalfFace f = HalfFace::from_code(i);
     if (is_deleted(f.tet()) || !twin(f).is_outside()) continue;
     const auto at = std::lower_bound(numbers.begin(), numbers.end(),
-                                     std::pair(sorted(vertices(f)), std::uint32_t{0}));
+                                     std::pair(in_order(vertices(f)), std::uint32_t{0}));
     cells_[f.tet().index()].neighbours[f.face()] = HalfFace::outside(at->second);
   }
 }
@@ -184,13 +184,13 @@ void TetMesh::renew_edges() {
   for (std::size_t i = 0; i < named_edges_.size(); ++i) {
     const auto& [a, b] = named_edges_[i].vertices;
     gone[i] = named_edge_line_[i] != kNone && guard.line(a, b) != named_edge_line_[i];
-    if (!gone[i]) known.push_back(sorted(named_edges_[i].vertices));
+    if (!gone[i]) known.push_back(in_order(named_edges_[i].vertices));
   }
   std::sort(known.begin(), known.end());
   std::vector<std::pair<EdgeKey, std::uint32_t>> found;
   for (const SurfaceTriangle& triangle : surface_) {
     for (unsigned k = 0; k < 3 && !triangle.loose; ++k) {
-      const EdgeKey edge = sorted(EdgeKey{triangle.vertices[k], triangle.vertices[(k + 1) % 3]});
+      const EdgeKey edge = in_order(EdgeKey{triangle.vertices[k], triangle.vertices[(k + 1) % 3]});
       const std::uint32_t line = guard.line(edge[0], edge[1]);
       if (line >= line_edge_.size() || line_edge_[line] == kNone) continue;  // kNone too
       if (!std::binary_search(known.begin(), known.end(), edge)) found.emplace_back(edge, line);

@@ -20,7 +20,7 @@ namespace tetmend {
 namespace {
 
 template <class Values>
-Values sorted(Values values) {
+Values in_order(Values values) {
   std::sort(values.begin(), values.end());
   return values;
 }
@@ -115,7 +115,7 @@ EditResult Transaction::check_old_at_surface(std::span<const TetHandle> old) {
     if (mesh_.is_frozen(t)) return EditResult::constrained;
     for (unsigned e = 0; e < 6; ++e) {
       if (!mesh_.is_constrained(TetEdge(t, e))) continue;
-      const auto edge = sorted(mesh_.vertices(TetEdge(t, e)));
+      const auto edge = in_order(mesh_.vertices(TetEdge(t, e)));
       auto& known = workspace_.constrained_edges_;
       if (std::find(known.begin(), known.end(), edge) == known.end()) known.push_back(edge);
     }
@@ -239,9 +239,9 @@ void Transaction::drop_unchanged_faces() {
   auto& before = workspace_.faces_before_;
   auto& after = workspace_.faces_after_;
   for (std::size_t i = 0; i < after.size();) {
-    const auto key = sorted(after[i].vertices);
+    const auto key = in_order(after[i].vertices);
     const auto same = std::find_if(before.begin(), before.end(), [&](const SurfaceFace& face) {
-      return sorted(face.vertices) == key;
+      return in_order(face.vertices) == key;
     });
     if (workspace_.is_interface_[i] == 0 || same == before.end()) {
       ++i;
@@ -282,7 +282,7 @@ void Transaction::mark_surface(std::span<const TetVertices> created) {
   for (const SurfaceFace& face : workspace_.faces_after_) {
     for (unsigned k = 0; k < 3; ++k) {
       const std::array<VertexHandle, 2> edge =
-          sorted(std::array{face.vertices[k], face.vertices[(k + 1) % 3]});
+          in_order(std::array{face.vertices[k], face.vertices[(k + 1) % 3]});
       const std::uint32_t line = guard.line(edge[0], edge[1]);
       const bool is_named =
           line < mesh_.line_edge_.size() && mesh_.line_edge_[line] != SurfaceGuard::kNone;
