@@ -207,6 +207,7 @@ void Improvement::build_mesh(MeshData& data) {
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
   mesh_.set_bounds(Bounds::of(mesh_));
+  if (!plan_.surface.is_fixed()) mesh_.set_surface_guard(plan_.surface.guard(mesh_, input_));
   hold_curved();
   if (options_.keep_size && !size_field_) size_field_ = std::make_shared<SizeField>(mesh_);
   mesh_.set_size_field(size_field_);
@@ -263,7 +264,13 @@ void Improvement::run_schedule(std::size_t passes) {
       run.stop_after(passes);
     }
     tetmend::improve(run, plan_.schedule, options_.set);
+    // Where the fixed surface holds bad tets, it moves.
+    if (!plan_.surface.is_fixed() && !run.cancelled()) {
+      run.set_standard(plan_.standard);
+      if (run.indicators().n_bad > 0) tetmend::improve(run, Schedule::builtin("surface"), {});
+    }
   }
+  mesh_.renew_surface();
   // A script may aim higher for a while, and be stopped then.
   const Standard& last = mesh_.standard();
   run.set_standard(Standard(options_.goal, last.terms(), last.price()));
@@ -390,12 +397,15 @@ void Improvement::give_back_input() noexcept {
 void Improvement::check_promises() const {
   constexpr double kMostVolumeChange = 1e-9;
   std::string_view broken;
-  if (result_.surface_fingerprint != surface_before_ ||
-      result_.after.boundary_triangles != result_.before.boundary_triangles) {
+  if (plan_.surface.is_fixed() &&
+      (result_.surface_fingerprint != surface_before_ ||
+       result_.after.boundary_triangles != result_.before.boundary_triangles)) {
     broken = "the surface changed";
   }
   if (result_.not_positive_after > result_.not_positive_before) broken = "a tet got inverted";
-  if (result_.not_positive_before == 0 && !(result_.volume_change() <= kMostVolumeChange)) {
+  const bool keeps_volume = plan_.surface.is_fixed() || plan_.surface.is_flat();
+  if (keeps_volume && result_.not_positive_before == 0 &&
+      !(result_.volume_change() <= kMostVolumeChange)) {
     broken = "the volume changed";
   }
   if (broken.empty()) return;
