@@ -9,48 +9,45 @@
 
 #include <fmt/format.h>
 
+#include "envelope/envelope_journal.h"
 #include "envelope/planes.h"
-#include "envelope/replacement.h"
 #include "kernel/error.h"
 
 namespace tetmend {
-
-struct Envelope::Reference {
-  double tolerance = 0;  // of flatness
-  std::vector<SurfaceFeatures::Patch> patches;
-  std::vector<SurfaceFeatures::Line> lines;
-};
-
-class Envelope::Journal final : public SurfaceJournal {
- public:
-  void clear() noexcept override {
-    saved.clear();
-    steps.clear();
-  }
-
-  struct Saved {
-    VertexHandle vertex;
-    std::unique_ptr<SurfaceVertex> data;
-    Point point;
-  };
-  std::vector<Saved> saved;
-  std::vector<std::size_t> steps;  // where each begins in `saved`
-  Replacement edit;                // working memory
-};
 
 std::unique_ptr<Envelope> Envelope::of(const TetMesh& mesh, const EnvelopeOptions& options) {
   if (!(options.angle > 0 && options.angle < 180)) {
     throw Error(fmt::format("feature angle {}: it lies between 0 and 180 degrees", options.angle));
   }
-  if (!options.is_flat()) throw Error("only tolerance 0");
+  for (const double x : {options.share, options.length}) {
+    if (!(x >= 0) || std::isinf(x)) throw Error(fmt::format("surface tolerance {}", x));
+  }
+  if (options.share > 0 && options.length > 0) {
+    throw Error("surface tolerance: a share of edges or a length, not both");
+  }
   const SurfaceFeatures features =
       find_features(mesh, {options.angle, options.is_flat(), options.kept});
-  auto reference = std::make_shared<Reference>();
-  reference->tolerance = flatness(mesh);
-  reference->patches = features.patches;
-  reference->lines = features.lines;
-  return std::unique_ptr<Envelope>(
-      new Envelope(std::move(reference), PresentSurface(mesh, features)));
+  if (options.length > 0 && options.length < 10 * flatness(mesh)) {
+    throw Error(
+        fmt::format("surface tolerance {}: rounding alone may be as large", options.length));
+  }
+  auto reference = std::make_shared<Reference>(mesh, features, options);
+  PresentSurface present(mesh, features);
+  std::unique_ptr<Envelope> result(new Envelope(std::move(reference), std::move(present)));
+  if (!options.is_flat()) result->certify_input(features);
+  return result;
+}
+
+/// At first each element is certified by itself.
+void Envelope::certify_input(const SurfaceFeatures& features) {
+  covers_.reserve(features.faces.size() + features.edges.size());
+  const auto add = [&](const PresentKey& key) {
+    const auto element = static_cast<std::uint32_t>(covers_.size());
+    covers_.push_back({key});
+    present_.find(key[0])->served.push_back({key, element});
+  };
+  for (const auto& face : features.faces) add(key_of(face.vertices));
+  for (const auto& edge : features.edges) add(key_of(edge.vertices[0], edge.vertices[1]));
 }
 
 std::unique_ptr<SurfaceGuard> Envelope::clone() const {
@@ -79,13 +76,26 @@ void Envelope::resize(std::size_t vertex_slots) {
 
 void Envelope::renumber(std::span<const VertexHandle> new_vertex, std::size_t vertex_slots) {
   present_.renumber(new_vertex, vertex_slots);
+  const auto number = [&](VertexHandle v) { return new_vertex[v.index()]; };
+  for (auto& certifiers : covers_) {
+    for (PresentKey& k : certifiers) {
+      k = k[2].is_valid() ? key_of({number(k[0]), number(k[1]), number(k[2])})
+                          : key_of(number(k[0]), number(k[1]));
+    }
+  }
 }
 
 Point Envelope::nearest(VertexHandle v, const Point& to) const {
   const SurfaceVertex* vertex = present_.find(v);
   if (vertex == nullptr || vertex->place == SurfacePlace::inside) return to;
   if (vertex->place == SurfacePlace::corner) return present_.point(v);
-  if (vertex->place == SurfacePlace::ridge) {
+  const bool ridge = vertex->place == SurfacePlace::ridge;
+  if (!reference_->is_flat()) {
+    const std::uint32_t sheet =
+        ridge ? reference_->sheet_of_line(vertex->spokes[0].line) : vertex->corners[0].patch;
+    return reference_->tree.nearest(reference_->elements, sheet, to).point;
+  }
+  if (ridge) {
     const auto& line = reference_->lines[vertex->spokes[0].line];
     return line.origin + (to - line.origin).dot(line.direction) * line.direction;
   }
@@ -100,9 +110,18 @@ Point Envelope::nearest(VertexHandle v, const Point& to) const {
 Point Envelope::direction(VertexHandle v, const Point&) const {
   const SurfaceVertex* vertex = present_.find(v);
   if (vertex == nullptr) return Point::Zero();
-  return vertex->place == SurfacePlace::ridge && !vertex->spokes.empty()
-             ? reference_->lines[vertex->spokes[0].line].direction
-             : reference_->patches[vertex->corners[0].patch].normal;
+  if (vertex->place == SurfacePlace::ridge) {
+    if (reference_->is_flat()) return reference_->lines[vertex->spokes[0].line].direction;
+    return (present_.point(vertex->spokes[1].end) - present_.point(vertex->spokes[0].end))
+        .normalized();
+  }
+  if (reference_->is_flat()) return reference_->patches[vertex->corners[0].patch].normal;
+  Point sum = Point::Zero();
+  for (const auto& corner : vertex->corners) {
+    sum += (present_.point(corner.next) - present_.point(v))
+               .cross(present_.point(corner.previous) - present_.point(v));
+  }
+  return sum.normalized();
 }
 
 // --- tolerance 0 ---------------------------------------------------------------------------------
@@ -112,8 +131,7 @@ bool Envelope::is_flat_edit(const Journal& journal) const {
     const auto& patch = reference_->patches[face.patch];
     if (patch.normal.isZero() || certified_sense(face.points, patch.normal) <= 0) return false;
     for (const Point& p : face.points) {
-      if (!(std::abs(patch.normal.dot(p - patch.origin)) <= 2 * reference_->tolerance))
-        return false;
+      if (!(std::abs(patch.normal.dot(p - patch.origin)) <= 2 * reference_->flatness)) return false;
     }
   }
   return keeps_lines_straight(journal);
@@ -126,7 +144,7 @@ bool Envelope::keeps_lines_straight(const Journal& journal) const {
   };
   const auto lies_on = [&](const SurfaceFeatures::Line& line, const Point& p) {
     const Point along = line.origin + place_on(line, p) * line.direction;
-    return (p - along).norm() <= 2 * reference_->tolerance;
+    return (p - along).norm() <= 2 * reference_->flatness;
   };
   const auto sense = [](double difference) { return (difference > 0) - (difference < 0); };
   // Which way each edge leads must not change, and a new vertex lies between its neighbours.
@@ -158,7 +176,9 @@ bool Envelope::keeps_lines_straight(const Journal& journal) const {
 bool Envelope::replace(std::span<const SurfaceFace> before, std::span<const SurfaceFace> after,
                        SurfaceJournal& journal) {
   auto& own = static_cast<Journal&>(journal);
-  if (!own.edit.read(present_, before, after) || !is_flat_edit(own)) return false;
+  own.clear_proof();
+  if (!own.edit.read(present_, before, after)) return false;
+  if (!(reference_->is_flat() ? is_flat_edit(own) : is_near_edit(own))) return false;
   commit(own);
   return true;
 }
@@ -177,41 +197,25 @@ bool is_before(const Replacement& edit, VertexHandle v, const SurfaceVertex::Cor
   });
 }
 
-/// The vertex after the edit; null if it leaves the surface.
-std::unique_ptr<SurfaceVertex> make_vertex(const Replacement& edit,
-                                           const Replacement::Vertex& vertex,
-                                           const SurfaceVertex* old) {
-  const VertexHandle v = vertex.vertex;
-  if (vertex.after == 0 && old != nullptr && old->corners.size() == vertex.before) return nullptr;
-  auto result = std::make_unique<SurfaceVertex>();
-  result->place = vertex.place;
-  if (old != nullptr) {
-    for (const auto& corner : old->corners) {
-      if (!is_before(edit, v, corner)) result->corners.push_back(corner);
-    }
-    for (const auto& spoke : old->spokes) {
-      const auto is_lost = [&](const Replacement::Edge& edge) {
-        return key_of(edge.vertices[0], edge.vertices[1]) == key_of(v, spoke.end);
-      };
-      if (std::none_of(edit.lost().begin(), edit.lost().end(), is_lost)) {
-        result->spokes.push_back(spoke);
-      }
-    }
-    result->served = old->served;
-  }
+/// Faces and feature edges of the vertex after the edit.
+void exchange_faces(const Replacement& edit, VertexHandle v, SurfaceVertex& data) {
+  std::erase_if(data.corners, [&](const auto& corner) { return is_before(edit, v, corner); });
+  std::erase_if(data.spokes, [&](const auto& spoke) {
+    return std::any_of(edit.lost().begin(), edit.lost().end(), [&](const auto& edge) {
+      return key_of(edge.vertices[0], edge.vertices[1]) == key_of(v, spoke.end);
+    });
+  });
   for (const auto& face : edit.after()) {
     for (unsigned k = 0; k < 3; ++k) {
       if (face.vertices[k] != v) continue;
-      result->corners.push_back(
-          {face.vertices[(k + 1) % 3], face.vertices[(k + 2) % 3], face.patch});
+      data.corners.push_back({face.vertices[(k + 1) % 3], face.vertices[(k + 2) % 3], face.patch});
     }
   }
   for (const auto& edge : edit.gained()) {
     for (unsigned k = 0; k < 2; ++k) {
-      if (edge.vertices[k] == v) result->spokes.push_back({edge.vertices[1 - k], edge.line});
+      if (edge.vertices[k] == v) data.spokes.push_back({edge.vertices[1 - k], edge.line});
     }
   }
-  return result;
 }
 
 }  // namespace
@@ -220,34 +224,57 @@ void Envelope::commit(Journal& journal) {
   const auto vertices = journal.edit.vertices();
   const std::size_t most = vertices.back().vertex.index();
   if (most >= present_.slots()) present_.resize(most + 1);
-  const std::size_t first = journal.saved.size();
+  const JournalStep step{journal.saved.size(), journal.saved_covers.size()};
   journal.steps.reserve(journal.steps.size() + 1);
   try {
+    const auto copy = [&](VertexHandle v) {
+      const SurfaceVertex* old = present_.find(v);
+      return old == nullptr ? std::make_unique<SurfaceVertex>()
+                            : std::make_unique<SurfaceVertex>(*old);
+    };
     for (const Replacement::Vertex& vertex : vertices) {
-      journal.saved.push_back({vertex.vertex,
-                               make_vertex(journal.edit, vertex, present_.find(vertex.vertex)),
-                               vertex.point});
+      journal.saved.push_back({vertex.vertex, copy(vertex.vertex), vertex.point});
+      SurfaceVertex& data = *journal.saved.back().data;
+      data.place = vertex.place;
+      exchange_faces(journal.edit, vertex.vertex, data);
+      journal.exchange_served(vertex.vertex, data);
+      if (data.corners.empty()) journal.saved.back().data.reset();
+    }
+    for (const VertexHandle v : journal.others) {
+      journal.saved.push_back({v, copy(v), present_.point(v)});
+      journal.exchange_served(v, *journal.saved.back().data);
+    }
+    for (auto& proof : journal.proofs) {
+      journal.saved_covers.push_back({proof.element, std::move(proof.certifiers)});
     }
   } catch (...) {
-    journal.saved.resize(first);
+    journal.saved.erase(journal.saved.begin() + static_cast<std::ptrdiff_t>(step.saved),
+                        journal.saved.end());
+    journal.saved_covers.resize(step.covers);
     throw;
   }
-  journal.steps.push_back(first);  // from here on nothing can fail
-  for (std::size_t i = first; i < journal.saved.size(); ++i) {
+  journal.steps.push_back(step);  // from here on nothing can fail
+  exchange(journal, step);
+}
+
+/// Puts what the journal has since the step in place, and what was there into the journal.
+void Envelope::exchange(Journal& journal, const JournalStep& step) noexcept {
+  for (std::size_t i = step.saved; i < journal.saved.size(); ++i) {
     Journal::Saved& saved = journal.saved[i];
     present_.exchange(saved.vertex, saved.data, saved.point);
+  }
+  for (std::size_t i = step.covers; i < journal.saved_covers.size(); ++i) {
+    covers_[journal.saved_covers[i].element].swap(journal.saved_covers[i].certifiers);
   }
 }
 
 void Envelope::undo(SurfaceJournal& journal) noexcept {
   auto& own = static_cast<Journal&>(journal);
-  const std::size_t first = own.steps.back();
+  const JournalStep step = own.steps.back();
   own.steps.pop_back();
-  for (std::size_t i = own.saved.size(); i-- > first;) {
-    Journal::Saved& saved = own.saved[i];
-    present_.exchange(saved.vertex, saved.data, saved.point);
-  }
-  own.saved.erase(own.saved.begin() + static_cast<std::ptrdiff_t>(first), own.saved.end());
+  exchange(own, step);
+  own.saved.erase(own.saved.begin() + static_cast<std::ptrdiff_t>(step.saved), own.saved.end());
+  own.saved_covers.resize(step.covers);
 }
 
 }  // namespace tetmend

@@ -3,20 +3,26 @@
 // not move farther.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <tetmend/api.h>
 
 #include "envelope/features.h"
 #include "envelope/present_surface.h"
+#include "envelope/reference.h"
+#include "envelope/replacement.h"
 #include "kernel/surface_guard.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
-/// How far the surface may move. Both 0: not at all, see Envelope.
+/// How far the surface may move, eps. Both 0: not at all, see Envelope.
 struct TETMEND_API EnvelopeOptions {
   double share = 0;   ///< of the mean edge length of each triangle of the input
   double length = 0;  ///< the same everywhere, in lengths of the mesh (TetMesh::scale()); not both
@@ -32,6 +38,14 @@ struct TETMEND_API EnvelopeOptions {
 /// go inside flat patches and along straight lines only. The faces that an edit makes lie in the
 /// plane of their patch, all turned the same way as certified signs say, and have the border that
 /// the old ones had. So they cover the same part of the plane, each point once.
+///
+/// Other tolerances, eps: each present face lies within eps of its patch of the reference, and each
+/// triangle of the reference within eps of present faces of its patch, wholly. Likewise each edge of
+/// a line. Corners do not move at all. CoverTest proves the first of each face that comes. For the
+/// second, each triangle and segment of the reference, an *element*, keeps a list of present faces
+/// or edges that certify it together. An edit that takes one of them away asks for a new proof.
+/// Only what is turned by 30 degrees or less against each other certifies, so nothing folds over,
+/// and an edit may not add more than a share to the bends of what it changes.
 class TETMEND_API Envelope final : public SurfaceGuard {
  public:
   /// Of the mesh as it is. @throws Error for an angle, a share or a length that is none.
@@ -52,28 +66,47 @@ class TETMEND_API Envelope final : public SurfaceGuard {
   std::uint32_t line(VertexHandle a, VertexHandle b) const override;
   Point nearest(VertexHandle v, const Point& to) const override;
   Point direction(VertexHandle v, const Point& at) const override;
-  /// Cost: for tolerance 0 linear in the number of faces, apart from sorting.
+  /// Cost: for tolerance 0 linear in the number of faces, apart from sorting. Else some
+  /// microseconds for each face and each element that they certify.
   bool replace(std::span<const SurfaceFace> before, std::span<const SurfaceFace> after,
                SurfaceJournal& journal) override;
   void undo(SurfaceJournal& journal) noexcept override;
   void resize(std::size_t vertex_slots) override;
   void renumber(std::span<const VertexHandle> new_vertex, std::size_t vertex_slots) override;
 
+  const Reference& reference() const { return *reference_; }
+
   /// The same present surface and the same proof, in the same order.
-  friend bool operator==(const Envelope& a, const Envelope& b) { return a.present_ == b.present_; }
+  friend bool operator==(const Envelope& a, const Envelope& b) {
+    return a.present_ == b.present_ && a.covers_ == b.covers_;
+  }
 
  private:
-  struct Reference;
   class Journal;
+
+  struct JournalStep {  ///< where it begins in the lists of the journal
+    std::size_t saved, covers;
+  };
 
   Envelope(std::shared_ptr<const Reference> reference, PresentSurface present)
       : reference_(std::move(reference)), present_(std::move(present)) {}
+  void certify_input(const SurfaceFeatures& features);
   bool is_flat_edit(const Journal& journal) const;
   bool keeps_lines_straight(const Journal& journal) const;
+  bool is_near_edit(Journal& journal) const;
+  bool lies_near(Journal& journal, const std::array<Point, 3>& points, unsigned corners,
+                 std::uint32_t sheet) const;
+  bool certify_elements(Journal& journal) const;
+  bool certify(Journal& journal, std::uint32_t element) const;
+  bool bends_too_much(const Journal& journal) const;
+  double bending(const Replacement& edit, std::span<const Replacement::Face> faces) const;
   void commit(Journal& journal);
+  void exchange(Journal& journal, const JournalStep& step) noexcept;
 
   std::shared_ptr<const Reference> reference_;
   PresentSurface present_;
+  /// Of each element what certifies it. Empty if all is flat.
+  std::vector<std::vector<PresentKey>> covers_;
 };
 
 }  // namespace tetmend

@@ -48,6 +48,9 @@ class Replacement {
   std::span<const Edge> gained() const { return gained_; }
   std::span<const Edge> moved() const { return moved_; }
 
+  /// Of an edge of `after`: a feature edge, afterwards.
+  bool is_feature(const PresentSurface& surface, VertexHandle a, VertexHandle b) const;
+
  private:
   struct Side {  // of a face
     VertexHandle low, high;
@@ -67,7 +70,6 @@ class Replacement {
   bool find_lines(const PresentSurface& surface);
   bool follow(const PresentSurface& surface, std::size_t first, std::vector<char>& done);
   bool replace_path(VertexHandle from, VertexHandle to, std::uint32_t line);
-  bool is_feature(const PresentSurface& surface, VertexHandle a, VertexHandle b) const;
   bool assign_patches(const PresentSurface& surface);
   bool assign_from_border();
   bool check_edges(const PresentSurface& surface) const;
