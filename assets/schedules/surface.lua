@@ -4,7 +4,7 @@ description "What follows another schedule where the surface may move (--surface
 local max_rounds = parameter{"max_rounds", default = 12, low = 0, high = 10000,
                              help = "rounds"}
 local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
-                             help = "such rounds in sequence without progress that end them"}
+                             help = "rounds in sequence without progress that end them"}
 
 local worst = {below = 1, worst = 200}
 
