@@ -318,6 +318,9 @@ void check(const Options& options, const Division& division) {
   if (!options.trace.empty()) {
     throw OptionError("trace", "trace: a run in pieces cannot be recorded");
   }
+  if (!options.surface.empty() && options.surface != "fixed") {
+    throw OptionError("surface", "surface: it must stay fixed in a run in pieces");
+  }
   if (options.check_operators) {
     throw OptionError("check_operators", "check_operators: not for a run in pieces");
   }
