@@ -231,7 +231,9 @@ void Improvement::measure_before() {
     result_.rulers_before = measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);
   }
-  surface_before_ = surface_fingerprint(mesh_);
+  surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh_);
+  if (!plan_.surface.is_fixed())
+    result_.surface_change = face::SurfaceTolerance::measure_before(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
   note(face::advice_before(mesh_, result_));
   if (const auto most = plan_.growth.most(result_.before.tets);
@@ -297,6 +299,9 @@ void Improvement::measure_after() {
   }
   if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
   result_.surface_fingerprint = surface_fingerprint(mesh_);
+  if (result_.surface_change) {
+    face::SurfaceTolerance::measure_after(mesh_, *result_.surface_change);
+  }
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
   std::vector<std::pair<TetHandle, Hindrance>> hindrances;
