@@ -65,6 +65,10 @@ class TETMEND_API Envelope final : public SurfaceGuard {
 
   std::unique_ptr<SurfaceGuard> clone() const override;
   std::unique_ptr<SurfaceJournal> make_journal() const override;
+  bool equals(const SurfaceGuard& other) const override {
+    const auto* const envelope = dynamic_cast<const Envelope*>(&other);
+    return envelope != nullptr && *this == *envelope;
+  }
   SurfacePlace place(VertexHandle v) const override;
   std::uint32_t patch(const std::array<VertexHandle, 3>& face) const override;
   std::uint32_t line(VertexHandle a, VertexHandle b) const override;

@@ -47,7 +47,7 @@ std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
   EnvelopeOptions options;
   options.share = share_;
   options.length = mesh.scale().to_work(length_);
-  options.feature_angle = feature_angle_;
+  options.angle = feature_angle_;
   std::vector<char> paired(input.points.size(), 0);
   for (const PeriodicLink& link : input.periodic) {
     for (const auto& [image, original] : link.points) paired[image] = paired[original] = 1;

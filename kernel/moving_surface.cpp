@@ -130,7 +130,8 @@ bool TetMesh::renew_triangles() {
     const HalfFace other = twin(f);
     std::uint32_t number = kNone;
     if (other.is_outside()) {
-      if (in_order(vertices(f)) == keys[other.surface_triangle()]) number = other.surface_triangle();
+      if (in_order(vertices(f)) == keys[other.surface_triangle()])
+        number = other.surface_triangle();
     } else if (is_constrained(f) && label(f.tet()) <= label(other.tet())) {
       number = find_inside(in_order(vertices(f)));
     } else {

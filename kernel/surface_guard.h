@@ -56,6 +56,8 @@ class TETMEND_API SurfaceGuard {
   /// A guard of its own for a copy of the mesh.
   virtual std::unique_ptr<SurfaceGuard> clone() const = 0;
   virtual std::unique_ptr<SurfaceJournal> make_journal() const = 0;
+  /// The same kind of guard with the same surface and the same proof.
+  virtual bool equals(const SurfaceGuard& other) const = 0;
 
   virtual SurfacePlace place(VertexHandle v) const = 0;
   /// Number of the patch of a present face, whatever the order of its vertices; kNone if it is no
@@ -106,6 +108,9 @@ class TETMEND_API SurfaceGuardHolder {
   ~SurfaceGuardHolder() = default;
 
   SurfaceGuard* get() const { return guard_.get(); }
+  friend bool operator==(const SurfaceGuardHolder& a, const SurfaceGuardHolder& b) {
+    return a.guard_ && b.guard_ ? a.guard_->equals(*b.guard_) : a.guard_ == b.guard_;
+  }
 
  private:
   std::unique_ptr<SurfaceGuard> guard_;

@@ -276,7 +276,7 @@ bool operator==(const TetMesh& a, const TetMesh& b) {
          a.tet_flags_ == b.tet_flags_ && a.scale_ == b.scale_ && a.points_ == b.points_ &&
          a.vertex_tet_ == b.vertex_tet_ && a.vertex_flags_ == b.vertex_flags_ &&
          a.vertex_dates_ == b.vertex_dates_ && a.tet_count_ == b.tet_count_ &&
-         a.vertex_count_ == b.vertex_count_;
+         a.vertex_count_ == b.vertex_count_ && a.guard_ == b.guard_;
 }
 
 }  // namespace tetmend

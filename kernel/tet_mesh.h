@@ -260,8 +260,8 @@ class TETMEND_API TetMesh {
            sizeof(std::uint32_t);
   }
 
-  /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates. Properties are
-  /// not compared.
+  /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates, and guards that
+  /// know the same. Properties are not compared.
   friend bool operator==(const TetMesh& a, const TetMesh& b);
 
  private:

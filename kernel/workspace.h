@@ -171,7 +171,16 @@ class TETMEND_API Workspace {
   std::vector<Point> moved_points_;
 
   // Of a surface that may change.
-  std::unique_ptr<SurfaceJournal> surface_journal_;  // made when it is first needed
+  /// Made when it is first needed; a copy of the workspace makes its own.
+  struct OwnJournal : std::unique_ptr<SurfaceJournal> {
+    OwnJournal() = default;
+    OwnJournal(const OwnJournal&) {}
+    OwnJournal(OwnJournal&&) noexcept = default;
+    OwnJournal& operator=(const OwnJournal&) { return *this; }
+    OwnJournal& operator=(OwnJournal&&) noexcept = default;
+    using std::unique_ptr<SurfaceJournal>::operator=;
+  };
+  OwnJournal surface_journal_;
   std::vector<SurfaceFace> faces_before_, faces_after_;
   std::vector<std::uint8_t> is_interface_;  // of each face after
   std::vector<std::uint32_t> outer_faces_;  // of the new tets, by number
