@@ -56,7 +56,7 @@ bool Envelope::is_near_edit(Journal& journal) const {
 
 /// Of a face or feature edge to come: it lies within the tolerance of its sheet of the reference.
 bool Envelope::lies_near(Journal& journal, const std::array<Point, 3>& points, unsigned corners,
-                         std::uint32_t sheet) const {
+                         std::uint32_t sheet, bool nearest) const {
   const Point normal = normal_of(points, corners, 0);
   if (normal.isZero()) return false;
   journal.elements.clear();
@@ -68,7 +68,7 @@ bool Envelope::lies_near(Journal& journal, const std::array<Point, 3>& points, u
     if (!may_certify(element.normal, normal, corners)) continue;
     journal.targets.push_back({element.points, element.corners, element.tolerance, element.normal});
   }
-  return journal.cover.covers(points, corners, journal.targets);
+  return journal.cover.covers(points, corners, journal.targets, nearest);
 }
 
 /// Fills the proofs.
@@ -210,6 +210,66 @@ double Envelope::bending(const Replacement& edit, std::span<const Replacement::F
     }
   }
   return sum;
+}
+
+/// What its certifiers prove of one element.
+double Envelope::bound_of(Journal& journal, std::uint32_t number) const {
+  const Element& element = reference_->elements[number];
+  journal.targets.clear();
+  for (PresentKey v : covers_[number]) {
+    if (element.corners == 2) {
+      v[2] = v[1];
+    } else if (present_.patch_of_oriented(v) == kNone) {
+      std::swap(v[1], v[2]);
+    }
+    const std::array<Point, 3> points = {present_.point(v[0]), present_.point(v[1]),
+                                         present_.point(v[2])};
+    journal.targets.push_back(
+        {points, element.corners, element.tolerance, normal_of(points, element.corners, 0)});
+  }
+  const bool proven = journal.cover.covers(element.points, element.corners, journal.targets, true);
+  return proven ? journal.cover.bound() : element.tolerance;  // other pieces, too many of them
+}
+
+SurfaceBound Envelope::proven_bound() const {
+  Journal journal;
+  SurfaceBound bound;
+  const auto note = [&](double distance, double tolerance) {
+    bound.distance = std::max(bound.distance, distance);
+    if (distance > 0) bound.share = std::max(bound.share, distance / tolerance);
+  };
+  for (std::uint32_t i = 0; i < present_.slots(); ++i) {
+    const VertexHandle v(i);
+    if (present_.find(v) == nullptr) continue;
+    for (const auto& corner : present_.find(v)->corners) {
+      if (corner.next < v || corner.previous < v) continue;
+      ++bound.faces;
+      const std::array<Point, 3> points = {present_.point(v), present_.point(corner.next),
+                                           present_.point(corner.previous)};
+      if (reference_->has_triangle(points)) continue;
+      ++bound.touched;
+      if (reference_->is_flat()) {
+        bound.distance = 3 * reference_->flatness;
+        continue;
+      }
+      const double tolerance = reference_->tolerance(corner.patch);
+      const bool proven = lies_near(journal, points, 3, corner.patch, true);
+      note(proven ? journal.cover.bound() : tolerance, tolerance);
+    }
+    if (reference_->is_flat()) continue;
+    for (const auto& spoke : present_.find(v)->spokes) {
+      if (spoke.end < v) continue;
+      const std::uint32_t sheet = reference_->sheet_of_line(spoke.line);
+      const auto points = segment(present_.point(v), present_.point(spoke.end));
+      const double tolerance = reference_->tolerance(sheet);
+      note(lies_near(journal, points, 2, sheet, true) ? journal.cover.bound() : tolerance,
+           tolerance);
+    }
+  }
+  for (std::uint32_t e = 0; e < covers_.size(); ++e) {
+    note(bound_of(journal, e), reference_->elements[e].tolerance);
+  }
+  return bound;
 }
 
 }  // namespace tetmend

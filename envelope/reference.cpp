@@ -13,6 +13,25 @@ namespace tetmend {
 
 namespace {
 
+std::array<double, 3> coordinates(const Point& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+bool comes_first(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
+  for (unsigned k = 0; k < 3; ++k) {
+    if (a[k] != b[k]) return coordinates(a[k]) < coordinates(b[k]);
+  }
+  return false;
+}
+
+std::array<Point, 3> rotated(std::array<Point, 3> points) {
+  const auto least = std::min_element(
+      points.begin(), points.end(),
+      [](const Point& p, const Point& q) { return coordinates(p) < coordinates(q); });
+  std::rotate(points.begin(), least, points.end());
+  return points;
+}
+
 double mean_edge(const Element& element) {
   const auto& p = element.points;
   return ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
@@ -59,9 +78,18 @@ Point shortest_way(const Element& a, const Element& b) {
 
 }  // namespace
 
+bool Reference::has_triangle(const std::array<Point, 3>& points) const {
+  return std::binary_search(triangles.begin(), triangles.end(), rotated(points), comes_first);
+}
+
 Reference::Reference(const TetMesh& mesh, const SurfaceFeatures& features,
                      const EnvelopeOptions& options)
     : patches(features.patches), lines(features.lines), flatness(tetmend::flatness(mesh)) {
+  for (const auto& face : features.faces) {
+    const auto& v = face.vertices;
+    triangles.push_back(rotated({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])}));
+  }
+  std::sort(triangles.begin(), triangles.end(), comes_first);
   if (options.is_flat()) return;
   add_faces(mesh, features, options);
   hold_close_parts(features);

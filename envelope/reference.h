@@ -2,6 +2,8 @@
 // The surface that the present one is held to: what an envelope knows and never changes.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +25,8 @@ class Reference {
   Reference(const TetMesh& mesh, const SurfaceFeatures& features, const EnvelopeOptions& options);
 
   bool is_flat() const { return elements.empty(); }
+  /// One of its triangles lies there, in this sense.
+  bool has_triangle(const std::array<Point, 3>& points) const;
   std::uint32_t sheet_of_line(std::uint32_t line) const {
     return static_cast<std::uint32_t>(patches.size()) + line;
   }
@@ -32,6 +36,8 @@ class Reference {
   std::vector<SurfaceFeatures::Patch> patches;
   std::vector<SurfaceFeatures::Line> lines;
   double flatness = 0;  ///< see flatness()
+  /// Its triangles, each beginning with its least point, in lexicographic order.
+  std::vector<std::array<Point, 3>> triangles;
   std::vector<Element> elements;
   std::size_t faces = 0;  ///< so many of the elements are triangles
   std::vector<double> tolerances;
