@@ -137,9 +137,9 @@ void SurfaceTolerance::measure_after(const TetMesh& mesh, SurfaceChange& change)
   }
   const auto& envelope = dynamic_cast<const Envelope&>(*mesh.surface_guard());
   const auto& tolerances = envelope.reference().tolerances;
-  if (!tolerances.empty()) {
-    change.tolerance = length * *std::max_element(tolerances.begin(), tolerances.end());
-  }
+  if (tolerances.empty()) return;
+  change.tolerance = length * *std::max_element(tolerances.begin(), tolerances.end());
+  change.proven = length * envelope.proven_bound().distance;
 }
 
 }  // namespace tetmend::face
