@@ -91,14 +91,17 @@ Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
 
 }  // namespace
 
+TetMesh cube_with_free_sides(unsigned cells, std::uint64_t seed) {
+  return with_free_surface(slid(kuhn_cube(cells, 0, seed), {0, 1}, 0.3 / cells, seed), 0);
+}
+
 std::vector<Ground> grounds() {
   std::vector<Ground> all;
   for (const NamedMesh& named : zoo()) all.push_back({named.name, TetMesh(named.data)});
   all.push_back({"constrained_ball", TetMesh(constrained_ball(11))});
   all.push_back({"half_frozen_ball", half_frozen(delaunay_ball(150, 13))});
   all.push_back({"ball_with_free_slots", with_free_slots(delaunay_ball(100, 12))});
-  all.push_back(
-      {"cube_with_free_sides", with_free_surface(slid(kuhn_cube(3, 0, 14), {0, 1}, 0.1, 14), 0)});
+  all.push_back({"cube_with_free_sides", cube_with_free_sides(3, 14)});
   all.push_back(
       {"regions_with_free_wall", with_free_surface(slid(two_regions(), {0, 0.5, 1}, 0.12, 15), 0)});
   all.push_back({"ball_with_free_surface", with_free_surface(delaunay_ball(120, 16), 0.05)});
