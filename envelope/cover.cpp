@@ -75,12 +75,13 @@ bool CoverTest::divide(const Piece& piece, std::span<const CoverTarget> targets)
     best = &target;
   }
   if (best == nullptr) return false;  // the middle is too far from all
-  if (!cut(piece, *best)) halve(piece);
+  // Beyond the sides, where a gap or a bend keeps two targets apart.
+  if (!cut(piece, *best, 0) && !cut(piece, *best, 0.7 * best->tolerance)) halve(piece);
   return true;
 }
 
-/// Cuts off what lies beyond each side of the target. False: nothing.
-bool CoverTest::cut(const Piece& piece, const CoverTarget& target) {
+/// Cuts off what lies so far beyond a side of the target. False: nothing.
+bool CoverTest::cut(const Piece& piece, const CoverTarget& target, double beyond) {
   Piece inside = piece;
   bool any = false;
   const double slack = 1e-3 * target.tolerance;
@@ -94,7 +95,7 @@ bool CoverTest::cut(const Piece& piece, const CoverTarget& target) {
     double lowest = 0;
     double highest = 0;
     for (unsigned i = 0; i < inside.corners; ++i) {
-      side[i] = outward.dot(inside.points[i] - from) / length;
+      side[i] = outward.dot(inside.points[i] - from) / length - beyond;
       lowest = std::min(lowest, side[i]);
       highest = std::max(highest, side[i]);
     }

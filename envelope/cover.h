@@ -24,7 +24,7 @@ struct CoverTarget {
 /// Proves nearness without samples. The distance to a convex set is a convex function. So where all
 /// corners of a convex piece lie within the tolerance of one and the same triangle, the whole piece
 /// does. A piece for which none is found is cut along the sides of the triangle nearest to its
-/// middle, or halved where that cuts nothing. A working memory.
+/// middle, or a little beyond them, or halved where that cuts nothing. A working memory.
 class CoverTest {
  public:
   static constexpr unsigned kMostPieces = 128;
@@ -59,7 +59,7 @@ class CoverTest {
 
   bool certify(const Piece& piece, std::span<CoverTarget> targets, bool nearest);
   bool divide(const Piece& piece, std::span<const CoverTarget> targets);
-  bool cut(const Piece& piece, const CoverTarget& target);
+  bool cut(const Piece& piece, const CoverTarget& target, double beyond);
   void halve(const Piece& piece);
 
   std::vector<Piece> stack_;

@@ -85,6 +85,10 @@ class TETMEND_API Envelope final : public SurfaceGuard {
   /// Proves anew how near both surfaces are. Precondition: no edit is under way. Cost: some
   /// microseconds for each face that was touched; not for several threads at once.
   SurfaceBound proven_bound() const;
+  /// Largest distance of a point of either surface from the other, at (side + 1) (side + 2) / 2
+  /// points of each triangle that was touched or is gone: for reports, a lower bound. Cost: a
+  /// nearest triangle for each point, in parallel.
+  double sampled_distance(unsigned side) const;
   const Reference& reference() const { return *reference_; }
 
   /// The same present surface and the same proof, in the same order.

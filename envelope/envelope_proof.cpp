@@ -246,7 +246,7 @@ SurfaceBound Envelope::proven_bound() const {
       ++bound.faces;
       const std::array<Point, 3> points = {present_.point(v), present_.point(corner.next),
                                            present_.point(corner.previous)};
-      if (reference_->has_triangle(points)) continue;
+      if (reference_->triangles.contains(points)) continue;
       ++bound.touched;
       if (reference_->is_flat()) {
         bound.distance = 3 * reference_->flatness;

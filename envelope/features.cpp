@@ -101,6 +101,7 @@ class FeatureFinder {
   void add_patch(std::uint32_t face, const Plane& plane);
   void collect_edges();
   void find_corners();
+  std::vector<std::uint32_t> count_fans() const;
   void mark_pinched();
   bool bends(std::uint32_t e, std::uint32_t f, VertexHandle v) const;
   bool same_sides(const FeatureEdge& a, const FeatureEdge& b, VertexHandle middle) const;
@@ -374,55 +375,43 @@ void FeatureFinder::find_corners() {
   mark_pinched();
 }
 
-/// Where sheets touch at a vertex, their faces around it fall into parts that no edge joins, one
-/// more than the feature edges explain.
-void FeatureFinder::mark_pinched() {
-  std::vector<std::uint32_t> faces(mesh_.vertex_slots(), 0);   // at each vertex
-  std::vector<std::uint32_t> joints(mesh_.vertex_slots(), 0);  // pairs of them at smooth edges
-  std::vector<std::uint32_t> sides(mesh_.vertex_slots(), 0);   // of them at feature edges
-  for (const auto& face : found_.faces) {
-    for (const VertexHandle v : face.vertices) ++faces[v.index()];
-  }
+/// Of each vertex: into how many parts its faces fall that smooth edges join.
+std::vector<std::uint32_t> FeatureFinder::count_fans() const {
+  std::vector<std::uint32_t> parent(3 * found_.faces.size());  // of corners of faces
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root = [&](std::uint32_t c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  const auto corner = [&](std::uint32_t face, VertexHandle v) {
+    const auto& w = found_.faces[face].vertices;
+    return 3 * face + (w[0] == v ? 0u : w[1] == v ? 1u : 2u);
+  };
   for (std::size_t g = 0; g + 1 < group_.size(); ++g) {
-    for (const VertexHandle v : sides_[group_[g]].ends) {
-      if (smooth_[g]) {
-        ++joints[v.index()];
-      } else {
-        sides[v.index()] += group_[g + 1] - group_[g];
-      }
+    if (!smooth_[g]) continue;
+    const Side* pair = &sides_[group_[g]];
+    for (const VertexHandle v : pair->ends) {
+      parent[root(corner(pair[0].face, v))] = root(corner(pair[1].face, v));
     }
   }
-  // A fan between two feature edges has one joint less than faces, a ring of faces as many.
-  const std::vector<char> whole = [&] {
-    std::vector<char> result(mesh_.vertex_slots(), 0);
-    std::vector<std::uint32_t> parent(3 * found_.faces.size());  // corners, joined at smooth edges
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t c) {
-      while (parent[c] != c) c = parent[c] = parent[parent[c]];
-      return c;
-    };
-    const auto corner = [&](std::uint32_t face, VertexHandle v) {
-      const auto& w = found_.faces[face].vertices;
-      return 3 * face + (w[0] == v ? 0u : w[1] == v ? 1u : 2u);
-    };
-    for (std::size_t g = 0; g + 1 < group_.size(); ++g) {
-      if (!smooth_[g]) continue;
-      const Side* pair = &sides_[group_[g]];
-      for (const VertexHandle v : pair->ends) {
-        parent[root(corner(pair[0].face, v))] = root(corner(pair[1].face, v));
-      }
-    }
-    std::vector<std::uint32_t> parts(mesh_.vertex_slots(), 0);
-    for (std::uint32_t c = 0; c < parent.size(); ++c) {
-      parts[found_.faces[c / 3].vertices[c % 3].index()] += root(c) == c;
-    }
-    for (std::uint32_t v = 0; v < parts.size(); ++v) {
-      result[v] = sides[v] == 0 ? parts[v] == 1 && joints[v] == faces[v] : 2 * parts[v] == sides[v];
-    }
-    return result;
-  }();
-  for (std::uint32_t v = 0; v < whole.size(); ++v) {
-    if (found_.places[v] != SurfacePlace::inside && !whole[v]) {
+  std::vector<std::uint32_t> fans(mesh_.vertex_slots(), 0);
+  for (std::uint32_t c = 0; c < parent.size(); ++c) {
+    fans[found_.faces[c / 3].vertices[c % 3].index()] += root(c) == c;
+  }
+  return fans;
+}
+
+/// Sheets that touch at a vertex give it more fans than its feature edges explain: one without
+/// them, else one for each two sides of feature edges.
+void FeatureFinder::mark_pinched() {
+  std::vector<std::uint32_t> sides(mesh_.vertex_slots(), 0);
+  for (const FeatureEdge& edge : edges_) {
+    for (const VertexHandle v : edge.ends) sides[v.index()] += edge.last_side - edge.first_side;
+  }
+  const std::vector<std::uint32_t> fans = count_fans();
+  for (std::uint32_t v = 0; v < fans.size(); ++v) {
+    const std::uint32_t expected = sides[v] == 0 ? 2 : sides[v];
+    if (found_.places[v] != SurfacePlace::inside && 2 * fans[v] != expected) {
       found_.places[v] = SurfacePlace::corner;
     }
   }

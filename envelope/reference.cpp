@@ -13,25 +13,6 @@ namespace tetmend {
 
 namespace {
 
-std::array<double, 3> coordinates(const Point& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
-bool comes_first(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
-  for (unsigned k = 0; k < 3; ++k) {
-    if (a[k] != b[k]) return coordinates(a[k]) < coordinates(b[k]);
-  }
-  return false;
-}
-
-std::array<Point, 3> rotated(std::array<Point, 3> points) {
-  const auto least = std::min_element(
-      points.begin(), points.end(),
-      [](const Point& p, const Point& q) { return coordinates(p) < coordinates(q); });
-  std::rotate(points.begin(), least, points.end());
-  return points;
-}
-
 double mean_edge(const Element& element) {
   const auto& p = element.points;
   return ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
@@ -78,18 +59,30 @@ Point shortest_way(const Element& a, const Element& b) {
 
 }  // namespace
 
-bool Reference::has_triangle(const std::array<Point, 3>& points) const {
-  return std::binary_search(triangles.begin(), triangles.end(), rotated(points), comes_first);
+namespace {
+
+/// The way from a to b leads outward from a and inward to b. Not so through the mesh, or along the
+/// surface round a sharp ridge.
+bool face_each_other(const Element& a, const Element& b, const Point& way, double touching) {
+  constexpr double kSlack = 0.1;
+  const double gap = way.norm();
+  if (a.normal.dot(b.normal) > -0.02) return false;
+  return gap <= touching ||
+         (way.dot(a.normal) >= -kSlack * gap && way.dot(b.normal) <= kSlack * gap);
 }
+
+}  // namespace
 
 Reference::Reference(const TetMesh& mesh, const SurfaceFeatures& features,
                      const EnvelopeOptions& options)
     : patches(features.patches), lines(features.lines), flatness(tetmend::flatness(mesh)) {
+  std::vector<TriangleSet::Corners> corners;
+  corners.reserve(features.faces.size());
   for (const auto& face : features.faces) {
     const auto& v = face.vertices;
-    triangles.push_back(rotated({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])}));
+    corners.push_back({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])});
   }
-  std::sort(triangles.begin(), triangles.end(), comes_first);
+  triangles = TriangleSet(std::move(corners));
   if (options.is_flat()) return;
   add_faces(mesh, features, options);
   hold_close_parts(features);
@@ -166,15 +159,14 @@ void Reference::hold_close_parts(const SurfaceFeatures& features) {
       const Element& b = elements[j];
       const auto& v = features.faces[i].vertices;
       const auto& w = features.faces[j].vertices;
-      if (j <= i || patches[b.sheet].interior || a.normal.dot(b.normal) > 0) continue;
+      if (j <= i || patches[b.sheet].interior) continue;
       if (std::find_first_of(v.begin(), v.end(), w.begin(), w.end()) != v.end()) continue;
       const Point way = shortest_way(a, b);
       const double gap = way.norm();
-      if (gap > a.tolerance + b.tolerance) continue;
-      // Through the mesh the way leads first inwards.
-      if (gap > flatness && way.dot(a.normal) < 0 && way.dot(b.normal) > 0) continue;
-      least[i] = std::min(least[i], gap);
-      least[j] = std::min(least[j], gap);
+      if (gap <= a.tolerance + b.tolerance && face_each_other(a, b, way, flatness)) {
+        least[i] = std::min(least[i], gap);
+        least[j] = std::min(least[j], gap);
+      }
     }
   }
   for (std::uint32_t i = 0; i < faces; ++i) {

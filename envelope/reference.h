@@ -9,6 +9,7 @@
 
 #include "envelope/element.h"
 #include "envelope/features.h"
+#include "envelope/triangle_set.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -25,8 +26,6 @@ class Reference {
   Reference(const TetMesh& mesh, const SurfaceFeatures& features, const EnvelopeOptions& options);
 
   bool is_flat() const { return elements.empty(); }
-  /// One of its triangles lies there, in this sense.
-  bool has_triangle(const std::array<Point, 3>& points) const;
   std::uint32_t sheet_of_line(std::uint32_t line) const {
     return static_cast<std::uint32_t>(patches.size()) + line;
   }
@@ -36,8 +35,7 @@ class Reference {
   std::vector<SurfaceFeatures::Patch> patches;
   std::vector<SurfaceFeatures::Line> lines;
   double flatness = 0;  ///< see flatness()
-  /// Its triangles, each beginning with its least point, in lexicographic order.
-  std::vector<std::array<Point, 3>> triangles;
+  TriangleSet triangles;
   std::vector<Element> elements;
   std::size_t faces = 0;  ///< so many of the elements are triangles
   std::vector<double> tolerances;

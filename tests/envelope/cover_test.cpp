@@ -86,7 +86,7 @@ TEST_CASE("a hole smaller than the tolerance reaches is covered, a larger one is
     }
     return targets;
   };
-  std::vector<CoverTarget> small = with_hole(0.009);
+  std::vector<CoverTarget> small = with_hole(0.006);
   std::vector<CoverTarget> large = with_hole(0.011);
   CHECK(test.covers(kHalf, 3, small));
   CHECK_FALSE(test.covers(kHalf, 3, large));
