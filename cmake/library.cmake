@@ -1,6 +1,6 @@
 # tetmend::tetmend, what users link: all layers as one library, a shared one unless BUILD_SHARED_LIBS is off. What it is made
 # with is its own affair: users see include/tetmend and need nothing else.
-set(tetmend_layers platform kernel trace search ops contract schedule face bindings_c)
+set(tetmend_layers platform kernel trace search envelope ops contract schedule face bindings_c)
 
 if(WIN32)
   set(BUILD_SHARED_LIBS OFF)  # a DLL shows nothing that is not marked for it

@@ -114,6 +114,12 @@ constexpr Row kRows[] = {
     {{"only", "SPEC", kAdds}, [](Options& o, std::string_view text) { o.only.emplace_back(text); }},
     {{"layers", "keep|improve"},
      [](Options& o, std::string_view text) { o.layers = read_layers(text); }},
+    {{"surface", "fixed|flat|P%|LENGTH"},
+     [](Options& o, std::string_view text) { o.surface = text; }},
+    {{"feature-angle", "DEGREES"},
+     [](Options& o, std::string_view text) {
+       o.feature_angle = read_number(text, 0.1, 180.0, "an angle in degrees");
+     }},
     {{"tets", "P%|N"}, [](Options& o, std::string_view text) { o.tets = text; }},
     {{"keep-size", kSwitch},
      [](Options& o, std::string_view text) { o.keep_size = read_switch(text); }},

@@ -31,7 +31,8 @@ Plan::Plan(const Options& options)
     : registry(load_registry(options.plugin)),
       schedule(find_schedule(options)),
       trace(options, registry),
-      growth(options.tets) {
+      growth(options.tets),
+      surface(options) {
   check_threads(options.threads);
   check_regions(options);
   if (!is_sound(options.goal)) {

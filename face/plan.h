@@ -5,6 +5,7 @@
 #include <tetmend/improve.h>
 
 #include "face/growth.h"
+#include "face/moving_surface.h"
 #include "face/trace_plan.h"
 #include "kernel/quality.h"
 #include "ops/registry.h"
@@ -18,6 +19,7 @@ struct Plan {
   Schedule schedule;
   TracePlan trace;
   Growth growth;
+  SurfaceTolerance surface;
   Standard standard;
 
   /// @throws OptionError as improve()

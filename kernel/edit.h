@@ -12,8 +12,8 @@
 
 namespace tetmend {
 
-/// One change: a set of tets replaced by another with the same outer surface, or a vertex moved,
-/// added or removed. The data lie in the arrays of the journal; `*_begin` to `*_end` name the part.
+/// One change: a set of tets replaced by another with the same outer surface (or one that the guard
+/// of the surface allows), or a vertex moved, added or removed. The data lie in the arrays of the journal; `*_begin` to `*_end` name the part.
 struct TETMEND_API Edit {
   enum class Kind : std::uint8_t { replace_cavity, move_vertex, add_vertex, remove_vertex };
 
@@ -26,6 +26,9 @@ struct TETMEND_API Edit {
   std::uint32_t qualities_begin = 0, qualities_end = 0;  ///< move_vertex
   /// Slots that came from growth, not from the free list: the last ones created.
   std::uint32_t appended = 0;
+  std::uint32_t flagged_begin = 0, flagged_end = 0;  ///< replace_cavity
+  /// The surface changed with it: its guard has to be told of an undo.
+  bool surface = false;
 };
 
 /// Edits in the order in which they happened, with all that undoing them needs.
@@ -46,6 +49,10 @@ struct TETMEND_API Journal {
     TetHandle tet;
     Quality quality;  // before
   };
+  struct VertexFlags {
+    VertexHandle vertex;
+    std::uint8_t flags;  // before
+  };
   struct RemovedVertex {
     Date date;
     Date moved;
@@ -58,6 +65,7 @@ struct TETMEND_API Journal {
   std::vector<TetHandle> created;
   std::vector<VertexLink> links;
   std::vector<TetQuality> qualities;
+  std::vector<VertexFlags> flagged;
   std::vector<RemovedVertex> removed_vertices;  // one for each remove_vertex
   // Of removed tets and vertices, if the mesh has properties.
   std::vector<std::vector<std::any>> property_values;
@@ -69,6 +77,7 @@ struct TETMEND_API Journal {
     created.clear();
     links.clear();
     qualities.clear();
+    flagged.clear();
     removed_vertices.clear();
     property_values.clear();
   }

@@ -158,6 +158,7 @@ void gather(std::vector<T>& values, std::span<const std::uint32_t> order) {
 
 void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
                       std::span<const std::uint32_t> tet_order) {
+  renew_surface();
   std::vector<VertexHandle> new_vertex(points_.size());
   std::vector<TetHandle> new_tet(cells_.size());
   for (std::uint32_t i = 0; i < vertex_order.size(); ++i)
@@ -192,6 +193,7 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
   for (NamedEdge& edge : named_edges_) {
     for (VertexHandle& v : edge.vertices) v = new_vertex[v.index()];
   }
+  if (SurfaceGuard* guard = surface_guard()) guard->renumber(new_vertex, points_.size());
 }
 
 namespace {
@@ -221,6 +223,7 @@ void TetMesh::grow_vertices(std::size_t count) {
   const std::size_t size = points_.size() + count;
   make_room(size, points_, vertex_tet_, vertex_flags_, vertex_dates_, vertex_origin_);
   vertex_properties_.resize(size);
+  if (SurfaceGuard* guard = surface_guard()) guard->resize(size);
   points_.resize(size, Point::Zero());
   vertex_tet_.resize(size);
   vertex_flags_.resize(size, kVertexDeleted);
@@ -273,7 +276,7 @@ bool operator==(const TetMesh& a, const TetMesh& b) {
          a.tet_flags_ == b.tet_flags_ && a.scale_ == b.scale_ && a.points_ == b.points_ &&
          a.vertex_tet_ == b.vertex_tet_ && a.vertex_flags_ == b.vertex_flags_ &&
          a.vertex_dates_ == b.vertex_dates_ && a.tet_count_ == b.tet_count_ &&
-         a.vertex_count_ == b.vertex_count_;
+         a.vertex_count_ == b.vertex_count_ && a.guard_ == b.guard_;
 }
 
 }  // namespace tetmend

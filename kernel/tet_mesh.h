@@ -24,6 +24,7 @@
 #include "kernel/properties.h"
 #include "kernel/quality.h"
 #include "kernel/scale.h"
+#include "kernel/surface_guard.h"
 
 namespace tetmend {
 
@@ -174,6 +175,14 @@ class TETMEND_API TetMesh {
   void set_curved_edges(std::shared_ptr<const CurvedEdges> edges) {
     curved_edges_ = std::move(edges);
   }
+  /// Decides about changes of the surface; null: it is fixed.
+  SurfaceGuard* surface_guard() const { return guard_.get(); }
+  /// Precondition: the guard knows the surface as it is; no transaction is open. Null: fixes it.
+  void set_surface_guard(std::unique_ptr<SurfaceGuard> guard);
+  /// Brings surface_triangles() and the named edges up to date after the surface has changed. What
+  /// was there keeps its place; where something of a patch or line is gone, what is new there comes
+  /// first. Precondition: no transaction is open. Cost: linear; nothing without a guard.
+  void renew_surface();
   /// Quality computed from the points; what quality() caches.
   Quality evaluate(const TetVertices& tv) const {
     return static_cast<Quality>(
@@ -200,6 +209,10 @@ class TETMEND_API TetMesh {
   bool is_fixed(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFixed) != 0; }
   /// A vertex of a frozen tet.
   bool is_frozen(VertexHandle v) const { return (vertex_flags_[v.index()] & kVertexFrozen) != 0; }
+  /// Named by the file as one that must not move or vanish.
+  bool is_required(VertexHandle v) const {
+    return (vertex_flags_[v.index()] & kVertexRequired) != 0;
+  }
   /// Its number in the data that the mesh was built of; kNotFromFile for a vertex that was added.
   std::uint32_t origin(VertexHandle v) const { return vertex_origin_[v.index()]; }
   static constexpr std::uint32_t kNotFromFile = 0xFFFFFFFFu;
@@ -209,7 +222,11 @@ class TETMEND_API TetMesh {
   Date moved(VertexHandle v) const { return vertex_dates_[v.index()].moved; }
 
   // --- surface and constraints -------------------------------------------------------------------
+  /// Where a guard lets the surface change, as it was at the last renew_surface().
   std::span<const SurfaceTriangle> surface_triangles() const { return surface_; }
+  /// For each of them its number when the guard was set; kNotFromFile for what is new. Empty
+  /// without a guard.
+  std::span<const std::uint32_t> surface_origins() const { return surface_origin_; }
 
   // --- properties --------------------------------------------------------------------------------
   PropertyTable<TetHandle>& tet_properties() { return tet_properties_; }
@@ -243,8 +260,8 @@ class TETMEND_API TetMesh {
            sizeof(std::uint32_t);
   }
 
-  /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates. Properties are
-  /// not compared.
+  /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates, and guards that
+  /// know the same. Properties are not compared.
   friend bool operator==(const TetMesh& a, const TetMesh& b);
 
  private:
@@ -317,8 +334,19 @@ class TETMEND_API TetMesh {
     std::array<VertexHandle, 2> vertices;
     Label label;
   };
+  bool renew_triangles();
+  void take_triangles(const std::vector<char>& gone, const std::vector<HalfFace>& fresh);
+  void renew_edges();
+  void find_attributes();
   std::vector<NamedEdge> named_edges_;
   std::vector<Label> point_labels_;  // by number in the file; empty when all are 0
+
+  // Of a surface that may change.
+  SurfaceGuardHolder guard_;
+  std::vector<std::uint32_t> surface_origin_, surface_patch_;       // by surface triangle
+  std::vector<std::uint32_t> named_edge_origin_, named_edge_line_;  // by named edge
+  std::vector<std::uint32_t> patch_triangle_;  // by patch: a surface triangle of it
+  std::vector<std::uint32_t> line_edge_;       // by line: a named edge of it, or kNone
 
   PropertyTable<TetHandle> tet_properties_;
   PropertyTable<VertexHandle> vertex_properties_;

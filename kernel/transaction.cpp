@@ -14,6 +14,8 @@
 #include <utility>
 
 #include "kernel/exact_orientation.h"
+#include "kernel/make_room.h"
+#include "kernel/property_values.h"
 #include "kernel/star.h"
 
 namespace tetmend {
@@ -23,13 +25,6 @@ namespace {
 template <class T>
 std::uint32_t size32(const std::vector<T>& values) {
   return static_cast<std::uint32_t>(values.size());
-}
-
-/// Makes room for so many more values, in steps that grow with the size.
-template <class T>
-void make_room_for(std::size_t count, std::vector<T>& values) {
-  const std::size_t size = values.size() + count;
-  if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
 }
 
 void add_to_batch(const TetMesh& mesh, const TetVertices& tet, TetBatch& batch) {
@@ -237,14 +232,6 @@ bool Transaction::mark_constrained_edges(std::span<const TetVertices> created) {
   return true;
 }
 
-/// Values of properties, copied before the first write: copies may need memory.
-struct Transaction::PropertyValues {
-  using Values = std::vector<std::any>;
-  std::vector<Values> removed;                            // of the old tets
-  std::vector<Values> created;                            // what new tets begin with
-  std::vector<std::pair<VertexHandle, Values>> vertices;  // of the old tets: they may vanish
-};
-
 EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
                                        std::span<const TetVertices> created) {
   assert(!kept_ && !old.empty() && !created.empty());
@@ -257,9 +244,13 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
   if (workspace_.may_overlap_ && repeats_a_face(created)) return EditResult::inverted;
   if (!mark_constrained_edges(created)) return EditResult::constrained;
 
+  workspace_.new_flags_.clear();
   PropertyValues properties = copy_properties(old, created);
-  const std::size_t appended = make_room(old.size(), created.size());
-  write_cavity(old, created, appended, properties);
+  Edit edit;
+  edit.kind = Edit::Kind::replace_cavity;
+  edit.appended = make_room(old.size(), created.size());
+  const Label label = mesh_.label(old[0]);
+  write_cavity(old, created, {&label, 1}, edit, properties);
   return EditResult::made;
 }
 
@@ -283,7 +274,7 @@ Transaction::PropertyValues Transaction::copy_properties(
 
 /// For all that replacing a cavity and undoing it write. Returns how many slots the mesh grew by.
 /// Precondition: vertex_set_ holds the vertices of old and new tets.
-std::size_t Transaction::make_room(std::size_t old, std::size_t created) {
+std::uint32_t Transaction::make_room(std::size_t old, std::size_t created) {
   Journal& journal = workspace_.journal_;
   auto& [free_tets, free_vertices] = workspace_.free_;
   const std::size_t vertices = workspace_.vertex_set_.size();
@@ -291,6 +282,7 @@ std::size_t Transaction::make_room(std::size_t old, std::size_t created) {
   make_room_for(old, journal.removed);
   make_room_for(created, journal.created);
   make_room_for(vertices, journal.links);
+  make_room_for(workspace_.new_flags_.size(), journal.flagged);
   make_room_for(vertices, journal.removed_vertices);
   make_room_for(vertices, free_vertices);
   if (old > created) make_room_for(old - created, free_tets);
@@ -300,19 +292,18 @@ std::size_t Transaction::make_room(std::size_t old, std::size_t created) {
   const std::size_t slots = old + free_tets.size();
   if (created <= slots) return 0;
   mesh_.grow_tets(created - slots);  // last: nothing that may fail follows
-  return created - slots;
+  return static_cast<std::uint32_t>(created - slots);
 }
 
+/// @param labels one for each new tet, or one for all
 void Transaction::write_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created,
-                               std::size_t appended, PropertyValues& properties) noexcept {
-  Edit edit;
-  edit.kind = Edit::Kind::replace_cavity;
-  edit.appended = static_cast<std::uint32_t>(appended);
-  const Label label = mesh_.label(old[0]);
+                               std::span<const Label> labels, Edit edit,
+                               PropertyValues& properties) noexcept {
   save_removed(old, edit, properties);
   take_slots(old, created.size(), edit);
-  fill_slots(created, label, edit, properties);
+  fill_slots(created, labels, edit, properties);
   link_vertices(created, edit);
+  set_flags(edit);
   workspace_.tet_count(mesh_) += created.size();
   workspace_.tet_count(mesh_) -= old.size();
   note(edit);
@@ -383,15 +374,15 @@ void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, 
   }
 }
 
-void Transaction::fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit,
-                             PropertyValues& properties) {
+void Transaction::fill_slots(std::span<const TetVertices> created, std::span<const Label> labels,
+                             const Edit& edit, PropertyValues& properties) {
   const TetHandle* slots = workspace_.journal_.created.data() + edit.created_begin;
   for (std::size_t k = 0; k < created.size(); ++k) {
     const std::uint32_t i = slots[k].index();
     TetMesh::Cell& cell = mesh_.cells_[i];
     cell.vertices = created[k];
     mesh_.quality_[i] = workspace_.batch_.quality(k);
-    mesh_.label_[i] = label;
+    mesh_.label_[i] = labels[labels.size() == 1 ? 0 : k];
     mesh_.tet_flags_[i] = workspace_.created_flags_[k];
     if (!properties.created.empty()) {
       mesh_.tet_properties_.restore(slots[k], std::move(properties.created[k]));
@@ -485,6 +476,17 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   return edit.vertex;
 }
 
+/// What new_flags_ says.
+void Transaction::set_flags(Edit& edit) noexcept {
+  std::vector<Journal::VertexFlags>& flagged = workspace_.journal_.flagged;
+  edit.flagged_begin = size32(flagged);
+  for (const auto& [v, flags] : workspace_.new_flags_) {
+    flagged.push_back({v, mesh_.vertex_flags_[v.index()]});
+    mesh_.vertex_flags_[v.index()] = flags;
+  }
+  edit.flagged_end = size32(flagged);
+}
+
 EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
                                     std::span<const HalfFace> link) {
   const VertexMove move = {v, point, link};
@@ -493,7 +495,8 @@ EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
 
 EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
   assert(!kept_);
-  if (place(moves) == EditResult::constrained) return EditResult::constrained;
+  if (has_fixed(moves)) return EditResult::constrained;
+  place(moves);
   evaluate(moves);
   if (turns_over(moves)) {
     put_back(moves);
@@ -527,7 +530,8 @@ EditResult Transaction::rearrange_vertices(std::span<const VertexMove> moves) {
            exact_orientation(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
                              mesh_.point(v[3])) > 0;
   });
-  if (place(moves) == EditResult::constrained) return EditResult::constrained;
+  if (has_fixed(moves)) return EditResult::constrained;
+  place(moves);
   if (count([&](const TetVertices& v) { return mesh_.is_certified_positive(v); }) >= before) {
     put_back(moves);
     return EditResult::inverted;
@@ -539,11 +543,13 @@ EditResult Transaction::rearrange_vertices(std::span<const VertexMove> moves) {
   return EditResult::made;
 }
 
-/// Puts the vertices where they are to go, and keeps the places where they were; or refuses.
-EditResult Transaction::place(std::span<const VertexMove> moves) {
-  for (const VertexMove& move : moves) {
-    if (mesh_.is_fixed(move.vertex)) return EditResult::constrained;
-  }
+bool Transaction::has_fixed(std::span<const VertexMove> moves) const {
+  return std::any_of(moves.begin(), moves.end(),
+                     [&](const VertexMove& move) { return mesh_.is_fixed(move.vertex); });
+}
+
+/// Puts the vertices where they are to go, and keeps the places where they were.
+void Transaction::place(std::span<const VertexMove> moves) {
   make_room(moves);
   auto& before = workspace_.moved_points_;
   before.clear();
@@ -552,7 +558,6 @@ EditResult Transaction::place(std::span<const VertexMove> moves) {
     before.push_back(stored);
     stored = move.point;
   }
-  return EditResult::made;
 }
 
 /// For all that moving the vertices and undoing it write.
@@ -594,10 +599,11 @@ bool Transaction::turns_over(std::span<const VertexMove> moves) const {
 }
 
 /// Brings the qualities around a vertex that was moved up to date and keeps the old ones.
-void Transaction::note_move(const VertexMove& move, const Point& before,
-                            std::size_t first_of_batch) {
+void Transaction::note_move(const VertexMove& move, const Point& before, std::size_t first_of_batch,
+                            bool surface) {
   Journal& journal = workspace_.journal_;
   Edit edit;
+  edit.surface = surface;
   edit.kind = Edit::Kind::move_vertex;
   edit.vertex = move.vertex;
   edit.point = before;
@@ -633,6 +639,7 @@ void Transaction::undo() noexcept {
         undo_remove(edit);
         break;
     }
+    if (edit.surface) mesh_.surface_guard()->undo(*workspace_.surface_journal_);
     if (workspace_.listener_ != nullptr) workspace_.listener_->edit_undone();
   }
 }
@@ -678,6 +685,10 @@ void Transaction::undo_replace(const Edit& edit) {
   for (std::uint32_t k = edit.links_end; k-- > edit.links_begin;) {
     mesh_.vertex_tet_[journal.links[k].vertex.index()] = journal.links[k].tet;
   }
+  for (std::uint32_t k = edit.flagged_end; k-- > edit.flagged_begin;) {
+    mesh_.vertex_flags_[journal.flagged[k].vertex.index()] = journal.flagged[k].flags;
+  }
+  journal.flagged.resize(edit.flagged_begin);
   workspace_.tet_count(mesh_) += removed;
   workspace_.tet_count(mesh_) -= created;
   journal.removed.resize(edit.removed_begin);
@@ -742,6 +753,7 @@ void Transaction::commit() {
     }
   }
   journal.clear();
+  if (workspace_.surface_journal_) workspace_.surface_journal_->clear();
 }
 
 }  // namespace tetmend

@@ -57,6 +57,14 @@ class TETMEND_API Transaction {
   /// far.
   EditResult replace_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created);
 
+  /// The same where the surface may change, for a mesh that has a guard: the old tets may lie in
+  /// several regions, their faces on the boundary and between labels may give way to others, and
+  /// vertices there may vanish. `labels` has that of each new tet. `constrained` where the guard
+  /// refuses; `not_closed` where the old and new faces do not have the same border.
+  EditResult replace_at_surface(std::span<const TetHandle> old,
+                                std::span<const TetVertices> created,
+                                std::span<const Label> labels);
+
   /// Handles of the tets that the last successful replace_cavity created, in the order given to it.
   std::span<const TetHandle> created() const;
 
@@ -70,6 +78,8 @@ class TETMEND_API Transaction {
   /// Moves several different vertices at once, all or none: tets need to be positive only when all
   /// are in place.
   EditResult move_vertices(std::span<const VertexMove> moves);
+  /// As move_vertices(), for vertices that may lie on a surface whose guard lets them move.
+  EditResult move_at_surface(std::span<const VertexMove> moves);
   /// Moves many different vertices at once, all or none. Any tet may turn over, if afterwards fewer
   /// of those around are not certified positive. Cost: linear; asks for exact signs where the
   /// certificate fails.
@@ -115,22 +125,42 @@ class TETMEND_API Transaction {
   struct PropertyValues;
   PropertyValues copy_properties(std::span<const TetHandle> old,
                                  std::span<const TetVertices> created) const;
-  std::size_t make_room(std::size_t old, std::size_t created);
+  std::uint32_t make_room(std::size_t old, std::size_t created);
   void make_room(std::span<const VertexMove> moves);
   void write_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created,
-                    std::size_t appended, PropertyValues& properties) noexcept;
+                    std::span<const Label> labels, Edit edit, PropertyValues& properties) noexcept;
   void save_removed(std::span<const TetHandle> old, Edit& edit, PropertyValues& properties);
   void take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit);
-  void fill_slots(std::span<const TetVertices> created, Label label, const Edit& edit,
-                  PropertyValues& properties);
+  void fill_slots(std::span<const TetVertices> created, std::span<const Label> labels,
+                  const Edit& edit, PropertyValues& properties);
   void link_vertices(std::span<const TetVertices> created, Edit& edit);
   void remove_isolated(const Edit& edit, PropertyValues& properties);
   void note(const Edit& edit);
   void evaluate(std::span<const VertexMove> moves);
   bool turns_over(std::span<const VertexMove> moves) const;
-  EditResult place(std::span<const VertexMove> moves);
+  bool has_fixed(std::span<const VertexMove> moves) const;
+  void place(std::span<const VertexMove> moves);
   void put_back(std::span<const VertexMove> moves);
-  void note_move(const VertexMove& move, const Point& before, std::size_t first_of_batch);
+  void note_move(const VertexMove& move, const Point& before, std::size_t first_of_batch,
+                 bool surface = false);
+  // Where the surface may change.
+  bool ask_guard();
+  bool may_change(VertexHandle v) const;
+  SurfaceFace surface_face(HalfFace f) const;
+  EditResult check_old_at_surface(std::span<const TetHandle> old);
+  EditResult check_vertices_at_surface(std::span<const TetHandle> old,
+                                       std::span<const TetVertices> created);
+  EditResult pair_new_faces(std::span<const TetVertices> created, std::span<const Label> labels);
+  EditResult pair_old_faces(std::span<const TetHandle> old, std::span<const Label> labels);
+  EditResult pair_old_face(HalfFace f, std::span<const Label> labels);
+  void add_outer_faces(std::span<const TetVertices> created);
+  void add_new_face(std::uint32_t number, std::span<const TetVertices> created, bool interface);
+  void drop_unchanged_faces();
+  EditResult check_edges_at_surface(std::span<const TetVertices> created);
+  void mark_surface(std::span<const TetVertices> created);
+  void list_new_flags();
+  void set_flags(Edit& edit) noexcept;
+  bool list_faces_of(std::span<const VertexMove> moves, std::vector<SurfaceFace>& faces) const;
   void clear_slot(TetHandle t);
   void clear_slot(VertexHandle v);
   void undo_replace(const Edit& edit);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -168,6 +169,22 @@ class TETMEND_API Workspace {
   std::vector<std::uint16_t> created_flags_;
   std::vector<std::array<VertexHandle, 2>> constrained_edges_;
   std::vector<Point> moved_points_;
+
+  // Of a surface that may change.
+  /// Made when it is first needed; a copy of the workspace makes its own.
+  struct OwnJournal : std::unique_ptr<SurfaceJournal> {
+    OwnJournal() = default;
+    OwnJournal(const OwnJournal&) : std::unique_ptr<SurfaceJournal>() {}
+    OwnJournal(OwnJournal&&) noexcept = default;
+    OwnJournal& operator=(const OwnJournal&) { return *this; }
+    OwnJournal& operator=(OwnJournal&&) noexcept = default;
+    using std::unique_ptr<SurfaceJournal>::operator=;
+  };
+  OwnJournal surface_journal_;
+  std::vector<SurfaceFace> faces_before_, faces_after_;
+  std::vector<std::uint8_t> is_interface_;  // of each face after
+  std::vector<std::uint32_t> outer_faces_;  // of the new tets, by number
+  std::vector<Journal::VertexFlags> new_flags_;
 };
 
 }  // namespace tetmend

@@ -17,6 +17,10 @@
 #include "ops/registry.h"
 #include "ops/shell_transformation.h"
 #include "ops/smoothing.h"
+#include "ops/surface_contraction.h"
+#include "ops/surface_edge_removal.h"
+#include "ops/surface_smoothing.h"
+#include "ops/surface_split.h"
 #include "ops/vertex_removal.h"
 
 namespace tetmend {
@@ -40,6 +44,10 @@ Registry Registry::builtin() {
   registry.add(polyhedron_reconnection_info());
   registry.add(vertex_removal_info());
   registry.add(cavity_insertion_info());
+  registry.add(surface_smoothing_info());
+  registry.add(surface_edge_removal_info());
+  registry.add(surface_contraction_info());
+  registry.add(surface_split_info());
   return registry;
 }
 

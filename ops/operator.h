@@ -96,7 +96,16 @@ struct TETMEND_API OperatorInfo {
   std::string_view help;  ///< one line
   std::span<const ParameterSpec> parameters;
   std::unique_ptr<Operator> (*make)(const ParameterValues&);
+  /// Of an operator on vertices: it works on those of a surface that may change, too. Passes leave
+  /// out the fixed vertices otherwise.
+  bool at_surface = false;
 };
+
+/// Whether an operator on vertices is to be tried on one.
+inline bool is_worth_a_try(bool at_surface, const TetMesh& mesh, VertexHandle v) {
+  if (!mesh.is_fixed(v)) return true;
+  return at_surface && mesh.surface_guard() != nullptr && !mesh.is_frozen(v);
+}
 
 /// Base of all operators. Instances are immutable and may be shared by workers; what they need to
 /// write lies in their state. Derive from OperatorOf.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kernel/star.h"
+#include "ops/surface_vertex.h"
 
 namespace tetmend {
 
@@ -31,13 +32,17 @@ void reconnect(OperatorContext& context, VertexHandle v, RelaxationState& state)
 }  // namespace
 
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits, RelaxationState& state) {
+           const BallOptimiser::Limits& limits, RelaxationState& state, bool at_surface) {
   for (int round = 0; round < 2; ++round) {
     const auto ring = one_ring(context.mesh, v, context.workspace);
     state.neighbours.assign(ring.begin(), ring.end());
     state.neighbours.push_back(v);
     for (const VertexHandle w : state.neighbours) {
-      climb(context, transaction, w, limits, state.ball);
+      if (at_surface) {
+        climb_at_surface(context, transaction, w, limits, state.ball);
+      } else {
+        climb(context, transaction, w, limits, state.ball);
+      }
     }
     if (round > 0) break;
     reconnect(context, v, state);

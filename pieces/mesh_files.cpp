@@ -81,6 +81,7 @@ void check_for_files(const Options& options) {
   };
   refuse(!options.protect.empty(), "protect", "protect");
   refuse(!options.only.empty(), "only", "only");
+  refuse(!options.surface.empty() && options.surface != "fixed", "surface", "surface");
   refuse(options.keep_size, "keep_size", "keep-size");
   refuse(!options.conserve.empty(), "conserve", "conserve");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");

@@ -302,7 +302,9 @@ void TetAttempts::run_leaf(const Node& node, Progress& progress) const {
     case TargetKind::vertex:
       for (unsigned i = 0; i < 4; ++i) {
         const VertexHandle v = corners[i];
-        if (mesh.is_fixed(v) || mesh.changed(v) < progress.since) continue;
+        if (!is_worth_a_try(leaf.op->info().at_surface, mesh, v) ||
+            mesh.changed(v) < progress.since)
+          continue;
         if (!try_once(node, progress, Target::of(v), i, {v, v})) return;
       }
       return;

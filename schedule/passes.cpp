@@ -50,7 +50,7 @@ bool sweep_tets(Run& run, PassScope& scope, const TetAttempts& attempts, const S
 
 void sweep_vertices(Run& run, PassScope& scope, const Operator& op, const Selection& on,
                     Date since) {
-  work_off(run, scope, queue_vertices(scope, run.mesh(), on, since), 0,
+  work_off(run, scope, queue_vertices(scope, run.mesh(), on, since, op.info().at_surface), 0,
            [&](Worker& worker, QueuedVertex entry) {
              return worker.attempt(op, Target::of(entry.vertex)) != Verdict::deferred;
            });

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_sort.h>
 
+#include "ops/operator.h"
 #include "schedule/sweep.h"
 
 namespace tetmend {
@@ -53,10 +54,10 @@ std::vector<QueuedTet> queue_tets(PassScope& scope, const TetMesh& mesh, const S
 }
 
 std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
-                                         const Selection& selection, Date since) {
+                                         const Selection& selection, Date since, bool at_surface) {
   const auto take = [&](const TetVertices& vertices, std::vector<QueuedVertex>& out) {
     for (const VertexHandle v : vertices) {
-      if (!mesh.is_fixed(v) && mesh.changed(v) >= since) out.push_back({v});
+      if (is_worth_a_try(at_surface, mesh, v) && mesh.changed(v) >= since) out.push_back({v});
     }
   };
   std::vector<QueuedVertex> all;

@@ -45,8 +45,10 @@ std::vector<QueuedTet> queue_tets(PassScope& scope, const TetMesh& mesh, const S
 
 /// The movable vertices of selected tets whose star changed at `since` or later, in slot order. A
 /// number of worst tets is taken among all.
+/// @param at_surface also those of a surface that may change
 /// @throws Error for a property that does not exist.
 std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
-                                         const Selection& selection, Date since);
+                                         const Selection& selection, Date since,
+                                         bool at_surface = false);
 
 }  // namespace tetmend

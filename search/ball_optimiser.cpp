@@ -254,6 +254,7 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
                              double least_step) {
   const unsigned count = find_active(p, best, width);
   if (count == 0) return 0;
+  if (restriction_ != nullptr) restriction_->turn_along(p, std::span(gradients_).first(count));
   const Point direction = shortest_in_hull(gradients_.data(), count);
   const double slope = direction.norm();  // of the slowest active term along the unit direction
   if (!(slope * length > 2e-3)) return 0;
@@ -263,7 +264,7 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
   double taken = 0;
   for (step = std::min(2 * step, 0.5 * length); step > least_step * length; step *= 0.5) {
     const double reached =
-        signed_root(worst_square(p + step * unit, trial_, square_below(start + gain)));
+        signed_root(worst_square(place(p + step * unit), trial_, square_below(start + gain)));
     const double rise = reached - start;
     if (gain > 0 && rise <= gain) break;
     if (rise > gain) {
@@ -275,7 +276,7 @@ double BallOptimiser::ascend(Point& p, double& best, double width, double length
     }
   }
   if (gain > 0) {
-    p += taken * unit;
+    p = place(p + taken * unit);
     step = taken;
   }
   return gain;

@@ -5,12 +5,23 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kernel/quality.h"
 #include "kernel/wide.h"
 
 namespace tetmend {
+
+/// Where a vertex may go that must stay on a surface or line.
+class PlaceRestriction {
+ public:
+  virtual ~PlaceRestriction() = default;
+  /// Leaves of each vector the part that leads along the surface or line at p.
+  virtual void turn_along(const Point& p, std::span<Point> vectors) const = 0;
+  /// The place nearest to p that the vertex may take.
+  virtual Point nearest(const Point& p) const = 0;
+};
 
 /// Maximises the smallest quality of a ball, given by the triangles of its link. A steepest
 /// ascent for a function that is not smooth ([freitag_ollivier_gooch]). The direction is the
@@ -29,7 +40,10 @@ class BallOptimiser {
   void clear(const Standard& standard) {
     standard_ = standard;
     size_ = first_ = 0;
+    restriction_ = nullptr;
   }
+  /// Of the ball that is loaded: optimise() looks only there. It must outlive that.
+  void restrict_to(const PlaceRestriction& restriction) { restriction_ = &restriction; }
   /// A link triangle; (p, a, b, c) is positive for a vertex p inside the ball.
   void add(const Point& a, const Point& b, const Point& c);
   std::size_t size() const { return size_; }
@@ -69,6 +83,9 @@ class BallOptimiser {
   void add_gradients(std::size_t tet, const Point& p, double band, unsigned& count);
   void add_length_gradient(std::size_t tet, const Point& p, double band, unsigned& count);
   double local_length(const Point& p) const;
+  Point place(const Point& p) const {
+    return restriction_ == nullptr ? p : restriction_->nearest(p);
+  }
   double value(Field f, std::size_t tet) const { return lanes_[tet / kLanes].of[f][tet % kLanes]; }
   Point corner(Field x, std::size_t tet) const {
     const Lanes& lanes = lanes_[tet / kLanes];
@@ -77,6 +94,7 @@ class BallOptimiser {
   }
 
   Standard standard_;
+  const PlaceRestriction* restriction_ = nullptr;  // null: none
   std::size_t size_ = 0;
   bool complete_ = false;  // the fields after the corners are computed
   std::vector<Lanes> lanes_;

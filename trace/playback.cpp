@@ -135,11 +135,14 @@ void Playback::log_cavity(const TraceEvent& event) {
     check_free(mesh_.is_deleted(t), t.index(), end);
   }
   const Label label = mesh_.label(event.removed.front());
+  const auto label_of = [&](std::size_t k) {
+    return event.created_labels.empty() ? label : event.created_labels[k];
+  };
   for (std::size_t k = 0; k < std::max(kept, event.created.size()); ++k) {
     const bool made = k < event.created.size();
     const TetHandle t = made ? event.created[k] : event.removed[k];
     tets_.push_back({t, content(t), made ? event.created_vertices[k] : kNoTet,
-                     mesh_.is_deleted(t) ? 0 : mesh_.label(t), made ? label : 0});
+                     mesh_.is_deleted(t) ? 0 : mesh_.label(t), made ? label_of(k) : 0});
   }
 }
 

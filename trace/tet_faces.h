@@ -61,6 +61,20 @@ class TetFaces {
     }
     return open == other.count_open();
   }
+  /// The same, but faces may come and go where `all`, which holds the faces of this as well, has no
+  /// tet on their other side.
+  bool same_hull_inside(const TetFaces& other, const TetFaces& all) const {
+    const auto fits = [](const Entry& entry, const TetFaces& there, std::uint32_t rest) {
+      return !entry.is_open() || there.sides_of(entry.key) == entry.sides || rest == 0;
+    };
+    const auto rest = [&](const Entry& entry) {  // of the other tets
+      return all.bits_of(entry.key) & ~bits_of(entry.key);
+    };
+    return std::all_of(entries_.begin(), entries_.end(),
+                       [&](const Entry& entry) { return fits(entry, other, rest(entry)); }) &&
+           std::all_of(other.entries_.begin(), other.entries_.end(),
+                       [&](const Entry& entry) { return fits(entry, *this, rest(entry)); });
+  }
 
  private:
   using Key = std::array<std::uint32_t, 3>;  // sorted
@@ -100,6 +114,7 @@ class TetFaces {
   }
   Entry& probe(const Key& key) { return entries_[place_of(key)]; }
   std::uint32_t sides_of(const Key& key) const { return entries_[place_of(key)].sides; }
+  std::uint32_t bits_of(const Key& key) const { return sides_of(key) & 3u; }
   std::size_t count_open() const {
     return static_cast<std::size_t>(
         std::count_if(entries_.begin(), entries_.end(), std::mem_fn(&Entry::is_open)));

@@ -41,8 +41,9 @@ void TraceAudit::follow(const TraceEvent& event) {
   if (!playback_.prepare(event, position_ - 1)) return;
   const auto tets = playback_.tet_changes(position_);
   if (event.kind == EventKind::replace_cavity) {
-    check_slots(tets);
-    check_hull(tets);
+    const bool at_surface = !event.created_labels.empty();
+    check_slots(tets, at_surface);
+    check_hull(tets, at_surface);
   }
   if (event.kind != EventKind::move_vertex) follow_tets(tets);
   follow_vertices(playback_.vertex_changes(position_));
@@ -59,8 +60,8 @@ void TraceAudit::check_names(const TraceEvent& event) const {
   }
 }
 
-/// Each slot once, and all tets that a cavity takes have one label.
-void TraceAudit::check_slots(std::span<const TetChange> changes) {
+/// Each slot once, and all tets that a cavity inside takes have one label.
+void TraceAudit::check_slots(std::span<const TetChange> changes, bool at_surface) {
   for (const TetChange& change : changes) {
     const std::size_t i = change.tet.index();
     if (i >= last_changed_.size()) last_changed_.resize(i + 1, 0);
@@ -68,14 +69,16 @@ void TraceAudit::check_slots(std::span<const TetChange> changes) {
       throw ByteReader::Damage(fmt::format("a cavity with tet {} twice", i));
     }
     last_changed_[i] = position_;
-    if (change.before[0].is_valid() && change.label_before != changes.front().label_before) {
+    if (!at_surface && change.before[0].is_valid() &&
+        change.label_before != changes.front().label_before) {
       throw ByteReader::Damage("a cavity with tets of two labels");
     }
   }
 }
 
-/// The open faces of the tets removed and created are the same.
-void TraceAudit::check_hull(std::span<const TetChange> changes) {
+/// The open faces of the tets removed and created are the same, but for those of the boundary where
+/// that may change.
+void TraceAudit::check_hull(std::span<const TetChange> changes, bool at_surface) {
   removed_.clear();
   created_.clear();
   for (const TetChange& change : changes) {
@@ -87,7 +90,9 @@ void TraceAudit::check_hull(std::span<const TetChange> changes) {
       }
     }
   }
-  if (!removed_.same_hull(created_)) {
+  const bool fills =
+      at_surface ? removed_.same_hull_inside(created_, faces_) : removed_.same_hull(created_);
+  if (!fills) {
     throw ByteReader::Damage("the new tets do not fill the cavity of the old ones");
   }
 }

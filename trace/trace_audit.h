@@ -27,8 +27,8 @@ class TraceAudit {
   void check_names(const TraceEvent& event) const;
   void follow_tets(std::span<const TetChange> changes);
   void follow_vertices(std::span<const VertexChange> changes);
-  void check_slots(std::span<const TetChange> changes);
-  void check_hull(std::span<const TetChange> changes);
+  void check_slots(std::span<const TetChange> changes, bool at_surface);
+  void check_hull(std::span<const TetChange> changes, bool at_surface);
   void add_tet(const TetVertices& tet);
   void remove_tet(const TetVertices& tet);
 

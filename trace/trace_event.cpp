@@ -12,6 +12,19 @@
 
 namespace tetmend {
 
+namespace {
+
+/// Stands for EventKind::replace_cavity at the surface: labels precede the tets.
+constexpr std::uint64_t kAtSurface = kEventKinds;
+
+bool has_labels(const Journal& journal, const Edit& edit) {
+  const auto begin = journal.removed.begin() + edit.removed_begin;
+  return std::any_of(begin, journal.removed.begin() + edit.removed_end,
+                     [&](const Journal::RemovedTet& tet) { return tet.label != begin->label; });
+}
+
+}  // namespace
+
 // --- writing -------------------------------------------------------------------------------------
 
 void EventEncoder::clear() {
@@ -136,7 +149,13 @@ void EventEncoder::edit(const TetMesh& mesh, const Journal& journal) {
 }
 
 void EventEncoder::replace_cavity(const TetMesh& mesh, const Journal& journal, const Edit& edit) {
-  put_kind(EventKind::replace_cavity);
+  const bool at_surface = edit.surface || has_labels(journal, edit);
+  if (at_surface) {
+    out_.put(kAtSurface);
+    put_labels(mesh, journal, edit);
+  } else {
+    put_kind(EventKind::replace_cavity);
+  }
   const std::uint32_t removed = edit.removed_end - edit.removed_begin;
   const std::uint32_t created = edit.created_end - edit.created_begin;
   out_.put(removed);
@@ -157,6 +176,14 @@ void EventEncoder::replace_cavity(const TetMesh& mesh, const Journal& journal, c
       out_.put_step(vertices[i].index(), from);
     }
     corner = vertices;
+  }
+}
+
+/// Of the tets created.
+void EventEncoder::put_labels(const TetMesh& mesh, const Journal& journal, const Edit& edit) {
+  out_.put(edit.created_end - edit.created_begin);
+  for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) {
+    out_.put_signed(mesh.label(journal.created[k]));
   }
 }
 
@@ -224,6 +251,15 @@ void EventDecoder::get_cavity(TraceEvent& event) {
   }
 }
 
+void EventDecoder::get_labels(TraceEvent& event) {
+  event.created_labels.resize(in_.get_count());
+  for (Label& label : event.created_labels) {
+    const std::int64_t value = in_.get_signed();
+    label = static_cast<Label>(value);
+    if (label != value) throw ByteReader::Damage("a label has more than 32 bits");
+  }
+}
+
 void EventDecoder::get_star(TraceEvent& event) {
   event.removed.resize(in_.get_count());
   std::uint32_t last = 0;
@@ -232,10 +268,10 @@ void EventDecoder::get_star(TraceEvent& event) {
 
 void EventDecoder::next(TraceEvent& event) {
   const std::uint64_t kind = in_.get();
-  if (kind >= kEventKinds) {
-    throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
-  }
-  event.kind = static_cast<EventKind>(kind);
+  if (kind > kAtSurface) throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
+  event.kind = kind == kAtSurface ? EventKind::replace_cavity : static_cast<EventKind>(kind);
+  event.created_labels.clear();
+  if (kind == kAtSurface) get_labels(event);
   if (has_time(event.kind)) get_time(event);
   switch (event.kind) {
     case EventKind::pass_begins:
@@ -271,6 +307,9 @@ void EventDecoder::next(TraceEvent& event) {
     }
     case EventKind::replace_cavity:
       get_cavity(event);
+      if (kind == kAtSurface && event.created_labels.size() != event.created.size()) {
+        throw ByteReader::Damage("a cavity with more or fewer labels than tets");
+      }
       break;
     case EventKind::move_vertex:
     case EventKind::add_vertex:

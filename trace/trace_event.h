@@ -71,6 +71,9 @@ struct TraceEvent {
   std::vector<TetHandle> removed;
   std::vector<TetHandle> created;
   std::vector<TetVertices> created_vertices;  ///< one for each of `created`
+  /// Of a cavity at the surface, whose hull may change there, one for each of `created`. Empty for
+  /// a cavity inside: there they are those of `removed`.
+  std::vector<Label> created_labels;
 };
 
 /// Writes events into the content of a chunk. Each chunk can be read by itself.
@@ -104,6 +107,7 @@ class EventEncoder {
   void put_vertices(std::span<const VertexHandle> vertices);
   void put_qualities(std::span<const Quality> qualities);
   void replace_cavity(const TetMesh& mesh, const Journal& journal, const Edit& edit);
+  void put_labels(const TetMesh& mesh, const Journal& journal, const Edit& edit);
 
   ByteWriter out_;
   std::uint64_t last_ticks_ = 0;
@@ -135,6 +139,7 @@ class EventDecoder {
   void get_point(TraceEvent& event);
   void get_qualities(std::vector<Quality>& qualities);
   void get_cavity(TraceEvent& event);
+  void get_labels(TraceEvent& event);
   void get_star(TraceEvent& event);
 
   ByteReader in_{{}};

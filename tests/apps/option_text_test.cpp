@@ -68,6 +68,7 @@ TEST_CASE("of a wrong value the command line says what the library says") {
       {"time-limit", "soon"},  {"time-limit", "1e10"},   {"threads", "0"},
       {"threads", "1025"},     {"threads", "3.5"},       {"threads", "many"},
       {"protect", "lable:1"},  {"only", "box:0,0"},      {"layers", "drop"},
+      {"feature-angle", "0"},  {"feature-angle", "x"},
       {"tets", "some"},        {"trace-around", "here"}, {"trace-operator", "polish"},
       {"trace-depth", "-1"},   {"trace-depth", "1001"},  {"trace-limit", "5Q"},
       {"trace-limit", "0"}};
@@ -105,6 +106,7 @@ TEST_CASE("options as text are those of C++") {
       {"check-operators", ""},  {"threads", "8"},
       {"protect", "label:1"},   {"only", "label:2"},
       {"layers", "improve"},    {"tets", "10%"},
+      {"surface", "1%"},        {"feature-angle", "30"},
       {"keep-size", "true"},    {"ignore-interior", ""},
       {"conserve", "density"},  {"trace", "a.trace"},
       {"trace-around", "7"},    {"trace-operator", "x"},
@@ -128,6 +130,8 @@ TEST_CASE("options as text are those of C++") {
   CHECK(options.only == std::vector<std::string>{"label:2"});
   CHECK(options.layers == Layers::improve);
   CHECK(options.tets == "10%");
+  CHECK(options.surface == "1%");
+  CHECK(options.feature_angle == 30);
   CHECK(options.keep_size);
   CHECK(options.ignore_interior);
   CHECK(options.conserve == std::vector<std::string>{"density"});

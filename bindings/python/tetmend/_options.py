@@ -32,6 +32,8 @@ class Options(TypedDict, total=False):
     protect: str | Sequence[str]
     only: str | Sequence[str]
     layers: str
+    surface: str
+    feature_angle: float
     keep_size: bool
     conserve: str | Sequence[str]
     ignore_interior: bool

@@ -1,0 +1,91 @@
+-- Where a fixed surface holds bad tets: the surface moves, as far as the run allows.
+description "What follows another schedule where the surface may move (--surface): bad tets are worked on by operators that change the surface, in turns with those inside, until rounds bring nothing"
+
+local max_rounds = parameter{"max_rounds", default = 12, low = 0, high = 10000,
+                             help = "rounds"}
+local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
+                             help = "rounds in sequence without progress that end them"}
+
+local worst = {below = 1, worst = 200}
+
+local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
+local refill = {"polyhedron_reconnection", insert = true, remove = true, relax = true,
+                max_vertices = 18, max_nodes = 50, desperate = 0.7}
+
+local start = quality()
+
+local function flip()
+  return apply({"surface_edge_removal", order = "angle"}, {sweeps = 2})
+end
+
+local function move()
+  local moved = 0
+  for _ = 1, 3 do
+    local accepted = apply("surface_smoothing")
+    moved = moved + accepted
+    smooth{}
+    if accepted == 0 then break end
+  end
+  return moved
+end
+
+-- Returns how often the surface changed.
+local function plain_round()
+  begin_round()
+  local changed = flip() + move() + apply("surface_contraction") + move()
+  local_reconnection{edges = quick}
+  suppress_points{}
+  smooth{}
+  return changed + flip() + move()
+end
+
+-- Makes things worse at first, then mends them by nearly all that there is.
+local function open_by(operator)
+  return sequence{operator, "surface_edge_removal", "surface_smoothing",
+                  "recursive_shell_transformation", "smoothing", "joint_smoothing",
+                  "surface_smoothing", "surface_contraction", "cavity_insertion",
+                  {"polyhedron_reconnection", insert = true, remove = true, relax = true,
+                   max_vertices = 10, max_nodes = 15},
+                  "smoothing", "surface_smoothing", "joint_smoothing", desperate = 0.7}
+end
+
+local openings = {"surface_contraction", "surface_smoothing", "surface_edge_removal", "edge_removal",
+                  {"surface_split", order = "longest", relax = false},
+                  {"edge_split", order = "angle", most_edges = 2}, "smoothing", "edge_contraction"}
+
+local function costly_round()
+  begin_round()
+  apply({"surface_split", order = "longest"}, {on = worst})
+  for _, opening in ipairs(openings) do apply(open_by(opening), {on = worst}) end
+  apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = worst})
+  apply(refill, {on = worst})
+  local_reconnection{on = worst, reflex_only = false}
+  smooth{on = worst, desperate = 0.7, steps = 30}
+end
+
+-- As if the goal were so many times as far from 0 and from 180 degrees.
+local function aim(share)
+  goal{min = math.min(70, share * start.goal_min),
+       max = math.max(71, start.goal_max - (share - 1) * (180 - start.goal_max))}
+end
+
+local rounds, failed, before = 0, 0, quality()
+while rounds < max_rounds and failed < max_failed and quality().n_bad > 0 do
+  rounds = rounds + 1
+  judge_by{price = 0.02}
+  -- Where the surface cannot move at all, costly operators are for the schedule before.
+  if plain_round() == 0 and rounds == 1 and apply({"surface_split", order = "longest"}, {on = worst}) == 0 then
+    break
+  end
+  -- What is stuck at the goal has neighbours that just meet it and leave it no room.
+  local is_stuck = failed > 0
+  judge_by{price = is_stuck and 0.1 or 0, measure = "sine"}
+  aim(is_stuck and 1.05 or 1)
+  costly_round()
+  aim(1)
+  judge_by{price = 0.02}
+  plain_round()
+  local now = quality()
+  failed = is_progress(before, now) and 0 or failed + 1
+  before = now
+end

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Patches, feature lines and corners of the surface of a mesh.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <tetmend/api.h>
+
+#include "kernel/surface_guard.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+/// What counts as a feature.
+struct TETMEND_API FeatureOptions {
+  /// Two faces whose outward normals differ by more, and two edges of a line whose directions do,
+  /// meet at a feature. Degrees.
+  double angle = 40;
+  /// Patches are flat and lines straight, up to flatness(). Wherever faces of different planes
+  /// meet is a feature.
+  bool flat = false;
+  /// Vertices that stay, besides those that the mesh asks for.
+  std::vector<VertexHandle> kept;
+};
+
+/// The surface of a mesh: its boundary, and its faces between labels.
+///
+/// A *patch* is a set of faces joined by edges that are no features. A *feature edge* lies between
+/// faces of different labels (of the triangles, or of the tets on both sides), at a bend, where more
+/// or fewer than two faces meet, at a face named inside a region, or is named by the file. A *line*
+/// is a chain of feature edges between corners, or a ring of them. A *corner* is a vertex of one
+/// feature edge, or of more than two; where a line bends, or what lies at its sides changes; where
+/// sheets touch; and each vertex that the file requires or that is frozen.
+struct TETMEND_API SurfaceFeatures {
+  struct Patch {
+    std::array<Label, 2> sides{};  ///< of the tets behind and before it; no second one outside
+    Label label = 0;               ///< of its triangles
+    bool named = false;            ///< the file lists its triangles
+    bool interior = false;         ///< between two labels
+    Point origin = Point::Zero();  ///< of its plane, if flat
+    Point normal = Point::Zero();  ///< outward unit normal of its plane, if flat
+  };
+  struct Line {
+    Label label = 0;
+    bool named = false;               ///< the file lists its edges
+    Point origin = Point::Zero();     ///< if straight
+    Point direction = Point::Zero();  ///< unit, if straight
+  };
+  struct Face {
+    std::array<VertexHandle, 3> vertices;  ///< counterclockwise as in SurfaceFace
+    std::uint32_t patch = 0;
+  };
+  struct Edge {
+    std::array<VertexHandle, 2> vertices;  ///< along the line
+    std::uint32_t line = 0;
+  };
+
+  std::vector<Face> faces;
+  std::vector<Edge> edges;  ///< feature edges, line after line, in their order
+  std::vector<Patch> patches;
+  std::vector<Line> lines;
+  std::vector<SurfacePlace> places;  ///< by vertex slot
+};
+
+/// How far the points of a flat patch or a straight line may lie from it: 1e-13 of the diagonal of
+/// the mesh, or what rounding of its coordinates makes.
+TETMEND_API double flatness(const TetMesh& mesh);
+
+/// Finds them. Precondition: none; folded and non-manifold surfaces have more corners. Cost: sorting
+/// the edges of the surface.
+TETMEND_API SurfaceFeatures find_features(const TetMesh& mesh, const FeatureOptions& options);
+
+}  // namespace tetmend

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The surface that the present one is held to: what an envelope knows and never changes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "envelope/element.h"
+#include "envelope/features.h"
+#include "envelope/triangle_set.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+struct EnvelopeOptions;
+
+/// Patches and lines of the reference. Its triangles and, after them, the segments of its lines are
+/// its *elements*; patches and, after them, lines are their *sheets*. Exactly flat ones need no
+/// elements.
+class Reference {
+ public:
+  /// Elements are numbered like faces and edges of `features`. Where parts of the boundary face each
+  /// other across a gap outside, the tolerance is less than half of the gap.
+  Reference(const TetMesh& mesh, const SurfaceFeatures& features, const EnvelopeOptions& options);
+
+  bool is_flat() const { return elements.empty(); }
+  std::uint32_t sheet_of_line(std::uint32_t line) const {
+    return static_cast<std::uint32_t>(patches.size()) + line;
+  }
+  /// The largest tolerance of the elements of a sheet.
+  double tolerance(std::uint32_t sheet) const { return tolerances[sheet]; }
+
+  std::vector<SurfaceFeatures::Patch> patches;
+  std::vector<SurfaceFeatures::Line> lines;
+  double flatness = 0;  ///< see flatness()
+  TriangleSet triangles;
+  std::vector<Element> elements;
+  std::size_t faces = 0;  ///< so many of the elements are triangles
+  std::vector<double> tolerances;
+  ElementTree tree;
+
+ private:
+  void add_faces(const TetMesh& mesh, const SurfaceFeatures& features,
+                 const EnvelopeOptions& options);
+  void hold_close_parts(const SurfaceFeatures& features);
+  void add_segments(const TetMesh& mesh, const SurfaceFeatures& features);
+};
+
+}  // namespace tetmend

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Options::surface, read; and what it makes of a mesh.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tetmend/improve.h>
+
+#include "kernel/surface_guard.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::face {
+
+/// How far the surface may move.
+class SurfaceTolerance {
+ public:
+  /// @throws OptionError for a text that is neither empty nor flat nor a share nor a length, and for
+  /// an angle that is none
+  explicit SurfaceTolerance(const Options& options);
+
+  bool is_fixed() const { return is_fixed_; }
+  /// Nothing but what changes no shape.
+  bool is_flat() const { return !is_fixed_ && share_ == 0 && length_ == 0; }
+  /// What decides about changes of the surface of a mesh that was just built of `input`. Points that
+  /// the file pairs with others stay. Precondition: not fixed; frozen tets are marked.
+  /// @throws OptionError for a mesh whose surface must not move: one of second order
+  std::unique_ptr<SurfaceGuard> guard(const TetMesh& mesh, const MeshData& input) const;
+
+  /// Of the mesh when it got its guard.
+  static SurfaceChange measure_before(const TetMesh& mesh);
+  /// Fills in the rest. Cost: linear, apart from samples where the surface has changed.
+  static void measure_after(const TetMesh& mesh, SurfaceChange& change);
+
+ private:
+  bool is_fixed_ = true;
+  double share_ = 0;   // of the lengths of edges
+  double length_ = 0;  // as the file has lengths
+  double feature_angle_ = 40;
+};
+
+}  // namespace tetmend::face
