@@ -127,7 +127,7 @@ Point Envelope::direction(VertexHandle v, const Point&) const {
 // --- tolerance 0 ---------------------------------------------------------------------------------
 
 bool Envelope::is_flat_edit(const Journal& journal) const {
-  for (const Replacement::Face& face : journal.edit.after()) {
+  for (const SurfaceExchange::Face& face : journal.edit.after()) {
     const auto& patch = reference_->patches[face.patch];
     if (patch.normal.isZero() || certified_sense(face.points, patch.normal) <= 0) return false;
     for (const Point& p : face.points) {
@@ -138,7 +138,7 @@ bool Envelope::is_flat_edit(const Journal& journal) const {
 }
 
 bool Envelope::keeps_lines_straight(const Journal& journal) const {
-  const Replacement& edit = journal.edit;
+  const SurfaceExchange& edit = journal.edit;
   const auto place_on = [&](const SurfaceFeatures::Line& line, const Point& p) {
     return (p - line.origin).dot(line.direction);
   };
@@ -148,7 +148,7 @@ bool Envelope::keeps_lines_straight(const Journal& journal) const {
   };
   const auto sense = [](double difference) { return (difference > 0) - (difference < 0); };
   // Which way each edge leads must not change, and a new vertex lies between its neighbours.
-  for (const Replacement::Edge& edge : edit.moved()) {
+  for (const SurfaceExchange::Edge& edge : edit.moved()) {
     const auto& line = reference_->lines[edge.line];
     const auto [a, b] = edge.vertices;
     const Point& p = edit.vertex(a).point;
@@ -158,7 +158,7 @@ bool Envelope::keeps_lines_straight(const Journal& journal) const {
     if (now == 0 || now != was || !lies_on(line, p) || !lies_on(line, q)) return false;
   }
   for (std::size_t i = 0; i < edit.gained().size(); ++i) {
-    const Replacement::Edge& edge = edit.gained()[i];
+    const SurfaceExchange::Edge& edge = edit.gained()[i];
     const auto& line = reference_->lines[edge.line];
     const Point& p = edit.vertex(edge.vertices[0]).point;
     const Point& q = edit.vertex(edge.vertices[1]).point;
@@ -185,7 +185,7 @@ bool Envelope::replace(std::span<const SurfaceFace> before, std::span<const Surf
 
 namespace {
 
-bool is_before(const Replacement& edit, VertexHandle v, const SurfaceVertex::Corner& corner) {
+bool is_before(const SurfaceExchange& edit, VertexHandle v, const SurfaceVertex::Corner& corner) {
   return std::any_of(edit.before().begin(), edit.before().end(), [&](const auto& face) {
     for (unsigned k = 0; k < 3; ++k) {
       if (face.vertices[k] == v) {
@@ -198,7 +198,7 @@ bool is_before(const Replacement& edit, VertexHandle v, const SurfaceVertex::Cor
 }
 
 /// Faces and feature edges of the vertex after the edit.
-void exchange_faces(const Replacement& edit, VertexHandle v, SurfaceVertex& data) {
+void exchange_faces(const SurfaceExchange& edit, VertexHandle v, SurfaceVertex& data) {
   std::erase_if(data.corners, [&](const auto& corner) { return is_before(edit, v, corner); });
   std::erase_if(data.spokes, [&](const auto& spoke) {
     return std::any_of(edit.lost().begin(), edit.lost().end(), [&](const auto& edge) {
@@ -232,7 +232,7 @@ void Envelope::commit(Journal& journal) {
       return old == nullptr ? std::make_unique<SurfaceVertex>()
                             : std::make_unique<SurfaceVertex>(*old);
     };
-    for (const Replacement::Vertex& vertex : vertices) {
+    for (const SurfaceExchange::Vertex& vertex : vertices) {
       journal.saved.push_back({vertex.vertex, copy(vertex.vertex), vertex.point});
       SurfaceVertex& data = *journal.saved.back().data;
       data.place = vertex.place;

@@ -115,7 +115,7 @@ class TETMEND_API Envelope final : public SurfaceGuard {
   bool certify_elements(Journal& journal) const;
   bool certify(Journal& journal, std::uint32_t element) const;
   bool bends_too_much(const Journal& journal) const;
-  double bending(const Replacement& edit, std::span<const Replacement::Face> faces) const;
+  double bending(const SurfaceExchange& edit, std::span<const SurfaceExchange::Face> faces) const;
   void commit(Journal& journal);
   void exchange(Journal& journal, const JournalStep& step) noexcept;
 

@@ -36,7 +36,7 @@ class Envelope::Journal final : public SurfaceJournal {
   std::vector<JournalStep> steps;
 
   // Of the edit that is being asked about.
-  Replacement edit;
+  SurfaceExchange edit;
   std::vector<PresentKey> gone;   ///< faces and edges that vanish or move, sorted
   std::vector<Certified> proofs;  ///< new ones, by element
   /// What certifies an element no longer, or from now on.

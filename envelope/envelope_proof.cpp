@@ -35,12 +35,12 @@ std::array<Point, 3> segment(const Point& a, const Point& b) {
 }  // namespace
 
 bool Envelope::is_near_edit(Journal& journal) const {
-  const Replacement& edit = journal.edit;
-  for (const Replacement::Face& face : edit.after()) {
+  const SurfaceExchange& edit = journal.edit;
+  for (const SurfaceExchange::Face& face : edit.after()) {
     if (!lies_near(journal, face.points, 3, face.patch)) return false;
   }
   for (const auto& edges : {edit.moved(), edit.gained()}) {
-    for (const Replacement::Edge& edge : edges) {
+    for (const SurfaceExchange::Edge& edge : edges) {
       const auto points =
           segment(edit.vertex(edge.vertices[0]).point, edit.vertex(edge.vertices[1]).point);
       if (!lies_near(journal, points, 2, reference_->sheet_of_line(edge.line))) return false;
@@ -67,7 +67,7 @@ bool Envelope::lies_near(Journal& journal, const std::array<Point, 3>& points, u
 
 /// Fills the proofs.
 bool Envelope::certify_elements(Journal& journal) const {
-  const Replacement& edit = journal.edit;
+  const SurfaceExchange& edit = journal.edit;
   for (const auto& face : edit.before()) journal.gone.push_back(key_of(face.vertices));
   for (const auto& edges : {edit.lost(), edit.moved()}) {
     for (const auto& edge : edges) {
@@ -104,7 +104,7 @@ bool Envelope::certify_elements(Journal& journal) const {
 /// Of one element: what is left of its certifiers and what comes, one of them or together.
 bool Envelope::certify(Journal& journal, std::uint32_t number) const {
   const Element& element = reference_->elements[number];
-  const Replacement& edit = journal.edit;
+  const SurfaceExchange& edit = journal.edit;
   journal.targets.clear();
   journal.keys.clear();
   const auto offer = [&](const PresentKey& key, const std::array<Point, 3>& points) {
@@ -165,22 +165,23 @@ bool Envelope::certify(Journal& journal, std::uint32_t number) const {
 
 /// The sum of bends at the edges of what changes, each times the length of the edge.
 bool Envelope::bends_too_much(const Journal& journal) const {
-  const Replacement& edit = journal.edit;
+  const SurfaceExchange& edit = journal.edit;
   const double before = bending(edit, edit.before());
   const double after = bending(edit, edit.after());
   const double tolerance = reference_->tolerance(edit.after().front().patch);
   return after > kMoreBends * before + kBendsForTolerance * tolerance;
 }
 
-double Envelope::bending(const Replacement& edit, std::span<const Replacement::Face> faces) const {
+double Envelope::bending(const SurfaceExchange& edit,
+                         std::span<const SurfaceExchange::Face> faces) const {
   double sum = 0;
-  const auto add = [&](const Replacement::Face& face, const std::array<Point, 3>& other,
+  const auto add = [&](const SurfaceExchange::Face& face, const std::array<Point, 3>& other,
                        double length) {
     const Point n = normal_of(face.points, 3, 0);
     const Point m = normal_of(other, 3, 0);
     sum += length * std::atan2(n.cross(m).norm(), n.dot(m));
   };
-  for (const Replacement::Face& face : faces) {
+  for (const SurfaceExchange::Face& face : faces) {
     for (unsigned k = 0; k < 3; ++k) {
       const VertexHandle a = face.vertices[k];
       const VertexHandle b = face.vertices[(k + 1) % 3];

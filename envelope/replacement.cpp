@@ -24,8 +24,8 @@ bool same_face(const Triple& a, const Triple& b) {
 
 }  // namespace
 
-bool Replacement::read(const PresentSurface& surface, std::span<const SurfaceFace> before,
-                       std::span<const SurfaceFace> after) {
+bool SurfaceExchange::read(const PresentSurface& surface, std::span<const SurfaceFace> before,
+                           std::span<const SurfaceFace> after) {
   if (!read_faces(surface, before, after)) return false;
   list_vertices();
   if (!check_vertices(surface)) return false;
@@ -34,8 +34,8 @@ bool Replacement::read(const PresentSurface& surface, std::span<const SurfaceFac
   return find_lines(surface) && assign_patches(surface) && check_edges(surface) && keeps_topology();
 }
 
-bool Replacement::read_faces(const PresentSurface& surface, std::span<const SurfaceFace> before,
-                             std::span<const SurfaceFace> after) {
+bool SurfaceExchange::read_faces(const PresentSurface& surface, std::span<const SurfaceFace> before,
+                                 std::span<const SurfaceFace> after) {
   before_.clear();
   after_.clear();
   for (const SurfaceFace& face : before) {
@@ -56,18 +56,18 @@ bool Replacement::read_faces(const PresentSurface& surface, std::span<const Surf
   return true;
 }
 
-Replacement::Vertex* Replacement::find(VertexHandle v) {
+SurfaceExchange::Vertex* SurfaceExchange::find(VertexHandle v) {
   const auto at = std::lower_bound(vertices_.begin(), vertices_.end(), v,
                                    [](const Vertex& x, VertexHandle y) { return x.vertex < y; });
   return at != vertices_.end() && at->vertex == v ? &*at : nullptr;
 }
 
-const Replacement::Vertex& Replacement::vertex(VertexHandle v) const {
+const SurfaceExchange::Vertex& SurfaceExchange::vertex(VertexHandle v) const {
   return *std::lower_bound(vertices_.begin(), vertices_.end(), v,
                            [](const Vertex& x, VertexHandle y) { return x.vertex < y; });
 }
 
-void Replacement::list_vertices() {
+void SurfaceExchange::list_vertices() {
   vertices_.clear();
   for (const auto* faces : {&before_, &after_}) {
     for (const Face& face : *faces) {
@@ -103,7 +103,7 @@ void Replacement::list_vertices() {
   }
 }
 
-bool Replacement::check_vertices(const PresentSurface& surface) {
+bool SurfaceExchange::check_vertices(const PresentSurface& surface) {
   for (const Face& face : after_) {
     for (unsigned k = 0; k < 3; ++k) {
       if (face.points[k] != vertex(face.vertices[k]).point) return false;
@@ -123,7 +123,7 @@ bool Replacement::check_vertices(const PresentSurface& surface) {
   return true;
 }
 
-void Replacement::list_sides(std::span<const Face> faces, Sides& sides) {
+void SurfaceExchange::list_sides(std::span<const Face> faces, Sides& sides) {
   sides.clear();
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     for (unsigned k = 0; k < 3; ++k) {
@@ -135,8 +135,8 @@ void Replacement::list_sides(std::span<const Face> faces, Sides& sides) {
   std::sort(sides.begin(), sides.end());
 }
 
-std::span<const Replacement::Side> Replacement::sides_at(const Sides& sides, VertexHandle a,
-                                                         VertexHandle b) {
+std::span<const SurfaceExchange::Side> SurfaceExchange::sides_at(const Sides& sides, VertexHandle a,
+                                                                 VertexHandle b) {
   const Side wanted{std::min(a, b), std::max(a, b), false, 0};
   const auto begin = std::lower_bound(sides.begin(), sides.end(), wanted);
   auto end = begin;
@@ -146,8 +146,8 @@ std::span<const Replacement::Side> Replacement::sides_at(const Sides& sides, Ver
 
 // --- lines ---------------------------------------------------------------------------------------
 
-unsigned Replacement::faces_outside(const PresentSurface& surface, VertexHandle a,
-                                    VertexHandle b) const {
+unsigned SurfaceExchange::faces_outside(const PresentSurface& surface, VertexHandle a,
+                                        VertexHandle b) const {
   const SurfaceVertex* vertex = surface.find(a);
   if (vertex == nullptr) return 0;
   unsigned count = 0;
@@ -155,14 +155,15 @@ unsigned Replacement::faces_outside(const PresentSurface& surface, VertexHandle 
   return count - static_cast<unsigned>(sides_at(sides_before_, a, b).size());
 }
 
-bool Replacement::is_feature(const PresentSurface& surface, VertexHandle a, VertexHandle b) const {
+bool SurfaceExchange::is_feature(const PresentSurface& surface, VertexHandle a,
+                                 VertexHandle b) const {
   return surface.line(a, b) != kNone ||
          std::any_of(gained_.begin(), gained_.end(), [&](const Edge& edge) {
            return key_of(edge.vertices[0], edge.vertices[1]) == key_of(a, b);
          });
 }
 
-bool Replacement::find_lines(const PresentSurface& surface) {
+bool SurfaceExchange::find_lines(const PresentSurface& surface) {
   lost_.clear();
   gained_.clear();
   moved_.clear();
@@ -210,7 +211,7 @@ bool Replacement::find_lines(const PresentSurface& surface) {
 }
 
 /// One edge, or two with a new vertex between.
-bool Replacement::replace_path(VertexHandle from, VertexHandle to, std::uint32_t line) {
+bool SurfaceExchange::replace_path(VertexHandle from, VertexHandle to, std::uint32_t line) {
   if (!sides_at(sides_after_, from, to).empty()) {
     gained_.push_back({{from, to}, line});
     return true;
@@ -233,7 +234,7 @@ bool Replacement::replace_path(VertexHandle from, VertexHandle to, std::uint32_t
 
 // --- patches -------------------------------------------------------------------------------------
 
-bool Replacement::assign_from_border() {
+bool SurfaceExchange::assign_from_border() {
   for (Face& face : after_) {
     for (unsigned k = 0; k < 3 && face.patch == kNone; ++k) {
       const VertexHandle a = face.vertices[k];
@@ -251,7 +252,7 @@ bool Replacement::assign_from_border() {
   return true;
 }
 
-bool Replacement::assign_patches(const PresentSurface& surface) {
+bool SurfaceExchange::assign_patches(const PresentSurface& surface) {
   assign_from_border();
   for (bool changed = true; changed;) {
     changed = false;
@@ -299,7 +300,7 @@ struct Around {
 }  // namespace
 
 /// A new feature edge has the patches at its sides that the old one had.
-bool Replacement::check_gained(const Edge& edge) const {
+bool SurfaceExchange::check_gained(const Edge& edge) const {
   const auto number = static_cast<std::size_t>(&edge - gained_.data());
   const auto& old = stands_for_[number];
   const auto around = [](const Sides& sides, std::span<const Face> faces, VertexHandle a,
@@ -316,7 +317,7 @@ bool Replacement::check_gained(const Edge& edge) const {
          now == around(sides_before_, before_, old[0], old[1], true);
 }
 
-bool Replacement::check_edges(const PresentSurface& surface) const {
+bool SurfaceExchange::check_edges(const PresentSurface& surface) const {
   for (const Edge& edge : gained_) {
     if (!check_gained(edge)) return false;
   }
@@ -344,7 +345,7 @@ bool Replacement::check_edges(const PresentSurface& surface) const {
   return true;
 }
 
-bool Replacement::keeps_topology() const {
+bool SurfaceExchange::keeps_topology() const {
   const auto edges = [](const Sides& sides) {
     std::ptrdiff_t count = 0;
     for (std::size_t i = 0; i < sides.size(); ++i) {

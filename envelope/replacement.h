@@ -14,7 +14,7 @@
 namespace tetmend {
 
 /// Reads an edit. A working memory: made once, used for one edit after another.
-class Replacement {
+class SurfaceExchange {
  public:
   struct Face {
     std::array<VertexHandle, 3> vertices;
