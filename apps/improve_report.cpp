@@ -69,7 +69,21 @@ std::string format_passes(const ImproveReport& report) {
   return text;
 }
 
+/// What --surface made of it.
+std::string format_surface_change(const SurfaceChange& change) {
+  if (change.tolerance == 0) {
+    return fmt::format("the same shape; {} of {} triangles are others or moved in their plane",
+                       grouped(change.touched), grouped(change.triangles_after));
+  }
+  return fmt::format(
+      "moved by {:.3g} at most, which is proven (samples: {:.3g}, allowed: {:.3g}); "
+      "{} of {} triangles",
+      change.proven, change.sampled, change.tolerance, grouped(change.touched),
+      grouped(change.triangles_after));
+}
+
 std::string format_surface(const Result& result) {
+  if (result.surface_change) return format_surface_change(*result.surface_change);
   return fmt::format("untouched: {} triangles, fingerprint {:016x}",
                      grouped(result.after.boundary_triangles), result.surface_fingerprint);
 }
@@ -280,10 +294,40 @@ std::string format_report(const ImproveReport& report) {
   return text + format_checks(report);
 }
 
+namespace {
+
+/// Of a fixed surface the fingerprints alone.
+nlohmann::json surface_to_json(const Result& result) {
+  const auto text = [](std::uint64_t fingerprint) { return fmt::format("{:016x}", fingerprint); };
+  nlohmann::json json = {
+      {"unchanged", result.surface_fingerprint == result.surface_fingerprint_before},
+      {"fingerprint_before", text(result.surface_fingerprint_before)},
+      {"fingerprint_after", text(result.surface_fingerprint)}};
+  if (!result.surface_change) return json;
+  const SurfaceChange& change = *result.surface_change;
+  nlohmann::json regions = nlohmann::json::array();
+  for (const SurfaceChange::Region& region : change.regions) {
+    regions.push_back({{"label", region.label},
+                       {"area_before", region.area_before},
+                       {"area_after", region.area_after},
+                       {"volume_before", region.volume_before},
+                       {"volume_after", region.volume_after}});
+  }
+  json["tolerance"] = change.tolerance;
+  json["proven_distance"] = change.proven;
+  json["sampled_distance"] = change.sampled;
+  json["triangles_before"] = change.triangles_before;
+  json["triangles_after"] = change.triangles_after;
+  json["triangles_touched"] = change.touched;
+  json["regions"] = regions;
+  return json;
+}
+
+}  // namespace
+
 nlohmann::json to_json(const ImproveReport& report) {
   const Result& result = report.result;
   const Options& options = report.options.run;
-  const std::string fingerprint = fmt::format("{:016x}", result.surface_fingerprint);
   nlohmann::json passes = nlohmann::json::array();
   for (const Pass& pass : result.passes) passes.push_back(to_json(pass));
   nlohmann::json data = nlohmann::json::array();
@@ -314,10 +358,7 @@ nlohmann::json to_json(const ImproveReport& report) {
           {"before", to_json(result.before, result.rulers_before, result.curved_before)},
           {"after", to_json(result.after, result.rulers_after, result.curved_after)},
           {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
-          {"surface",
-           {{"unchanged", true},  // improve() fails otherwise
-            {"fingerprint_before", fingerprint},
-            {"fingerprint_after", fingerprint}}},
+          {"surface", surface_to_json(result)},
           {"not_positive_tets",
            {{"before", result.not_positive_before}, {"after", result.not_positive_after}}},
           {"volume_change", result.volume_change()},

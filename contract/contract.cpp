@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "contract/zoo.h"
+#include "envelope/envelope.h"
 #include "ops/edge_contraction.h"
 
 namespace tetmend::contract {
@@ -32,6 +33,26 @@ TetMesh half_frozen(const MeshData& data) {
     for (const VertexHandle v : mesh.vertices(t)) z += mesh.point(v).z();
     return z < 0;
   });
+  return mesh;
+}
+
+/// Each coordinate of each point moved, but for those on the planes given: sides and walls stay
+/// plane.
+MeshData slid(MeshData data, const std::vector<double>& planes, double step, std::uint64_t seed) {
+  Random random(seed);
+  for (Point& p : data.points) {
+    for (double& x : p) {
+      const double slide = random.real(-step, step);
+      if (std::find(planes.begin(), planes.end(), x) == planes.end()) x += slide;
+    }
+  }
+  return data;
+}
+
+/// The mesh with a surface that may move by so much; 0: where that changes no shape.
+TetMesh with_free_surface(const MeshData& data, double length) {
+  TetMesh mesh(data);
+  mesh.set_surface_guard(Envelope::of(mesh, {.length = length}));
   return mesh;
 }
 
@@ -70,12 +91,20 @@ Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
 
 }  // namespace
 
+TetMesh cube_with_free_sides(unsigned cells, std::uint64_t seed) {
+  return with_free_surface(slid(kuhn_cube(cells, 0, seed), {0, 1}, 0.3 / cells, seed), 0);
+}
+
 std::vector<Ground> grounds() {
   std::vector<Ground> all;
   for (const NamedMesh& named : zoo()) all.push_back({named.name, TetMesh(named.data)});
   all.push_back({"constrained_ball", TetMesh(constrained_ball(11))});
   all.push_back({"half_frozen_ball", half_frozen(delaunay_ball(150, 13))});
   all.push_back({"ball_with_free_slots", with_free_slots(delaunay_ball(100, 12))});
+  all.push_back({"cube_with_free_sides", cube_with_free_sides(3, 14)});
+  all.push_back(
+      {"regions_with_free_wall", with_free_surface(slid(two_regions(), {0, 0.5, 1}, 0.12, 15), 0)});
+  all.push_back({"ball_with_free_surface", with_free_surface(delaunay_ball(120, 16), 0.05)});
   return all;
 }
 

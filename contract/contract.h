@@ -18,9 +18,12 @@ struct Ground {
   TetMesh mesh;
 };
 
-/// The zoo, a mesh with constraints of all kinds, one with frozen tets, and one with free slots
-/// between the live ones.
+/// The zoo, a mesh with constraints of all kinds, one with frozen tets, one with free slots between
+/// the live ones, and some with a surface that may change.
 std::vector<Ground> grounds();
+/// A cube of cells^3 cells, each of six tets, all vertices but the corners moved from their places,
+/// those of sides and edges along them. Its surface may change where that changes no shape.
+TetMesh cube_with_free_sides(unsigned cells, std::uint64_t seed);
 
 /// With the default parameters.
 Candidate with_defaults(const Registry& registry, std::string_view name);

@@ -7,6 +7,7 @@
 
 #include "contract/zoo.h"
 #include "kernel/integrity.h"
+#include "ops/surface_vertex.h"
 
 namespace tetmend::contract {
 
@@ -41,6 +42,7 @@ bool strictly_better(std::vector<Quality> now, std::vector<Quality> before) {
 
 Portrait portrait(const TetMesh& mesh) {
   Portrait p;
+  const bool may_move = mesh.surface_guard() != nullptr;
   for (const TetHandle t : live_tets(mesh)) {
     TetVertices v = mesh.vertices(t);
     const long double volume = volume_of(mesh, v);
@@ -53,6 +55,7 @@ Portrait portrait(const TetMesh& mesh) {
       Face corners = mesh.vertices(face);
       std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
       const HalfFace twin = mesh.twin(face);
+      if (may_move && (twin.is_outside() || mesh.label(twin.tet()) != mesh.label(t))) continue;
       if (twin.is_outside()) {
         p.boundary.emplace_back(corners, twin.surface_triangle(), mesh.label(t));
       } else if (mesh.is_constrained(face)) {
@@ -63,6 +66,7 @@ Portrait portrait(const TetMesh& mesh) {
       if (!mesh.is_constrained(TetEdge(t, e))) continue;
       Edge edge = mesh.vertices(TetEdge(t, e));
       std::sort(edge.begin(), edge.end());
+      if (may_move && mesh.surface_guard()->is_feature(edge[0], edge[1])) continue;
       p.constrained_edges.insert(edge);
     }
     if (mesh.is_frozen(t)) p.frozen.emplace_back(t, v);
@@ -72,16 +76,46 @@ Portrait portrait(const TetMesh& mesh) {
   }
   for (const VertexHandle v : live_vertices(mesh)) {
     const Point& at = mesh.point(v);
-    if (mesh.is_fixed(v)) p.fixed.emplace_back(v, at.x(), at.y(), at.z());
+    if (mesh.is_fixed(v) && !may_change(mesh, v)) p.fixed.emplace_back(v, at.x(), at.y(), at.z());
   }
   std::sort(p.boundary.begin(), p.boundary.end());
   std::sort(p.constrained_faces.begin(), p.constrained_faces.end());
   std::sort(p.qualities.begin(), p.qualities.end());
   p.not_positive = count_not_positive(mesh);
+  if (may_move) p.shape = std::make_shared<SurfaceShape>(surface_shape(mesh));
   return p;
 }
 
-std::string complaint_about_loss(const Portrait& before, const TetMesh& mesh) {
+Portrait portrait_after(const Portrait& before, const TetMesh& mesh) {
+  Portrait p = portrait(mesh);
+  if (before.shape) p.shape = before.shape;
+  return p;
+}
+
+namespace {
+
+/// Of the regions, and the shape of a surface that may change. `exact`: no volume may change.
+std::string complaint_about_regions(const Portrait& before, const Portrait& now, bool exact) {
+  if (now.volumes.size() != before.volumes.size()) return "a region vanished";
+  for (const auto& [label, volume] : before.volumes) {
+    const auto found = now.volumes.find(label);
+    if (found == now.volumes.end()) return "a region vanished";
+    if (exact && std::abs(found->second - volume) > 1e-12L * before.absolute_volume) {
+      return "the volume of a region changed";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string complaint_about_loss(const Portrait& before, const TetMesh& changed) {
+  TetMesh renewed;
+  if (changed.surface_guard() != nullptr) {
+    renewed = changed;
+    renewed.renew_surface();
+  }
+  const TetMesh& mesh = changed.surface_guard() != nullptr ? renewed : changed;
   if (const auto findings = check_integrity(mesh); !findings.empty()) {
     return "the mesh is not sound: " + to_string(findings);
   }
@@ -91,13 +125,13 @@ std::string complaint_about_loss(const Portrait& before, const TetMesh& mesh) {
   if (now.constrained_edges != before.constrained_edges) return "constrained edges changed";
   if (now.fixed != before.fixed) return "a fixed vertex moved or vanished";
   if (now.frozen != before.frozen) return "a frozen tet changed";
-  if (now.volumes.size() != before.volumes.size()) return "a region vanished";
-  for (const auto& [label, volume] : before.volumes) {
-    const auto found = now.volumes.find(label);
-    if (found == now.volumes.end()) return "a region vanished";
-    if (std::abs(found->second - volume) > 1e-12L * before.absolute_volume) {
-      return "the volume of a region changed";
-    }
+  const double tolerance = before.shape ? surface_tolerance(mesh) : 0;
+  if (auto about = complaint_about_regions(before, now, tolerance == 0); !about.empty()) {
+    return about;
+  }
+  if (before.shape) {
+    auto about = complaint_about_shape(*before.shape, *now.shape, tolerance);
+    if (!about.empty()) return about;
   }
   for (const TetVertices& tet : now.doubtful) {
     if (!before.doubtful.contains(tet)) return "a tet is not certified positive";

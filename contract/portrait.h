@@ -5,18 +5,21 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "contract/moving_surface.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend::contract {
 
 /// All that an operator must keep, and what it must improve. Computed from points and connectivity;
-/// no cached value enters.
+/// no cached value enters. Of a surface that may change, its shape when it was first seen counts, not
+/// its faces.
 struct Portrait {
   using Face = std::array<VertexHandle, 3>;  // from its smallest vertex on, the sense kept
 
@@ -27,13 +30,16 @@ struct Portrait {
   std::vector<std::pair<TetHandle, TetVertices>> frozen;
   std::map<Label, long double> volumes;
   long double absolute_volume = 0;
-  std::vector<Quality> qualities;  // ascending
-  std::set<TetVertices> doubtful;  // tets not certified positive, vertices sorted
-  std::size_t not_positive = 0;    // in exact arithmetic
+  std::vector<Quality> qualities;             // ascending
+  std::set<TetVertices> doubtful;             // tets not certified positive, vertices sorted
+  std::size_t not_positive = 0;               // in exact arithmetic
+  std::shared_ptr<const SurfaceShape> shape;  // null: the surface is fixed
 };
 
 /// Cost: n log n in the number of tets, with exact arithmetic where it is needed.
 Portrait portrait(const TetMesh& mesh);
+/// Of the same mesh later on, a surface of which is held to the same shape.
+Portrait portrait_after(const Portrait& before, const TetMesh& mesh);
 
 /// What the mesh has lost in an accepted attempt, given its portrait before; empty when nothing.
 /// Also rebuilds the mesh from plain arrays. Cost: as of a portrait.

@@ -141,7 +141,7 @@ Outcome try_in_sweeps(const Operator& op, const TetMesh& start, unsigned sweeps,
       if (const auto about = complaint_about(known, worker.mesh); !about.empty()) {
         return complain(target, about);
       }
-      known = portrait(worker.mesh);
+      known = portrait_after(known, worker.mesh);
       before = worker.mesh;
     }
     if (outcome.accepted == accepted) break;
@@ -203,7 +203,7 @@ Outcome try_in_turns(std::span<const Candidate> candidates, const TetMesh& start
         } else {
           ++outcome.accepted;
           about = complaint_about(known, worker.mesh);
-          known = portrait(worker.mesh);
+          known = portrait_after(known, worker.mesh);
         }
         if (about.empty()) continue;
         outcome.complaint = fmt::format("in turns with others, {}: {}", candidate.name,

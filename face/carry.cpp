@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -61,8 +63,8 @@ class Carrying {
  public:
   Carrying(const MeshData& before, std::span<const std::uint32_t> vertex_map,
            std::span<const std::uint32_t> tet_map, std::span<const std::string> conserve,
-           MeshData& now)
-      : before_(before), now_(now), vertex_map_(vertex_map), conserve_(conserve) {
+           MeshData& now, const SurfaceMarks* marks)
+      : before_(before), now_(now), vertex_map_(vertex_map), conserve_(conserve), marks_(marks) {
     old_point_ = inverse(vertex_map, now.points.size());
     old_tet_ = inverse(tet_map, now.tets.size());
     for (std::size_t i = 0; i < now.tets.size(); ++i) {
@@ -83,8 +85,10 @@ class Carrying {
     now_.tet_numbers = numbers_of(before_.tet_numbers, old_tet_);
     carry_points(locator);
     carry_tets(locator);
-    carry_elements(triangles_of(before_), triangles_of(now_), 2);
-    carry_elements(edges_of(before_), edges_of(now_), 1);
+    static const std::vector<Label> kNone;
+    carry_elements(triangles_of(before_), triangles_of(now_), 2,
+                   marks_ != nullptr ? marks_->triangles : kNone);
+    carry_elements(edges_of(before_), edges_of(now_), 1, marks_ != nullptr ? marks_->edges : kNone);
     carry_groups();
     carry_others();
     now_.entities = before_.entities;
@@ -252,9 +256,37 @@ class Carrying {
     return sum / 4;
   }
 
+  /// Of an element, as it is in one of the meshes.
+  template <class Element>
+  static Point middle(const MeshData& data, const Element& element) {
+    Point sum = Point::Zero();
+    for (const std::uint32_t v : element.vertices) sum += data.points[v];
+    return sum / static_cast<double>(element.vertices.size());
+  }
+
+  /// The nearest of the old elements that an element of a changed surface is like; kGone for a wall
+  /// that nobody named. Cost: linear.
+  template <class Element>
+  std::uint32_t model_of(const Element& element, const std::vector<Element>& old,
+                         const std::vector<Label>& marks) const {
+    const Point here = middle(now_, element);
+    std::uint32_t nearest = kGone;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < old.size(); ++i) {
+      if ((marks.empty() ? old[i].label : marks[i]) != element.label) continue;
+      const double distance = (middle(before_, old[i]) - here).squaredNorm();
+      if (distance < least) {
+        least = distance;
+        nearest = i;
+      }
+    }
+    return nearest;
+  }
+
   /// Elements come back in an order of their own, and with walls that nobody named.
   template <class Old, class New>
-  void carry_elements(const Old& old, const New& made, std::size_t dimension) {
+  void carry_elements(const Old& old, const New& made, std::size_t dimension,
+                      const std::vector<Label>& marks) {
     using Element = typename std::remove_reference_t<decltype(made.elements)>::value_type;
     std::multimap<decltype(Element::vertices), std::uint32_t> places;
     for (std::uint32_t i = 0; i < old.elements.size(); ++i) {
@@ -262,14 +294,21 @@ class Carrying {
       for (std::uint32_t& v : vertices) v = vertex_map_[v];
       places.emplace(sorted(vertices), i);
     }
-    std::vector<std::uint32_t> from;
+    const std::set<decltype(Element::vertices)> walls = walls_now<Element>();
+    std::vector<std::uint32_t> from;  // whose values it takes
+    std::vector<std::uint32_t> same;  // kGone for a new one
     std::vector<Element> kept;
     for (const Element& element : made.elements) {
       const auto found = places.find(sorted(element.vertices));
-      if (found == places.end()) continue;
-      from.push_back(found->second);
+      const bool is_old = found != places.end();
+      if (!is_old && (marks_ == nullptr || walls.contains(sorted(element.vertices)))) continue;
+      const std::uint32_t model = is_old ? found->second : model_of(element, old.elements, marks);
+      if (model == kGone) continue;
+      from.push_back(model);
+      same.push_back(is_old ? model : kGone);
       kept.push_back(element);
-      places.erase(found);
+      if (!marks.empty()) kept.back().label = old.elements[model].label;
+      if (is_old) places.erase(found);
     }
     made.elements = std::move(kept);
     for (const DataArray& array : old.data) {
@@ -278,10 +317,30 @@ class Carrying {
     if (!old.parts.empty()) {
       for (const std::uint32_t i : from) made.parts.push_back(old.parts[i]);
     }
-    made.numbers = numbers_of(old.numbers, from);
+    made.numbers = numbers_of(old.numbers, same);
     std::vector<std::uint32_t>& map = element_maps_[dimension];
     map.assign(old.elements.size(), kGone);
-    for (std::uint32_t i = 0; i < from.size(); ++i) map[from[i]] = i;
+    for (std::uint32_t i = 0; i < from.size(); ++i) {
+      if (same[i] != kGone) {
+        map[from[i]] = i;
+      } else {
+        new_elements_[dimension].push_back({from[i], i});
+      }
+    }
+  }
+
+  /// What walls_between_parts() added, sorted; they cannot have changed.
+  template <class Element>
+  std::set<decltype(Element::vertices)> walls_now() const {
+    std::set<decltype(Element::vertices)> walls;
+    if constexpr (std::is_same_v<Element, MeshData::Triangle>) {
+      if (marks_ == nullptr) return walls;
+      for (MeshData::Triangle& wall : walls_between_parts(before_)) {
+        for (std::uint32_t& v : wall.vertices) v = vertex_map_[v];
+        walls.insert(sorted(wall.vertices));
+      }
+    }
+    return walls;
   }
 
   /// New ones have no number yet.
@@ -310,8 +369,13 @@ class Carrying {
           break;
         default: {
           const auto& map = element_maps_[static_cast<std::size_t>(group.dimension)];
+          const std::set<std::uint32_t> old(group.members.begin(), group.members.end());
           std::erase_if(group.members, [&](std::uint32_t i) { return map[i] == kGone; });
           for (std::uint32_t& member : group.members) member = map[member];
+          for (const auto& [model, made] :
+               new_elements_[static_cast<std::size_t>(group.dimension)]) {
+            if (old.contains(model)) group.members.push_back(made);
+          }
         }
       }
       now_.groups.push_back(std::move(group));
@@ -421,12 +485,15 @@ class Carrying {
   MeshData& now_;
   std::span<const std::uint32_t> vertex_map_;
   std::span<const std::string> conserve_;
+  const SurfaceMarks* marks_;             // null: the surface is fixed
   std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
   std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
   std::vector<std::uint32_t> changed_;    // old tets
   std::vector<bool> is_inside_;           // old points; empty: not asked for yet
   std::vector<TetPlace> places_;          // in the old mesh, of points that are new or have moved
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
+  // New ones of a changed surface, each with the old one that it is like.
+  std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 4> new_elements_;
   std::vector<CarriedArray> carried_;
 };
 
@@ -462,8 +529,9 @@ std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
 
 std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
                                 std::span<const std::uint32_t> tet_map,
-                                std::span<const std::string> conserve, MeshData& now) {
-  return Carrying(before, vertex_map, tet_map, conserve, now).run();
+                                std::span<const std::string> conserve, MeshData& now,
+                                const SurfaceMarks* marks) {
+  return Carrying(before, vertex_map, tet_map, conserve, now, marks).run();
 }
 
 void check_conserve(const MeshData& data, std::span<const std::string> conserve) {

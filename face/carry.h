@@ -7,7 +7,8 @@
 //   data and parts of tets: those of the old tet that holds the centroid; on request the mean of the
 //     old tets by the volume that they share with the new one, which keeps the integral
 //   groups: a new point is in one that holds all vertices of its old tet
-//   triangles, edges and other elements are the same: only the numbers of their vertices change
+//   triangles, edges and other elements are the same: only the numbers of their vertices change;
+//     where the surface may change, a new one is like the nearest old one that was like it
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@
 
 #include <tetmend/improve.h>
 
+#include "face/surface_marks.h"
 #include "kernel/mesh_data.h"
 
 namespace tetmend::face {
@@ -30,10 +32,12 @@ std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data);
 /// Gives `now`, what TetMesh::to_data() made of the improved mesh, all that `before` holds besides.
 /// Triangles that `before` does not name go. The maps are those of maps.h.
 /// @param conserve arrays of the tets, see check_conserve()
+/// @param marks what `now` has for labels where the surface may change; null: it is fixed
 /// @returns for each array, how, and what that did to its integral
 std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
                                 std::span<const std::uint32_t> tet_map,
-                                std::span<const std::string> conserve, MeshData& now);
+                                std::span<const std::string> conserve, MeshData& now,
+                                const SurfaceMarks* marks = nullptr);
 
 /// @throws OptionError unless each name is that of an array of real numbers of the tets
 void check_conserve(const MeshData& data, std::span<const std::string> conserve);

@@ -151,6 +151,7 @@ class Improvement {
   Mesh unfilled_;   // takes it then, without asking for memory
   bool goes_back_ = false;
   bool carries_ = false;  // it holds more than mesh_ knows
+  face::SurfaceMarks marks_;
   TetMesh mesh_;
   std::unique_ptr<TraceRecorder> trace_;
   Scale scale_;  // of mesh_
@@ -178,6 +179,7 @@ void Improvement::build() {
     face::check_conserve(input_, options_.conserve);
     MeshData data = input_;
     carries_ = face::holds_more(data);
+    if (!plan_.surface.is_fixed()) marks_ = face::mark_surface(data);
     build_mesh(data);
   } catch (...) {
     give_back_input();
@@ -187,6 +189,7 @@ void Improvement::build() {
 
 void Improvement::build_mesh(MeshData& data) {
   const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  face::put_marks(marks_, data);
   data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
   const std::vector<MeshData::Edge> curved =
       find_fixed_mid_nodes(data, !options_.ignore_interior).inside;
@@ -231,7 +234,9 @@ void Improvement::measure_before() {
     result_.rulers_before = measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);
   }
-  surface_before_ = surface_fingerprint(mesh_);
+  surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh_);
+  if (!plan_.surface.is_fixed())
+    result_.surface_change = face::SurfaceTolerance::measure_before(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
   note(face::advice_before(mesh_, result_));
   if (const auto most = plan_.growth.most(result_.before.tets);
@@ -297,6 +302,9 @@ void Improvement::measure_after() {
   }
   if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
   result_.surface_fingerprint = surface_fingerprint(mesh_);
+  if (result_.surface_change) {
+    face::SurfaceTolerance::measure_after(mesh_, *result_.surface_change);
+  }
   result_.not_positive_after = count_not_positive(mesh_);
   result_.touched_tets = count_touched(mesh_);
   std::vector<std::pair<TetHandle, Hindrance>> hindrances;
@@ -377,8 +385,8 @@ void Improvement::give_back_improved() {
       result_.after.vertices = data.points.size();
       if (result_.curved_after) result_.curved_after->mid_nodes = data.mid_nodes.size();
     }
-    result_.carried =
-        face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
+    result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve,
+                                  data, plan_.surface.is_fixed() ? nullptr : &marks_);
     scale_.to_file(data.points);
   }
   user_mesh_ = MeshAccess::make(std::move(data));

@@ -2,22 +2,25 @@
 #include "face/moving_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "envelope/envelope.h"
+#include "kernel/compensated_sum.h"
 #include "kernel/from_chars.h"
+#include "kernel/geometry.h"
 
 namespace tetmend::face {
 
-SurfaceTolerance::SurfaceTolerance(const Options& options)
-    : feature_angle_(options.feature_angle) {
+SurfaceTolerance::SurfaceTolerance(const Options& options) : feature_angle_(options.feature_angle) {
   if (!(feature_angle_ > 0 && feature_angle_ <= 180)) {
-    throw OptionError("feature_angle",
-                      fmt::format("feature_angle: {} is no angle above 0 and up to 180 degrees",
-                                  feature_angle_));
+    throw OptionError(
+        "feature_angle",
+        fmt::format("feature_angle: {} is no angle above 0 and up to 180 degrees", feature_angle_));
   }
   std::string_view text = options.surface;
   if (text.empty() || text == "fixed") return;
@@ -60,6 +63,83 @@ std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
     if (!mesh.is_deleted(v) && paired[mesh.origin(v)] != 0) options.kept.push_back(v);
   }
   return Envelope::of(mesh, options);
+}
+
+namespace {
+
+/// Areas of the surface and volumes by label, in lengths of the mesh.
+struct Content {
+  double area = 0;
+  double volume = 0;
+};
+
+std::map<Label, Content> contents(const TetMesh& mesh) {
+  std::map<Label, std::array<CompensatedSum, 2>> sums;
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh.is_deleted(t)) continue;
+    auto& [area, volume] = sums[mesh.label(t)];
+    const TetVertices& v = mesh.vertices(t);
+    volume.add(volume6(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])) / 6);
+    for (unsigned k = 0; k < 4; ++k) {
+      const HalfFace f(t, k);
+      const HalfFace twin = mesh.twin(f);
+      if (!twin.is_outside() && mesh.label(twin.tet()) == mesh.label(t)) continue;
+      const auto [a, b, c] = mesh.vertices(f);
+      const Point normal = (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a));
+      area.add(normal.norm() / 2);
+    }
+  }
+  std::map<Label, Content> contents;
+  for (const auto& [label, sum] : sums) contents[label] = {sum[0].value(), sum[1].value()};
+  return contents;
+}
+
+std::size_t count_surface(const TetMesh& mesh) {
+  const auto triangles = mesh.surface_triangles();
+  return static_cast<std::size_t>(
+      std::count_if(triangles.begin(), triangles.end(),
+                    [](const SurfaceTriangle& triangle) { return !triangle.loose; }));
+}
+
+}  // namespace
+
+SurfaceChange SurfaceTolerance::measure_before(const TetMesh& mesh) {
+  SurfaceChange change;
+  const double length = mesh.scale().to_file(1.0);
+  change.triangles_before = count_surface(mesh);
+  for (const auto& [label, content] : contents(mesh)) {
+    change.regions.push_back({.label = label,
+                              .area_before = content.area * length * length,
+                              .volume_before = content.volume * length * length * length});
+  }
+  return change;
+}
+
+void SurfaceTolerance::measure_after(const TetMesh& mesh, SurfaceChange& change) {
+  const double length = mesh.scale().to_file(1.0);
+  const auto now = contents(mesh);
+  for (SurfaceChange::Region& region : change.regions) {
+    const Content& content = now.at(region.label);
+    region.area_after = content.area * length * length;
+    region.volume_after = content.volume * length * length * length;
+  }
+  change.triangles_after = count_surface(mesh);
+  change.touched = 0;
+  for (std::size_t i = 0; i < mesh.surface_triangles().size(); ++i) {
+    const SurfaceTriangle& triangle = mesh.surface_triangles()[i];
+    if (triangle.loose) continue;
+    const auto& v = triangle.vertices;
+    const bool is_new = mesh.surface_origins()[i] == TetMesh::kNotFromFile;
+    const bool moved =
+        std::any_of(v.begin(), v.end(), [&](VertexHandle w) { return mesh.moved(w) > 0; });
+    change.touched += is_new || moved ? 1 : 0;
+  }
+  const auto& envelope = dynamic_cast<const Envelope&>(*mesh.surface_guard());
+  const auto& tolerances = envelope.reference().tolerances;
+  if (tolerances.empty()) return;
+  change.tolerance = length * *std::max_element(tolerances.begin(), tolerances.end());
+  change.proven = length * envelope.proven_bound().distance;
 }
 
 }  // namespace tetmend::face

@@ -28,6 +28,11 @@ class SurfaceTolerance {
   /// @throws OptionError for a mesh whose surface must not move: one of second order
   std::unique_ptr<SurfaceGuard> guard(const TetMesh& mesh, const MeshData& input) const;
 
+  /// Of the mesh when it got its guard.
+  static SurfaceChange measure_before(const TetMesh& mesh);
+  /// Fills in the rest. Cost: linear, apart from samples where the surface has changed.
+  static void measure_after(const TetMesh& mesh, SurfaceChange& change);
+
  private:
   bool is_fixed_ = true;
   double share_ = 0;   // of the lengths of edges

@@ -75,6 +75,12 @@ void MeshView::number_tets() {
 
 void MeshView::collect_named() {
   const auto number = [&](VertexHandle v) { return number_[v.index()]; };
+  // Of a surface that has changed since TetMesh::renew_surface(), what is gone is not shown.
+  const auto is_there = [&](const auto& vertices) {
+    return mesh_->surface_guard() == nullptr ||
+           std::none_of(vertices.begin(), vertices.end(),
+                        [&](VertexHandle v) { return mesh_->is_deleted(v); });
+  };
   const std::vector<Label>& labels = mesh_->point_labels_;
   if (!labels.empty()) own_point_labels_.reserve(point_count_);
   for (std::uint32_t i = 0; i < point_count_; ++i) {
@@ -91,12 +97,13 @@ void MeshView::collect_named() {
                                    [](const SurfaceTriangle& t) { return t.named; });
   own_triangles_.reserve(static_cast<std::size_t>(named));
   for (const SurfaceTriangle& triangle : mesh_->surface_) {
-    if (!triangle.named) continue;
     const auto& v = triangle.vertices;
+    if (!triangle.named || !is_there(v)) continue;
     own_triangles_.push_back({{number(v[0]), number(v[1]), number(v[2])}, triangle.label});
   }
   own_edges_.reserve(mesh_->named_edges_.size());
   for (const TetMesh::NamedEdge& edge : mesh_->named_edges_) {
+    if (!is_there(edge.vertices)) continue;
     own_edges_.push_back({{number(edge.vertices[0]), number(edge.vertices[1])}, edge.label});
   }
   point_labels_ = own_point_labels_;

@@ -174,7 +174,7 @@ class TETMEND_API Workspace {
   /// Made when it is first needed; a copy of the workspace makes its own.
   struct OwnJournal : std::unique_ptr<SurfaceJournal> {
     OwnJournal() = default;
-    OwnJournal(const OwnJournal&) {}
+    OwnJournal(const OwnJournal&) : std::unique_ptr<SurfaceJournal>() {}
     OwnJournal(OwnJournal&&) noexcept = default;
     OwnJournal& operator=(const OwnJournal&) { return *this; }
     OwnJournal& operator=(OwnJournal&&) noexcept = default;

@@ -242,7 +242,7 @@ void Improvement::measure_after(Joined& joined) {
   mesh.freeze([&](TetHandle t) { return joined.is_protected[numbers[t.index()]] != 0; });
   result_.after = compute_statistics(mesh, options_.goal);
   if (options_.rulers) result_.rulers_after = measure_rulers(mesh);
-  result_.surface_fingerprint = surface_fingerprint(mesh);
+  result_.surface_fingerprint = result_.surface_fingerprint_before = surface_fingerprint(mesh);
   result_.not_positive_after = count_not_positive(mesh);
   if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel);
   for (const std::string& text : face::advice_after(mesh, options_, result_)) {
@@ -317,6 +317,9 @@ void check(const Options& options, const Division& division) {
   }
   if (!options.trace.empty()) {
     throw OptionError("trace", "trace: a run in pieces cannot be recorded");
+  }
+  if (!options.surface.empty() && options.surface != "fixed") {
+    throw OptionError("surface", "surface: it must stay fixed in a run in pieces");
   }
   if (options.check_operators) {
     throw OptionError("check_operators", "check_operators: not for a run in pieces");

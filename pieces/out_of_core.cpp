@@ -44,6 +44,7 @@ void check_options(const Options& options) {
   };
   refuse(!options.protect.empty(), "protect", "protect");
   refuse(!options.only.empty(), "only", "only");
+  refuse(!options.surface.empty() && options.surface != "fixed", "surface", "surface");
   refuse(options.keep_size, "keep_size", "keep-size");
   refuse(!options.conserve.empty(), "conserve", "conserve");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
@@ -193,7 +194,7 @@ void FileRun::measure_after(PieceRun& run) {
   const Stopwatch watch(result_.measuring);
   const Figures figures = run.measure_after();
   result_.after = figures.statistics;
-  result_.surface_fingerprint = figures.surface;
+  result_.surface_fingerprint = result_.surface_fingerprint_before = figures.surface;
   result_.not_positive_after = figures.not_positive;
   constexpr double kMostVolumeChange = 1e-9;
   const bool fits = figures.surface == surface_before_ &&

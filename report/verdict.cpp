@@ -81,6 +81,31 @@ class Promises {
   const Figures& figures_;
 };
 
+/// What became of the surface, as the end of a sentence.
+std::string surface_of(const Figures& figures) {
+  if (!figures.has("surface.tolerance")) return "the surface is untouched";
+  if (figures.number("surface.tolerance") == 0) return "the surface has the same shape";
+  return fmt::format("the surface moved by {} at most",
+                     figures.shown_digits("surface.proven_distance", 3));
+}
+
+/// Of a surface that might move that it did not move farther.
+Promise promise_of_surface(const Figures& figures) {
+  if (figures.has("surface.tolerance")) {
+    const bool stays =
+        figures.number("surface.proven_distance") <= figures.number("surface.tolerance");
+    return {"The surface stays within its tolerance, proven in both directions",
+            figures.shown_digits("surface.tolerance", 3),
+            figures.shown_digits("surface.proven_distance", 3), stays};
+  }
+  const bool stays =
+      figures.is_true("surface.unchanged") &&
+      figures.text("surface.fingerprint_before") == figures.text("surface.fingerprint_after");
+  return {"The triangles of the surface stay, bit for bit",
+          figures.shown_count("before.boundary_triangles"),
+          figures.shown_count("after.boundary_triangles"), stays};
+}
+
 }  // namespace
 
 Verdict verdict_of(const Figures& figures) {
@@ -98,20 +123,15 @@ Verdict verdict_of(const Figures& figures) {
                            figures.shown_count("not_positive_tets.after"),
                            figures.shown_count("not_positive_tets.before"));
   }
-  verdict.sentence += fmt::format("{}{}. {}; the surface is untouched.", bad_tets_of(figures),
-                                  inverted, angles_of(figures));
+  verdict.sentence += fmt::format("{}{}. {}; {}.", bad_tets_of(figures), inverted,
+                                  angles_of(figures), surface_of(figures));
   return verdict;
 }
 
 std::vector<Promise> promises_of(const Figures& figures) {
   constexpr int kCount = -1;
   Promises promises(figures);
-  const bool stays =
-      figures.is_true("surface.unchanged") &&
-      figures.text("surface.fingerprint_before") == figures.text("surface.fingerprint_after");
-  promises.list.push_back({"The triangles of the surface stay, bit for bit",
-                           figures.shown_count("before.boundary_triangles"),
-                           figures.shown_count("after.boundary_triangles"), stays});
+  promises.list.push_back(promise_of_surface(figures));
   promises.list.push_back(
       {"No more inverted or flat tets, in exact arithmetic",
        figures.shown_count("not_positive_tets.before"),

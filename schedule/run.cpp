@@ -190,7 +190,6 @@ PassScope::~PassScope() {
 }
 
 void PassScope::finish() {
-  if (accepted() > 0) run_.mesh().renew_surface();
   indicators();
   record_.seconds = seconds_since(start_);
   const PassRecord& record = run_.records.emplace_back(std::move(record_));

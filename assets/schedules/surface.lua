@@ -1,10 +1,10 @@
 -- Where a fixed surface holds bad tets: the surface moves, as far as the run allows.
-description "What follows another schedule where the surface may move (--surface): bad tets at the surface are worked on by operators that change it, in turns with those inside; does nothing where the surface is fixed"
+description "What follows another schedule where the surface may move (--surface): bad tets are worked on by operators that change the surface, in turns with those inside, until rounds bring nothing"
 
 local max_rounds = parameter{"max_rounds", default = 12, low = 0, high = 10000,
                              help = "rounds"}
 local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
-                             help = "such rounds in sequence without progress that end them"}
+                             help = "rounds in sequence without progress that end them"}
 
 local worst = {below = 1, worst = 200}
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The one verb of tetmend: a mesh goes in, a better one comes out, and its surface stays bit for
-// bit.
+// bit, unless it is asked to move.
 //
 //   tetmend::Mesh mesh = tetmend::load("part.mesh");
 //   tetmend::Result result = tetmend::improve(mesh, {.schedule = "thorough", .threads = 8});
@@ -161,6 +161,29 @@ struct CarriedArray {
   double integral_error = 0;
 };
 
+/// What became of a surface that might move. The surface is the boundary and the faces between
+/// labels. Lengths as in the file.
+struct SurfaceChange {
+  /// A region, by the label of its tets.
+  struct Region {
+    std::int32_t label = 0;
+    double area_before = 0;    ///< of its faces of the surface
+    double area_after = 0;     ///< likewise
+    double volume_before = 0;  ///< of its tets
+    double volume_after = 0;   ///< likewise
+  };
+
+  double tolerance = 0;  ///< the largest that was allowed anywhere; 0: only by rounding
+  /// No point of the new surface is farther from the old one than that, and none of the old one
+  /// farther from the new one: proven. At most the tolerance.
+  double proven = 0;
+  double sampled = 0;                ///< the largest of these distances that samples have found
+  std::size_t triangles_before = 0;  ///< of the surface
+  std::size_t triangles_after = 0;   ///< likewise
+  std::size_t touched = 0;           ///< of these: new, or with a corner that moved
+  std::vector<Region> regions;       ///< ascending labels
+};
+
 /// What improve() did.
 struct Result {
   Goal goal;                                      ///< what the run worked towards
@@ -194,10 +217,14 @@ struct Result {
   /// brought its four vertices together again.
   std::vector<std::uint32_t> tet_map;
 
+  std::optional<SurfaceChange> surface_change;  ///< with Options::surface
+
   // Checked before improve() returns; see volume_change().
-  std::uint64_t surface_fingerprint = 0;  ///< of all faces that had to stay; the same as before
-  std::size_t not_positive_before = 0;    ///< tets without positive volume, in exact arithmetic
-  std::size_t not_positive_after = 0;     ///< no more than before
+  /// Of all faces that had to stay: the same as before. Where the surface might move, of what it is.
+  std::uint64_t surface_fingerprint = 0;
+  std::uint64_t surface_fingerprint_before = 0;  ///< likewise, of the input
+  std::size_t not_positive_before = 0;  ///< tets without positive volume, in exact arithmetic
+  std::size_t not_positive_after = 0;   ///< no more than before
 
   // Seconds of each part of the work.
   double building = 0;   ///< adjacency, order along a space-filling curve

@@ -24,6 +24,9 @@ TEST_CASE("operators change nothing outside the territory, and nothing when they
       CHECK(outcome.complaint == "");
       total += outcome;
     }
+    const Outcome free = try_in_territory(*op, cube_with_free_sides(5, 3), 0.55);
+    CHECK(free.complaint == "");
+    total += free;
     CHECK(total.accepted > 0);
     CHECK(total.deferred > 0);
   }

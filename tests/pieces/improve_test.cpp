@@ -243,6 +243,7 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
   division.pieces = 2;
   CHECK_THROWS_AS(pieces::improve(mesh, {.trace = "x.trace"}, division), OptionError);
   CHECK_THROWS_AS(pieces::improve(mesh, {.check_operators = true}, division), OptionError);
+  CHECK_THROWS_AS(pieces::improve(mesh, {.surface = "flat"}, division), OptionError);
   CHECK_THROWS_AS(pieces::improve(mesh, {.script = "smooth{} error('no')"}, division), Error);
   CHECK(equal(MeshAccess::data(mesh), data));
   const Folder folder;
@@ -253,4 +254,5 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
         "protect: needs the whole mesh in memory");
   CHECK(improve_files(files, 2, {.keep_size = true}) ==
         "keep-size: needs the whole mesh in memory");
+  CHECK(improve_files(files, 2, {.surface = "1%"}) == "surface: needs the whole mesh in memory");
 }

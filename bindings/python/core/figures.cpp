@@ -77,6 +77,21 @@ py::dict to_dict(const SizeDrift& drift) {
                   "ninety_nine_percent"_a = drift.ninety_nine_percent);
 }
 
+py::dict to_dict(const SurfaceChange& change) {
+  py::list regions;
+  for (const SurfaceChange::Region& region : change.regions) {
+    regions.append(py::dict("label"_a = region.label, "area_before"_a = region.area_before,
+                            "area_after"_a = region.area_after,
+                            "volume_before"_a = region.volume_before,
+                            "volume_after"_a = region.volume_after));
+  }
+  return py::dict("tolerance"_a = change.tolerance, "proven_distance"_a = change.proven,
+                  "sampled_distance"_a = change.sampled,
+                  "triangles_before"_a = change.triangles_before,
+                  "triangles_after"_a = change.triangles_after,
+                  "triangles_touched"_a = change.touched, "regions"_a = regions);
+}
+
 template <class T>
 py::object to_object(const std::optional<T>& value) {
   if (!value) return py::none();
@@ -160,6 +175,8 @@ py::dict to_dict(const Result& result) {
       "touched_tets"_a = result.touched_tets, "limit"_a = to_object(result.limit),
       "worse_than_before"_a = result.worse(), "missed_aims"_a = result.missed_aims(),
       "surface_fingerprint"_a = result.surface_fingerprint,
+      "surface_fingerprint_before"_a = result.surface_fingerprint_before,
+      "surface_change"_a = to_object(result.surface_change),
       "not_positive_tets"_a =
           py::dict("before"_a = result.not_positive_before, "after"_a = result.not_positive_after),
       "volume_change"_a = result.volume_change(),

@@ -136,13 +136,14 @@ class Result:
         """All figures as JSON can express them, under the names of the command line's `--report`."""
         wanted = {"schedule", "settings", "measure", "threads", "size_drift", "notes", "data", "build", "protected", "layers",
                   "limit", "not_positive_tets", "volume_change", "seconds", "passes", "worse_than_before", "missed_aims"}
-        fingerprint = f"{self.figures['surface_fingerprint']:016x}"
+        fingerprints = [f"{self.figures[name]:016x}" for name in ("surface_fingerprint_before", "surface_fingerprint")]
         report = {name: value for name, value in self.figures.items() if name in wanted}
         return to_json({
             "tetmend": _core.__version__, **report, "before": self.before, "after": self.after,
             "goal": {"min_angle": self.goal[0], "max_angle": self.goal[1]},
             "interrupted": self.ending == "cancelled", "out_of_time": self.ending == "time_limit",
-            "surface": {"unchanged": True, "fingerprint_before": fingerprint, "fingerprint_after": fingerprint},
+            "surface": {"unchanged": fingerprints[0] == fingerprints[1], "fingerprint_before": fingerprints[0],
+                        "fingerprint_after": fingerprints[1], **(self.figures["surface_change"] or {})},
             "touched_share": self.touched_tets / max(self.after.tets, 1),
             "tets_per_second": self.before.tets / max(self.seconds["improving"], 1e-9)})
 

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Runs in which the surface may move: how far it does, what follows it, and what refuses.
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <tetmend/improve.h>
+
+#include "face/carry.h"
+#include "face/mesh_access.h"
+#include "kernel/geometry.h"
+#include "kernel/tet_faces.h"
+#include "tests/face/meshes.h"
+#include "tests/support/surface_distance.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// Labels of both sides, the smaller first; outside is the smallest number.
+using Sides = std::pair<Label, Label>;
+
+std::map<Sides, std::vector<Triangle>> surfaces(const MeshData& data) {
+  constexpr Label kOutside = std::numeric_limits<Label>::min();
+  std::map<Sides, std::vector<Triangle>> all;
+  for_face_pairs(sorted_tet_faces(data), [&](const TetFace& face, const TetFace* other) {
+    const Label here = data.tets[face.tet].label;
+    const Label there = other == nullptr ? kOutside : data.tets[other->tet].label;
+    if (here == there) return;
+    Triangle t;
+    for (std::size_t k = 0; k < 3; ++k) t[k] = data.points[face.vertices[k]];
+    all[std::minmax(here, there)].push_back(t);
+  });
+  return all;
+}
+
+/// Both ways, the largest of all pairs of labels.
+double distance(const MeshData& a, const MeshData& b) {
+  const auto from = surfaces(a);
+  const auto to = surfaces(b);
+  REQUIRE(from.size() == to.size());
+  double most = 0;
+  for (const auto& [sides, triangles] : from) {
+    REQUIRE(to.contains(sides));
+    most = std::max({most, sampled_distance(triangles, to.at(sides)),
+                     sampled_distance(to.at(sides), triangles)});
+  }
+  return most;
+}
+
+double diagonal(const MeshData& data) {
+  Eigen::AlignedBox3d box;
+  for (const Point& p : data.points) box.extend(p);
+  return box.diagonal().norm();
+}
+
+}  // namespace
+
+TEST_CASE("a surface that may move leaves no more bad tets, and keeps to its tolerance") {
+  for (const std::string name : {"folded_sheet.mesh", "two_materials.mesh"}) {
+    CAPTURE(name);
+    const Mesh input = load(asset(name));
+    Mesh fixed = input;
+    const Result without = improve(fixed);
+    CHECK_FALSE(without.surface_change);
+    for (const std::string surface : {"flat", "3%"}) {
+      CAPTURE(surface);
+      Mesh mesh = input;
+      const Result result = improve(mesh, {.surface = surface});
+      CHECK(result.after.n_bad <= without.after.n_bad);
+      REQUIRE(result.surface_change);
+      const SurfaceChange& change = *result.surface_change;
+      const double off = distance(MeshAccess::data(input), MeshAccess::data(mesh));
+      CHECK(off <= change.tolerance + 1e-12 * diagonal(MeshAccess::data(input)));
+      CHECK(change.proven <= change.tolerance);
+      CHECK((change.tolerance == 0) == (surface == "flat"));
+      CHECK(change.triangles_before ==
+            without.before.boundary_triangles + without.build.constrained_faces);
+      if (surface != "flat") continue;
+      CHECK(result.volume_change() < 1e-12);
+      for (const SurfaceChange::Region& region : change.regions) {
+        CHECK(region.area_after == doctest::Approx(region.area_before).epsilon(1e-12));
+        CHECK(region.volume_after == doctest::Approx(region.volume_before).epsilon(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("with a surface that may move the number of threads does not show") {
+  const Mesh input = load(asset("two_materials.mesh"));
+  std::vector<Mesh> results;
+  for (const int threads : {1, 3}) {
+    results.push_back(input);
+    improve(results.back(), {.threads = threads, .surface = "3%"});
+  }
+  CHECK(MeshAccess::data(results[0]).points == MeshAccess::data(results[1]).points);
+  CHECK(MeshAccess::data(results[0]).tets == MeshAccess::data(results[1]).tets);
+  CHECK(MeshAccess::data(results[0]).triangles == MeshAccess::data(results[1]).triangles);
+}
+
+TEST_CASE("'fixed' is the same as nothing, and a tolerance without sense is a mistake") {
+  const Mesh input = load(asset("folded_sheet.mesh"));
+  Mesh plain = input;
+  Mesh fixed = input;
+  improve(plain);
+  improve(fixed, {.surface = "fixed"});
+  CHECK(MeshAccess::data(plain).points == MeshAccess::data(fixed).points);
+  CHECK(MeshAccess::data(plain).tets == MeshAccess::data(fixed).tets);
+  for (const std::string wrong : {"round", "-1%", "0", "0%", "101%", "1 %", "%", "nan", "inf"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(check({.surface = wrong}), OptionError);
+  }
+  CHECK_THROWS_AS(check({.surface = "flat", .feature_angle = 0}), OptionError);
+  CHECK_THROWS_AS(check({.surface = "flat", .feature_angle = 181}), OptionError);
+}
+
+TEST_CASE("tets that are protected keep their faces") {
+  const Mesh input = load(asset("two_materials.mesh"));
+  const MeshData before = MeshAccess::data(input);
+  const Label label = before.tets[0].label;
+  Mesh mesh = input;
+  const Result result =
+      improve(mesh, {.protect = {"label:" + std::to_string(label)}, .surface = "3%"});
+  CHECK(result.protected_tets > 0);
+  const MeshData after = MeshAccess::data(mesh);
+  for (std::size_t t = 0; t < before.tets.size(); ++t) {
+    if (before.tets[t].label != label) continue;
+    REQUIRE(result.tet_map[t] != kGone);
+    const auto& now = after.tets[result.tet_map[t]].vertices;
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK(after.points[now[k]] == before.points[before.tets[t].vertices[k]]);
+    }
+  }
+}
+
+TEST_CASE("what a file says of triangles goes to the new ones near them") {
+  MeshData before;
+  before.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+  before.tets = {{{0, 1, 2, 4}, 0}, {{0, 2, 3, 4}, 0}};
+  before.triangles = {{{0, 1, 2}, 5}, {{0, 2, 3}, 5}, {{0, 1, 4}, 5}};
+  before.triangle_parts = {21, 21, 22};
+  before.triangle_numbers = {101, 102, 103};
+  before.triangle_data = {{"load", 1, std::vector<double>{1, 2, 3}}};
+  Group group;
+  group.dimension = 2;
+  group.members = {0, 1};
+  before.groups = {group};
+  const face::SurfaceMarks marks = face::mark_surface(before);
+  CHECK(marks.triangles == std::vector<Label>{1, 1, 2});
+  CHECK(marks.edges.empty());
+
+  MeshData now;  // the diagonal of the square is the other one
+  now.points = before.points;
+  now.tets = {{{0, 1, 3, 4}, 0}, {{1, 2, 3, 4}, 0}};
+  now.triangles = {{{0, 1, 3}, 1}, {{1, 2, 3}, 1}, {{0, 1, 4}, 2}};
+  const std::vector<std::uint32_t> vertex_map = {0, 1, 2, 3, 4};
+  const std::vector<std::uint32_t> tet_map = {kGone, kGone};
+  face::carry(before, vertex_map, tet_map, {}, now, &marks);
+  REQUIRE(now.triangles.size() == 3);
+  for (const MeshData::Triangle& triangle : now.triangles) CHECK(triangle.label == 5);
+  CHECK(now.triangle_parts == std::vector<Label>{21, 21, 22});
+  CHECK(now.triangle_numbers == std::vector<std::int64_t>{0, 0, 103});
+  CHECK(now.groups[0].members == std::vector<std::uint32_t>{0, 1});
+  const auto& load = std::get<std::vector<double>>(now.triangle_data[0].values);
+  CHECK(load[2] == 3);
+  CHECK(load[0] != 3);
+}
