@@ -118,7 +118,7 @@ constexpr Row kRows[] = {
      [](Options& o, std::string_view text) { o.surface = text; }},
     {{"feature-angle", "DEGREES"},
      [](Options& o, std::string_view text) {
-       o.feature_angle = read_number(text, 0.1, 180, "an angle in degrees");
+       o.feature_angle = read_number(text, 0.1, 180.0, "an angle in degrees");
      }},
     {{"tets", "P%|N"}, [](Options& o, std::string_view text) { o.tets = text; }},
     {{"keep-size", kSwitch},

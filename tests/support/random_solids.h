@@ -25,7 +25,8 @@ struct Solid {
 
 class RandomSolids {
  public:
-  explicit RandomSolids(std::uint64_t seed) : random_(seed) {}
+  /// Points are moved by at most `jitter` cells: those of the surface along it.
+  explicit RandomSolids(std::uint64_t seed, double jitter = 0) : random_(seed), jitter_(jitter) {}
 
   Solid next() {
     Solid solid;
@@ -76,6 +77,14 @@ class RandomSolids {
     data.tets = kept;
     drop_unused(data);
     for (Point& p : data.points) {
+      const Point most(static_cast<double>(nx) / n, static_cast<double>(ny) / n,
+                       static_cast<double>(nz) / n);
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        // Sides stay, and so does the middle, where slits and other materials are.
+        const bool stays =
+            p[k] == 0 || std::abs(p[k] - most[k]) < 1e-9 || std::abs(p[k] - most[k] / 2) < 1e-9;
+        if (!stays) p[k] += random_.real(-jitter_, jitter_) / n;
+      }
       p = Point(p.x() * n / nx * size.x(), p.y() * n / ny * size.y(), p.z() * n / nz * size.z());
     }
     return data;
@@ -197,6 +206,7 @@ class RandomSolids {
   }
 
   contract::Random random_;
+  double jitter_;
 };
 
 }  // namespace tetmend::test
