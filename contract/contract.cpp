@@ -52,7 +52,9 @@ MeshData slid(MeshData data, const std::vector<double>& planes, double step, std
 /// The mesh with a surface that may move by so much; 0: where that changes no shape.
 TetMesh with_free_surface(const MeshData& data, double length) {
   TetMesh mesh(data);
-  mesh.set_surface_guard(Envelope::of(mesh, {.length = length}));
+  EnvelopeOptions options;
+  options.length = length;
+  mesh.set_surface_guard(Envelope::of(mesh, options));
   return mesh;
 }
 
