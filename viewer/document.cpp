@@ -33,10 +33,10 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
       return {run.error, true};
     case LiveState::paused:
       if (run.attempts == 0) return {"paused before the first call", false};
-      return {fmt::format("{} in {} after call {}{}",
-                          run.breakpoint.empty() ? "paused" : "breakpoint", run.phase, run.attempts,
-                          run.breakpoint.empty() ? "" : ": " + run.breakpoint),
-              false};
+      return {
+          fmt::format("{} in {} after call {}{}", run.breakpoint.empty() ? "paused" : "breakpoint",
+                      run.phase, run.attempts, run.breakpoint.empty() ? "" : ": " + run.breakpoint),
+          false};
     default:
       return {fmt::format("{}: {}, {:.1f} s", schedule, to_string(run.state), run.seconds), false};
   }

@@ -36,8 +36,8 @@ TEST_CASE("the library knows the options of 'tetmend improve' by name, and takes
   const std::string help = run_program({"improve", "--help"}).out;
   // Those that are about files, the terminal, pieces, and the program's watch over plugins.
   const std::set<std::string> of_the_program = {
-      "help",   "output",  "report",        "quiet",  "strict", "label-array",
-      "format", "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint"};
+      "help",    "output",        "report", "quiet",  "strict",  "label-array", "format",
+      "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint"};
   const std::set<std::string> of_the_library = {"script", "limit"};
   std::set<std::string> names;
   const std::regex option(R"(\n +(?:-\w,\s*)?--([a-z-]+))");
@@ -61,17 +61,35 @@ TEST_CASE("the library knows the options of 'tetmend improve' by name, and takes
 }
 
 TEST_CASE("of a wrong value the command line says what the library says") {
-  const std::vector<std::array<std::string, 2>> wrong = {
-      {"schedule", "varnish"}, {"set", "rounds"},        {"set", "=3"},
-      {"set", "polish=1"},     {"goal", "3x"},           {"goal", "20,"},
-      {"goal", "80"},          {"measure", "beauty"},    {"time-limit", "0"},
-      {"time-limit", "soon"},  {"time-limit", "1e10"},   {"threads", "0"},
-      {"threads", "1025"},     {"threads", "3.5"},       {"threads", "many"},
-      {"protect", "lable:1"},  {"only", "box:0,0"},      {"layers", "drop"},
-      {"feature-angle", "0"},  {"feature-angle", "x"},
-      {"tets", "some"},        {"trace-around", "here"}, {"trace-operator", "polish"},
-      {"trace-depth", "-1"},   {"trace-depth", "1001"},  {"trace-limit", "5Q"},
-      {"trace-limit", "0"}};
+  const std::vector<std::array<std::string, 2>> wrong = {{"schedule", "varnish"},
+                                                         {"set", "rounds"},
+                                                         {"set", "=3"},
+                                                         {"set", "polish=1"},
+                                                         {"goal", "3x"},
+                                                         {"goal", "20,"},
+                                                         {"goal", "80"},
+                                                         {"measure", "beauty"},
+                                                         {"time-limit", "0"},
+                                                         {"time-limit", "soon"},
+                                                         {"time-limit", "1e10"},
+                                                         {"threads", "0"},
+                                                         {"threads", "1025"},
+                                                         {"threads", "3.5"},
+                                                         {"threads", "many"},
+                                                         {"protect", "lable:1"},
+                                                         {"only", "box:0,0"},
+                                                         {"layers", "drop"},
+                                                         {"surface", "soft"},
+                                                         {"surface", "-1%"},
+                                                         {"feature-angle", "0"},
+                                                         {"feature-angle", "x"},
+                                                         {"tets", "some"},
+                                                         {"trace-around", "here"},
+                                                         {"trace-operator", "polish"},
+                                                         {"trace-depth", "-1"},
+                                                         {"trace-depth", "1001"},
+                                                         {"trace-limit", "5Q"},
+                                                         {"trace-limit", "0"}};
   const TempFolder folder;
   for (const auto& entry : wrong) {
     const std::string& name = entry[0];
