@@ -80,13 +80,14 @@ void number_tets(face::Portrait& portrait, const Mesh& mesh) {
   for (face::DrawnTet& tet : portrait.bad_after) tet.facts.number = numbers[tet.facts.tet];
 }
 
-/// A run in pieces never has the whole mesh that the page draws.
-void check_reports(const ImproveOptions& options, const pieces::Ranks* ranks) {
-  if (!options.pieces.is_divided() && ranks == nullptr) return;
+/// A run from file to file never has the whole mesh that the page draws.
+void check_reports(const ImproveOptions& options, const Ranks* ranks) {
+  const bool is_by_files = options.pieces.memory > 0 || !options.pieces.checkpoint.empty();
+  if (!is_by_files && ranks == nullptr) return;
   for (const std::filesystem::path& file : options.reports) {
     if (lower_extension(file) == ".json") continue;
-    throw UsageError(
-        fmt::format("--report {}: a run in pieces has its report as .json alone", file.string()));
+    throw UsageError(fmt::format(
+        "--report {}: a run from file to file has its report as .json alone", file.string()));
   }
 }
 
@@ -104,7 +105,7 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
   if (formats::is_standard_stream(options.input) || formats::is_standard_stream(options.output)) {
     throw UsageError("a mesh in pieces is read from and written to files");
   }
-  pieces::Ranks* const ranks = invocation.ranks;
+  Ranks* const ranks = invocation.ranks;
   pieces::OutOfCore files;
   files.array_files = invocation.array_files;
   std::optional<pieces::ScratchFolder> scratch;
@@ -117,9 +118,10 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
   files.checkpoint = options.pieces.checkpoint;
   pieces::Division division;
   division.pieces = options.pieces.pieces;
-  pieces::OneRank alone;
+  OneRank alone;
   report.result = improve_watched(options, line, interruption, [&](const Options& run) {
-    return pieces::improve_files(files, run, division, ranks != nullptr ? *ranks : alone);
+    return pieces::improve_files(files, run, division,
+                                 ranks != nullptr ? *ranks : static_cast<Ranks&>(alone));
   });
 }
 
@@ -139,7 +141,7 @@ void improve_in_core(const ImproveOptions& options, ProgressLine& line,
     if (!options.pieces.is_divided()) return face::improve(mesh, run, trace, portrait);
     pieces::Division division;
     division.pieces = options.pieces.pieces;
-    return pieces::improve(mesh, run, division);
+    return pieces::improve(mesh, run, division, {}, portrait);
   });
   number_tets(report.portrait, mesh);
   const Stopwatch watch(report.writing);
@@ -158,7 +160,7 @@ std::string finish(TraceRecorder* trace) {
 }
 
 /// Of all ranks.
-std::size_t largest(std::size_t mine, pieces::Ranks* ranks) {
+std::size_t largest(std::size_t mine, Ranks* ranks) {
   if (ranks == nullptr) return mine;
   std::string bytes;
   pieces::put(std::uint64_t{mine}, bytes);

@@ -12,10 +12,12 @@
 namespace CLI {
 class App;
 }
+namespace tetmend {
+class Ranks;
+}
 namespace tetmend::pieces {
 class ArrayFiles;
-class Ranks;
-}  // namespace tetmend::pieces
+}
 
 namespace tetmend::apps {
 
@@ -36,7 +38,7 @@ struct Invocation {
   std::vector<std::string> arguments;  ///< without the name of the program
   std::function<int()> action;         ///< returns the exit status; @throws Error, UsageError
   bool wrote_files = false;            ///< then what was said besides is not what counts
-  pieces::Ranks* ranks = nullptr;      ///< that all run the same command; null: it is alone
+  Ranks* ranks = nullptr;              ///< that all run the same command; null: it is alone
   const pieces::ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
 };
 

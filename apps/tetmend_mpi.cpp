@@ -14,6 +14,7 @@
 #include <tetmend/catalogue.h>
 
 #include "apps/commands.h"
+#include "apps/files.h"
 #include "apps/help_formatter.h"
 #include "apps/interruption.h"
 #include "apps/standard_streams.h"
@@ -21,6 +22,7 @@
 #include "mpi/hdf5_mesh.h"
 #endif
 #include "mpi/mpi_ranks.h"
+#include "pieces/mesh_files.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -53,14 +55,58 @@ class Hdf5Files final : public pieces::ArrayFiles {
   bool is_one(const std::filesystem::path& file) const override {
     return file.extension() == ".h5";
   }
-  pieces::RankArrays read(const std::filesystem::path& file) const override {
+  pieces::RankShare read(const std::filesystem::path& file) const override {
     return mpi::read_hdf5(file, MPI_COMM_WORLD);
   }
-  void write(const std::filesystem::path& file, const pieces::RankArrays& arrays) const override {
+  void write(const std::filesystem::path& file, const pieces::RankShare& arrays) const override {
     mpi::write_hdf5(file, arrays, MPI_COMM_WORLD);
   }
 };
 #endif
+
+struct ConvertOptions {
+  std::filesystem::path input;
+  std::filesystem::path output;
+};
+
+/// No rank has more than its share, where both formats allow that.
+int run_convert(const ConvertOptions& options, Invocation& invocation) {
+  Ranks& ranks = *invocation.ranks;
+  if (ranks.is_first()) {
+    for (const std::filesystem::path& file : {options.input, options.output}) {
+      const pieces::ArrayFiles* known = invocation.array_files;
+      if (known == nullptr || !known->is_one(file)) check_mesh_extension(file);
+    }
+    const NamedFile input = {"IN", options.input};
+    const NamedFile output = {"OUT", options.output};
+    prepare_files({&input, 1}, {&output, 1});
+  }
+  pieces::InputMesh mesh(options.input, ranks, invocation.array_files);
+  const std::uint64_t vertices = mesh.vertices();
+  pieces::MemoryShelf shelf;
+  pieces::DividedMesh slices(shelf, ranks, vertices);
+  mesh.add_to(slices, ranks.count());
+  pieces::write_pieces(options.output, slices, vertices, invocation.array_files);
+  return kSuccess;
+}
+
+void add_convert_by_ranks(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = app.add_subcommand("convert", "Write a mesh in another format");
+  command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
+  command->add_option("OUT", options->output, "File to write")->required()->type_name("");
+  command->footer(
+      R"(Vertices and tets keep their order. Files of HDF5 (.h5) and .meshb are read by
+all processes, each its share; other formats by the first one alone.
+
+Examples:
+  mpirun -n 8 tetmend-mpi convert part.meshb part.h5
+
+Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)");
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] { return run_convert(*options, invocation); };
+  });
+}
 
 std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
   auto app = std::make_unique<CLI::App>(
@@ -86,10 +132,11 @@ SIGUSR1 to mpirun stops the work: the mesh is written as improved so far.
 
 Exit status: that of tetmend improve)");
   add_improve(*app, invocation);
+  add_convert_by_ranks(*app, invocation);
   return app;
 }
 
-int run(int argc, char** argv, pieces::Ranks& ranks) {
+int run(int argc, char** argv, Ranks& ranks) {
   Invocation invocation;
   invocation.ranks = &ranks;
 #ifdef TETMEND_HAS_HDF5
@@ -111,7 +158,7 @@ int run(int argc, char** argv, pieces::Ranks& ranks) {
 }
 
 /// Ends all processes. Often all find the same mistake: the first one tells.
-[[noreturn]] void fail(const pieces::Ranks& ranks, int status, std::string_view message) {
+[[noreturn]] void fail(const Ranks& ranks, int status, std::string_view message) {
   if (!ranks.is_first()) std::this_thread::sleep_for(std::chrono::milliseconds(500));
   complain(kFailed, ranks.is_first() ? std::string(message)
                                      : fmt::format("process {}: {}", ranks.number(), message));

@@ -42,6 +42,7 @@ set(public_of_kernel api curved data error goal rulers statistics)
 set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
 set(public_of_face check improve io measure mesh option_text trace)
+set(public_of_pieces distributed)
 set(public_of_bindings tetmend)
 
 # <NAME.h> is a header of the system, unless it belongs to a library.

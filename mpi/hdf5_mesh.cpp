@@ -137,7 +137,7 @@ class File {
 };
 
 template <std::size_t N>
-using Elements = std::vector<pieces::RankArrays::Element<N>>;
+using Elements = std::vector<pieces::RankShare::Element<N>>;
 
 template <std::size_t N>
 void read_elements(const File& file, const char* name, const char* labels, Elements<N>& elements) {
@@ -198,7 +198,7 @@ class Writer {
   MpiRanks ranks_;
 };
 
-void write_arrays(const std::filesystem::path& name, const pieces::RankArrays& arrays,
+void write_arrays(const std::filesystem::path& name, const pieces::RankShare& arrays,
                   const pieces::ArrayCounts& counts, bool has_labels, MPI_Comm ranks) {
   const File file(name, File::Access::write, ranks);
   Writer writer(file, ranks);
@@ -245,9 +245,9 @@ std::string description(const std::string& name, const pieces::ArrayCounts& coun
 
 }  // namespace
 
-pieces::RankArrays read_hdf5(const std::filesystem::path& name, MPI_Comm ranks) {
+pieces::RankShare read_hdf5(const std::filesystem::path& name, MPI_Comm ranks) {
   const File file(name, File::Access::read, ranks);
-  pieces::RankArrays arrays;
+  pieces::RankShare arrays;
   const auto coordinates = file.read<double>("geometry", 3, H5T_NATIVE_DOUBLE);
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
     arrays.points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
@@ -271,7 +271,7 @@ pieces::RankArrays read_hdf5(const std::filesystem::path& name, MPI_Comm ranks) 
   return arrays;
 }
 
-void write_hdf5(const std::filesystem::path& file, const pieces::RankArrays& arrays,
+void write_hdf5(const std::filesystem::path& file, const pieces::RankShare& arrays,
                 MPI_Comm communicator) {
   MpiRanks ranks(communicator);
   const pieces::ArrayCounts counts = count_all(arrays, ranks);

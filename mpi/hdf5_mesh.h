@@ -13,17 +13,16 @@
 
 #include <mpi.h>
 
-#include "pieces/rank_arrays.h"
+#include "pieces/rank_share.h"
 
 namespace tetmend::mpi {
 
 /// All ranks: each reads an equal share of every array.
 /// @throws Error for a file that is none, lacks /geometry or /connect, or has arrays of another form
-pieces::RankArrays read_hdf5(const std::filesystem::path& file, MPI_Comm ranks);
+pieces::RankShare read_hdf5(const std::filesystem::path& file, MPI_Comm ranks);
 
 /// All ranks: writes the file, which has the same bytes for any number of ranks, and FILE.xdmf beside
 /// it. They take their names when they are complete. @throws Error with the reason
-void write_hdf5(const std::filesystem::path& file, const pieces::RankArrays& arrays,
-                MPI_Comm ranks);
+void write_hdf5(const std::filesystem::path& file, const pieces::RankShare& arrays, MPI_Comm ranks);
 
 }  // namespace tetmend::mpi

@@ -49,10 +49,12 @@ class Stopwatch {
 /// One call of improve().
 class Improvement {
  public:
-  Improvement(Mesh& mesh, const Options& options, const Division& division, Shelf& shelf)
+  Improvement(Mesh& mesh, const Options& options, const Division& division, Shelf& shelf,
+              face::Portrait* portrait)
       : user_mesh_(mesh),
         options_(options),
         division_(division),
+        portrait_(portrait),
         plan_(options),
         watcher_(options),
         file_(mesh.file()),
@@ -88,6 +90,7 @@ class Improvement {
   Mesh& user_mesh_;
   const Options& options_;
   const Division& division_;
+  face::Portrait* portrait_;  // null: nobody asked for one
   face::Plan plan_;
   face::Watcher watcher_;
   const std::filesystem::path file_;
@@ -145,6 +148,7 @@ void Improvement::measure_before(const TetMesh& mesh) {
   if (options_.rulers) result_.rulers_before = measure_rulers(mesh);
   surface_before_ = surface_fingerprint(mesh);
   result_.not_positive_before = count_not_positive(mesh);
+  if (portrait_ != nullptr) portrait_->draw_before(mesh, result_.rulers_before);
   watcher_.watch(nullptr, quality_indicators(mesh));
   for (const std::string& text : face::advice_before(mesh, result_)) {
     watcher_.noted(text);
@@ -228,6 +232,11 @@ void Improvement::finish() {
     result_.after = result_.before;
     result_.rulers_after = result_.rulers_before;
     result_.touched_tets = 0;
+    if (portrait_ != nullptr) {
+      portrait_->bad_after = portrait_->bad_before;
+      portrait_->are_reasons_known = false;
+      portrait_->rulers_after = portrait_->rulers_before;
+    }
     user_mesh_ = MeshAccess::make(std::move(input_), file_);
   } else {
     give_back(joined);
@@ -246,7 +255,13 @@ void Improvement::measure_after(Joined& joined) {
   if (options_.rulers) result_.rulers_after = measure_rulers(mesh);
   result_.surface_fingerprint = result_.surface_fingerprint_before = surface_fingerprint(mesh);
   result_.not_positive_after = count_not_positive(mesh);
-  if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel);
+  std::vector<std::pair<TetHandle, Hindrance>> hindrances;
+  if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel, &hindrances);
+  if (!result_.limit) hindrances.clear();
+  if (portrait_ != nullptr) {
+    portrait_->draw_after(mesh, hindrances, result_.rulers_after);
+    for (face::DrawnTet& tet : portrait_->bad_after) tet.facts.tet = numbers[tet.facts.tet];
+  }
   for (const std::string& text : face::advice_after(mesh, options_, result_)) {
     watcher_.noted(text);
     result_.notes.push_back(text);
@@ -328,6 +343,11 @@ void check(const Options& options, const Division& division) {
   }
 }
 
+std::size_t usual_pieces(std::size_t tets) {
+  constexpr std::size_t kTetsOfPiece = 4'000'000;
+  return std::max<std::size_t>(1, (tets + kTetsOfPiece - 1) / kTetsOfPiece);
+}
+
 std::size_t pieces_for(std::size_t tets, std::uint64_t memory) {
   constexpr std::uint64_t kProgram = 40'000'000;
   constexpr std::uint64_t kBytesPerTet = 130;  // of a piece that is worked on
@@ -337,14 +357,14 @@ std::size_t pieces_for(std::size_t tets, std::uint64_t memory) {
 }
 
 Result improve(Mesh& mesh, const Options& options, const Division& division,
-               const std::filesystem::path& scratch) {
+               const std::filesystem::path& scratch, face::Portrait* portrait) {
   check(options, division);
   if (division.pieces <= 1) return tetmend::improve(mesh, options);
   return face::on_threads(options.threads, [&] {
     MemoryShelf memory;
     FolderShelf folder(scratch);
     Shelf& shelf = scratch.empty() ? static_cast<Shelf&>(memory) : folder;
-    return Improvement(mesh, options, division, shelf).run();
+    return Improvement(mesh, options, division, shelf, portrait).run();
   });
 }
 

@@ -9,23 +9,28 @@
 
 #include <tetmend/improve.h>
 
+#include "face/portrait.h"
 #include "pieces/piece_run.h"
 
 namespace tetmend::pieces {
 
 /// improve(), but with the mesh divided. The result depends on the mesh, the options and the number
 /// of pieces, not on threads or on where the pieces lie. One piece: the same as improve().
+/// @param portrait null, or empty; filled for a picture of the run
 /// @param scratch folder in which pieces lie that are not worked on; empty: they stay in memory
 /// @throws Error as improve(); for a mesh of second order, and OptionError for an option that pieces
 /// cannot have (a trace, check_operators).
 Result improve(Mesh& mesh, const Options& options, const Division& division,
-               const std::filesystem::path& scratch = {});
+               const std::filesystem::path& scratch = {}, face::Portrait* portrait = nullptr);
 
 /// For reports.
 Pass to_pass(const StepRecord& record);
 
 /// @throws OptionError for options that pieces cannot have.
 void check(const Options& options, const Division& division);
+
+/// How many pieces a mesh has when nobody says how many. At least 1.
+std::size_t usual_pieces(std::size_t tets);
 
 /// How many pieces a mesh needs so that one can be worked on in so many bytes. At least 1.
 std::size_t pieces_for(std::size_t tets, std::uint64_t memory);

@@ -13,7 +13,7 @@
 #include "pieces/divided_mesh.h"
 #include "pieces/medit_slices.h"
 #include "pieces/piece_run.h"
-#include "pieces/rank_arrays.h"
+#include "pieces/rank_share.h"
 
 namespace tetmend::pieces {
 
@@ -33,7 +33,7 @@ class InputMesh {
 
  private:
   std::optional<MeditSlices> slices_;
-  std::optional<RankArrays> arrays_;
+  std::optional<RankShare> arrays_;
   MeshData data_;
   std::uint64_t tets_ = 0;
   std::uint64_t vertices_ = 0;

@@ -68,10 +68,8 @@ class FileRun {
   void write();
   /// False for one.
   bool is_divided(std::size_t tets) {
-    constexpr std::size_t kTetsOfPiece = 4'000'000;
     if (division_.pieces == 0) {
-      division_.pieces = files_.memory > 0 ? pieces_for(tets, files_.memory)
-                                           : (tets + kTetsOfPiece - 1) / kTetsOfPiece;
+      division_.pieces = files_.memory > 0 ? pieces_for(tets, files_.memory) : usual_pieces(tets);
     }
     return division_.pieces > 1;
   }
@@ -130,7 +128,7 @@ Result FileRun::improve_whole() {
   Result result;
   if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
   if (known != nullptr && known->is_one(files_.output)) {
-    known->write(files_.output, ranks_.is_first() ? all_of(MeshAccess::data(mesh)) : RankArrays());
+    known->write(files_.output, ranks_.is_first() ? all_of(MeshAccess::data(mesh)) : RankShare());
   } else if (ranks_.is_first()) {
     tetmend::save(files_.output, mesh, options_.threads);
   }
@@ -250,6 +248,7 @@ void FileRun::write() {
     result_.notes.push_back(why_as_it_was(result_));
     watcher_.noted(result_.notes.back());
     result_.after = result_.before;
+    if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too
   }
   write_pieces(files_.output, *mesh_, vertices_, files_.array_files);

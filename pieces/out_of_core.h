@@ -7,7 +7,7 @@
 #include <tetmend/improve.h>
 
 #include "pieces/piece_run.h"
-#include "pieces/rank_arrays.h"
+#include "pieces/rank_share.h"
 #include "pieces/ranks.h"
 #include "pieces/shelf.h"
 

@@ -117,6 +117,50 @@ def killed_rank(folder, expected):
     check(not saved.exists(), "the checkpoint is still there")
 
 
+def files_of_hdf5(folder, expected):
+    whole = folder / "whole.h5"
+    done = run("mpirun", "-n", "3", MPI_PROGRAM, "convert", MESH, whole)
+    if done.returncode == 2:
+        print("tetmend-mpi has no HDF5: .h5 was not tried", done.stderr)
+        return
+    check(done.returncode == 0, "convert to .h5", done.stderr)
+    done = run("mpirun", "-n", "2", MPI_PROGRAM, "convert", whole, folder / "again.meshb")
+    run(PROGRAM, "convert", MESH, folder / "same.meshb")
+    check((folder / "again.meshb").read_bytes() == (folder / "same.meshb").read_bytes(), "convert there and back",
+          done.stderr)
+    contents = set()
+    for ranks in (1, 2, 3, 8):
+        done = run(*mpi(ranks, whole, "-o", folder / "out.h5", "--pieces", PIECES, "-q"))
+        check(done.returncode == 0, "improve of .h5", ranks, done.stderr)
+        contents.add((folder / "out.h5").read_bytes())
+        (folder / "out.h5").unlink()
+    check(len(contents) == 1, "the number of ranks shows in .h5")
+    check("out.h5:/connect" in (folder / "out.xdmf").read_text(), "there is no .xdmf")
+    done = run(*mpi(3, whole, "-o", folder / "out.meshb", "--pieces", PIECES, "-q"))
+    check(taken(folder) == expected, "other bytes from .h5", done.stderr)
+    done = run(*mpi(2, MESH, "-o", folder / "out.h5", "--pieces", PIECES, "-q"))
+    check((folder / "out.h5").read_bytes() in contents, ".h5 is another where the input is none", done.stderr)
+    (folder / "none.h5").write_text("no HDF5")
+    done = run(*mpi(2, folder / "none.h5", "-o", folder / "out.meshb", "-q"))
+    check(done.returncode == 1 and "none.h5: is no HDF5 file" in done.stderr, "no HDF5", done.stderr)
+    seen_by_meshio(folder)
+
+
+def seen_by_meshio(folder):
+    """A reader of others, by .xdmf and the arrays that it names."""
+    script = ("import sys, meshio; mesh = meshio.read(sys.argv[1]); before = meshio.read(sys.argv[2]); "
+              "tets = mesh.cells_dict['tetra']; "
+              "print(len(tets), len(mesh.points), int(tets.max()), abs(mesh.points).max() == abs(before.points).max(), "
+              "len(mesh.cell_data_dict['group']['tetra']))")
+    if run("/usr/bin/python3", "-c", "import meshio, h5py").returncode != 0:
+        print("meshio or h5py is not there: .xdmf was not tried")
+        return
+    done = run("/usr/bin/python3", "-c", script, folder / "out.xdmf", folder / "whole.xdmf")
+    seen = done.stdout.split()
+    check(len(seen) == 5 and int(seen[0]) > 30000 and int(seen[2]) == int(seen[1]) - 1 and seen[3] == "True" and
+          seen[4] == seen[0], "meshio sees another mesh", done.stdout, done.stderr[-300:])
+
+
 def tasks(folder, expected):
     work = folder / "work"
     done = run(PROGRAM, "pieces", "split", work, *improve(folder))
@@ -157,6 +201,7 @@ def main() -> int:
             any_number_of_ranks(folder, expected)
             mistakes(folder)
             killed_rank(folder, expected)
+            files_of_hdf5(folder, expected)
         else:
             print("tetmend-mpi or mpirun is not there: processes of MPI were not tried")
     print(f"{len(failures)} failures")

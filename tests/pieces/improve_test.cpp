@@ -120,7 +120,7 @@ TEST_CASE("threads, folders and files do not show in the result") {
     const auto in_core = folder.path() / (std::string("in_core.") + ending);
     save(in, MeshAccess::make(data));
     const Folder scratch;
-    CHECK(improve_files({in, out, scratch.path(), 0, {}, {}}, 5) == "");
+    CHECK(improve_files({.input = in, .output = out, .scratch = scratch.path()}, 5) == "");
     save(in_core, mesh);
     CHECK(bytes_of(out) == bytes_of(in_core));
   }
@@ -137,7 +137,9 @@ TEST_CASE("memory decides on the number of pieces, and enough of it is one piece
   const MeshData data = lattice(5);
   save(in, MeshAccess::make(data));
   const Folder scratch;
-  CHECK(improve_files({in, out, scratch.path(), 1'000'000'000, {}, {}}, 0) == "");
+  CHECK(improve_files(
+            {.input = in, .output = out, .scratch = scratch.path(), .memory = 1'000'000'000}, 0) ==
+        "");
   CHECK(equal(MeshAccess::data(load(out)), improved(data, {}, 1)));
 }
 
@@ -211,16 +213,12 @@ TEST_CASE("a fault in one piece is noticed, and nothing is written") {
   const auto with_fault = [&](const std::function<void(pieces::Piece&)>& fault) {
     calls = 0;
     const Folder scratch;
-    return improve_files({in,
-                          out,
-                          scratch.path(),
-                          0,
-                          {},
-                          [&](std::size_t, pieces::Piece& piece) {
-                            // In the last division, and where neighbours have copies.
-                            if (++calls == 9) fault(piece);
-                          }},
-                         4, {.schedule = "conservative"});
+    pieces::OutOfCore files{.input = in, .output = out, .scratch = scratch.path()};
+    files.fault = [&](std::size_t, pieces::Piece& piece) {
+      // In the last division, and where neighbours have copies.
+      if (++calls == 9) fault(piece);
+    };
+    return improve_files(files, 4, {.schedule = "conservative"});
   };
   const auto of_neighbour = [](const pieces::Piece& piece) {
     std::size_t v = 0;
@@ -254,7 +252,8 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
   const Folder folder;
   const auto in = folder.path() / "in.meshb";
   save(in, MeshAccess::make(data));
-  const pieces::OutOfCore files{in, folder.path() / "out.meshb", folder.path(), 0, {}, {}};
+  const pieces::OutOfCore files{
+      .input = in, .output = folder.path() / "out.meshb", .scratch = folder.path()};
   CHECK(improve_files(files, 2, {.protect = {"label:1"}}) ==
         "protect: needs the whole mesh in memory");
   CHECK(improve_files(files, 2, {.keep_size = true}) ==

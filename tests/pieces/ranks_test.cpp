@@ -13,7 +13,7 @@
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
-#include "pieces/rank_arrays.h"
+#include "pieces/rank_share.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
 
@@ -84,8 +84,8 @@ void improve_all(const std::filesystem::path& folder) {
 }
 
 /// What a rank has of a mesh that lies on all of them, in unequal shares.
-pieces::RankArrays share_of(const MeshData& data, const Ranks& ranks) {
-  pieces::RankArrays mine;
+pieces::RankShare share_of(const MeshData& data, const Ranks& ranks) {
+  pieces::RankShare mine;
   const auto begin_of = [&](std::size_t count, std::size_t rank) {
     return count * rank * rank / (ranks.count() * ranks.count());
   };
@@ -111,7 +111,7 @@ pieces::RankArrays share_of(const MeshData& data, const Ranks& ranks) {
 }
 
 /// The arrays of all ranks, one after another.
-MeshData joined(const std::vector<pieces::RankArrays>& all) {
+MeshData joined(const std::vector<pieces::RankShare>& all) {
   MeshData data;
   const auto append = [](const auto& from, auto& to) {
     for (const auto& each : from) {
@@ -120,7 +120,7 @@ MeshData joined(const std::vector<pieces::RankArrays>& all) {
       made.label = each.label;
     }
   };
-  for (const pieces::RankArrays& part : all) {
+  for (const pieces::RankShare& part : all) {
     data.points.insert(data.points.end(), part.points.begin(), part.points.end());
     append(part.tets, data.tets);
     append(part.triangles, data.triangles);
@@ -302,9 +302,9 @@ TEST_CASE(
   const Files files;
   for (const std::size_t count : {1, 2, 3, 8}) {
     CAPTURE(count);
-    std::vector<pieces::RankArrays> made(count);
+    std::vector<pieces::RankShare> made(count);
     on_ranks(count, [&](Ranks& ranks) {
-      const pieces::RankArrays mine = share_of(data, ranks);
+      const pieces::RankShare mine = share_of(data, ranks);
       pieces::MemoryShelf shelf;
       pieces::DividedMesh mesh(shelf, ranks, data.points.size());
       pieces::add_arrays(mine, mesh);
@@ -336,7 +336,7 @@ TEST_CASE("arrays that name what is not there are errors") {
   const auto message_of = [&](const auto& change) -> std::string {
     try {
       on_ranks(2, [&](Ranks& ranks) {
-        pieces::RankArrays mine = share_of(data, ranks);
+        pieces::RankShare mine = share_of(data, ranks);
         change(mine);
         pieces::MemoryShelf shelf;
         pieces::DividedMesh mesh(shelf, ranks, data.points.size());
@@ -347,13 +347,13 @@ TEST_CASE("arrays that name what is not there are errors") {
     }
     return {};
   };
-  CHECK(message_of([](pieces::RankArrays&) {}) == "");
-  CHECK(message_of([](pieces::RankArrays& mine) { mine.tets[3].vertices[1] = 64; }) ==
+  CHECK(message_of([](pieces::RankShare&) {}) == "");
+  CHECK(message_of([](pieces::RankShare& mine) { mine.tets[3].vertices[1] = 64; }) ==
         "there is no vertex 64: the mesh has 64");
-  CHECK(message_of([](pieces::RankArrays& mine) {
+  CHECK(message_of([](pieces::RankShare& mine) {
           mine.tets[3].vertices[1] = mine.tets[3].vertices[2];
         }).find("twice") != std::string::npos);
-  CHECK(message_of([](pieces::RankArrays& mine) {
+  CHECK(message_of([](pieces::RankShare& mine) {
           mine.points[0].x() = NAN;
         }).find("not a finite number") != std::string::npos);
 }

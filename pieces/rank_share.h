@@ -15,7 +15,7 @@ namespace tetmend::pieces {
 
 /// What one rank has. Vertices are numbered through: those of the first rank first. Elements of one
 /// rank come before those of the next.
-struct RankArrays {
+struct RankShare {
   template <std::size_t N>
   struct Element {
     std::array<std::uint64_t, N> vertices{};  ///< of the whole mesh
@@ -35,28 +35,28 @@ class ArrayFiles {
   virtual ~ArrayFiles() = default;
   virtual bool is_one(const std::filesystem::path& file) const = 0;
   /// All ranks: each gets a share. @throws Error
-  virtual RankArrays read(const std::filesystem::path& file) const = 0;
+  virtual RankShare read(const std::filesystem::path& file) const = 0;
   /// All ranks. @throws Error
-  virtual void write(const std::filesystem::path& file, const RankArrays& arrays) const = 0;
+  virtual void write(const std::filesystem::path& file, const RankShare& arrays) const = 0;
 };
 
 /// All of a mesh, as the share of one rank.
-RankArrays all_of(const MeshData& data);
+RankShare all_of(const MeshData& data);
 
 /// All ranks: how many elements there are on all of them.
 struct ArrayCounts {
   std::uint64_t points = 0, tets = 0, triangles = 0, edges = 0, required_vertices = 0;
 };
-ArrayCounts count_all(const RankArrays& arrays, Ranks& ranks);
+ArrayCounts count_all(const RankShare& arrays, Ranks& ranks);
 
 /// All ranks: adds the mesh to one that has nothing yet, with end_slices(). A rank has its share in
 /// memory, and what a slice of it needs from others.
 /// @throws Error for a vertex that is not there, a repeated one, and a coordinate that is not finite
-void add_arrays(const RankArrays& arrays, DividedMesh& to);
+void add_arrays(const RankShare& arrays, DividedMesh& to);
 
 /// All ranks: the stored pieces as such arrays. Vertices and elements have the order of join(),
 /// vertices are shared out evenly, elements stay where their pieces are. Precondition: each rank has a
 /// range of the pieces, as after a division without zones.
-RankArrays take_arrays(const DividedMesh& mesh);
+RankShare take_arrays(const DividedMesh& mesh);
 
 }  // namespace tetmend::pieces

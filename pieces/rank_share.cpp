@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/rank_arrays.h"
+#include "pieces/rank_share.h"
 
 #include <algorithm>
 #include <limits>
@@ -58,7 +58,7 @@ class Ranges {
 /// The slices of one rank, one after another; all ranks make as many.
 class Slicer {
  public:
-  Slicer(const RankArrays& arrays, DividedMesh& to)
+  Slicer(const RankShare& arrays, DividedMesh& to)
       : arrays_(arrays),
         to_(to),
         ranks_(to.ranks()),
@@ -105,7 +105,7 @@ class Slicer {
   }
 
   template <std::size_t N>
-  void note(Range<RankArrays::Element<N>> elements, std::vector<VertexId>& ids) const {
+  void note(Range<RankShare::Element<N>> elements, std::vector<VertexId>& ids) const {
     for (const auto* element = elements.first; element != elements.second; ++element) {
       auto v = element->vertices;
       for (const std::uint64_t number : v) ids.push_back(checked(number));
@@ -118,7 +118,7 @@ class Slicer {
   }
 
   template <std::size_t N, class Element>
-  static void renumber(Range<RankArrays::Element<N>> from, const std::vector<VertexId>& ids,
+  static void renumber(Range<RankShare::Element<N>> from, const std::vector<VertexId>& ids,
                        std::vector<Element>& to) {
     for (const auto* each = from.first; each != from.second; ++each) {
       Element& element = to.emplace_back();
@@ -202,7 +202,7 @@ class Slicer {
             is_required_[at] != 0 ? 1U : 0U};
   }
 
-  const RankArrays& arrays_;
+  const RankShare& arrays_;
   DividedMesh& to_;
   Ranks& ranks_;
   Ranges points_;
@@ -213,7 +213,7 @@ class Slicer {
 
 template <std::size_t N, class Element>
 void append_elements(const std::vector<Element>& from, const std::vector<std::uint64_t>& numbers,
-                     std::vector<RankArrays::Element<N>>& to) {
+                     std::vector<RankShare::Element<N>>& to) {
   for (const Element& element : from) {
     auto& made = to.emplace_back();
     for (std::size_t k = 0; k < N; ++k) made.vertices[k] = numbers[element.vertices[k]];
@@ -223,7 +223,7 @@ void append_elements(const std::vector<Element>& from, const std::vector<std::ui
 
 /// Puts the vertices that came in the order of their numbers.
 void place_vertices(const std::vector<std::string>& came, std::uint64_t begin, std::uint64_t end,
-                    RankArrays& arrays) {
+                    RankShare& arrays) {
   arrays.points.resize(end - begin);
   arrays.point_labels.assign(end - begin, 0);
   for (const std::string& from : came) {
@@ -241,8 +241,8 @@ void place_vertices(const std::vector<std::string>& came, std::uint64_t begin, s
 
 }  // namespace
 
-RankArrays all_of(const MeshData& data) {
-  RankArrays arrays;
+RankShare all_of(const MeshData& data) {
+  RankShare arrays;
   const auto take = [](const auto& from, auto& to) {
     for (const auto& each : from) {
       auto& made = to.emplace_back();
@@ -259,7 +259,7 @@ RankArrays all_of(const MeshData& data) {
   return arrays;
 }
 
-ArrayCounts count_all(const RankArrays& arrays, Ranks& ranks) {
+ArrayCounts count_all(const RankShare& arrays, Ranks& ranks) {
   std::array<std::int64_t, 5> counts = {static_cast<std::int64_t>(arrays.points.size()),
                                         static_cast<std::int64_t>(arrays.tets.size()),
                                         static_cast<std::int64_t>(arrays.triangles.size()),
@@ -271,12 +271,12 @@ ArrayCounts count_all(const RankArrays& arrays, Ranks& ranks) {
   return {all[0], all[1], all[2], all[3], all[4]};
 }
 
-void add_arrays(const RankArrays& arrays, DividedMesh& to) {
+void add_arrays(const RankShare& arrays, DividedMesh& to) {
   Slicer(arrays, to).add_all();
 }
 
-RankArrays take_arrays(const DividedMesh& mesh) {
-  RankArrays arrays;
+RankShare take_arrays(const DividedMesh& mesh) {
+  RankShare arrays;
   Ranks& ranks = mesh.ranks();
   const Numbering numbering(mesh);
   const std::uint64_t total = numbering.size();
