@@ -38,22 +38,41 @@ TEST_CASE("points of periodic links, other elements and MEDIT's marks are corner
   };
   CHECK(corners(plain).size() == 8);
 
+  // A face without a corner of the cube and off its edges.
+  const auto faces = find_features(TetMesh(plain), {.flat = true, .kept = {}});
+  const auto inner = std::find_if(faces.faces.begin(), faces.faces.end(), [&](const auto& face) {
+    return std::all_of(face.vertices.begin(), face.vertices.end(), [&](VertexHandle v) {
+      return faces.places[v.index()] == SurfacePlace::smooth;
+    });
+  });
+  REQUIRE(inner != faces.faces.end());
+  const auto inner_face = static_cast<std::uint32_t>(inner - faces.faces.begin());
+
   const auto marked = [&](const char* name, int dimension) {
     MeshData data = plain;
-    if (dimension == 1) data.edges = {{{a, b}, 0}};
-    if (dimension == 2) data.triangles = {{{a, b, c}, 0}};
+    if (dimension == 1) {  // a line through a and b
+      data.edges = {{{number(0, 1), a}, 0}, {{a, b}, 0}, {{b, number(3, 1)}, 0}};
+    }
+    if (dimension == 2) {
+      for (const auto& face : find_features(TetMesh(plain), {}).faces) {
+        const auto& v = face.vertices;
+        data.triangles.push_back({{v[0].index(), v[1].index(), v[2].index()}, 0});
+      }
+    }
     Group group;
     group.name = name;
     group.dimension = dimension;
-    group.members = {dimension == 0 ? a : 0};
+    group.members = {dimension == 0 ? a : dimension == 1 ? 1 : inner_face};
     data.groups = {group};
     return corners(data);
   };
   CHECK(has(marked("Corners", 0), a));
   CHECK_FALSE(has(marked("a set", 0), a));
+  CHECK(has(marked("RequiredEdges", 1), a));
   CHECK(has(marked("RequiredEdges", 1), b));
-  CHECK(has(marked("RequiredTriangles", 2), c));
-  CHECK_FALSE(has(marked("RequiredEdges", 1), c));
+  CHECK_FALSE(has(marked("Ridges", 1), a));
+  CHECK(marked("RequiredTriangles", 2).size() == 11);
+  CHECK(marked("a wall", 2).size() == 8);
 
   MeshData periodic = plain;
   periodic.periodic.push_back({2, 1, 2, {}, {{a, b}}});
