@@ -13,6 +13,7 @@
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "envelope/features.h"
+#include "envelope/kept_points.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/mesh_view.h"
@@ -80,12 +81,14 @@ int show_features(const Options& options, Invocation& invocation) {
   const NamedFile output = {"OUT", options.output};
   prepare_files({&input, 1}, {&output, 1});
   const ThreadLimit limit(options.threads);
-  BuildReport build;
-  const TetMesh mesh = read_tet_mesh(options.input, MeshOrder::of_file, &build);
+  MeshData read = read_mesh(options.input);
+  const std::vector<char> points = find_kept_points(read);
+  const TetMesh mesh = build_tet_mesh(options.input, std::move(read), MeshOrder::of_file);
+  const std::vector<VertexHandle> kept = kept_vertices(mesh, points);
   const SurfaceFeatures bent =
-      find_features(mesh, {.angle = options.feature_angle, .flat = false, .kept = {}});
+      find_features(mesh, {.angle = options.feature_angle, .flat = false, .kept = kept});
   const SurfaceFeatures flat =
-      find_features(mesh, {.angle = options.feature_angle, .flat = true, .kept = {}});
+      find_features(mesh, {.angle = options.feature_angle, .flat = true, .kept = kept});
   say(stdout, fmt::format("{}: {} triangles, feature angle {:g} degrees\n", options.input.string(),
                           grouped(bent.faces.size()), options.feature_angle));
   say(stdout, fmt::format("{:<12}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "", "patches",

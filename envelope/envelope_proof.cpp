@@ -19,8 +19,6 @@ const double kLeastCosine = std::sqrt(0.75);  // 30 degrees
 constexpr double kMoreBends = 1.25;
 constexpr double kBendsForTolerance = 4;
 
-constexpr std::uint32_t kNone = SurfaceGuard::kNone;
-
 /// The normals do not speak against it; one that means nothing never does.
 bool may_certify(const Point& a, const Point& b, unsigned corners) {
   if (a.isZero() || b.isZero()) return true;
