@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The algorithm of the paper that the call at hand follows, with its line.
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 #include <imgui.h>
 
@@ -12,6 +14,7 @@ namespace tetmend::viewer::ui {
 namespace {
 
 constexpr float kCallerLines = 3.5F;  // below the code
+constexpr float kNumbers = 2.2F;      // width of their column, in units of the text
 constexpr float kGap = 1;             // between its lines, in pixels
 
 /// As high as all lines, or as there is room for.
@@ -23,10 +26,23 @@ void begin_lines(const Pseudocode& code) {
   ImGui::BeginChild("##lines", {0, std::min(all, std::max(room, 3 * ImGui::GetFontSize()))});
 }
 
+/// Of the current window: so that no line is cut.
+void shrink_text(const Pseudocode& code) {
+  constexpr float kLeast = 0.6F;
+  float widest = 0;
+  for (const std::string_view line : code.lines) {
+    widest = std::max(widest, ImGui::CalcTextSize(line.data()).x);  // literals
+  }
+  const float needed = widest + kNumbers * ImGui::GetFontSize();
+  const float room = ImGui::GetContentRegionAvail().x;
+  if (needed > room) ImGui::SetWindowFontScale(std::max(kLeast, room / needed));
+}
+
 /// `is_new`: the line is to be brought into sight.
 void show_code(const Pseudocode& code, unsigned line, bool is_new) {
   ImGui::TextWrapped("%s", code.title.data());
   begin_lines(code);
+  shrink_text(code);
   ImDrawList* list = ImGui::GetWindowDrawList();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, kGap});
   for (unsigned i = 1; i <= code.lines.size(); ++i) {
@@ -38,7 +54,7 @@ void show_code(const Pseudocode& code, unsigned line, bool is_new) {
           ImGui::GetColorU32(ImGuiCol_Header), 3);
     }
     ImGui::TextDisabled("%2u", i);
-    ImGui::SameLine(2.2F * ImGui::GetFontSize());
+    ImGui::SameLine(kNumbers * ImGui::GetFontSize());
     ImGui::TextUnformatted(code.lines[i - 1].data());  // literals
     if (i == line && is_new) ImGui::SetScrollHereY(0.5F);
   }
