@@ -290,7 +290,7 @@ class Reports(unittest.TestCase):
         self.assertEqual([region["label"] for region in self.desk.run("return about.labels")], [1, 2])
         self.assertGreater(self.desk.run("return about.walls"), 100)
         # Cut open, for one region lies inside of the other.
-        self.desk.run("document.querySelector('[data-surface=solid]').click(); document.querySelector('[data-across=y]').click(); drawPicture();")
+        self.desk.run("document.querySelector('[data-surface=solid]').click(); document.querySelector('[data-across=view]').click(); drawPicture();")
         plain = self.desk.run(colours)
         self.desk.run("document.querySelector('[data-colour=label]').click(); drawPicture();")
         for count, before in zip(self.desk.run(colours), plain, strict=True):

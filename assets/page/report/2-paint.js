@@ -94,9 +94,11 @@ class ShapePainter {
   fillSurface(look, colour, inside, opacity) {
     if (!look.byLabel) return this.fill(this.surface, colour, inside, opacity);
     const {gl} = this;
-    for (const region of this.regions) this.fill(region.surface, region.colour, look.isSolid ? inside : region.colour, opacity);
-    gl.enable(gl.CULL_FACE);  // of a wall that side which is the outside of its region
-    for (const region of this.regions) this.fill(region.walls, region.colour, region.colour, opacity);
+    // Whoever looks into a region that is cut open sees its colour all around.
+    for (const region of this.regions) this.fill(region.surface, region.colour, region.colour.map((c) => 0.85 * c), opacity);
+    gl.enable(gl.CULL_FACE);
+    gl.cullFace(gl.FRONT);
+    for (const region of this.regions) this.fill(region.walls, region.colour, region.colour.map((c) => 0.85 * c), opacity);
     gl.disable(gl.CULL_FACE);
   }
 
