@@ -64,6 +64,12 @@ Box box_of(const std::array<Point, 3>& points) {
   return box;
 }
 
+Box box_around(const Element& element) {
+  const Box box = box_of(element.points);
+  const Point reach = Point::Constant(element.tolerance);
+  return {box.min() - reach, box.max() + reach};
+}
+
 ElementTree::ElementTree(std::span<const Element> elements, std::span<const std::uint32_t> sheet_of,
                          std::size_t sheets)
     : order_(elements.size()), roots_(sheets, kEmpty) {
@@ -86,7 +92,7 @@ void ElementTree::build(std::span<const Element> elements, std::uint32_t begin, 
   Box middles;
   const auto middle = [&](std::uint32_t i) -> Point { return box_of(elements[i].points).center(); };
   for (std::uint32_t i = begin; i < end; ++i) {
-    box.extend(box_of(elements[order_[i]].points));
+    box.extend(box_around(elements[order_[i]]));
     middles.extend(middle(order_[i]));
   }
   nodes_.push_back({box, begin, end});
@@ -152,7 +158,7 @@ void ElementTree::find(std::span<const Element> elements, std::uint32_t sheet, c
       continue;
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      if (box_of(elements[order_[i]].points).intersects(box)) out.push_back(order_[i]);
+      if (box_around(elements[order_[i]]).intersects(box)) out.push_back(order_[i]);
     }
   }
   std::sort(out.begin() + first, out.end());

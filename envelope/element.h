@@ -36,6 +36,8 @@ inline Point nearest_point(const Element& element, const Point& p) {
 
 using Box = Eigen::AlignedBox<double, 3>;
 Box box_of(const std::array<Point, 3>& points);
+/// With all that lies within its tolerance.
+Box box_around(const Element& element);
 
 /// A tree of boxes for each sheet, in one array. Built the same way everywhere.
 class ElementTree {
@@ -52,7 +54,7 @@ class ElementTree {
   };
   /// In a sheet that has elements; of several equally near ones the first.
   Nearest nearest(std::span<const Element> elements, std::uint32_t sheet, const Point& p) const;
-  /// Appends the elements of a sheet whose boxes meet the box, ascending.
+  /// Appends the elements of a sheet whose box_around() meets the box, ascending.
   void find(std::span<const Element> elements, std::uint32_t sheet, const Box& box,
             std::vector<std::uint32_t>& out) const;
 

@@ -16,8 +16,9 @@
 namespace tetmend {
 
 std::unique_ptr<Envelope> Envelope::of(const TetMesh& mesh, const EnvelopeOptions& options) {
-  if (!(options.angle > 0 && options.angle < 180)) {
-    throw Error(fmt::format("feature angle {}: it lies between 0 and 180 degrees", options.angle));
+  if (!(options.angle > 0 && options.angle <= 180)) {
+    throw Error(fmt::format("feature angle {}: it lies above 0, and at most at 180 degrees",
+                            options.angle));
   }
   for (const double x : {options.share, options.length}) {
     if (!(x >= 0) || std::isinf(x)) throw Error(fmt::format("surface tolerance {}", x));

@@ -19,18 +19,11 @@ const double kLeastCosine = std::sqrt(0.75);  // 30 degrees
 constexpr double kMoreBends = 1.25;
 constexpr double kBendsForTolerance = 4;
 
-constexpr std::uint32_t kNone = SurfaceGuard::kNone;
-
 /// The normals do not speak against it; one that means nothing never does.
 bool may_certify(const Point& a, const Point& b, unsigned corners) {
   if (a.isZero() || b.isZero()) return true;
   const double cosine = a.dot(b);
   return (corners == 2 ? std::abs(cosine) : cosine) >= kLeastCosine;
-}
-
-Box widened(const std::array<Point, 3>& points, double by) {
-  Box box = box_of(points);
-  return {box.min() - Point::Constant(by), box.max() + Point::Constant(by)};
 }
 
 std::array<Point, 3> segment(const Point& a, const Point& b) {
@@ -61,8 +54,7 @@ bool Envelope::lies_near(Journal& journal, const std::array<Point, 3>& points, u
   if (normal.isZero()) return false;
   journal.elements.clear();
   journal.targets.clear();
-  reference_->tree.find(reference_->elements, sheet, widened(points, reference_->tolerance(sheet)),
-                        journal.elements);
+  reference_->tree.find(reference_->elements, sheet, box_of(points), journal.elements);
   for (const std::uint32_t i : journal.elements) {
     const Element& element = reference_->elements[i];
     if (!may_certify(element.normal, normal, corners)) continue;
@@ -119,7 +111,7 @@ bool Envelope::certify(Journal& journal, std::uint32_t number) const {
     journal.keys.push_back(key);
     journal.targets.push_back({points, element.corners, element.tolerance, normal});
   };
-  const Box near = widened(element.points, element.tolerance);
+  const Box near = box_around(element);
   if (element.corners == 3) {
     for (const auto& face : edit.after()) {
       if (face.patch == element.sheet && box_of(face.points).intersects(near)) {

@@ -77,7 +77,8 @@ class PresentSurface {
   /// Puts a vertex and its point in place and takes out what was there.
   void exchange(VertexHandle v, std::unique_ptr<SurfaceVertex>& vertex, Point& point) noexcept {
     vertices_[v.index()].swap(vertex);
-    std::swap(points_[v.index()], point);
+    // Other workers may read the point of a vertex that stays where it is.
+    if (points_[v.index()] != point) std::swap(points_[v.index()], point);
   }
   void resize(std::size_t slots);
   void renumber(std::span<const VertexHandle> new_vertex, std::size_t slots);

@@ -144,17 +144,13 @@ void Reference::add_segments(const TetMesh& mesh, const SurfaceFeatures& feature
 void Reference::hold_close_parts(const SurfaceFeatures& features) {
   const std::vector<std::uint32_t> one(faces, 0);
   const ElementTree all(elements, one, 1);
-  double most = 0;
-  for (const Element& element : elements) most = std::max(most, element.tolerance);
   std::vector<double> least(faces, std::numeric_limits<double>::infinity());
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < faces; ++i) {
     const Element& a = elements[i];
     if (patches[a.sheet].interior) continue;
-    const Box box = box_of(a.points);
-    const Point reach = Point::Constant(a.tolerance + most);
     near.clear();
-    all.find(elements, 0, Box(box.min() - reach, box.max() + reach), near);
+    all.find(elements, 0, box_around(a), near);
     for (const std::uint32_t j : near) {
       const Element& b = elements[j];
       const auto& v = features.faces[i].vertices;

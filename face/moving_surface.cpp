@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "envelope/envelope.h"
+#include "envelope/kept_points.h"
 #include "kernel/compensated_sum.h"
 #include "kernel/from_chars.h"
 #include "kernel/geometry.h"
@@ -51,17 +52,7 @@ std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
   options.share = share_;
   options.length = mesh.scale().to_work(length_);
   options.angle = feature_angle_;
-  std::vector<char> paired(input.points.size(), 0);
-  for (const PeriodicLink& link : input.periodic) {
-    for (const auto& [image, original] : link.points) paired[image] = paired[original] = 1;
-  }
-  for (const OtherElements& others : input.other_elements) {
-    for (const std::uint32_t v : others.vertices) paired[v] = 1;
-  }
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    const VertexHandle v(i);
-    if (!mesh.is_deleted(v) && paired[mesh.origin(v)] != 0) options.kept.push_back(v);
-  }
+  options.kept = kept_vertices(mesh, find_kept_points(input));
   return Envelope::of(mesh, options);
 }
 

@@ -24,7 +24,7 @@ class SurfaceTolerance {
   /// Nothing but what changes no shape.
   bool is_flat() const { return !is_fixed_ && share_ == 0 && length_ == 0; }
   /// What decides about changes of the surface of a mesh that was just built of `input`. Points that
-  /// the file pairs with others stay. Precondition: not fixed; frozen tets are marked.
+  /// the file pairs with others or marks stay (kept_points.h). Precondition: not fixed; frozen tets are marked.
   /// @throws OptionError for a mesh whose surface must not move: one of second order
   std::unique_ptr<SurfaceGuard> guard(const TetMesh& mesh, const MeshData& input) const;
 

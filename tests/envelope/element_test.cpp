@@ -43,6 +43,7 @@ TEST_CASE("the tree finds what a loop over the elements of a sheet finds") {
     const Point p = anywhere(random, 1);
     element.points = {p, p + anywhere(random, 0.2), p + anywhere(random, 0.2)};
     element.sheet = static_cast<std::uint32_t>(random.index(4));
+    element.tolerance = random.real(0, 0.1);
     sheet_of.push_back(element.sheet);
     elements.push_back(element);
   }
@@ -56,7 +57,7 @@ TEST_CASE("the tree finds what a loop over the elements of a sheet finds") {
     for (std::uint32_t e = 0; e < elements.size(); ++e) {
       if (elements[e].sheet != sheet) continue;
       least = std::min(least, triangle_distance(p, elements[e].points));
-      if (box_of(elements[e].points).intersects(box)) near.push_back(e);
+      if (box_around(elements[e]).intersects(box)) near.push_back(e);
     }
     const auto found = tree.nearest(elements, sheet, p);
     CHECK(std::sqrt(found.distance2) == doctest::Approx(least).epsilon(1e-9));

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Faces, sides and patches.
+#include "envelope/feature_finder.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kernel/mesh_view.h"
+
+namespace tetmend {
+
+namespace {
+
+std::array<VertexHandle, 3> sorted(std::array<VertexHandle, 3> v) {
+  std::sort(v.begin(), v.end());
+  return v;
+}
+
+}  // namespace
+
+void FeatureFinder::add_face(HalfFace f, const SurfaceTriangle& triangle) {
+  Kind kind{{mesh_.label(f.tet()), 0}, triangle.label, triangle.named, triangle.interior};
+  if (triangle.interior) kind.sides[1] = mesh_.label(mesh_.twin(f).tet());
+  found_.faces.push_back({mesh_.vertices(f), 0});
+  kinds_.push_back(kind);
+  for (const VertexHandle v : mesh_.vertices(f)) {
+    found_.places[v.index()] = SurfacePlace::smooth;
+  }
+}
+
+void FeatureFinder::collect_faces() {
+  const auto triangles = mesh_.surface_triangles();
+  std::vector<std::pair<std::array<VertexHandle, 3>, std::uint32_t>> inner;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (triangles[i].loose) {
+      for (const VertexHandle v : triangles[i].vertices) keep(v);
+    } else if (triangles[i].interior) {
+      inner.emplace_back(sorted(triangles[i].vertices), i);
+    }
+  }
+  std::sort(inner.begin(), inner.end());
+  for (std::uint32_t i = 0; i < mesh_.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (mesh_.is_deleted(t)) continue;
+    for (unsigned k = 0; k < 4; ++k) {
+      const HalfFace f(t, k);
+      const HalfFace twin = mesh_.twin(f);
+      if (twin.is_outside()) {
+        add_face(f, triangles[twin.surface_triangle()]);
+        continue;
+      }
+      if (!mesh_.is_constrained(f)) continue;
+      const auto v = sorted(mesh_.vertices(f));
+      if (mesh_.label(t) == mesh_.label(twin.tet())) {
+        for (unsigned e = 0; e < 3; ++e) {
+          keep(v[e]);
+          walls_.push_back(ends_of(v[e], v[(e + 1) % 3]));
+        }
+      } else if (mesh_.label(t) < mesh_.label(twin.tet())) {
+        const auto at =
+            std::lower_bound(inner.begin(), inner.end(), std::pair(v, std::uint32_t{0}));
+        add_face(f, triangles[at->second]);
+      }
+    }
+  }
+  std::sort(walls_.begin(), walls_.end());
+}
+
+void FeatureFinder::collect_named_edges() {
+  const MeshView view(mesh_);
+  const auto slots = view.vertex_slots();
+  const auto vertex = [&](std::uint32_t i) { return VertexHandle(slots.empty() ? i : slots[i]); };
+  for (const MeshData::Edge& edge : view.edges()) {
+    named_.push_back({ends_of(vertex(edge.vertices[0]), vertex(edge.vertices[1])), edge.label});
+  }
+  for (const std::uint32_t i : view.required_vertices()) keep(vertex(i));
+  kept_.insert(kept_.end(), options_.kept.begin(), options_.kept.end());
+  std::sort(named_.begin(), named_.end(), [](const Named& a, const Named& b) {
+    return std::tie(a.ends, a.label) < std::tie(b.ends, b.label);
+  });
+  for (std::size_t i = 1; i < named_.size(); ++i) {  // named twice: which one counts is open
+    if (named_[i].ends == named_[i - 1].ends) {
+      for (const VertexHandle v : named_[i].ends) keep(v);
+    }
+  }
+}
+
+void FeatureFinder::sort_sides() {
+  for (std::uint32_t i = 0; i < found_.faces.size(); ++i) {
+    const auto& v = found_.faces[i].vertices;
+    for (unsigned k = 0; k < 3; ++k) {
+      const VertexHandle a = v[k];
+      const VertexHandle b = v[(k + 1) % 3];
+      sides_.push_back({ends_of(a, b), i, a < b});
+    }
+  }
+  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.ends, a.face) < std::tie(b.ends, b.face);
+  });
+  for (std::uint32_t i = 0; i < sides_.size(); ++i) {
+    if (i == 0 || sides_[i].ends != sides_[i - 1].ends) group_.push_back(i);
+  }
+  group_.push_back(static_cast<std::uint32_t>(sides_.size()));
+}
+
+/// Of an edge, given by its sides: no feature, as far as the two faces tell.
+bool FeatureFinder::is_smooth(std::size_t begin, std::size_t end) const {
+  if (end - begin != 2) return false;
+  const Side& a = sides_[begin];
+  const Side& b = sides_[begin + 1];
+  if (a.up == b.up || kinds_[a.face].key() != kinds_[b.face].key()) return false;
+  if (std::binary_search(walls_.begin(), walls_.end(), a.ends)) return false;
+  const auto at = std::lower_bound(named_.begin(), named_.end(), a.ends,
+                                   [](const Named& x, const Ends& ends) { return x.ends < ends; });
+  if (at != named_.end() && at->ends == a.ends) return false;
+  return normal(a.face).dot(normal(b.face)) >= least_cosine_;
+}
+
+void FeatureFinder::join_faces() {
+  neighbours_.resize(3 * found_.faces.size());
+  for (std::uint32_t i = 0; i < neighbours_.size(); ++i) neighbours_[i] = i / 3;
+  const auto slot = [&](const Side& side) {
+    const auto& v = found_.faces[side.face].vertices;
+    const VertexHandle from = side.ends[side.up ? 0 : 1];
+    return 3 * side.face + (v[0] == from ? 0 : v[1] == from ? 1 : 2);
+  };
+  for (std::size_t g = 0; g + 1 < group_.size(); ++g) {
+    smooth_.push_back(is_smooth(group_[g], group_[g + 1]));
+    if (!smooth_.back()) continue;
+    const Side& a = sides_[group_[g]];
+    const Side& b = sides_[group_[g] + 1];
+    neighbours_[slot(a)] = b.face;
+    neighbours_[slot(b)] = a.face;
+  }
+}
+
+void FeatureFinder::add_patch(std::uint32_t face, const Plane& plane) {
+  const Kind& kind = kinds_[face];
+  found_.patches.push_back(
+      {kind.sides, kind.label, kind.named, kind.interior, plane.origin, plane.normal});
+}
+
+void FeatureFinder::number_patches() {
+  std::vector<char> seen(found_.faces.size(), 0);
+  std::vector<std::uint32_t> queue;
+  for (std::uint32_t first = 0; first < found_.faces.size(); ++first) {
+    if (seen[first]) continue;
+    const auto patch = static_cast<std::uint32_t>(found_.patches.size());
+    add_patch(first, {});
+    queue.assign(1, first);
+    seen[first] = 1;
+    while (!queue.empty()) {
+      const std::uint32_t i = queue.back();
+      queue.pop_back();
+      found_.faces[i].patch = patch;
+      for (unsigned k = 0; k < 3; ++k) {
+        const std::uint32_t next = neighbours_[3 * i + k];
+        if (!std::exchange(seen[next], 1)) queue.push_back(next);
+      }
+    }
+  }
+}
+
+void FeatureFinder::split_by_planes() {
+  std::vector<std::array<Point, 3>> triangles;
+  triangles.reserve(found_.faces.size());
+  for (const auto& face : found_.faces) {
+    const auto& v = face.vertices;
+    triangles.push_back({mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])});
+  }
+  const Planes planes = find_planes(triangles, neighbours_, flatness_);
+  std::vector<std::uint32_t> first(planes.planes.size(), 0);
+  for (std::uint32_t i = 0; i < found_.faces.size(); ++i) {
+    found_.faces[i].patch = planes.plane_of[i];
+    first[planes.plane_of[i]] = i;
+    if (planes.planes[planes.plane_of[i]].normal.isZero()) {  // no area: nothing holds its vertices
+      for (const VertexHandle v : found_.faces[i].vertices) keep(v);
+    }
+  }
+  for (std::size_t p = 0; p < planes.planes.size(); ++p) add_patch(first[p], planes.planes[p]);
+  for (std::size_t g = 0; g + 1 < group_.size(); ++g) {
+    if (!smooth_[g]) continue;
+    const Side* sides = &sides_[group_[g]];
+    smooth_[g] = planes.plane_of[sides[0].face] == planes.plane_of[sides[1].face];
+  }
+}
+
+}  // namespace tetmend

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// How the features of a surface are found. Only for the sources that do it.
+//
+//   collect faces -> sides, sorted by edge -> which edges are smooth -> patches -> feature edges ->
+//   corners -> lines
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "envelope/features.h"
+#include "envelope/planes.h"
+#include "kernel/geometry.h"
+
+namespace tetmend {
+
+/// Finds the features of one mesh.
+class FeatureFinder {
+ public:
+  FeatureFinder(const TetMesh& mesh, const FeatureOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        least_cosine_(std::cos(options.angle * std::numbers::pi / 180)),
+        flatness_(flatness(mesh)) {}
+
+  SurfaceFeatures find() {
+    found_.places.assign(mesh_.vertex_slots(), SurfacePlace::inside);
+    collect_faces();
+    collect_named_edges();
+    sort_sides();
+    join_faces();
+    if (options_.flat) {
+      split_by_planes();
+    } else {
+      number_patches();
+    }
+    collect_edges();
+    find_corners();
+    make_lines();
+    return std::move(found_);
+  }
+
+ private:
+  using Ends = std::array<VertexHandle, 2>;
+  struct Kind {  // faces of different kinds are never of one patch
+    std::array<Label, 2> sides;
+    Label label;
+    bool named;
+    bool interior;
+    auto key() const { return std::tie(sides, label, named, interior); }
+  };
+  struct Side {
+    Ends ends;
+    std::uint32_t face;
+    bool up;  // the face runs from the lower end to the higher
+  };
+  struct Named {
+    Ends ends;
+    Label label;
+  };
+  struct FeatureEdge {
+    Ends ends;
+    std::uint32_t first_side, last_side;
+    Label label;
+    bool named;
+  };
+
+  static Ends ends_of(VertexHandle a, VertexHandle b) { return a < b ? Ends{a, b} : Ends{b, a}; }
+  void collect_faces();
+  void add_face(HalfFace f, const SurfaceTriangle& triangle);
+  void keep(VertexHandle v) { kept_.push_back(v); }
+  void collect_named_edges();
+  void sort_sides();
+  void join_faces();
+  bool is_smooth(std::size_t begin, std::size_t end) const;
+  Point normal(std::uint32_t face) const {
+    const auto& v = found_.faces[face].vertices;
+    const Point n =
+        (mesh_.point(v[1]) - mesh_.point(v[0])).cross(mesh_.point(v[2]) - mesh_.point(v[0]));
+    const double length = n.norm();
+    return length > 0 ? Point(n / length) : Point::Zero();
+  }
+  void number_patches();
+  void split_by_planes();
+  void add_patch(std::uint32_t face, const Plane& plane);
+  void collect_edges();
+  void find_corners();
+  std::vector<std::uint32_t> count_fans() const;
+  void mark_pinched();
+  bool bends(std::uint32_t e, std::uint32_t f, VertexHandle v) const;
+  bool same_sides(const FeatureEdge& a, const FeatureEdge& b, VertexHandle middle) const;
+  void make_lines();
+  void walk(VertexHandle from, std::uint32_t edge, std::vector<char>& done);
+  void add_line(const std::vector<VertexHandle>& chain, std::uint32_t edge);
+  std::size_t straight_end(const std::vector<VertexHandle>& chain, std::size_t begin) const;
+  std::span<const std::uint32_t> edges_at(VertexHandle v) const {
+    const auto begin = first_edge_[v.index()];
+    return {edges_of_.data() + begin, first_edge_[v.index() + 1] - begin};
+  }
+
+  const TetMesh& mesh_;
+  const FeatureOptions& options_;
+  double least_cosine_;
+  double flatness_;
+  SurfaceFeatures found_;
+  std::vector<Kind> kinds_;  // of each face
+  std::vector<VertexHandle> kept_;
+  std::vector<Named> named_;               // sorted
+  std::vector<Ends> walls_;                // edges of faces named inside a region, sorted
+  std::vector<Side> sides_;                // sorted by edge
+  std::vector<std::uint32_t> group_;       // first side of each edge, then the number of sides
+  std::vector<char> smooth_;               // of each edge
+  std::vector<std::uint32_t> neighbours_;  // 3 of each face across smooth edges, or itself
+  std::vector<FeatureEdge> edges_;
+  std::vector<std::uint32_t> edges_of_;  // by vertex
+  std::vector<std::uint32_t> first_edge_;
+};
+
+}  // namespace tetmend
