@@ -85,8 +85,8 @@ class TETMEND_API SurfaceGuard {
   /// Takes back the last replace() that is in the journal, bit for bit.
   virtual void undo(SurfaceJournal& journal) noexcept = 0;
 
-  /// The mesh has so many vertex slots from now on; it never has fewer than before. No worker is
-  /// active. Vertices of new slots are `inside`.
+  /// The mesh has so many vertex slots from now on: more, or fewer when an edit is undone, and then
+  /// cannot fail. No worker is active. Vertices of slots that come or go are `inside`.
   virtual void resize(std::size_t vertex_slots) = 0;
   /// The mesh gave its vertices new numbers: new_vertex[old], invalid for slots that are gone. No
   /// journal holds anything.

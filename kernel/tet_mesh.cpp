@@ -246,6 +246,7 @@ void TetMesh::drop_vertex_slot() noexcept {
   vertex_dates_.pop_back();
   vertex_origin_.pop_back();
   vertex_properties_.shrink(points_.size());
+  if (SurfaceGuard* guard = surface_guard()) guard->resize(points_.size());
 }
 
 namespace {

@@ -191,7 +191,7 @@ const std::vector<Hostile> kHostileEvents = {
      [](auto& e) { e.kind(EventKind::visit_ends).put(std::numeric_limits<std::uint64_t>::max()); }},
     {"its goal or standard is none",
      [](auto& e) { e.kind(EventKind::standard_changes).put(0).point(-1, 0, 0).put(0); }},
-    {"13 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(13)); }},
+    {"14 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(14)); }},
 };
 
 /// A frame `M` of five vertices and these tets.
