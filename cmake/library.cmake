@@ -1,6 +1,9 @@
 # tetmend::tetmend, what users link: all layers as one library, a shared one unless BUILD_SHARED_LIBS is off. What it is made
 # with is its own affair: users see include/tetmend and need nothing else.
-set(tetmend_layers platform kernel trace search envelope ops contract schedule face pieces bindings_c)
+set(tetmend_layers platform kernel trace search envelope ops contract schedule face bindings_c)
+if(TARGET tetmend_pieces)
+  list(APPEND tetmend_layers pieces)
+endif()
 
 if(WIN32)
   set(BUILD_SHARED_LIBS OFF)  # a DLL shows nothing that is not marked for it
@@ -19,7 +22,7 @@ target_include_directories(tetmend_library INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(tetmend_library INTERFACE cxx_std_20)
 # The layers are linked for the sake of the libraries that they need: their code is here already.
-target_link_libraries(tetmend_library PRIVATE $<BUILD_INTERFACE:tetmend_bindings_c> $<BUILD_INTERFACE:tetmend_pieces> $<BUILD_INTERFACE:tetmend_flags>)
+target_link_libraries(tetmend_library PRIVATE $<BUILD_INTERFACE:tetmend_bindings_c> $<BUILD_INTERFACE:$<TARGET_NAME_IF_EXISTS:tetmend_pieces>> $<BUILD_INTERFACE:tetmend_flags>)
 set_target_properties(tetmend_library PROPERTIES OUTPUT_NAME tetmend EXPORT_NAME tetmend LINKER_LANGUAGE CXX)
 if(BUILD_SHARED_LIBS)
   if(NOT APPLE)

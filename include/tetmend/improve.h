@@ -166,7 +166,7 @@ struct CarriedArray {
 struct SurfaceChange {
   /// A region, by the label of its tets.
   struct Region {
-    std::int32_t label = 0;
+    std::int32_t label = 0;    ///< of its tets
     double area_before = 0;    ///< of its faces of the surface
     double area_after = 0;     ///< likewise
     double volume_before = 0;  ///< of its tets
