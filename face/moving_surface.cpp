@@ -131,6 +131,8 @@ void SurfaceTolerance::measure_after(const TetMesh& mesh, SurfaceChange& change)
   if (tolerances.empty()) return;
   change.tolerance = length * *std::max_element(tolerances.begin(), tolerances.end());
   change.proven = length * envelope.proven_bound().distance;
+  constexpr unsigned kSide = 4;  // 15 points of each triangle that has changed
+  change.sampled = length * envelope.sampled_distance(kSide);
 }
 
 }  // namespace tetmend::face

@@ -2,17 +2,19 @@
 description "What follows another schedule where the surface may move (--surface): bad tets are worked on by operators that change the surface, in turns with those inside, until rounds bring nothing"
 
 local max_rounds = parameter{"max_rounds", default = 12, low = 0, high = 10000,
-                             help = "rounds"}
+                             help = "rounds of costly operators on the worst tets"}
 local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
-                             help = "rounds in sequence without progress that end them"}
-
-local worst = {below = 1, worst = 200}
+                             help = "such rounds in sequence without progress that end them"}
 
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local refill = {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 18, max_nodes = 50, desperate = 0.7}
+local split = {"surface_split", order = "longest"}
 
 local start = quality()
+
+-- Where more are bad, the worst are not worth any number of mild ones.
+local kFew = 200
 
 local function flip()
   return apply({"surface_edge_removal", order = "angle"}, {sweeps = 2})
@@ -23,8 +25,7 @@ local function move()
   for _ = 1, 3 do
     local accepted = apply("surface_smoothing")
     moved = moved + accepted
-    smooth{}
-    if accepted == 0 then break end
+    if smooth{} + accepted == 0 then break end
   end
   return moved
 end
@@ -36,27 +37,43 @@ local function plain_round()
   local_reconnection{edges = quick}
   suppress_points{}
   smooth{}
-  return changed + flip() + move()
+  return changed + apply(split) + flip() + move()
+end
+
+-- Cheap: all bad tets, as long as that removes a twentieth of them.
+local function plain_rounds()
+  local changed = 0
+  repeat
+    local n_bad = quality().n_bad
+    changed = changed + plain_round()
+  until n_bad == 0 or quality().n_bad > 0.95 * n_bad
+  return changed
 end
 
 -- Makes things worse at first, then mends them by nearly all that there is.
-local function open_by(operator)
+local function open_by(operator, desperate)
   return sequence{operator, "surface_edge_removal", "surface_smoothing",
                   "recursive_shell_transformation", "smoothing", "joint_smoothing",
                   "surface_smoothing", "surface_contraction", "cavity_insertion",
                   {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                    max_vertices = 10, max_nodes = 15},
-                  "smoothing", "surface_smoothing", "joint_smoothing", desperate = 0.7}
+                  "smoothing", "surface_smoothing", "joint_smoothing", desperate = desperate}
 end
 
-local openings = {"surface_contraction", "surface_smoothing", "surface_edge_removal", "edge_removal",
+-- Moving one vertex pays only where few tets are bad: elsewhere many mild ones come of it.
+local openings = {"surface_contraction", "surface_edge_removal", "edge_removal",
                   {"surface_split", order = "longest", relax = false},
-                  {"edge_split", order = "angle", most_edges = 2}, "smoothing", "edge_contraction"}
+                  {"edge_split", order = "angle", most_edges = 2}, "edge_contraction"}
+local gentle_openings = {"surface_smoothing", "smoothing"}
 
 local function costly_round()
+  local is_few = quality().n_bad <= kFew
+  local worst = {below = 1, worst = is_few and 200 or 20}
+  local desperate = is_few and 0.7 or 0
   begin_round()
-  apply({"surface_split", order = "longest"}, {on = worst})
-  for _, opening in ipairs(openings) do apply(open_by(opening), {on = worst}) end
+  for _, opening in ipairs(openings) do apply(open_by(opening, desperate), {on = worst}) end
+  if not is_few then return end
+  for _, opening in ipairs(gentle_openings) do apply(open_by(opening, desperate), {on = worst}) end
   apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = worst})
   apply(refill, {on = worst})
   local_reconnection{on = worst, reflex_only = false}
@@ -69,22 +86,22 @@ local function aim(share)
        max = math.max(71, start.goal_max - (share - 1) * (180 - start.goal_max))}
 end
 
+local full_price, half_price = 0.1, 0.02
+
+judge_by{price = full_price}
+local can_move = plain_rounds() > 0
 local rounds, failed, before = 0, 0, quality()
-while rounds < max_rounds and failed < max_failed and quality().n_bad > 0 do
+while can_move and rounds < max_rounds and failed < max_failed and quality().n_bad > 0 do
   rounds = rounds + 1
-  judge_by{price = 0.02}
-  -- Where the surface cannot move at all, costly operators are for the schedule before.
-  if plain_round() == 0 and rounds == 1 and apply({"surface_split", order = "longest"}, {on = worst}) == 0 then
-    break
-  end
   -- What is stuck at the goal has neighbours that just meet it and leave it no room.
   local is_stuck = failed > 0
-  judge_by{price = is_stuck and 0.1 or 0, measure = "sine"}
-  aim(is_stuck and 1.05 or 1)
+  local is_dear = is_stuck or quality().n_bad > kFew
+  judge_by{price = is_dear and full_price or 0, measure = "sine"}
+  aim(is_stuck and quality().n_bad <= kFew and 1.05 or 1)
   costly_round()
   aim(1)
-  judge_by{price = 0.02}
-  plain_round()
+  judge_by{price = half_price}
+  plain_rounds()
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1
   before = now
