@@ -94,7 +94,7 @@ Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
 }  // namespace
 
 TetMesh cube_with_free_sides(unsigned cells, std::uint64_t seed) {
-  return with_free_surface(slid(kuhn_cube(cells, 0, seed), {0, 1}, 0.3 / cells, seed), 0);
+  return with_free_surface(slid(kuhn_cube(cells, 0, seed), {0, 1}, 0.2 / cells, seed), 0);
 }
 
 std::vector<Ground> grounds() {

@@ -183,6 +183,7 @@ Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound)
     return outcome;
   }
   side.leave();
+  side.mesh.renew_surface();
   if (const auto findings = check_integrity(side.mesh); !findings.empty()) {
     outcome.complaint = "after work in a territory: " + to_string(findings);
   } else if (side.mesh.tet_count() != live_tets(side.mesh).size() ||

@@ -102,10 +102,10 @@ void PresentSurface::renumber(std::span<const VertexHandle> new_vertex, std::siz
 }
 
 bool operator==(const PresentSurface& a, const PresentSurface& b) {
-  if (a.vertices_.size() != b.vertices_.size()) return false;
-  for (std::size_t i = 0; i < a.vertices_.size(); ++i) {
-    const SurfaceVertex* v = a.vertices_[i].get();
-    const SurfaceVertex* w = b.vertices_[i].get();
+  // A mesh may take back slots that it grew by; here they stay, without a vertex.
+  for (std::size_t i = 0; i < std::max(a.vertices_.size(), b.vertices_.size()); ++i) {
+    const SurfaceVertex* v = i < a.vertices_.size() ? a.vertices_[i].get() : nullptr;
+    const SurfaceVertex* w = i < b.vertices_.size() ? b.vertices_[i].get() : nullptr;
     if ((v == nullptr) != (w == nullptr)) return false;
     if (v != nullptr && (!(*v == *w) || a.points_[i] != b.points_[i])) return false;
   }

@@ -12,6 +12,7 @@
 
 #include "envelope/envelope.h"
 #include "kernel/integrity.h"
+#include "kernel/star.h"
 #include "kernel/surface_shell.h"
 #include "kernel/transaction.h"
 #include "tests/support/zoo.h"
@@ -86,7 +87,7 @@ Cavity split(const TetMesh& mesh, const SurfaceShell& shell, VertexHandle m) {
   return cavity;
 }
 
-Cavity contract(const TetMesh& mesh, VertexHandle v, VertexHandle w, Workspace& workspace) {
+Cavity contraction(const TetMesh& mesh, VertexHandle v, VertexHandle w, Workspace& workspace) {
   Cavity cavity;
   for (const HalfFace f : link(mesh, v, workspace)) {
     cavity.old.push_back(f.tet());
@@ -221,7 +222,7 @@ TEST_CASE("new vertices of the surface are fixed for other operators, and can va
   check_sound(mesh);
   const TetMesh split_mesh = mesh;
   Transaction transaction(mesh, workspace);
-  const Cavity cavity = contract(mesh, m, shell->a, workspace);
+  const Cavity cavity = contraction(mesh, m, shell->a, workspace);
   CHECK(transaction.replace_cavity(cavity.old, cavity.created) == EditResult::constrained);
   CHECK(mesh == split_mesh);
   REQUIRE(cavity.make(transaction) == EditResult::made);
@@ -270,7 +271,7 @@ TEST_CASE("labels of triangles and named edges follow the surface") {
   const VertexHandle end = vertex_at(mesh, {1, 0, 0});
   {
     Transaction transaction(mesh, workspace);
-    REQUIRE(contract(mesh, middle, end, workspace).make(transaction) == EditResult::made);
+    REQUIRE(contraction(mesh, middle, end, workspace).make(transaction) == EditResult::made);
     transaction.keep();
   }
   check_sound(mesh);
