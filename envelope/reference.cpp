@@ -90,7 +90,11 @@ Reference::Reference(const TetMesh& mesh, const SurfaceFeatures& features,
   tolerances.assign(patches.size() + lines.size(), 0);
   std::vector<std::uint32_t> sheet_of;
   for (Element& element : elements) {
-    element.normal = normal_of(element.points, element.corners, element.tolerance);
+    // The normal of a needle means nothing where its height is within the tolerance.
+    const auto& [p, q, r] = element.points;
+    const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
+    const double thin = element.corners == 2 ? 0 : std::min(element.tolerance, 0.02 * longest);
+    element.normal = normal_of(element.points, element.corners, thin);
     sheet_of.push_back(element.sheet);
     tolerances[element.sheet] = std::max(tolerances[element.sheet], element.tolerance);
   }

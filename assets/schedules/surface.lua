@@ -13,8 +13,10 @@ local split = {"surface_split", order = "longest"}
 
 local start = quality()
 
--- Where more are bad, the worst are not worth any number of mild ones.
-local kFew = 200
+-- Where more are bad after the cheap rounds, the surface forces most of them, and what raises the worst
+-- makes many mild ones.
+local few = 200
+local worst = {below = 1, worst = few}
 
 local function flip()
   return apply({"surface_edge_removal", order = "angle"}, {sweeps = 2})
@@ -51,29 +53,23 @@ local function plain_rounds()
 end
 
 -- Makes things worse at first, then mends them by nearly all that there is.
-local function open_by(operator, desperate)
+local function open_by(operator)
   return sequence{operator, "surface_edge_removal", "surface_smoothing",
                   "recursive_shell_transformation", "smoothing", "joint_smoothing",
                   "surface_smoothing", "surface_contraction", "cavity_insertion",
                   {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                    max_vertices = 10, max_nodes = 15},
-                  "smoothing", "surface_smoothing", "joint_smoothing", desperate = desperate}
+                  "smoothing", "surface_smoothing", "joint_smoothing", desperate = 0.7}
 end
 
--- Moving one vertex pays only where few tets are bad: elsewhere many mild ones come of it.
 local openings = {"surface_contraction", "surface_edge_removal", "edge_removal",
                   {"surface_split", order = "longest", relax = false},
-                  {"edge_split", order = "angle", most_edges = 2}, "edge_contraction"}
-local gentle_openings = {"surface_smoothing", "smoothing"}
+                  {"edge_split", order = "angle", most_edges = 2}, "edge_contraction",
+                  "surface_smoothing", "smoothing"}
 
 local function costly_round()
-  local is_few = quality().n_bad <= kFew
-  local worst = {below = 1, worst = is_few and 200 or 20}
-  local desperate = is_few and 0.7 or 0
   begin_round()
-  for _, opening in ipairs(openings) do apply(open_by(opening, desperate), {on = worst}) end
-  if not is_few then return end
-  for _, opening in ipairs(gentle_openings) do apply(open_by(opening, desperate), {on = worst}) end
+  for _, opening in ipairs(openings) do apply(open_by(opening), {on = worst}) end
   apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = worst})
   apply(refill, {on = worst})
   local_reconnection{on = worst, reflex_only = false}
@@ -91,13 +87,13 @@ local full_price, half_price = 0.1, 0.02
 judge_by{price = full_price}
 local can_move = plain_rounds() > 0
 local rounds, failed, before = 0, 0, quality()
-while can_move and rounds < max_rounds and failed < max_failed and quality().n_bad > 0 do
+while can_move and rounds < max_rounds and failed < max_failed
+      and quality().n_bad > 0 and quality().n_bad <= few do
   rounds = rounds + 1
   -- What is stuck at the goal has neighbours that just meet it and leave it no room.
   local is_stuck = failed > 0
-  local is_dear = is_stuck or quality().n_bad > kFew
-  judge_by{price = is_dear and full_price or 0, measure = "sine"}
-  aim(is_stuck and quality().n_bad <= kFew and 1.05 or 1)
+  judge_by{price = is_stuck and full_price or 0, measure = "sine"}
+  aim(is_stuck and 1.05 or 1)
   costly_round()
   aim(1)
   judge_by{price = half_price}

@@ -101,6 +101,39 @@ TEST_CASE("a feature edge is not flipped, and no edge into the outside of its qu
   CHECK_FALSE(model.flip(b, c, false));
 }
 
+TEST_CASE("a line inside a plane stays where it is") {
+  MeshData data = kuhn_cube(2, 0, 1);
+  const auto number = [&](double x) {
+    return static_cast<std::uint32_t>(
+        std::find(data.points.begin(), data.points.end(), Point(x, 0.5, 1)) - data.points.begin());
+  };
+  data.edges = {{{number(0), number(0.5)}, 1}, {{number(0.5), number(1)}, 1}};
+  SurfaceModel model(TetMesh(data), {});
+  const VertexHandle v(number(0.5));
+  REQUIRE(model.guard().place(v) == SurfacePlace::ridge);
+  CHECK(model.move(v, {0.6, 0.5, 1}));
+  CHECK_FALSE(model.move(v, {0.6, 0.501, 1}));
+}
+
+TEST_CASE("a vertex moves with all of its faces or not at all") {
+  SurfaceModel model = cube();
+  const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
+  std::vector<SurfaceFace> before;
+  std::vector<SurfaceFace> after;
+  for (const auto& f : model.star(v)) {
+    before.push_back({f, {model.at(f[0]), model.at(f[1]), model.at(f[2])}});
+    after.push_back(before.back());
+    for (unsigned k = 0; k < 3; ++k) {
+      if (f[k] == v) after.back().points[k] = Point(0.51, 0.51, 1);
+    }
+  }
+  CHECK(model.guard().replace(before, after, model.journal()));
+  model.guard().undo(model.journal());
+  before.pop_back();
+  after.pop_back();
+  CHECK_FALSE(model.guard().replace(before, after, model.journal()));
+}
+
 TEST_CASE("what is no edit of the present surface is refused") {
   SurfaceModel model = cube();
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});

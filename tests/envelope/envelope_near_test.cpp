@@ -77,22 +77,72 @@ TEST_CASE("a ridge vertex keeps near its line, a corner where it is") {
   CHECK_FALSE(model.move(vertex_at(model, {0, 0, 1}), {0.001, 0, 1}));
 }
 
-TEST_CASE(
-    "the reference must stay covered too: a vertex is not drawn back from what only it covers") {
-  // A low pyramid: its apex is farther from the square than the tolerance, the square's faces would
-  // lie within it of the slopes.
-  SurfaceModel model = [] {
-    MeshData data = kuhn_cube(4, 0, 1);
-    for (Point& p : data.points) {
-      if (p == Point(0.5, 0.5, 1)) p.z() = 1.1;
-    }
-    return SurfaceModel(TetMesh(data), {.length = 0.05, .kept = {}});
-  }();
-  const VertexHandle v = vertex_at(model, {0.5, 0.5, 1.1});
+namespace {
+
+/// A cube of 4 cells, 0.4 wide and deep and 1 high, its middle on top lifted by that much.
+SurfaceModel pyramid(double height, double length) {
+  MeshData data = kuhn_cube(4, 0, 1);
+  for (Point& p : data.points) {
+    const bool apex = p == Point(0.5, 0.5, 1);
+    p = Point(0.4 * p.x(), 0.4 * p.y(), p.z() + (apex ? height : 0));
+  }
+  return {TetMesh(data), {.length = length, .kept = {}}};
+}
+
+VertexHandle near_vertex(const SurfaceModel& model, const Point& p) {
+  const auto& points = model.points();
+  const auto at = std::find_if(points.begin(), points.end(),
+                               [&](const Point& q) { return (p - q).norm() < 1e-9; });
+  return VertexHandle(static_cast<std::uint32_t>(at - points.begin()));
+}
+
+}  // namespace
+
+// The slopes of a pyramid of 0.036 are nearer to the middle of its base, 0.032, than its apex is.
+TEST_CASE("the reference must stay covered: a vertex is not drawn back from what only it covers") {
+  SurfaceModel model = pyramid(0.036, 0.034);
+  const VertexHandle v = near_vertex(model, {0.2, 0.2, 1.036});
   REQUIRE(model.guard().place(v) == SurfacePlace::smooth);
-  CHECK(model.move(v, {0.5, 0.5, 1.06}, false));
-  CHECK_FALSE(model.move(v, {0.5, 0.5, 1.03}));
-  CHECK_FALSE(model.contract(v, vertex_at(model, {0.5, 0.25, 1})));
+  CHECK(model.move(v, {0.2, 0.2, 1.006}, false));
+  CHECK_FALSE(model.move(v, {0.2, 0.2, 1}));
+  CHECK_FALSE(model.contract(v, near_vertex(model, {0.2, 0.1, 1})));
+}
+
+TEST_CASE("the present surface must stay near: a vertex is not pushed out where the rest holds") {
+  SurfaceModel model = pyramid(0, 0.034);
+  const VertexHandle v = near_vertex(model, {0.2, 0.2, 1});
+  double reached = 0;
+  for (int step = 1; step <= 40; ++step) {
+    const double height = 0.001 * step;
+    if (!model.move(v, {0.2, 0.2, 1 + height})) break;
+    reached = height;
+  }
+  CHECK(reached == doctest::Approx(0.033));
+}
+
+TEST_CASE("a line inside a plane keeps near itself, though its faces could not stray") {
+  MeshData data = kuhn_cube(4, 0, 1);
+  const auto number = [&](double x) {
+    return static_cast<std::uint32_t>(
+        std::find(data.points.begin(), data.points.end(), Point(x, 0.5, 1)) - data.points.begin());
+  };
+  for (const double x : {0.0, 0.25, 0.5, 0.75}) {
+    data.edges.push_back({{number(x), number(x + 0.25)}, 1});
+  }
+  const std::uint32_t middle = number(0.5);
+  for (Point& p : data.points) p.x() *= 0.4;
+  SurfaceModel model(TetMesh(data), {.length = 0.034, .kept = {}});
+  const VertexHandle v(middle);
+  REQUIRE(model.guard().place(v) == SurfacePlace::ridge);
+  CHECK(model.move(v, {0.2, 0.533, 1}, false));
+  CHECK_FALSE(model.move(v, {0.2, 0.5355, 1}));  // the old line would still be near the new one
+}
+
+TEST_CASE("nothing folds over, however large the tolerance") {
+  SurfaceModel model = cube(5);  // more than all bends that a fold can make
+  const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
+  CHECK(model.move(v, {0.6, 0.5, 1}, false));
+  CHECK_FALSE(model.move(v, {0.8, 0.5, 1}));
 }
 
 TEST_CASE("moves add up to no more than the tolerance") {
