@@ -78,6 +78,7 @@ struct Hostile {
 };
 
 constexpr auto kReplace = EventKind::replace_cavity;
+constexpr auto kAtSurface = static_cast<EventKind>(kEventKinds);
 
 const std::vector<Hostile> kHostileEvents = {
     {"a tet of vertex 2147483392, which is none",
@@ -192,6 +193,23 @@ const std::vector<Hostile> kHostileEvents = {
     {"its goal or standard is none",
      [](auto& e) { e.kind(EventKind::standard_changes).put(0).point(-1, 0, 0).put(0); }},
     {"14 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(14)); }},
+    {"a cavity with more or fewer labels than tets",
+     [](auto& e) {
+       e.kind(kAtSurface).put(0).put(1).put(1).steps({0, 0, 1, 2, 3});
+     }},
+    {"a label has more than 32 bits",
+     [](auto& e) {
+       e.kind(kAtSurface)
+           .put(1)
+           .steps({std::int64_t{1} << 40})
+           .put(1)
+           .put(1)
+           .steps({0, 0, 1, 2, 3});
+     }},
+    {"lies on the same side",
+     [](auto& e) {
+       e.kind(kAtSurface).put(2).steps({0, 0}).put(1).put(2).steps({0, 0, 1, 2, 3, 2, 0, 0, 0, 0});
+     }},
 };
 
 /// A frame `M` of five vertices and these tets.
