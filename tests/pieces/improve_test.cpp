@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include <doctest/doctest.h>
 #include <tetmend/io.h>
@@ -186,6 +187,28 @@ TEST_CASE("a mirrored mesh is set right before it is divided") {
   CHECK(result.build.mirrored);
   CHECK(result.after.inverted == 0);
   CHECK(result.after.n_bad < result.before.n_bad / 10);
+}
+
+TEST_CASE("a run in pieces is drawn as one that is not") {
+  const MeshData data = lattice(8);
+  Mesh mesh = MeshAccess::make(data);
+  Division division;
+  division.pieces = 3;
+  face::Portrait portrait;
+  const Result result =
+      pieces::improve(mesh, {.schedule = "conservative", .limit = true}, division, {}, &portrait);
+  CHECK(portrait.triangles.size() == result.before.boundary_triangles);
+  CHECK(portrait.bad_before.size() >= result.before.n_bad);
+  REQUIRE(portrait.bad_after.size() >= result.after.n_bad);
+  REQUIRE(result.after.n_bad > 0);
+  CHECK(portrait.are_reasons_known);
+  CHECK(portrait.rulers_after.has_value());
+  for (const face::DrawnTet& tet : portrait.bad_after) {
+    std::multiset<double> drawn, there;
+    for (const Point& corner : tet.corners) drawn.insert(corner.x());
+    for (const std::uint32_t v : mesh.tets()[tet.facts.tet]) there.insert(mesh.points()[v][0]);
+    CHECK(drawn == there);
+  }
 }
 
 TEST_CASE("a run in pieces stops when it is told to, with what it has reached") {
