@@ -41,7 +41,7 @@ OUTSIDE = {"CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md", "
 # Pages that are not in docs/: what they say is said by the program, the headers and the bindings.
 GENERATED = {"docs/command-line.md", "docs/cpp.md", "docs/python-reference.md", "docs/c-reference.md",
              "docs/fortran-reference.md"}
-COMMANDS = ["improve", "quality", "check", "convert", "surface", "operators", "schedules", "trace", "lesson",
+COMMANDS = ["improve", "pieces", "quality", "check", "convert", "surface", "operators", "schedules", "trace", "lesson",
             "check-plugin"]
 
 
