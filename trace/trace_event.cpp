@@ -266,6 +266,15 @@ void EventDecoder::get_star(TraceEvent& event) {
   for (TetHandle& t : event.removed) t = TetHandle(in_.get_step(last));
 }
 
+namespace {
+
+void check_labels(const TraceEvent& event) {
+  if (event.created_labels.size() == event.created.size()) return;
+  throw ByteReader::Damage("a cavity with more or fewer labels than tets");
+}
+
+}  // namespace
+
 void EventDecoder::next(TraceEvent& event) {
   const std::uint64_t kind = in_.get();
   if (kind > kAtSurface) throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
@@ -307,9 +316,7 @@ void EventDecoder::next(TraceEvent& event) {
     }
     case EventKind::replace_cavity:
       get_cavity(event);
-      if (kind == kAtSurface && event.created_labels.size() != event.created.size()) {
-        throw ByteReader::Damage("a cavity with more or fewer labels than tets");
-      }
+      if (kind == kAtSurface) check_labels(event);
       break;
     case EventKind::move_vertex:
     case EventKind::add_vertex:
