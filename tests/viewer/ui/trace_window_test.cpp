@@ -32,7 +32,7 @@ TEST_CASE("breakpoints are set, switched off and taken away with the mouse") {
   for (const char* place : {"refused", "deeper 0", "accepted"}) {
     click(200, 611);  // the place to run to
     type("key ctrl+a");
-    type(fmt::format("type '{}'", place));
+    type(fmt::format("type --delay 80 '{}'", place));
     click(213, 638);  // breakpoint
   }
   // Now there is a row for each, 27 pixels high.
@@ -50,7 +50,7 @@ TEST_CASE("the mouse runs to a place and back, and enters a call in tree and bre
   Viewer viewer(trace.path(), "1300x850");
   click(200, 611);
   type("key ctrl+a");
-  type("type 'edge 0 2'");
+  type("type --delay 80 'edge 0 2'");
   click(50, 638);  // run to next: 7
   type("mousemove 650 300 key l");
   click(100, 109);  // the second row of the tree: the transformation, 4

@@ -71,10 +71,10 @@ TEST_CASE("a dialog asks where to go, and says when there is no such place") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
   type("key ctrl+g");
-  type("type 'edge 1'");
+  type("type --delay 80 'edge 1'");
   type("key Return");
   type("key ctrl+a");
-  type("type 'tet 17'");
+  type("type --delay 80 'tet 17'");
   type("key Return");
   type("mousemove 500 350");
   const auto state = viewer.quit();
