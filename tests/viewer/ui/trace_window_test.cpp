@@ -105,7 +105,8 @@ TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, rin
     CAPTURE(place.y);
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
-    type(fmt::format("mousemove {} {} key p", place.x, place.y));  // the picture needs a layout
+    // After a layout, also on a busy machine.
+    type(fmt::format("mousemove {} {} sleep 0.5 key p sleep 0.5", place.x, place.y));
     const auto state = viewer.quit();
     CHECK(state["trace"]["position"] == 8);
     CHECK(state["pointed"] == nlohmann::json(place.vertices));
