@@ -13,10 +13,5 @@ function(tetmend_layer folder below)
   # The same objects make the shared library, which shows what is marked TETMEND_API.
   set_target_properties(tetmend_${name} PROPERTIES
     LINKER_LANGUAGE CXX POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
-  # Eight sources as one. Not those that have the same names inside.
-  if(TETMEND_UNITY)
-    list(FILTER sources INCLUDE REGEX "/(ops|explain|figure|report|pieces|mpi)/|_(reader|writer)\\.cpp$|/(face_sides|statistics|inp_(mesh|references)|medit_(ascii|binary)|tetgen|elmer|su2|vtk_legacy|lua_library|schedule_parameter|territory_trial)\\.cpp$")
-    set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    set_target_properties(tetmend_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  endif()
+  tetmend_unity(tetmend_${name})
 endfunction()

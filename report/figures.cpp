@@ -26,7 +26,7 @@ std::string as_data(std::string_view path, const json& value, std::string_view s
 
 const json& Figures::at(std::string_view path) const {
   static const json kNothing;
-  std::string pointer = "/" + std::string(path);
+  std::string pointer = fmt::format("/{}", path);
   std::replace(pointer.begin(), pointer.end(), '.', '/');
   const json::json_pointer place(pointer);
   return report_.contains(place) ? report_.at(place) : kNothing;

@@ -31,7 +31,8 @@ void add_row(std::string& rows, std::string_view name, const std::string& value)
 
 std::string shell_line(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words)
+    line += fmt::format("{}{}", line.empty() ? "" : " ", quoted(word));
   return line;
 }
 

@@ -20,31 +20,31 @@ namespace {
 using Kind = VtkType::Kind;
 
 // Sizes are those of VTK on 64-bit Linux; its writer stores vtkIdType as int.
-constexpr std::array<VtkType, 25> kTypes = {{{"bit", Kind::bit, 0},
-                                             {"char", Kind::signed_integer, 1},
-                                             {"signed_char", Kind::signed_integer, 1},
-                                             {"unsigned_char", Kind::unsigned_integer, 1},
-                                             {"short", Kind::signed_integer, 2},
-                                             {"unsigned_short", Kind::unsigned_integer, 2},
-                                             {"int", Kind::signed_integer, 4},
-                                             {"unsigned_int", Kind::unsigned_integer, 4},
-                                             {"vtkidtype", Kind::signed_integer, 4},
-                                             {"long", Kind::signed_integer, 8},
-                                             {"unsigned_long", Kind::unsigned_integer, 8},
-                                             {"float", Kind::real, 4},
-                                             {"double", Kind::real, 8},
-                                             {"vtktypeint8", Kind::signed_integer, 1},
-                                             {"vtktypeuint8", Kind::unsigned_integer, 1},
-                                             {"vtktypeint16", Kind::signed_integer, 2},
-                                             {"vtktypeuint16", Kind::unsigned_integer, 2},
-                                             {"vtktypeint32", Kind::signed_integer, 4},
-                                             {"vtktypeuint32", Kind::unsigned_integer, 4},
-                                             {"vtktypeint64", Kind::signed_integer, 8},
-                                             {"vtktypeuint64", Kind::unsigned_integer, 8},
-                                             {"vtktypefloat32", Kind::real, 4},
-                                             {"vtktypefloat64", Kind::real, 8},
-                                             {"string", Kind::text, 0},
-                                             {"utf8_string", Kind::text, 0}}};
+constexpr std::array<VtkType, 25> kVtkTypes = {{{"bit", Kind::bit, 0},
+                                                {"char", Kind::signed_integer, 1},
+                                                {"signed_char", Kind::signed_integer, 1},
+                                                {"unsigned_char", Kind::unsigned_integer, 1},
+                                                {"short", Kind::signed_integer, 2},
+                                                {"unsigned_short", Kind::unsigned_integer, 2},
+                                                {"int", Kind::signed_integer, 4},
+                                                {"unsigned_int", Kind::unsigned_integer, 4},
+                                                {"vtkidtype", Kind::signed_integer, 4},
+                                                {"long", Kind::signed_integer, 8},
+                                                {"unsigned_long", Kind::unsigned_integer, 8},
+                                                {"float", Kind::real, 4},
+                                                {"double", Kind::real, 8},
+                                                {"vtktypeint8", Kind::signed_integer, 1},
+                                                {"vtktypeuint8", Kind::unsigned_integer, 1},
+                                                {"vtktypeint16", Kind::signed_integer, 2},
+                                                {"vtktypeuint16", Kind::unsigned_integer, 2},
+                                                {"vtktypeint32", Kind::signed_integer, 4},
+                                                {"vtktypeuint32", Kind::unsigned_integer, 4},
+                                                {"vtktypeint64", Kind::signed_integer, 8},
+                                                {"vtktypeuint64", Kind::unsigned_integer, 8},
+                                                {"vtktypefloat32", Kind::real, 4},
+                                                {"vtktypefloat64", Kind::real, 8},
+                                                {"string", Kind::text, 0},
+                                                {"utf8_string", Kind::text, 0}}};
 
 std::int64_t load_integer(std::size_t width, bool is_signed, const char* from) {
   switch (width) {
@@ -122,7 +122,7 @@ const VtkType& find_vtk_type(TextReader& text, std::string_view word) {
   std::string lower(word.substr(0, 20));
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const VtkType& type : kTypes) {
+  for (const VtkType& type : kVtkTypes) {
     if (type.name == lower) return type;
   }
   text.fail(

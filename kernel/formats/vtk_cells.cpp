@@ -133,7 +133,7 @@ class Assembly {
     auto& lists = mesh_.other_elements;
     auto found = std::find_if(lists.begin(), lists.end(), is_like);
     if (found == lists.end()) {
-      lists.push_back({static_cast<int>(type), size, {}, {}, {}, {}});
+      lists.push_back({static_cast<int>(type), size, {}, {}, {}, {}, {}});
       numbers_.others.emplace_back();
       found = lists.end() - 1;
     }

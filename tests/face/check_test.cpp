@@ -13,7 +13,7 @@ namespace {
 const std::array<std::array<double, 3>, 5> kPoints = {
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}};
 
-Mesh two_tets(std::int32_t second_label = 0) {
+Mesh two_tet_mesh(std::int32_t second_label = 0) {
   return Mesh({.points = {kPoints.begin(), kPoints.end()},
                .tets = {{0, 1, 2, 3}, {1, 2, 3, 4}},
                .tet_labels = {0, second_label}});
@@ -30,7 +30,7 @@ const Fact& find(const std::vector<Fact>& facts, const std::string& name) {
 
 TEST_CASE("thresholds hold or do not, with the value that was found") {
   const std::vector<Fact> facts =
-      check(two_tets(), {.min_dihedral = 60, .measure = {{"mean_ratio", 0.1}}});
+      check(two_tet_mesh(), {.min_dihedral = 60, .measure = {{"mean_ratio", 0.1}}});
   REQUIRE(facts.size() == 2);
   CHECK_FALSE(find(facts, "theta_min").holds);
   CHECK(std::get<double>(find(facts, "theta_min").value) == doctest::Approx(54.7356));
@@ -47,20 +47,20 @@ TEST_CASE(
 }
 
 TEST_CASE("unknown rulers, presets and thresholds out of range are errors about options") {
-  CHECK_THROWS_WITH_AS(check(two_tets(), {.measure = {{"beauty", 1}}}),
+  CHECK_THROWS_WITH_AS(check(two_tet_mesh(), {.measure = {{"beauty", 1}}}),
                        doctest::Contains("measure: 'beauty' is no ruler"), OptionError);
-  CHECK_THROWS_WITH_AS(check(two_tets(), {.preset = "solver"}),
+  CHECK_THROWS_WITH_AS(check(two_tet_mesh(), {.preset = "solver"}),
                        doctest::Contains("for: 'solver' is no preset"), OptionError);
-  CHECK_THROWS_AS(check(two_tets(), {.min_dihedral = 80}), OptionError);
+  CHECK_THROWS_AS(check(two_tet_mesh(), {.min_dihedral = 80}), OptionError);
 }
 
 TEST_CASE("two meshes are compared by surface, walls and volumes") {
-  const Mesh mesh = two_tets(1);
+  const Mesh mesh = two_tet_mesh(1);
   const auto all_hold = [](const std::vector<Fact>& facts) {
     return std::all_of(facts.begin(), facts.end(), [](const Fact& fact) { return fact.holds; });
   };
   CHECK(all_hold(compare(mesh, mesh)));
-  const std::vector<Fact> facts = compare(mesh, two_tets(2));
+  const std::vector<Fact> facts = compare(mesh, two_tet_mesh(2));
   CHECK_FALSE(find(facts, "walls").holds);
   CHECK_FALSE(find(facts, "surface").holds);  // its triangles have labels of tets behind them
   CHECK(std::count_if(facts.begin(), facts.end(), [](const Fact& fact) {

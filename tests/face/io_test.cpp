@@ -14,18 +14,18 @@ TEST_CASE("a mesh is saved and loaded with all that it has, for any number of th
   const TempFolder folder;
   const auto file = folder / "a.meshb";
   for (const int threads : {1, 3}) {
-    save(file, Mesh(two_tets()), threads);
+    save(file, Mesh(two_tet_arrays()), threads);
     const Mesh mesh = load(file, threads);
     CHECK(mesh.file() == file);
-    CHECK(mesh.arrays().points == two_tets().points);
-    CHECK(mesh.arrays().point_labels == two_tets().point_labels);
-    CHECK(mesh.arrays().tets == two_tets().tets);
-    CHECK(mesh.arrays().tet_labels == two_tets().tet_labels);
-    CHECK(mesh.arrays().triangles == two_tets().triangles);
-    CHECK(mesh.arrays().triangle_labels == two_tets().triangle_labels);
-    CHECK(mesh.arrays().edges == two_tets().edges);
-    CHECK(mesh.arrays().edge_labels == two_tets().edge_labels);
-    CHECK(mesh.arrays().required_vertices == two_tets().required_vertices);
+    CHECK(mesh.arrays().points == two_tet_arrays().points);
+    CHECK(mesh.arrays().point_labels == two_tet_arrays().point_labels);
+    CHECK(mesh.arrays().tets == two_tet_arrays().tets);
+    CHECK(mesh.arrays().tet_labels == two_tet_arrays().tet_labels);
+    CHECK(mesh.arrays().triangles == two_tet_arrays().triangles);
+    CHECK(mesh.arrays().triangle_labels == two_tet_arrays().triangle_labels);
+    CHECK(mesh.arrays().edges == two_tet_arrays().edges);
+    CHECK(mesh.arrays().edge_labels == two_tet_arrays().edge_labels);
+    CHECK(mesh.arrays().required_vertices == two_tet_arrays().required_vertices);
   }
 }
 
@@ -36,7 +36,7 @@ TEST_CASE("what is wrong with a file is told with its line") {
   CHECK(message_of([&] { load(file); }).starts_with(file.string() + ":5: "));
   CHECK(message_of([&] { load(folder / "b.mesh"); }).starts_with((folder / "b.mesh").string()));
   CHECK(message_of([&] { load(folder / "a.stl"); }).find(".meshb") != std::string::npos);
-  CHECK(message_of([&] { save(folder / "no/a.mesh", Mesh(two_tets())); }) != "");
+  CHECK(message_of([&] { save(folder / "no/a.mesh", Mesh(two_tet_arrays())); }) != "");
   CHECK_THROWS_AS(load(file, 0), OptionError);
 }
 
@@ -45,7 +45,7 @@ TEST_CASE("each format that is listed can be written and read") {
   CHECK(file_formats().size() >= 5);
   for (const FileFormat& format : file_formats()) {
     const auto file = folder / ("mesh" + std::string(format.extension));
-    save(file, Mesh(two_tets()));
-    CHECK(load(file).arrays().tets == two_tets().tets);
+    save(file, Mesh(two_tet_arrays()));
+    CHECK(load(file).arrays().tets == two_tet_arrays().tets);
   }
 }

@@ -34,11 +34,11 @@ TEST_CASE("a mesh is measured as the kernel does, and stays as it is") {
 }
 
 TEST_CASE("a measure that is unknown is found out, and each that is listed is known") {
-  CHECK_THROWS_AS(measure(Mesh(two_tets()), {.measure = {"beauty"}}), OptionError);
+  CHECK_THROWS_AS(measure(Mesh(two_tet_arrays()), {.measure = {"beauty"}}), OptionError);
   CHECK(message_of([] { check(MeasureOptions{.measure = {"beauty"}}); }).starts_with("measure: "));
   std::vector<std::string> names;
   for (const Measure& each : measures()) names.emplace_back(each.name);
-  CHECK(measure(Mesh(two_tets()), {.measure = names}).measures.size() == names.size());
+  CHECK(measure(Mesh(two_tet_arrays()), {.measure = names}).measures.size() == names.size());
 }
 
 TEST_CASE("broken topology is told with the line of the file, or the number in the arrays") {

@@ -43,7 +43,7 @@ using Doubles = std::vector<double>;
 
 /// Data of every type, and groups of every kind.
 MeshArrays with_data() {
-  MeshArrays arrays = two_tets();
+  MeshArrays arrays = two_tet_arrays();
   arrays.point_data = {{"velocity", 3, Doubles(15, 0.5)}, {"mark", 1, Integers{1, 2, 3, 4, 5}}};
   arrays.tet_data = {{"density", 1, Singles{1.5F, 2.5F}}};
   arrays.triangle_data = {{"number", 1, LongIntegers{1LL << 40, -7}}};
@@ -59,7 +59,7 @@ MeshArrays with_data() {
 }
 
 std::string complaint(const std::function<void(MeshArrays&)>& damage) {
-  MeshArrays arrays = two_tets();
+  MeshArrays arrays = two_tet_arrays();
   damage(arrays);
   return message_of([&] { Mesh(std::move(arrays)); });
 }
@@ -67,8 +67,8 @@ std::string complaint(const std::function<void(MeshArrays&)>& damage) {
 }  // namespace
 
 TEST_CASE("arrays come out of a mesh as they went in") {
-  Mesh mesh(two_tets());
-  check_equal(mesh.arrays(), two_tets());
+  Mesh mesh(two_tet_arrays());
+  check_equal(mesh.arrays(), two_tet_arrays());
   CHECK(mesh.point_count() == 5);
   CHECK(mesh.tet_count() == 2);
   CHECK(mesh.triangle_count() == 2);
@@ -76,7 +76,7 @@ TEST_CASE("arrays come out of a mesh as they went in") {
   CHECK(mesh.tets()[1] == std::array<std::uint32_t, 4>{1, 2, 3, 4});
   CHECK(mesh.points()[4][2] == 1);
   CHECK(mesh.file().empty());
-  check_equal(std::move(mesh).take_arrays(), two_tets());
+  check_equal(std::move(mesh).take_arrays(), two_tet_arrays());
 }
 
 TEST_CASE("data, parts and groups come out of a mesh as they went in") {
@@ -146,7 +146,7 @@ TEST_CASE("mid-side nodes that contradict themselves are an error") {
 }
 
 TEST_CASE("labels that are not given are 0, and points without any have no array of them") {
-  MeshArrays arrays = two_tets();
+  MeshArrays arrays = two_tet_arrays();
   arrays.point_labels = {0, 0, 0, 0, 0};
   arrays.tet_labels = arrays.triangle_labels = arrays.edge_labels = {};
   const Mesh mesh(arrays);
@@ -157,12 +157,12 @@ TEST_CASE("labels that are not given are 0, and points without any have no array
 }
 
 TEST_CASE("a copy is a mesh of its own, and what was moved from is empty") {
-  Mesh mesh(two_tets());
+  Mesh mesh(two_tet_arrays());
   Mesh copy = mesh;
   const Mesh moved = std::move(mesh);
   mesh = Mesh();
-  check_equal(copy.arrays(), two_tets());
-  check_equal(moved.arrays(), two_tets());
+  check_equal(copy.arrays(), two_tet_arrays());
+  check_equal(moved.arrays(), two_tet_arrays());
   CHECK(mesh.tet_count() == 0);
   CHECK(mesh.points().empty());
   copy = mesh;

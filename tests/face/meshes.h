@@ -25,7 +25,7 @@ std::string message_of(const Call& call) {
 }
 
 /// Two tets that share a face, every kind of entity, every label.
-inline MeshArrays two_tets() {
+inline MeshArrays two_tet_arrays() {
   return {.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}},
           .point_labels = {0, 0, 3, 0, 0},
           .tets = {{0, 1, 2, 3}, {1, 2, 3, 4}},

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 SOURCE = Path(sys.argv[1]).resolve()
-LAYERS = ["kernel", "trace", "search", "ops", "contract", "schedule", "face", "apps"]
+LAYERS = ["platform", "kernel", "trace", "search", "envelope", "ops", "contract", "schedule", "face", "pieces", "explain", "report", "apps"]
 NEEDED = {"kernel": 90, "ops": 90, "schedule": 90, "trace": 90}
 
 files = {}

@@ -1,0 +1,20 @@
+# tetmend_unity(TARGET): eight sources are compiled as one, where TETMEND_UNITY is on, for most of the time of a compiler goes
+# into headers. A source that has a name inside which another has too is compiled alone: unity_alone.txt lists them.
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/unity_alone.txt tetmend_unity_alone REGEX "^[^#]")
+set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/unity_alone.txt)
+function(tetmend_unity target)
+  if(NOT TETMEND_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  # Of the eight, gcc takes each for a header and warns of what only a header must not do.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(source ${source} ABSOLUTE)
+    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
+    if(name IN_LIST tetmend_unity_alone)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
