@@ -142,6 +142,23 @@ def test_gmsh_improves_the_volumes_that_are_named(boxes):
     assert not all(np.array_equal(then, now) for then, now in zip(right, boxes.model.mesh.getElementsByType(4, 2)))
 
 
+def test_gmsh_refuses_options_that_the_model_answers_and_leaves_it(boxes):
+    import tetmend.gmsh
+    before = contents(boxes)
+    tets = boxes.model.mesh.getElementsByType(4)
+    with pytest.raises(ValueError, match="surface: the elements of the model's surfaces stay"):
+        tetmend.gmsh.improve(surface="3%")
+    with pytest.raises(TypeError, match="takes no 'labels' here: the model has its own"):
+        tetmend.gmsh.improve(labels=[1])
+    with pytest.raises(TypeError, match="tags is 1.5, but the number or the name of a volume is wanted"):
+        tetmend.gmsh.improve(1.5)
+    with pytest.raises(ValueError, match="tags is empty"):
+        tetmend.gmsh.improve([])
+    assert contents(boxes) == before
+    assert all(np.array_equal(then, now) for then, now in zip(tets, boxes.model.mesh.getElementsByType(4)))
+    assert tetmend.gmsh.improve(np.int32(1), surface="fixed").ending == "finished"
+
+
 def test_gmsh_keeps_what_is_embedded(gmsh):
     import tetmend.gmsh
     gmsh.model.add("embedded")
@@ -328,6 +345,23 @@ def test_meshio_refuses_what_it_cannot_keep():
         tetmend.meshio.improve("part.msh")
     with pytest.raises(ValueError, match="label_array"):
         tetmend.meshio.improve(meshio.Mesh(*lattice(1)[:1], [("tetra", lattice(1)[1])]), label_array="nothing")
+    points, tets, _ = lattice(2)
+    sheet = meshio.Mesh(points, [("tetra", tets), ("triangle", tets[:1, :3])], cell_data={"heat": [np.ones(len(tets)), np.ones(1)]})
+    with pytest.raises(ValueError, match="surface: cells of kind 'triangle' stay as they are"):
+        tetmend.meshio.improve(sheet, surface="1%")
+    with pytest.raises(ValueError, match="label_array: the data 'heat' of the tets have type float64"):
+        tetmend.meshio.improve(sheet, label_array="heat")
+    with pytest.raises(TypeError, match="takes no 'point_data' here: the mesh has its own"):
+        tetmend.meshio.improve(sheet, point_data={})
+
+
+def test_the_surface_of_tets_alone_may_move():
+    meshio = pytest.importorskip("meshio")
+    import tetmend.meshio
+    points, tets, side = lattice(4)
+    mesh = meshio.Mesh(points, [("tetra", tets)], cell_data={"material": [side + 1]})
+    better = tetmend.meshio.improve(mesh, surface="1%")
+    assert better.cells[0].data.min() >= 0 and volumes(better.points, better.cells[0].data).sum() == pytest.approx(2, rel=1e-2)
 
 
 # --- VTK, ParaView
@@ -390,6 +424,8 @@ def test_vtk_grids_come_back_with_their_cells_and_data():
     text.SetName("words")
     text.SetNumberOfValues(len(points))
     grid.GetPointData().AddArray(text)
+    with pytest.raises(TypeError, match="takes a vtkUnstructuredGrid, not vtkPolyData"):
+        tetmend.vtk.improve(importlib.import_module("vtkmodules.all").vtkPolyData())
     with pytest.raises(ValueError, match="'words' are no numbers"):
         tetmend.vtk.improve(grid)
 
@@ -451,3 +487,7 @@ def test_pyvista_grids_have_an_accessor(monkeypatch):
         assert volumes(better.points, now[better.cell_data["material"][1:] == label]).sum() == pytest.approx(1)
     assert np.allclose(better.point_data["linear"], better.points @ [1.0, 2.0, 3.0]) and better.field_data["note"] == ["mine"]
     assert len(better.cells_dict[5]) == 1
+    from package_test import of_second_order
+    curved, rows = of_second_order(points, tets)
+    of_ten = stub.UnstructuredGrid(np.insert(rows, 0, 10, axis=1).ravel(), [24] * len(rows), curved)
+    assert of_ten.tetmend.quality().statistics.n_bad == before.n_bad

@@ -243,6 +243,61 @@ def test_numbers_of_points_that_the_given_type_cannot_hold_are_of_32_bits(kind, 
     assert result.tets.dtype == np.int32 and np.array_equal(result.tets, wide.tets)
 
 
+@pytest.mark.parametrize(("given", "message"), [
+    ({"points": [[0, 0, 0], [1, 2]]}, "points is no array: its rows differ in length"),
+    ({"tets": [[0, 1, 2, 3], [1, 2]]}, "tets is no array: its rows differ in length"),
+    ({"labels": [[1], [1, 2]]}, "labels is no array"),
+    ({"points": np.ma.masked_greater(np.array(TET[0], float), 0.5)}, "points has masked values"),
+    ({"point_data": {"u": np.ma.masked_equal([1.0, 2.0, 3.0, 4.0], 2.0)}}, r"point_data\['u'\] has masked values"),
+    ({"point_data": {3: np.ones(4)}}, r"point_data\[3\]: a name is text"),
+    ({"cell_data": {"": np.ones(1)}}, r"cell_data\[''\]: a name is text that is not empty"),
+    ({"groups": [tetmend.Group(3, 1, "a"), (3, 1, "a")]}, r"groups\[1\] is of type tuple, but a tetmend.Group is wanted"),
+    ({"groups": tetmend.Group(3, 1, "a")}, "groups is a Group, but a sequence of them is wanted"),
+    ({"groups": [tetmend.Group("vol", 1, "a")]}, r"groups\[0\].dimension is 'vol', but an integer is wanted"),
+    ({"groups": [tetmend.Group(3, 1, None)]}, r"groups\[0\].name is None, but text is wanted"),
+    ({"groups": [tetmend.Group(3, 1, "a", [[0], [0, 1]])]}, r"groups\[0\].members is no array"),
+    ({"set": ["max_rounds=2"]}, r"set: \['max_rounds=2'\] is no dict"),
+    ({"schedule": "shell", "script": "log(1)"}, "script: it stands in the place of a schedule"),
+    ({"trace_depth": 1}, "trace_depth: it needs the option trace"),
+    ({"feature_angle": 30}, "feature_angle: it needs the option surface"),
+])
+def test_what_has_no_meaning_is_refused_with_its_place(given, message):
+    with pytest.raises((ValueError, TypeError), match=message):
+        tetmend.improve(**{"points": TET[0], "tets": TET[1], **given})
+
+
+@pytest.mark.parametrize(("call", "message"), [
+    (lambda mesh: tetmend.quality("part.mesh"), r"tetmend.load\('part.mesh'\) gives one"),
+    (lambda mesh: tetmend.quality(mesh.points), "quality.. takes a Mesh, not ndarray"),
+    (lambda mesh: tetmend.quality(mesh, measures="gamma"), "^measures: unknown quality measure 'gamma'"),
+    (lambda mesh: tetmend.check(mesh.points, mesh.tets), "check.. takes a Mesh, not ndarray"),
+    (lambda mesh: tetmend.check(mesh, min_dihedral="a"), "min_dihedral is 'a', but a number of degrees is wanted"),
+    (lambda mesh: tetmend.check(mesh, measure=["mean_ratio"]), "measure is of type list, but a dict is wanted"),
+    (lambda mesh: tetmend.check(mesh, preset="ansys"), "^preset: 'ansys' is no preset"),
+    (lambda mesh: tetmend.save("a.mesh", mesh.points), "takes a Mesh, not ndarray"),
+    (lambda mesh: tetmend.save(mesh, "a.mesh"), "takes the name of a file and a Mesh, not Mesh first"),
+    (lambda mesh: tetmend.load(3), "takes the name of a file, not int"),
+    (lambda mesh: tetmend.operators("nowhere.so"), "nowhere.so: cannot be loaded as a plugin"),
+])
+def test_calls_with_the_wrong_kind_of_thing_say_what_is_wanted(materials, call, message):
+    with pytest.raises((ValueError, TypeError), match=message):
+        call(materials)
+
+
+def test_a_mesh_refuses_what_would_not_change_it(materials):
+    with pytest.raises(AttributeError, match="a Mesh does not change, so it takes no 'points'"):
+        materials.points = materials.points + 1
+    with pytest.raises(AttributeError, match="takes no 'label'"):
+        materials.label = 3
+    assert materials.points is materials.points  # read once
+
+
+def test_a_result_stands_for_its_mesh(materials, tmp_path):
+    result = tetmend.improve(materials)
+    assert tetmend.save(tmp_path / "a.mesh", result) == []
+    assert tetmend.quality(result).statistics.n_bad == 0 and tetmend.check(materials, result).holds
+
+
 def test_constraints_that_constrain_nothing_are_noted():
     points = [*TET[0], [1, 1, 1]]
     tets = [TET[1][0], [1, 2, 3, 4]]
@@ -280,6 +335,7 @@ def test_options_do_what_they_say(materials):
     script = "begin_round()\nlocal_reconnection{}\nlog('that is all')"
     assert tetmend.improve(materials, script=script, note=spoken.append).ending == "finished"
     assert any("that is all" in line for line in spoken)
+    assert tetmend.improve(materials, script=script).report["schedule"] == "script"
 
 
 # --- the same as the command line
@@ -454,6 +510,11 @@ def test_a_trace_tells_what_the_command_line_tells(tmp_path, materials, command_
     assert len(trace.mesh_at(trace.event_count).tets) == len(result.tets)
     with pytest.raises(ValueError, match="there is no call"):
         trace.call(trace.call_count)
+    for call in (trace.call, trace.mesh_at, trace.tree, trace.dot, lambda n: next(trace.events(n))):
+        with pytest.raises(ValueError, match="is -1, but numbers begin with 0"):
+            call(-1)
+    with pytest.raises(ValueError, match=f"but the trace has {trace.event_count} events"):
+        next(trace.events(trace.event_count + 1))
     with pytest.raises(ValueError):
         tetmend.Trace(MATERIALS)
 

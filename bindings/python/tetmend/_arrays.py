@@ -12,6 +12,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from tetmend._core import Error
 
+def array_of(name: str, values: Any) -> NDArray[Any]:
+    """What numpy makes of it; what it cannot is an error with its name.
+
+    >>> array_of("tets", [[0, 1, 2, 3], [1, 2]])
+    Traceback (most recent call last):
+    tetmend._core.Error: tets is no array: its rows differ in length
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        reason = "its rows differ in length" if "inhomogeneous" in str(error) else str(error)
+        raise Error(f"{name} is no array: {reason}") from None
+    if np.ma.is_masked(values):
+        raise Error(f"{name} has masked values, which have no meaning here: fill them, or leave them out")
+    return array
+
+
 _KNOWN = {np.dtype(t) for t in (np.int32, np.int64, np.float32, np.float64)}
 
 
@@ -62,8 +79,10 @@ def pack(argument: str, data: Mapping[str, ArrayLike] | None, count: int) -> tup
     if data is not None and not isinstance(data, Mapping):
         raise Error(f"{argument} is of type {type(data).__name__}, but a dict of arrays is wanted")
     for name, given in (data or {}).items():
-        values = np.asarray(given)
         place = f"{argument}[{name!r}]"
+        if not isinstance(name, str) or not name:
+            raise Error(f"{place}: a name is text that is not empty")
+        values = array_of(place, given)
         if values.ndim == 0 or len(values) != count:
             raise Error(f"{place} has shape {values.shape}, but there are {count} of them")
         if 0 in values.shape[1:]:

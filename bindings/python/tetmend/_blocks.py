@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tetmend._core import Error
+from tetmend._core import Error, OptionError
 from tetmend._improve import Result, improve
+from tetmend._options import refuse_own
 
 # Names, in lower case, under which mesh tools store labels; the first that a mesh has is taken, as for files. A border between
 # two values of any of them stays.
@@ -21,6 +22,8 @@ _LABEL_NAMES = (
     "tag", "tags", "cell_tags", "cell_scalars", "domain", "subdomain", "geometryids", "geometry", "gmsh:geometrical")
 _WIDTHS = {"tetra": 4, "tetra10": 10}  # what is improved
 _CONSTRAINTS = {"triangle": 3, "triangle6": 3, "line": 2, "line3": 2}  # corners, which come first
+_OWN = ("labels", "parts", "triangles", "triangle_labels", "triangle_data", "edges", "edge_labels", "edge_data", "point_labels",
+        "required", "point_data", "cell_data", "groups")
 _OTHER_TETS = ("tetra11", "tetra20", "tetra35")
 
 
@@ -73,6 +76,9 @@ def _labels_of(data: Mapping[str, NDArray[Any]], label_array: str | None) -> NDA
     if label_array is not None:
         if label_array not in data:
             raise Error(f"label_array: the tets have no data {label_array!r}: expected one of {sorted(data)}")
+        if data[label_array].dtype.kind not in "iu" or data[label_array].ndim != 1:
+            raise Error(f"label_array: the data {label_array!r} of the tets have type {data[label_array].dtype} and shape "
+                        f"{data[label_array].shape}, but one integer for each is wanted")
         return data[label_array]
     found = _label_arrays(data)
     return data[min(found, key=lambda name: _LABEL_NAMES.index(name.lower()))] if found else None
@@ -97,7 +103,13 @@ def _parts_of(blocks: Sequence[Block], data: Mapping[str, NDArray[Any]]) -> NDAr
 def improve_blocks(points: ArrayLike, blocks: Sequence[Block], point_data: Mapping[str, ArrayLike], label_array: str | None,
                    options: Mapping[str, Any]) -> Improved:
     """Triangles and edges become constraints, the points of all other cells are required."""
+    refuse_own(options, _OWN, "the mesh")
     tets = _kind_of_tets(blocks)
+    if options.get("surface") not in (None, "", "fixed"):
+        for block in blocks:
+            if block.kind in _CONSTRAINTS and len(block.cells):
+                raise OptionError(f"surface: cells of kind {block.kind!r} stay as they are, so it must stay fixed; "
+                                  "without them it may move, and of a file they follow: tetmend.load() and improve()")
     data = _data_of(blocks, tets)
     parts = _parts_of(blocks, data)
     others = [block.cells.reshape(-1) for block in blocks if block.kind not in (tets, *_CONSTRAINTS)]

@@ -64,12 +64,13 @@ def schedules() -> list[Schedule]:
     return [Schedule(each["name"], each["description"], _parameters(each["parameters"])) for each in _core.schedules()]
 
 
-def operators(plugins: Sequence[PathLike] = ()) -> list[Operator]:
+def operators(plugins: PathLike | Sequence[PathLike] = ()) -> list[Operator]:
     """The operators of tetmend, then those of the plugins. Raises Error for a plugin that cannot be loaded.
 
     >>> "edge_removal" in [operator.name for operator in operators()]
     True
     """
+    plugins = [plugins] if isinstance(plugins, (str, os.PathLike)) else plugins
     found = _core.operators([os.fspath(plugin) for plugin in plugins])
     return [Operator(**{**each, "parameters": _parameters(each["parameters"])}) for each in found]
 

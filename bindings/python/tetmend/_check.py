@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import numbers
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tetmend import _core
-from tetmend._mesh import Mesh, PathLike, load
+from tetmend._mesh import Mesh, PathLike, load, mesh_in
 
 
 @dataclass(frozen=True)
@@ -60,10 +62,20 @@ def check(mesh: Mesh | PathLike, improved: Mesh | PathLike | None = None, *, min
     >>> check(tet, tet).status
     0
     """
+    for name, angle in (("min_dihedral", min_dihedral), ("max_dihedral", max_dihedral)):
+        if not isinstance(angle, numbers.Real):
+            raise TypeError(f"{name} is {angle!r}, but a number of degrees is wanted")
+    if measure is not None and not isinstance(measure, Mapping):
+        raise TypeError(f"measure is of type {type(measure).__name__}, but a dict is wanted: {{'mean_ratio': 0.1}}")
     asks = min_dihedral > 0 or max_dihedral < 180 or no_inverted or bool(measure) or bool(preset)
     if not asks and improved is None:
         raise _core.Error("nothing to check: give a threshold, a preset or a second mesh")
-    first, second = (each if isinstance(each, Mesh) or each is None else load(each, threads=threads) for each in (mesh, improved))
-    facts = _core.check(first._core, None if second is None else second._core, min_dihedral, max_dihedral, no_inverted,
-                        list((measure or {}).items()), preset, threads)
+    first, second = (load(each, threads=threads) if isinstance(each, (str, os.PathLike)) else each for each in (mesh, improved))
+    first = mesh_in(first, "check()")
+    second = None if second is None else mesh_in(second, "check()")
+    try:
+        facts = _core.check(first._core, None if second is None else second._core, min_dihedral, max_dihedral, no_inverted,
+                            list((measure or {}).items()), preset, threads)
+    except _core.OptionError as error:
+        raise _core.OptionError("preset" + text[3:] if (text := str(error)).startswith("for:") else text) from None
     return Check([Fact(**each) for each in facts])

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import numbers
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tetmend import _core
-from tetmend._arrays import Forms, pack, unpack
+from tetmend._arrays import Forms, array_of, pack, unpack
 
 PathLike = str | os.PathLike[str]
 
@@ -35,21 +36,37 @@ class Group:
         return f"Group(dimension={self.dimension}, number={self.number}, name={self.name!r}, {count})"
 
 
-def _array(values: ArrayLike | None) -> NDArray[Any] | None:
+def _array(name: str, values: ArrayLike | None) -> NDArray[Any] | None:
     if values is None:
         return None
-    array = np.asarray(values)
+    array = array_of(name, values)
     return None if array.size == 0 else array
 
 
 def _indices(name: str, values: ArrayLike | None, count: int) -> NDArray[Any] | None:
     """Numbers, also of a mask."""
-    array = _array(values)
+    array = _array(name, values)
     if array is None or array.dtype != bool:
         return array
     if array.shape != (count,):
         raise _core.Error(f"{name} has shape {array.shape}, but a mask of {count} points is wanted")
     return np.flatnonzero(array)
+
+
+def _sets(groups: Sequence[Group]) -> list[tuple[int, int, str, NDArray[Any] | None]]:
+    """As the library takes them."""
+    if isinstance(groups, Group):
+        raise TypeError("groups is a Group, but a sequence of them is wanted: groups=[group]")
+    sets = []
+    for i, group in enumerate(groups):
+        if not isinstance(group, Group):
+            raise TypeError(f"groups[{i}] is of type {type(group).__name__}, but a tetmend.Group is wanted")
+        for name, kind in (("dimension", numbers.Integral), ("number", numbers.Integral), ("name", str)):
+            value = getattr(group, name)
+            if not isinstance(value, kind):
+                raise _core.Error(f"groups[{i}].{name} is {value!r}, but {'text' if kind is str else 'an integer'} is wanted")
+        sets.append((int(group.dimension), int(group.number), group.name, _array(f"groups[{i}].members", group.members)))
+    return sets
 
 
 class Mesh:
@@ -85,20 +102,20 @@ class Mesh:
                  point_data: Mapping[str, ArrayLike] | None = None, cell_data: Mapping[str, ArrayLike] | None = None,
                  triangle_data: Mapping[str, ArrayLike] | None = None, edge_data: Mapping[str, ArrayLike] | None = None,
                  groups: Sequence[Group] = ()) -> None:
-        point_array, tet_array = np.asarray(points), np.asarray(tets)
+        point_array, tet_array = array_of("points", points), array_of("tets", tets)
         if tet_array.shape == (0,):  # an empty list has no type of numbers
             tet_array = np.empty((0, 4), np.int32)
-        elements = {"triangles": _array(triangles), "edges": _array(edges)}
+        elements = {"triangles": _array("triangles", triangles), "edges": _array("edges", edges)}
         counts = {"point_data": len(point_array) if point_array.ndim else 0, "cell_data": len(tet_array) if tet_array.ndim else 0,
                   **{f"{name[:-1]}_data": 0 if array is None else len(array) for name, array in elements.items()}}
         data = {"point_data": point_data, "cell_data": cell_data, "triangle_data": triangle_data, "edge_data": edge_data}
         packed = {name: pack(name, arrays, counts[name]) for name, arrays in data.items()}
-        arrays = {**elements, "labels": _array(labels), "parts": _array(parts), "triangle_labels": _array(triangle_labels),
-                  "edge_labels": _array(edge_labels), "point_labels": _array(point_labels),
+        plain = {"labels": labels, "parts": parts, "triangle_labels": triangle_labels, "edge_labels": edge_labels,
+                 "point_labels": point_labels}
+        arrays = {**elements, **{name: _array(name, values) for name, values in plain.items()},
                   "required": _indices("required", required, counts["point_data"]),
                   **{name: values for name, (values, _) in packed.items()}}
-        sets = [(group.dimension, group.number, group.name, _array(group.members)) for group in groups]
-        self._core = _core.Mesh(point_array, tet_array, arrays, sets)
+        self._core = _core.Mesh(point_array, tet_array, arrays, _sets(groups))
         self._forms: dict[str, Forms] = {name: forms for name, (_, forms) in packed.items()}
         self._integer: np.dtype[Any] = tet_array.dtype
 
@@ -109,6 +126,11 @@ class Mesh:
         mesh._forms = forms or {}
         mesh._integer = integer or np.dtype(np.int32)
         return mesh
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if not name.startswith("_"):  # a new array of points would change nothing
+            raise AttributeError(f"a Mesh does not change, so it takes no {name!r}: make a new one, tetmend.Mesh(points, tets, ...)")
+        super().__setattr__(name, value)
 
     def __repr__(self) -> str:
         return f"<tetmend.Mesh: {self._core.point_count:,} points, {self._core.tet_count:,} tets>"
@@ -206,12 +228,22 @@ class Mesh:
         return save(file, self, threads=threads, variant=variant)
 
 
+def mesh_in(given: Any, call: str) -> Mesh:
+    """The mesh of a Result, or a mesh itself."""
+    mesh = getattr(given, "mesh", given)
+    if not isinstance(mesh, Mesh):
+        raise TypeError(f"{call} takes a Mesh, not {type(given).__name__}")
+    return mesh
+
+
 def load(file: PathLike, *, threads: int = 1, label_array: str = "") -> Mesh:
     """Reads a mesh; the format follows from the extension, see formats().
 
     label_array: the array over cells that holds their labels; empty: the one with a name that mesh tools use.
     Raises Error, ``FILE:LINE: reason``, for a file that cannot be read. `Mesh.notes` names what of it is not kept.
     """
+    if not isinstance(file, (str, os.PathLike)):
+        raise TypeError(f"load() takes the name of a file, not {type(file).__name__}")
     return Mesh._of(_core.load(os.fspath(file), threads, label_array))
 
 
@@ -222,4 +254,6 @@ def save(file: PathLike, mesh: Mesh, *, threads: int = 1, variant: str = "") -> 
     the bytes are the same.
     variant: of a format with several, "2.2 ASCII" of `.msh`; empty: as the mesh was read.
     """
-    return _core.save(os.fspath(file), mesh._core, threads, variant)
+    if not isinstance(file, (str, os.PathLike)):
+        raise TypeError(f"save() takes the name of a file and a Mesh, not {type(file).__name__} first")
+    return _core.save(os.fspath(file), mesh_in(mesh, "save(file, mesh)")._core, threads, variant)

@@ -46,6 +46,11 @@ class Options(TypedDict, total=False):
     limit: bool
 
 
+# Without the second, the first would do nothing.
+_NEEDS = {"trace_around": "trace", "trace_operator": "trace", "trace_depth": "trace", "trace_limit": "trace",
+          "feature_angle": "surface"}
+
+
 def _to_text(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -60,12 +65,21 @@ def _to_text(value: Any) -> str:
 
 def _values_of(name: str, value: Any, adds: bool) -> list[str]:
     if name == "set":
+        if not isinstance(value, Mapping):
+            raise _core.Error(f"{value!r} is no dict of parameters of the schedule, such as {{'max_rounds': 2}}")
         return [f"{key}={_to_text(one)}" for key, one in dict(value).items()]
     if name == "goal" and isinstance(value, (tuple, list)):
         return [",".join(_to_text(angle) for angle in value)]
     if adds and isinstance(value, (tuple, list)):
         return [_to_text(one) for one in value]
     return [_to_text(value)]
+
+
+def refuse_own(options: Mapping[str, Any], own: Sequence[str], where: str) -> None:
+    """What `where` has itself is no option of a bridge."""
+    for name in own:
+        if options.get(name) is not None:
+            raise TypeError(f"improve() takes no {name!r} here: {where} has its own")
 
 
 def to_settings(options: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -78,6 +92,12 @@ def to_settings(options: Mapping[str, Any]) -> list[tuple[str, str]]:
     TypeError: improve() has no option 'shedule': did you mean 'schedule'?
     """
     adds = {name.replace("-", "_"): several for name, _, several in _core.option_forms()}
+    given = {name for name, value in options.items() if value is not None}
+    for name, needed in _NEEDS.items():
+        if name in given and needed not in given:
+            raise _core.OptionError(f"{name}: it needs the option {needed}")
+    if {"schedule", "script"} <= given:
+        raise _core.OptionError("script: it stands in the place of a schedule, and there is one: give one of them")
     settings = []
     for name, value in options.items():
         if name not in adds:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from tetmend import _core
 from tetmend._figures import Statistics
-from tetmend._mesh import Mesh
+from tetmend._mesh import Mesh, mesh_in
 
 
 @dataclass(frozen=True)
@@ -48,9 +49,9 @@ class Quality:
 
 
 def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: ArrayLike | None = None,
-            measures: Sequence[str] = (), rulers: bool = True, limit: bool = False, bad_tets: bool = False,
+            measures: str | Sequence[str] = (), rulers: bool = True, limit: bool = False, bad_tets: bool = False,
             threads: int = 1) -> Quality:
-    """Measures a Mesh, or quality(points, tets).
+    """Measures a Mesh or that of a Result, or quality(points, tets).
 
     measures: names of further measures, see `tetmend quality --help`. limit: prove what the surface allows. bad_tets: list them,
     with reasons. Raises Error for a mesh without tets or of broken topology.
@@ -59,12 +60,18 @@ def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: Ar
     >>> round(found.statistics.theta_min, 4), found.statistics.n_bad, found.bad_tets
     (54.7356, 0, [])
     """
+    if tets is None and isinstance(mesh, (str, os.PathLike)):
+        raise TypeError(f"quality() takes points and tets, or a Mesh: tetmend.load({os.fspath(mesh)!r}) gives one")
+    if tets is None:
+        mesh = mesh_in(mesh, "quality()")
     if not isinstance(mesh, Mesh):
-        if tets is None:
-            raise TypeError("quality() takes points and tets, or a Mesh")
         mesh = Mesh(mesh, tets, labels=labels)
     elif tets is not None or labels is not None:
         raise TypeError("a Mesh has its own tets and labels")
-    figures = _core.measure(mesh._core, list(measures), rulers, limit, bad_tets, threads)
+    names = [measures] if isinstance(measures, str) else list(measures)
+    try:
+        figures = _core.measure(mesh._core, names, rulers, limit, bad_tets, threads)
+    except _core.OptionError as error:
+        raise _core.OptionError(str(error).replace("measure:", "measures:", 1)) from None
     return Quality(Statistics(figures["statistics"]), figures["measures"], figures["limit"],
                    [BadTet(**{**each, "centre": tuple(each["centre"])}) for each in figures["bad_tets"]], figures["build"])

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Iterator
 from typing import Any
@@ -29,7 +30,7 @@ class Trace:
         self._core = _core.Trace(os.fspath(file))
 
     def __repr__(self) -> str:
-        return f"<tetmend.Trace of {self.input}: {self.call_count:,} calls, {self.event_count:,} events>"
+        return f"<tetmend.Trace of {self.input or 'arrays'}: {self.call_count:,} calls, {self.event_count:,} events>"
 
     @property
     def program(self) -> str:
@@ -76,9 +77,15 @@ class Trace:
         """Calls in all."""
         return self._core.call_count
 
+    @staticmethod
+    def _number(name: str, value: int) -> int:
+        if operator.index(value) < 0:
+            raise _core.Error(f"{name} is {value}, but numbers begin with 0")
+        return operator.index(value)
+
     def call(self, number: int) -> dict[str, Any]:
         """One attempt of an operator."""
-        return self._core.call(number)
+        return self._core.call(self._number("number", number))
 
     def calls(self, *, outermost: bool = False) -> Iterator[dict[str, Any]]:
         """All of them, or those that no other call made."""
@@ -98,13 +105,15 @@ class Trace:
 
     def events(self, first: int = 0, last: int | None = None) -> Iterator[dict[str, Any]]:
         """From one up to before the other."""
-        end = self.event_count if last is None else last
+        end = self.event_count if last is None else self._number("last", last)
+        if self._number("first", first) > self.event_count:
+            raise _core.Error(f"first is {first}, but the trace has {self.event_count} events")
         for begin in range(first, end, _AT_ONCE):
             yield from self._core.events(begin, min(begin + _AT_ONCE, end))
 
     def mesh_at(self, n: int) -> Mesh:
         """The mesh after the first n events. Takes a microsecond for each of them."""
-        return Mesh._of(self._core.mesh_at(n))
+        return Mesh._of(self._core.mesh_at(self._number("n", n)))
 
     def summary(self) -> str:
         """As `tetmend trace FILE` prints it."""
@@ -112,11 +121,11 @@ class Trace:
 
     def tree(self, call: int) -> str:
         """A call and all in it, as text."""
-        return self._core.tree(call)
+        return self._core.tree(self._number("call", call))
 
     def dot(self, call: int) -> str:
         """The same as a graph for Graphviz."""
-        return self._core.dot(call)
+        return self._core.dot(self._number("call", call))
 
     def slices(self) -> Any:
         """All of it in the JSON format of Perfetto and chrome://tracing."""

@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,11 +19,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tetmend._core import Error
+from tetmend._core import Error, OptionError
 from tetmend._improve import Result, improve as improve_arrays
+from tetmend._options import refuse_own
 
 # Gmsh's numbers of lines, triangles and tets, of first and second order, and of their nodes.
 _KINDS = {1: ((1, 2), (2, 3), (4, 4)), 2: ((8, 3), (9, 6), (11, 10))}
+_OWN = ("labels", "parts", "triangles", "triangle_labels", "edges", "edge_labels", "required", "groups")
 _FROM_GMSH = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]  # nodes of a tet of second order in tetmend's order, and back
 
 
@@ -152,7 +155,12 @@ def _volumes(gmsh: Any, tags: int | str | Sequence[int | str]) -> list[int]:
     named = {gmsh.model.getPhysicalName(3, group): [int(tag) for tag in gmsh.model.getEntitiesForPhysicalGroup(3, group)]
              for _, group in gmsh.model.getPhysicalGroups(3)}
     volumes: list[int] = []
-    for i, tag in enumerate([tags] if isinstance(tags, (int, str)) else tags):
+    wanted = [tags] if isinstance(tags, (numbers.Integral, str)) else tags
+    if not isinstance(wanted, (Sequence, np.ndarray)):
+        raise TypeError(f"tags is {tags!r}, but the number or the name of a volume is wanted, or a list of them")
+    if len(wanted) == 0:
+        raise Error("tags is empty: it names no volume")
+    for i, tag in enumerate(wanted):
         if tag not in known and tag not in named:
             names = [name for name in named if name]
             raise Error(f"tags[{i}]: there is no volume {tag!r}: expected one of {known + names}")
@@ -169,15 +177,19 @@ def improve(tags: int | str | Sequence[int | str] | None = None, **options: Any)
     protect="label:3" keeps volume 3. Tets of second order are improved, too, and those at a curved surface stay sound.
     Values of views that belong to nodes or elements (post-processing) do not follow.
 
-    Raises Error, and leaves the model as it was, for a volume with other elements than tets of first or second order, and
+    Raises Error, and leaves the model as it was, for the option surface, for a volume with other elements than tets of first or second order, and
     for volumes of both.
     """
     import gmsh
 
+    refuse_own(options, _OWN, "the model")
+    if options.get("surface") not in (None, "", "fixed"):
+        raise OptionError("surface: the elements of the model's surfaces stay as they are, so it must stay fixed; "
+                          "of a file it may move, and its elements follow: tetmend.load() and improve()")
     has_elements = [tag for _, tag in gmsh.model.getEntities(3) if len(gmsh.model.mesh.getElementTypes(3, tag))]
     volumes = has_elements if tags is None else _volumes(gmsh, tags)
     if not volumes:
-        raise Error("there are no tets in memory: generate a mesh first")
+        raise Error("there are no tets in memory: gmsh.initialize(), then open or generate a mesh of tets, gmsh.model.mesh.generate(3)")
     model = _read(gmsh, volumes)
     fixed = model.node_dimensions < 3
     fixed[np.setdiff1d(np.arange(len(fixed)), model.index_of(model.tets[:, :4]))] = False  # edges hold their middle nodes

@@ -17,7 +17,7 @@ from tetmend._core import Error
 from tetmend._mesh import Mesh
 from tetmend._quality import Quality, quality
 
-_TETRA = 10
+_TETS = (10, 24)  # of first and second order
 
 
 class Accessor:
@@ -46,9 +46,10 @@ class Accessor:
 
     def quality(self, **options: Any) -> Quality:
         """Of its tets: as tetmend.quality()."""
-        tets = self._grid.cells_dict.get(_TETRA)
-        if tets is None:
-            raise Error("the grid has no tets")
+        found = [self._grid.cells_dict[kind] for kind in _TETS if kind in self._grid.cells_dict]
+        if len(found) != 1:
+            raise Error("the grid has tets of first and second order: one of them is measured" if found else "the grid has no tets")
+        tets = found[0]
         return quality(Mesh(self._grid.points, tets), **options)
 
 

@@ -52,6 +52,8 @@ def improve(grid: vtkUnstructuredGrid, *, label_array: str | None = None, **opti
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 
+    if not isinstance(grid, vtkUnstructuredGrid):
+        raise TypeError(f"improve() takes a vtkUnstructuredGrid, not {type(grid).__name__}")
     if grid.GetNumberOfCells() == 0:
         raise Error("the grid has no cells")
     given = Cells(
