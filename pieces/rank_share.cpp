@@ -107,12 +107,12 @@ class Slicer {
   template <std::size_t N>
   void note(Range<RankShare::Element<N>> elements, std::vector<VertexId>& ids) const {
     for (const auto* element = elements.first; element != elements.second; ++element) {
-      auto v = element->vertices;
-      for (const std::uint64_t number : v) ids.push_back(checked(number));
-      std::sort(v.begin(), v.end());
-      if (std::adjacent_find(v.begin(), v.end()) != v.end()) {
-        throw Error(
-            fmt::format("an element has vertex {} twice", *std::adjacent_find(v.begin(), v.end())));
+      const auto& v = element->vertices;
+      for (std::size_t i = 0; i < N; ++i) {
+        ids.push_back(checked(v[i]));
+        for (std::size_t k = 0; k < i; ++k) {
+          if (v[k] == v[i]) throw Error(fmt::format("an element has vertex {} twice", v[i]));
+        }
       }
     }
   }

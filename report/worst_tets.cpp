@@ -112,8 +112,8 @@ std::string list_item(const Figures& figures, std::size_t i) {
   const auto is_free = tet.at("may_move").get<std::array<bool, 4>>();
   std::string centre;
   for (int axis = 0; axis < 3; ++axis) {
-    centre +=
-        (axis == 0 ? "" : " ") + figures.shown_digits(fmt::format("{}.centre.{}", path, axis), 6);
+    if (axis > 0) centre += ' ';
+    centre += figures.shown_digits(fmt::format("{}.centre.{}", path, axis), 6);
   }
   return fmt::format(
       "<li>{}<div><h3>{}, region {}</h3><p>{} to {} degrees{}</p><p class=\"reason\">{}</p>"

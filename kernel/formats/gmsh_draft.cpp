@@ -265,8 +265,13 @@ void GmshDraft::move_into(MeshData& mesh, std::array<GmshTags, 3>& tags) {
         of_type.vertices[i] = listed[i - k + kind.order[k]];
       }
     }
-    mesh.other_elements.push_back({kind.vtk_type, kind.width, std::move(of_type.vertices),
-                                   std::move(of_type.labels), std::move(of_type.parts)});
+    mesh.other_elements.push_back({kind.vtk_type,
+                                   kind.width,
+                                   std::move(of_type.vertices),
+                                   std::move(of_type.labels),
+                                   std::move(of_type.parts),
+                                   {},
+                                   {}});
   }
 }
 
