@@ -104,14 +104,15 @@ void add_layers_and_tets(CLI::App& command, Options& options) {
             "Boundary layers, prisms cut into tets, stay\n"
             "as they are (keep, the default) or are\n"
             "worked on like the rest (improve)");
-  add_value(command, options, "surface",
-            "How far the surface may move where it holds\n"
-            "bad tets: fixed (the default), flat (only\n"
-            "where no shape changes), 1% of the lengths\n"
-            "of edges there, or a length such as 0.01");
+  CLI::Option* surface = add_value(command, options, "surface",
+                                   "How far the surface may move where it holds\n"
+                                   "bad tets: fixed (the default), flat (only\n"
+                                   "where no shape changes), 1% of the lengths\n"
+                                   "of edges there, or a length such as 0.01");
   add_value(command, options, "feature-angle",
             "Lines along which faces bend by more stay\n"
-            "where they are (default: 40)");
+            "where they are (default: 40)")
+      ->needs(surface);
   add_value(command, options, "tets",
             "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all "
             "(default:\nas far as it pays)");

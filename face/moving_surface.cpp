@@ -35,7 +35,8 @@ SurfaceTolerance::SurfaceTolerance(const Options& options) : feature_angle_(opti
   if (!is_number || !std::isfinite(value) || value <= 0 || (is_share && value > 100)) {
     throw OptionError("surface",
                       fmt::format("surface: '{}' is none of fixed, flat, a share of the lengths of "
-                                  "edges such as 1%, and a length such as 0.01",
+                                  "edges such as 1%, above 0 and up to 100%, and a length above 0 "
+                                  "such as 0.01",
                                   options.surface));
   }
   (is_share ? share_ : length_) = is_share ? value / 100 : value;

@@ -81,6 +81,7 @@ TEST_CASE("of a wrong value the command line says what the library says") {
                                                          {"layers", "drop"},
                                                          {"surface", "soft"},
                                                          {"surface", "-1%"},
+                                                         {"surface", "101%"},
                                                          {"feature-angle", "0"},
                                                          {"feature-angle", "x"},
                                                          {"tets", "some"},
@@ -104,12 +105,26 @@ TEST_CASE("of a wrong value the command line says what the library says") {
       arguments.push_back("--trace");
       arguments.push_back((folder / "run.trace").string());
     }
+    if (name == "feature-angle") arguments.push_back("--surface=flat");
     const Outcome outcome = run_program(arguments);
     CHECK(outcome.status == 2);
     const std::string line = outcome.err.substr(0, outcome.err.find('\n'));
     const std::string plain = "tetmend: --" + expected;
     const bool is_same = line == plain || line == plain + " (see tetmend improve --help)";
     CHECK_MESSAGE(is_same, line, " instead of ", plain);
+  }
+  CHECK(folder.entries() == 0);
+}
+
+TEST_CASE("an option that does nothing without another asks for it") {
+  const TempFolder folder;
+  for (const auto& [name, value, needed] : std::vector<std::array<std::string, 3>>{
+           {"feature-angle", "30", "surface"}, {"trace-depth", "1", "trace"}}) {
+    const Outcome outcome =
+        run_program({"improve", kMesh, "-o", (folder / "out.mesh").string(), "--" + name, value});
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err ==
+          "tetmend: --" + name + " requires --" + needed + " (see tetmend improve --help)\n");
   }
   CHECK(folder.entries() == 0);
 }
