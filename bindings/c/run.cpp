@@ -92,6 +92,13 @@ const char* tetmend_last_error(const tetmend_mesh* mesh) {
   return mesh == nullptr ? "the handle is null" : mesh->last_error;
 }
 
+tetmend_status tetmend_refuse(tetmend_mesh* mesh, const char* message) {
+  return guarded(mesh, [&](tetmend_mesh&) {
+    need(message, "message");
+    throw WrongCall(message);
+  });
+}
+
 const char* tetmend_version(void) {
   return version().data();
 }

@@ -131,6 +131,12 @@ module tetmend
       type(c_ptr), value :: handle
       type(c_ptr) :: text
     end function
+    function c_refuse(handle, message) bind(c, name='tetmend_refuse') result(status)
+      import :: c_ptr, c_char, c_int
+      type(c_ptr), value :: handle
+      character(kind=c_char), intent(in) :: message(*)
+      integer(c_int) :: status
+    end function
     function c_version() bind(c, name='tetmend_version') result(text)
       import :: c_ptr
       type(c_ptr) :: text
@@ -459,6 +465,37 @@ contains
     text = to_fortran(c_last_error(self%handle))
   end function
 
+  ! A shape as text: "(3, 8)".
+  function shown(extents) result(text)
+    integer, intent(in) :: extents(:)
+    character(len=:), allocatable :: text
+    integer :: i
+    text = '('
+    do i = 1, size(extents)
+      if (i > 1) text = text // ', '
+      text = text // number_text(extents(i))
+    end do
+    text = text // ')'
+  end function
+
+  function number_text(number) result(text)
+    integer, intent(in) :: number
+    character(len=:), allocatable :: text
+    character(len=12) :: room
+    write (room, '(i0)') number
+    text = trim(room)
+  end function
+
+  ! What is wrong with an array becomes the last error.
+  function refuse(self, name, extents, wanted) result(status)
+    class(tetmend_mesh), intent(in) :: self
+    character(len=*), intent(in) :: name, wanted
+    integer, intent(in) :: extents(:)
+    integer(c_int) :: status
+    status = c_refuse(self%handle, to_c(name // ' has shape ' // shown(extents) // ', but ' // &
+                                        wanted // ' is wanted'))
+  end function
+
   function set(self, name, value) result(status)
     class(tetmend_mesh), intent(in) :: self
     character(len=*), intent(in) :: name, value
@@ -510,8 +547,11 @@ contains
     class(tetmend_mesh), intent(in) :: self
     real(c_double), intent(in) :: xyz(:, :)
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (size(xyz, 1) == 3) status = c_set_points(self%handle, xyz, size(xyz, 2, c_size_t))
+    if (size(xyz, 1) == 3) then
+      status = c_set_points(self%handle, xyz, size(xyz, 2, c_size_t))
+    else
+      status = refuse(self, 'xyz', shape(xyz), '(3, n)')
+    end if
   end function
 
   ! tets(4, n), labels(n)
@@ -522,8 +562,8 @@ contains
     integer(c_int32_t), allocatable, target :: copy(:)
     type(c_ptr) :: address
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (.not. fits(tets, 4, labels)) return
+    status = check_shapes(self, 'tets', tets, 4, labels)
+    if (status /= tetmend_ok) return
     address = c_null_ptr
     if (present(labels)) then
       allocate (copy(size(labels)))
@@ -541,8 +581,8 @@ contains
     integer(c_int32_t), allocatable, target :: copy(:)
     type(c_ptr) :: address
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (.not. fits(triangles, 3, labels)) return
+    status = check_shapes(self, 'triangles', triangles, 3, labels)
+    if (status /= tetmend_ok) return
     address = c_null_ptr
     if (present(labels)) then
       allocate (copy(size(labels)))
@@ -560,8 +600,8 @@ contains
     integer(c_int32_t), allocatable, target :: copy(:)
     type(c_ptr) :: address
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (.not. fits(edges, 2, labels)) return
+    status = check_shapes(self, 'edges', edges, 2, labels)
+    if (status /= tetmend_ok) return
     address = c_null_ptr
     if (present(labels)) then
       allocate (copy(size(labels)))
@@ -571,21 +611,32 @@ contains
     status = c_set_edges(self%handle, edges, size(edges, 2, c_size_t), address)
   end function
 
-  function fits(elements, rows, labels)
+  function check_shapes(self, name, elements, rows, labels) result(status)
+    class(tetmend_mesh), intent(in) :: self
+    character(len=*), intent(in) :: name
     integer(c_int32_t), intent(in) :: elements(:, :)
     integer, intent(in) :: rows
     integer(c_int32_t), intent(in), optional :: labels(:)
-    logical :: fits
-    fits = size(elements, 1) == rows
-    if (present(labels)) fits = fits .and. size(labels) == size(elements, 2)
+    integer(c_int) :: status
+    status = tetmend_ok
+    if (size(elements, 1) /= rows) then
+      status = refuse(self, name, shape(elements), '(' // number_text(rows) // ', n)')
+    else if (present(labels)) then
+      if (size(labels) /= size(elements, 2)) then
+        status = refuse(self, 'labels of ' // name, shape(labels), shown([size(elements, 2)]))
+      end if
+    end if
   end function
 
   function set_point_labels(self, labels) result(status)
     class(tetmend_mesh), intent(in) :: self
     integer(c_int32_t), intent(in) :: labels(:)
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (size(labels) == self%count(tetmend_points)) status = c_set_point_labels(self%handle, labels)
+    if (size(labels) == self%count(tetmend_points)) then
+      status = c_set_point_labels(self%handle, labels)
+    else
+      status = refuse(self, 'labels of points', shape(labels), shown([self%count(tetmend_points)]))
+    end if
   end function
 
   function set_required_vertices(self, vertices) result(status)
@@ -603,8 +654,11 @@ contains
     real(c_double), intent(in) :: values(:, :)
     real(c_double), allocatable, target :: copy(:, :)
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (size(values, 2) /= self%count(place) .or. size(values) == 0) return
+    if (size(values, 2) /= self%count(place) .or. size(values) == 0) then
+      status = refuse(self, 'data ' // trim(name), shape(values), &
+                      '(components, ' // number_text(self%count(place)) // ')')
+      return
+    end if
     allocate (copy(size(values, 1), size(values, 2)))
     copy = values
     status = c_set_data(self%handle, place, to_c(name), type_double, size(values, 1, c_size_t), &
@@ -619,8 +673,11 @@ contains
     integer(c_int32_t), intent(in) :: values(:, :)
     integer(c_int32_t), allocatable, target :: copy(:, :)
     integer(c_int) :: status
-    status = tetmend_wrong_call
-    if (size(values, 2) /= self%count(place) .or. size(values) == 0) return
+    if (size(values, 2) /= self%count(place) .or. size(values) == 0) then
+      status = refuse(self, 'data ' // trim(name), shape(values), &
+                      '(components, ' // number_text(self%count(place)) // ')')
+      return
+    end if
     allocate (copy(size(values, 1), size(values, 2)))
     copy = values
     status = c_set_data(self%handle, place, to_c(name), type_int32, size(values, 1, c_size_t), &

@@ -53,6 +53,10 @@ TETMEND_API void tetmend_destroy(tetmend_mesh* mesh);
  * well. Functions without a status leave it as it is. */
 TETMEND_API const char* tetmend_last_error(const tetmend_mesh* mesh);
 
+/** For what wraps this in another language: makes `message` the last error, and gives
+ * TETMEND_WRONG_CALL. */
+TETMEND_API tetmend_status tetmend_refuse(tetmend_mesh* mesh, const char* message);
+
 /** Of the library: "0.1.0". */
 TETMEND_API const char* tetmend_version(void);
 

@@ -76,6 +76,17 @@ std::string saved(const tetmend::Mesh& mesh, const TempFolder& folder) {
 
 }  // namespace
 
+TEST_CASE("in C: a wrapper's own complaint is the last error until the next call") {
+  const Handle mesh = two_tets_in();
+  CHECK(tetmend_refuse(mesh.get(), "xyz has shape (4, 3)") == TETMEND_WRONG_CALL);
+  CHECK(error_of(mesh) == "xyz has shape (4, 3)");
+  CHECK(tetmend_check_options(mesh.get()) == TETMEND_OK);
+  CHECK(error_of(mesh) == "");
+  CHECK(tetmend_refuse(mesh.get(), nullptr) == TETMEND_WRONG_CALL);
+  CHECK(error_of(mesh) == "message is null");
+  CHECK(tetmend_refuse(nullptr, "no handle") == TETMEND_WRONG_CALL);
+}
+
 TEST_CASE("in C: arrays come out of a handle as they went in, numbered from 0 or from 1") {
   for (const int first : {0, 1}) {
     const Handle mesh = two_tets_in(first);

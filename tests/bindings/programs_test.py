@@ -108,6 +108,12 @@ class Examples(unittest.TestCase):
         run = call(build_fortran(SOURCE / "tests/bindings/groups.f90"))
         self.assertEqual((run.returncode, run.stdout), (0, "ok\n"), run.stdout + run.stderr)
 
+    def test_fortran_arrays_of_the_wrong_shape_are_told(self) -> None:
+        if not shutil.which("gfortran"):
+            self.skipTest("gfortran is not installed")
+        run = call(build_fortran(SOURCE / "tests/bindings/shapes.f90"))
+        self.assertEqual((run.returncode, run.stdout), (0, "ok\n"), run.stdout + run.stderr)
+
     def test_a_mistake_is_told_in_one_line(self) -> None:
         for program in programs("improve_file"):
             for words, reason in [(["missing.mesh", "out.mesh"], "missing.mesh"),
