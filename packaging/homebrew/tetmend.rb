@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # A formula for Homebrew on Linux: brew install --build-from-source --HEAD ./packaging/homebrew/tetmend.rb, in a clone of the
 # source. It has no url: there is no release yet.
+# What was run: script/recipes, on 2026-11-23, which reads it and gives its options to CMake.
+# Not run: a build with them, script/recipes --build; brew.
 class Tetmend < Formula
   desc "Improves tetrahedral meshes and keeps their surface"
   homepage "https://doi.org/10.1007/s00366-016-0480-z"
@@ -24,7 +26,7 @@ class Tetmend < Formula
 
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DTETMEND_LUA=lua5.4;lua", "-DTETMEND_BUILD_TESTS=OFF",
-           "-DTETMEND_BUILD_VIEWER=OFF", *std_cmake_args
+           "-DTETMEND_BUILD_VIEWER=OFF", "-DTETMEND_MPI=OFF", *std_cmake_args
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
     pkgshare.install "assets/meshes/sheet.mesh"

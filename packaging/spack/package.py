@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A package for Spack: put it into packages/tetmend/ of a repository of your own and add the address of a clone as `git`."""
+"""A package for Spack: put it into packages/tetmend/ of a repository of your own and add the address of a clone as `git`.
+
+What was run: script/recipes, on 2026-11-23, which reads it and gives its options to CMake. Not run: spack. With +mpi there are no files of
+HDF5: tetmend looks for them under the name of Debian's package, hdf5-openmpi.
+"""
 
 from spack.package import *
 
@@ -14,6 +18,7 @@ class Tetmend(CMakePackage):
 
     variant("shared", default=True, description="Build a shared library")
     variant("python", default=False, description="Build the Python package")
+    variant("mpi", default=False, description="Build tetmend-mpi, for meshes in pieces on many processes")
     variant("surface", default=False, description="Build the command surface")
 
     depends_on("cxx", type="build")
@@ -30,6 +35,7 @@ class Tetmend(CMakePackage):
     depends_on("pugixml")
     depends_on("zlib-api")
     depends_on("lua@5.4")
+    depends_on("mpi", when="+mpi")
     depends_on("openmesh", when="+surface")
     extends("python", when="+python")
     depends_on("python@3.11:", when="+python", type=("build", "link", "run"))
@@ -45,6 +51,8 @@ class Tetmend(CMakePackage):
             self.define("TETMEND_LUA", "lua5.4;lua"),
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
             self.define_from_variant("TETMEND_BUILD_PYTHON", "python"),
+            self.define_from_variant("TETMEND_MPI", "mpi"),
+            self.define("CMAKE_DISABLE_FIND_PACKAGE_OpenMesh", not self.spec.satisfies("+surface")),
         ]
         if self.spec.satisfies("+python"):
             args.append(self.define("PYTHON_EXECUTABLE", python.path))
