@@ -21,6 +21,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 MOST = 32  # sources in a batch
+ALONE = ["pieces/medit_slices.cpp"]  # hides a function of a header that it includes: of that, only a compiler knows
 # Of the standard and of others: what many sources include.
 PRECOMPILED = """algorithm any array atomic charconv cmath condition_variable cstdint cstring deque filesystem fstream functional
     iostream limits list map memory mutex numeric optional queue random regex set span sstream string string_view thread tuple
@@ -144,7 +145,7 @@ class Batch:
 
     sources: list[Path] = field(default_factory=list)
     own: set[str] = field(default_factory=set)
-    hidden: set[str] = field(default_factory=set)  # of them, those that no header of the source itself declares, too
+    hidden: set[str] = field(default_factory=set)  # of them: types, and what no header of the source itself declares, too
     seen: set[str] = field(default_factory=set)  # of headers
     headers: set[Path] = field(default_factory=set)
 
@@ -165,7 +166,10 @@ def batches_of(sources: list[Path], root: Path) -> list[list[Path]]:
         text = source.read_text(encoding="utf-8")
         headers, seen = names.headers(text)
         own = own_names(text)
-        singles.append(Batch([source], own, own - seen, seen, headers))
+        hidden = {name for name in own if name[0].isupper() or name not in seen}
+        singles.append(Batch([source], own, hidden, seen, headers))
+    alone = [one for one in singles if one.sources[0].as_posix().endswith(tuple(ALONE))]
+    singles = [one for one in singles if one not in alone]
     # The ones that are hard to place first.
     clashes = {id(one): sum(not one.fits(other) for other in singles) for one in singles}
     batches = [Batch() for _ in range(-(-len(singles) // MOST))]
@@ -175,7 +179,7 @@ def batches_of(sources: list[Path], root: Path) -> list[list[Path]]:
             batches.append(Batch())
             fitting = batches[-1:]
         min(fitting, key=lambda batch: (len(one.headers - batch.headers), len(batch.sources))).add(one)
-    return [batch.sources for batch in batches if batch.sources]
+    return [batch.sources for batch in [*batches, *alone] if batch.sources]
 
 
 def main() -> int:
