@@ -23,6 +23,7 @@ import browser  # noqa: E402
 
 SKIPPED = 77
 LESSONS = SOURCE / "assets" / "lessons"
+LECTURES = SOURCE / "docs" / "lectures"
 NAMES = sorted(file.stem for file in LESSONS.glob("*.json"))
 ENVIRONMENT = dict(os.environ, TETMEND_LESSONS=str(LESSONS))
 HOSTILE = "<img src=x onerror=\"document.title='owned'\"><script>"  # no slash: names of files
@@ -147,6 +148,8 @@ class Pages(unittest.TestCase):
         facts = [window.run(WALK, n) for n in range(window.run("return steps.length"))]
         self.quiet(window, page.name)
         self.assertEqual([url for url in window.requests() if not url.startswith(("file:", "data:", "chrome"))], [], page.name)
+        first = facts[0]["position"]
+        self.assertEqual([fact["position"] for fact in facts], list(range(first, first + len(facts))), page.name)
         for fact in facts:
             where = f"{page.name}, step {fact['position']}"
             self.assertEqual(fact["cut"], [], where)
@@ -183,6 +186,46 @@ class Pages(unittest.TestCase):
                     self.compare(fact, state, f"{name}, step {fact['position']}")
         if VIEWER is not None:
             self.assertGreater(self.faces_to_remove, 5)
+
+    def test_each_step_of_each_page_of_the_lecture_is_whole(self) -> None:
+        made = {page.name: page.read_bytes() for page in (WORK / "lessons").iterdir()}
+        walked = 0
+        for page in sorted(LECTURES.glob("*.html")):
+            if page.name == "index.html" or made.get(page.name) == page.read_bytes():  # of a lesson: another test walks it
+                continue
+            with self.subTest(page=page.name):
+                self.walk(self.desk, page)
+                walked += 1
+        self.assertEqual(walked + len(made) - 1, len(list(LECTURES.glob("*.html"))) - 1)
+        self.assertGreaterEqual(walked, 2)
+
+    def test_the_index_of_the_lecture_leads_to_pages_that_can_be_seen(self) -> None:
+        self.desk.complaints()
+        self.desk.open((LECTURES / "index.html").as_uri())
+        links = self.desk.run("return [...document.querySelectorAll('a')].map((a) => a.href)")
+        self.assertEqual(len(links), len(list(LECTURES.glob("*.html"))) - 1)
+        for link in links:
+            self.desk.open(link)
+            self.assertGreater(self.desk.run("return Number(document.body.dataset.position ?? -1)"), -1, link)
+        self.quiet(self.desk, "index")
+
+    # What a page does at its step 5, and what the walk is to say of it.
+    BROKEN = {
+        "an error": ("const whole = showCode; showCode = (step) => { whole(step); if (place.step === 5) setTimeout(() => { throw new Error('broken step'); }); };", "broken step"),
+        "an empty picture": ("const whole = drawPicture; drawPicture = () => { whole(); if (place.step === 5) { painter.gl.clearColor(0, 0, 0, 0); painter.gl.clear(painter.gl.COLOR_BUFFER_BIT); } };", "not greater than 0.01"),
+        "a text that is cut off": ("const whole = showCode; showCode = (step) => { whole(step); const reason = byId('event'); Object.assign(reason.style, place.step === 5 ? {width: '3em', whiteSpace: 'nowrap', overflow: 'hidden', display: 'block'} : {width: '', whiteSpace: '', overflow: '', display: ''}); };", "Lists differ"),
+        "a cell that does not say what it is": ("const whole = showTables; showTables = (...all) => { whole(...all); if (place.step === 4 && place.cell === 3) byId('cell-text').textContent = ''; };", "Regex didn't match"),
+        "a step that is passed over": ("const whole = goTo; goTo = (n, ...more) => whole(n === 5 ? 6 : n, ...more);", "Lists differ"),
+    }
+
+    def test_the_walk_notices_a_single_broken_step(self) -> None:
+        page = WORK / "lessons" / "2-two-shells.html"
+        broken = WORK / "broken.html"
+        for name, (fault, said) in self.BROKEN.items():
+            with self.subTest(fault=name):
+                broken.write_text(page.read_text().replace("</body>", f"<script>{fault}</script></body>"))
+                with self.assertRaisesRegex(AssertionError, said):
+                    self.walk(self.desk, broken)
 
     def compare(self, fact: dict, state: dict, where: str) -> None:
         trace = state["trace"]
