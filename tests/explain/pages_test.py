@@ -204,6 +204,9 @@ class Pages(unittest.TestCase):
         self.desk.open((LECTURES / "index.html").as_uri())
         links = self.desk.run("return [...document.querySelectorAll('a')].map((a) => a.href)")
         self.assertEqual(len(links), len(list(LECTURES.glob("*.html"))) - 1)
+        text, entries = self.desk.run("return ['main > p', 'main > ol'].map((e) => document.querySelector(e).getBoundingClientRect()).map((r) => [r.left, r.width])")
+        self.assertEqual(text, entries)  # below each other, as wide as there is room
+        self.assertGreater(entries[1], 700)
         for link in links:
             self.desk.open(link)
             self.assertGreater(self.desk.run("return Number(document.body.dataset.position ?? -1)"), -1, link)
