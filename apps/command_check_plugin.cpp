@@ -7,6 +7,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/improve_options.h"
 #include "apps/plugin_watch.h"
 #include "contract/contract.h"
 #include "kernel/formats/tet_mesh_io.h"
@@ -18,7 +19,11 @@ namespace {
 struct Options {
   std::filesystem::path plugin;
   std::vector<std::filesystem::path> meshes;
+  double attempt_limit = 10;
 };
+
+/// An attempt is given up after so many times the limit.
+constexpr double kPatience = 6;
 
 std::vector<contract::Ground> load_grounds(const Options& options) {
   std::vector<contract::Ground> grounds = contract::grounds();
@@ -56,6 +61,9 @@ int run_check_plugin(const Options& options) {
   Registry registry = Registry::builtin();
   const Plugin plugin = load_plugin(options.plugin, registry);
   note_crashes();
+  const PluginWatch watch(
+      {.attempt = options.attempt_limit, .longest = kPatience * options.attempt_limit},
+      [](std::string_view text) { complain(kSuccess, text); });
   const std::vector<contract::Ground> grounds = load_grounds(options);
   std::size_t broken = 0;
   for (const OperatorInfo* info : plugin.operators) {
@@ -81,6 +89,12 @@ void add_check_plugin(CLI::App& app, Invocation& invocation) {
                    "A large mesh is tried at fewer places")
       ->type_name("MESH")
       ->allow_extra_args(false);
+  command
+      ->add_option("--attempt-limit", options->attempt_limit,
+                   "Say so when an attempt takes longer, and give up\n"
+                   "after six times as long; 0: never (default: 10)")
+      ->check(is_number_of_seconds)
+      ->type_name("SECONDS");
   command->footer(
       R"(Holds every operator of the plugin to what the operators of tetmend keep, on
 small meshes of all kinds that the program makes itself, with the parameters at

@@ -229,8 +229,9 @@ before and after and the time of each pass, and checks that the surface is
 untouched and no tet got inverted. On a terminal a line shows the progress.
 
 An operator of a plugin that does not come back is named; two seconds after the
-time limit it ends the run with exit status 1, and no mesh is written. If the
-trace cannot be written, the mesh is all the same, and the exit status is 1.
+time limit or Ctrl-C it ends the run with exit status 1, and no mesh is written.
+If the trace cannot be written, the mesh is all the same, and the exit status is
+1.
 
 Ctrl-C, SIGTERM, SIGUSR1, SIGXCPU and their like stop the work: OUT is still
 written, with the mesh as improved so far, and the exit status is 4. The second

@@ -79,21 +79,13 @@ void add_time_limit(CLI::App& command, Options& run) {
             "Stop improving after that time and\nwrite what was reached");
 }
 
-/// What is wrong with it, or nothing.
-std::string is_attempt_limit(const std::string& text) {
-  double seconds = 0;
-  const bool is_good = CLI::detail::lexical_cast(text, seconds) && seconds >= 0 && seconds <= 1e9;
-  if (is_good) return {};
-  return fmt::format("'{}' is not a number of seconds from 0 to 1000000000", text);
-}
-
 void add_plugin_options(CLI::App& command, ImproveOptions& options) {
   add_plugin_option(command, options.run.plugin);
   command
       .add_option("--attempt-limit", options.attempt_limit,
                   "Say so when an attempt of a plugin takes\nlonger; 0: never (default: 10)")
       ->type_name("SECONDS")
-      ->check(is_attempt_limit);
+      ->check(is_number_of_seconds);
   command.add_flag("--check-operators", options.run.check_operators,
                    "Hold each attempt of a plugin to the contract\nof operators; slow, and in one "
                    "thread");
@@ -165,6 +157,13 @@ void add_options_of_pieces(CLI::App& command, ImproveOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+}
+
+std::string is_number_of_seconds(const std::string& text) {
+  double seconds = 0;
+  const bool is_good = CLI::detail::lexical_cast(text, seconds) && seconds >= 0 && seconds <= 1e9;
+  if (is_good) return {};
+  return fmt::format("'{}' is not a number of seconds from 0 to 1000000000", text);
 }
 
 void add_improve_options(CLI::App& command, ImproveOptions& options) {

@@ -31,6 +31,9 @@ struct ImproveOptions {
   PieceOptions pieces;
 };
 
+/// For an option: what is wrong with its text, or nothing.
+std::string is_number_of_seconds(const std::string& text);
+
 void add_improve_options(CLI::App& command, ImproveOptions& options);
 
 /// Those that a run by `tetmend pieces` can have.

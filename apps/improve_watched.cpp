@@ -22,7 +22,8 @@ Result improve_watched(const ImproveOptions& all, ProgressLine& line,
   std::optional<PluginWatch> watch;
   if (!options.plugin.empty()) {
     note_crashes();
-    watch.emplace(all.attempt_limit, options.time_limit, [&](std::string_view text) {
+    const PluginWatch::Limits limits{.attempt = all.attempt_limit, .time = options.time_limit};
+    watch.emplace(limits, [&](std::string_view text) {
       const std::lock_guard lock(line_busy);
       line.clear();
       complain(kSuccess, text);

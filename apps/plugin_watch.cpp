@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "apps/commands.h"
+#include "apps/interruption.h"
 #include "kernel/formats/temporary_names.h"
 #include "ops/attempt_watch.h"
 #include "platform/platform.h"
@@ -19,6 +20,8 @@ namespace tetmend::apps {
 namespace {
 
 constexpr auto kInterval = std::chrono::milliseconds(100);
+using Seconds = std::chrono::duration<double>;
+
 constexpr auto kGrace = std::chrono::seconds(2);
 
 /// A line that a signal handler may write: it neither allocates nor locks.
@@ -69,11 +72,8 @@ void note_crashes() {
   platform::on_crashes(on_crash);
 }
 
-PluginWatch::PluginWatch(double attempt_limit, double time_limit, Tell tell)
-    : attempt_limit_(attempt_limit),
-      time_limit_(time_limit),
-      tell_(std::move(tell)),
-      thread_([this] { watch(); }) {}
+PluginWatch::PluginWatch(const Limits& limits, Tell tell)
+    : limits_(limits), tell_(std::move(tell)), thread_([this] { watch(); }) {}
 
 PluginWatch::~PluginWatch() {
   {
@@ -86,11 +86,12 @@ PluginWatch::~PluginWatch() {
 
 /// A run that goes back improves a second time, and no longer than the first.
 void PluginWatch::show(Stage stage) {
-  if (time_limit_.count() <= 0 || stage == stage_) return;
+  if (limits_.time <= 0 || stage == stage_) return;
   stage_ = stage;
-  deadline_ = stage == Stage::improving
-                  ? Clock::now() + std::chrono::duration_cast<Clock::duration>(time_limit_)
-                  : Clock::time_point::max();
+  deadline_ =
+      stage == Stage::improving
+          ? Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(limits_.time))
+          : Clock::time_point::max();
 }
 
 void PluginWatch::watch() {
@@ -109,22 +110,30 @@ void PluginWatch::look(Clock::time_point now) {
     return std::none_of(pending.begin(), pending.end(),
                         [&](const PendingAttempt& attempt) { return attempt.since == since; });
   });
+  if (Interruption::requested()) interrupted_ = std::min(interrupted_, now);
   const Clock::time_point deadline = deadline_;
   for (const PendingAttempt& attempt : pending) {
     const Clock::duration age = now - attempt.since;
-    if (deadline < now && now - std::max(deadline, attempt.since) > kGrace) end(attempt.what);
-    if (attempt_limit_.count() <= 0 || age < attempt_limit_ ||
+    const auto is_late = [&](Clock::time_point end) {
+      return end < now && now - std::max(end, attempt.since) > kGrace;
+    };
+    if (is_late(deadline)) end(attempt.what, ", and the time limit is over: no mesh was written");
+    if (is_late(interrupted_)) end(attempt.what, ": interrupted, no mesh was written");
+    if (limits_.longest > 0 && age > Seconds(limits_.longest)) {
+      end(attempt.what, fmt::format(" for {:g} s: given up", limits_.longest));
+    }
+    if (limits_.attempt <= 0 || age < Seconds(limits_.attempt) ||
         std::find(told_.begin(), told_.end(), attempt.since) != told_.end()) {
       continue;
     }
     told_.push_back(attempt.since);
-    tell_(fmt::format("{} has not come back for {:g} s", attempt.what, attempt_limit_.count()));
+    tell_(fmt::format("{} has not come back for {:g} s", attempt.what, limits_.attempt));
   }
 }
 
 /// The thread that hangs cannot be ended alone, and nobody knows what state it leaves.
-void PluginWatch::end(std::string_view what) const {
-  tell_(fmt::format("{} has not come back, and the time limit is over: no mesh was written", what));
+void PluginWatch::end(std::string_view what, std::string_view why) const {
+  tell_(fmt::format("{} has not come back{}", what, why));
   formats::remove_temporaries(formats::Remains::of_use);
   std::_Exit(kFailed);
 }

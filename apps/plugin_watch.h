@@ -25,10 +25,16 @@ class PluginWatch {
  public:
   using Tell = std::function<void(std::string_view)>;
 
-  /// @param attempt_limit seconds; `tell` gets one line for each attempt that takes longer. 0: none
-  /// @param time_limit seconds of the run. An attempt that is still under way two seconds later ends
-  /// the program: with a line, without unfinished files, exit status 1. 0: none
-  PluginWatch(double attempt_limit, double time_limit, Tell tell);
+  /// In seconds; 0: none. What ends the program writes a line, leaves no unfinished files, and the
+  /// exit status is 1.
+  struct Limits {
+    double attempt = 0;  ///< `tell` gets one line for each attempt that takes longer
+    double time = 0;     ///< of the run: an attempt still under way two seconds later ends it
+    double longest = 0;  ///< an attempt that takes longer ends the program
+  };
+  /// An attempt that is still under way two seconds after Interruption::requested() ends the
+  /// program, too.
+  PluginWatch(const Limits& limits, Tell tell);
   ~PluginWatch();
   PluginWatch(const PluginWatch&) = delete;
   PluginWatch& operator=(const PluginWatch&) = delete;
@@ -41,13 +47,13 @@ class PluginWatch {
 
   void watch();
   void look(Clock::time_point now);
-  [[noreturn]] void end(std::string_view what) const;
+  [[noreturn]] void end(std::string_view what, std::string_view why) const;
 
-  const std::chrono::duration<double> attempt_limit_;
-  const std::chrono::duration<double> time_limit_;
+  const Limits limits_;
   const Tell tell_;
   Stage stage_ = Stage::building;
   std::atomic<Clock::time_point> deadline_{Clock::time_point::max()};
+  Clock::time_point interrupted_ = Clock::time_point::max();  // when that was noticed
   std::vector<Clock::time_point> told_;  // when the attempts began of which it was said
   std::mutex busy_;
   std::condition_variable wake_;

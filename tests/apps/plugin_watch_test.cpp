@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Plugins that crash or do not come back, and --check-operators, as a user of the command line has
 // them.
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -150,6 +152,47 @@ TEST_CASE("after a crash, and after an attempt that did not come back, the trace
     CHECK(ended.trace.status == 0);
     CHECK(contains(ended.trace.err, "has no end, the run was not finished"));
   }
+}
+
+TEST_CASE("check-plugin names an attempt that does not come back, and gives up") {
+  const Outcome outcome =
+      run_program({"check-plugin", plugin_file("hanging"), "--attempt-limit", "0.1"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 1);
+  const std::string who = "tetmend: operator 'hangs' of " + plugin_file("hanging") + " at vertex ";
+  CHECK(outcome.err.starts_with(who));
+  CHECK(contains(outcome.err, " has not come back for 0.1 s\n" + who));
+  CHECK(contains(outcome.err, " has not come back for 0.6 s: given up\n"));
+  const Outcome wrong =
+      run_program({"check-plugin", plugin_file("hanging"), "--attempt-limit", "nan"});
+  CHECK(wrong.status == 2);
+  CHECK(contains(wrong.err, "--attempt-limit: 'nan' is not a number of seconds"));
+}
+
+TEST_CASE("one Ctrl-C ends a run whose attempt does not come back") {
+  const TempFolder folder;
+  const std::string out = (folder / "out.mesh").string();
+  const std::string script = (folder / "mine.lua").string();
+  write_text(out, kOld);
+  write_text(script, "apply(\"hangs\", {on = {below = 0.8}})\n");
+  const int err = ::open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0666);
+  const auto begin = std::chrono::steady_clock::now();
+  Program program({"improve", std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/bracket.meshb",
+                   "-o", out, "--plugin", plugin_file("hanging"), "--schedule", script, "--quiet",
+                   "--attempt-limit", "0.1"},
+                  (folder / "said").string(), err);
+  const auto said = [&] { return read_text(folder / "err"); };
+  for (int i = 0; i < 600 && !contains(said(), "has not come back"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  REQUIRE(contains(said(), "has not come back"));
+  program.send(SIGINT);
+  CHECK(program.wait() == 1);
+  ::close(err);
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+  CHECK(passed.count() < 40);  // by itself it comes back after a minute
+  CHECK(contains(said(), " has not come back: interrupted, no mesh was written\n"));
+  CHECK(read_text(out) == kOld);
 }
 
 TEST_CASE("check-plugin names the operator that crashes") {
