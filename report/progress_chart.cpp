@@ -195,6 +195,17 @@ std::string breakable(const std::string& name) {
   return html;
 }
 
+/// The name of a pass. A long one, of many operators, can be unfolded.
+std::string folded(const std::string& name) {
+  constexpr std::ptrdiff_t kMost = 4;
+  const auto open = name.find('(');
+  const std::ptrdiff_t count = std::count(name.begin(), name.end(), ',') + 1;
+  if (open == std::string::npos || count <= kMost) return breakable(name);
+  const std::string first = name.substr(open + 1, name.find(',') - open - 1);
+  return fmt::format("<details><summary>{} of {} operators, {} first</summary>{}</details>",
+                     breakable(name.substr(0, open)), count, breakable(first), breakable(name));
+}
+
 std::string bar(std::string_view classes, double share) {
   return fmt::format(
       R"(<svg class="bar" viewBox="0 0 100 6" preserveAspectRatio="none" aria-hidden="true">)"
@@ -228,7 +239,7 @@ std::string pass_table(const Figures& figures) {
                     grouped(total.accepted), bar("kept", kept), total.gone < 0 ? "\u2212" : "",
                     grouped(static_cast<std::size_t>(std::abs(total.gone))),
                     fmt::format("{:.3f}", total.seconds), bar("cost", total.seconds / time),
-                    breakable(total.name));
+                    folded(total.name));
   }
   return fmt::format(
       "<table class=\"passes\"><thead><tr><th>pass</th><th>calls</th><th>tried</th><th>kept</th>"

@@ -96,7 +96,7 @@ Promise promise_of_surface(const Figures& figures) {
         figures.number("surface.proven_distance") <= figures.number("surface.tolerance");
     return {"The surface stays within its tolerance, proven in both directions",
             figures.shown_digits("surface.tolerance", 3),
-            figures.shown_digits("surface.proven_distance", 3), stays};
+            figures.shown_digits("surface.proven_distance", 3), stays, true};
   }
   const bool stays =
       figures.is_true("surface.unchanged") &&
@@ -104,6 +104,27 @@ Promise promise_of_surface(const Figures& figures) {
   return {"The triangles of the surface stay, bit for bit",
           figures.shown_count("before.boundary_triangles"),
           figures.shown_count("after.boundary_triangles"), stays};
+}
+
+/// Empty if there are none of this kind.
+std::string rows_of(const std::vector<Promise>& promises, bool is_bound) {
+  std::string rows;
+  for (const Promise& promise : promises) {
+    if (promise.is_bound != is_bound) continue;
+    rows += fmt::format(
+        "<tr class=\"{}\"><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        promise.is_kept ? "kept" : "broken", escaped(promise.text), promise.before, promise.after,
+        promise.is_kept ? "\u2713 kept" : "\u2717 broken");
+  }
+  return rows;
+}
+
+std::string headed(std::string_view left, std::string_view right, const std::string& rows) {
+  if (rows.empty()) return rows;
+  return fmt::format(
+      "<table class=\"promises\"><thead><tr><th>promise</th><th>{}</th><th>{}</th><th></th>"
+      "</tr></thead><tbody>\n{}</tbody></table>\n",
+      left, right, rows);
 }
 
 }  // namespace
@@ -153,17 +174,9 @@ std::vector<Promise> promises_of(const Figures& figures) {
 }
 
 std::string promise_table(const Figures& figures) {
-  std::string rows;
-  for (const Promise& promise : promises_of(figures)) {
-    rows += fmt::format(
-        "<tr class=\"{}\"><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        promise.is_kept ? "kept" : "broken", escaped(promise.text), promise.before, promise.after,
-        promise.is_kept ? "\u2713 kept" : "\u2717 broken");
-  }
-  std::string text = fmt::format(
-      "<table class=\"promises\"><thead><tr><th>promise</th><th>before</th><th>after</th><th></th>"
-      "</tr></thead><tbody>\n{}</tbody></table>\n",
-      rows);
+  const std::vector<Promise> promises = promises_of(figures);
+  std::string text = headed("tolerance", "moved at most", rows_of(promises, true)) +
+                     headed("before", "after", rows_of(promises, false));
   text += fmt::format("<p>Relative change of the volume: {}.</p>\n",
                       figures.shown_digits("volume_change", 2));
   std::string missed;

@@ -26,6 +26,8 @@ struct Promise {
   std::string text;
   std::string before, after;  ///< HTML; empty: there is no figure
   bool is_kept = false;
+  /// `before` is how far something may go, `after` how far it went at most.
+  bool is_bound = false;
 };
 std::vector<Promise> promises_of(const Figures& figures);
 

@@ -119,6 +119,39 @@ TEST_CASE("promises are kept unless the report says what is worse") {
   CHECK(contains(promise_table(Figures(report)), "<li>a mean &lt;ratio&gt;</li>"));
 }
 
+TEST_CASE(
+    "a surface that may move has its tolerance and the proven bound under headings of its own") {
+  json report = example();
+  const auto heads = [&] { return plain(promise_table(Figures(report))); };
+  CHECK(!contains(heads(), "tolerance"));
+  report["surface"]["tolerance"] = 0.0245;
+  report["surface"]["proven_distance"] = 0.0229;
+  CHECK(contains(heads(),
+                 "promisetolerancemoved at most\nThe surface stays within its tolerance, "
+                 "proven in both directions0.02450.0229\u2713 kept"));
+  CHECK(contains(heads(), "promisebeforeafter\nNo more inverted"));
+  report["surface"]["proven_distance"] = 0.0246;
+  CHECK(contains(heads(), "0.0246\u2717 broken"));
+}
+
+TEST_CASE("the name of a pass of many operators is folded") {
+  json report = example();
+  const auto table = [&](const char* name) {
+    report["passes"] = {{{"name", name},
+                         {"round", 1},
+                         {"seconds", 0.25},
+                         {"attempts", 1},
+                         {"accepted", 1},
+                         {"n_bad", 25},
+                         {"q_worst", 0.5}}};
+    return pass_table(Figures(report));
+  };
+  CHECK(!contains(table("sequence(a, b, c, d)"), "<details>"));
+  CHECK(contains(table("sequence(a, b, c, d, e)"),
+                 "<details><summary>sequence of 5 operators, a first</summary>"
+                 "sequence(a, b, c, d, e)</details>"));
+}
+
 TEST_CASE("passes of one name are summed up, and protected bad tets are nobody's work") {
   json report = example();
   const auto pass = [](const char* name, unsigned attempts, unsigned n_bad) {

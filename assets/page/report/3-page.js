@@ -182,7 +182,10 @@ function watchKeys() {
   });
 }
 
-function drawForPrint() { drawPicture({width: 1400, height: 640}, 1); }
+function drawForPrint() {
+  for (const part of document.querySelectorAll("details")) part.open = true;
+  drawPicture({width: 1400, height: 640}, 1);
+}
 
 async function begin() {
   setTheme(wantedTheme());
