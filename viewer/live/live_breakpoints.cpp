@@ -32,6 +32,12 @@ bool touches(const Journal& journal, const Edit& edit, const Condition::Term& te
 
 }  // namespace
 
+void LiveBreakpoints::set(std::vector<Condition> conditions) {
+  conditions_ = std::move(conditions);
+  hit_.reset();
+  hit_for_good_.reset();
+}
+
 void LiveBreakpoints::note(const Condition& condition) {
   auto& hit = condition.for_good ? hit_for_good_ : hit_;
   if (!hit) hit = to_text(condition);

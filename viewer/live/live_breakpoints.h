@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/edit.h"
@@ -13,17 +14,21 @@
 
 namespace tetmend::viewer {
 
-/// Follows what a run tells, and notes the first condition that held in the outermost call at hand.
+/// Follows what a run tells, and notes the first condition that held since the last question.
 /// For the thread of the run.
 class LiveBreakpoints {
  public:
-  void set(std::vector<Condition> conditions) { conditions_ = std::move(conditions); }
-  bool is_empty() const { return conditions_.empty(); }
+  /// Inside of a call only if calls are followed.
+  void set(std::vector<Condition> conditions);
+  /// It must be told of calls: there are conditions, or were some when the call at hand began.
+  bool is_following() const { return !conditions_.empty() || !open_.empty(); }
 
   void visit_begins(Quality quality) { visited_ = quality; }
   void attempt_begins(const TetMesh& mesh, const AttemptEvent& event);
   void attempt_ends(const TetMesh& mesh, Verdict verdict, double worst_before);
   void edit_made(const Journal& journal);
+  /// Inside of a call: a condition that holds there, and is not one for good. Forgets it.
+  std::optional<std::string> take_now() { return std::exchange(hit_, std::nullopt); }
   /// After an outermost call: the condition that held in it. Forgets it.
   std::optional<std::string> take(bool accepted);
 

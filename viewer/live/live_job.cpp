@@ -162,6 +162,7 @@ void LiveJob::begin_trace() {
 }
 
 void LiveJob::take_breakpoints() {
+  if (!has_new_breakpoints_ || !(calls_.empty() || breakpoints_.is_following())) return;
   const std::lock_guard lock(lock_);
   breakpoints_.set(std::move(new_breakpoints_));
   has_new_breakpoints_ = false;
@@ -170,9 +171,10 @@ void LiveJob::take_breakpoints() {
 void LiveJob::come_to(Event event) {
   const Demand demand = demand_.load(std::memory_order_relaxed);
   const bool is_call = event == Event::accepted_call || event == Event::refused_call;
-  if (has_new_breakpoints_) take_breakpoints();
+  take_breakpoints();
   std::optional<std::string> hit;
-  if (is_call && !breakpoints_.is_empty()) hit = breakpoints_.take(event == Event::accepted_call);
+  if (is_call && breakpoints_.is_following())
+    hit = breakpoints_.take(event == Event::accepted_call);
   const bool is_due = hit || demand == Demand::pause ||
                       (demand == Demand::to_next_call && is_call) ||
                       (demand == Demand::to_next_accepted && event == Event::accepted_call) ||
@@ -272,17 +274,41 @@ void LiveJob::standard_changed(const Standard& standard) {
 
 void LiveJob::attempt_begins(const AttemptEvent& event) {
   if (recorder_) recorder_->attempt_begins(event);
-  if (depth_ == 0 && has_new_breakpoints_) take_breakpoints();
-  if (!breakpoints_.is_empty()) breakpoints_.attempt_begins(mesh_, event);
-  if (depth_++ > 0) return;
-  call_ = {};
-  call_.operator_name = event.operator_name;
-  call_.number = attempts_ + 1;
+  take_breakpoints();
+  if (breakpoints_.is_following()) breakpoints_.attempt_begins(mesh_, event);
+  const bool is_asked = calls_.empty() || breakpoints_.is_following();
+  calls_.push_back(is_asked ? call_of(event) : LiveCall());
+  come_to_condition(calls_.back());
+}
+
+LiveCall LiveJob::call_of(const AttemptEvent& event) const {
+  LiveCall call;
+  call.operator_name = event.operator_name;
+  call.number = attempts_ + 1;
+  call.level = event.level;
+  call.is_inside = !calls_.empty();
+  call.is_under_way = true;
   for (const VertexHandle v : event.target) {
-    call_.place += mesh_.point(v);
-    call_.target.push_back(mesh_.point(v));
+    call.place += mesh_.point(v);
+    call.target.push_back(mesh_.point(v));
   }
-  call_.place /= static_cast<double>(event.target.size());
+  call.place /= static_cast<double>(event.target.size());
+  return call;
+}
+
+/// A condition holds in a call that goes on: the run is held there, with the mesh as the call has
+/// it.
+void LiveJob::come_to_condition(const LiveCall& call) {
+  auto hit = breakpoints_.take_now();
+  const Demand demand = demand_;
+  if (!hit || demand == Demand::stop) return;
+  {
+    const std::lock_guard lock(lock_);
+    shown_.breakpoint = std::move(*hit);
+  }
+  last_ = call;
+  hold(demand);
+  take_breakpoints();
 }
 
 void LiveJob::candidate_found() {
@@ -292,26 +318,29 @@ void LiveJob::candidate_found() {
 void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
                            std::span<const Quality> now) {
   if (recorder_) recorder_->attempt_ends(verdict, before, now);
-  if (!breakpoints_.is_empty()) {
+  if (breakpoints_.is_following()) {
     breakpoints_.attempt_ends(mesh_, verdict, before.empty() ? 0 : before.front());
   }
-  if (--depth_ > 0) return;
+  LiveCall call = std::move(calls_.back());
+  calls_.pop_back();
+  call.is_under_way = false;
+  call.verdict = verdict;
+  if (!before.empty()) call.before = before.front();
+  if (!now.empty()) call.after = now.front();
+  if (!calls_.empty()) return come_to_condition(call);
+  last_ = std::move(call);
   ++attempts_;
   ++pass_.attempts;
-  call_.verdict = verdict;
-  if (!before.empty()) call_.before = before.front();
-  if (!now.empty()) call_.after = now.front();
-  last_ = call_;
   if (verdict != Verdict::accepted) return come_to(Event::refused_call);
   ++accepted_;
   ++pass_.accepted;
-  last_accepted_ = call_;
+  last_accepted_ = last_;
   come_to(Event::accepted_call);
 }
 
 void LiveJob::edit_made(const TetMesh& mesh, const Journal& journal) noexcept {
   if (recorder_) recorder_->edit_made(mesh, journal);
-  if (!breakpoints_.is_empty()) breakpoints_.edit_made(journal);
+  if (breakpoints_.is_following()) breakpoints_.edit_made(journal);
 }
 
 void LiveJob::edit_undone() noexcept {

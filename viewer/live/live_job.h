@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "schedule/run.h"
 #include "schedule/schedule.h"
@@ -46,7 +47,8 @@ struct LivePlan {
 };
 
 /// All member functions are for one other thread, or several. One thread makes all calls of the
-/// schedule, so that a mesh that rests is that between two calls. The result is the same as that of
+/// schedule, so that a mesh that rests is that between two calls, or at a breakpoint inside of one
+/// that of its trial, which may yet be undone. The result is the same as that of
 /// `tetmend improve`, byte for byte. A job that is held costs nothing.
 class LiveJob final : private TraceSink, private ProgressListener {
  public:
@@ -61,8 +63,9 @@ class LiveJob final : private TraceSink, private ProgressListener {
   void ask(Demand demand);
   /// So many changes a second at most, each with a snapshot; 0: as fast as it can.
   void set_speed(double changes_a_second);
-  /// Where the run is held, in or after the call at hand: after the outermost call in which one of
-  /// these held.
+  /// Where the run is held, also inside of calls: at the beginning or the end of the call for which
+  /// one of these holds, after an edit when the next call begins or the one at hand ends. One that
+  /// is for good: after the outermost call.
   void set_breakpoints(std::vector<Condition> conditions);
   /// Cost: copies the list of passes.
   LiveProgress progress() const;
@@ -82,6 +85,8 @@ class LiveJob final : private TraceSink, private ProgressListener {
   void run_schedule();
   void begin_trace();
   void come_to(Event event);
+  void come_to_condition(const LiveCall& call);
+  LiveCall call_of(const AttemptEvent& event) const;
   void hold(Demand demand);
   void dwell(double seconds);
   void take_breakpoints();
@@ -110,10 +115,9 @@ class LiveJob final : private TraceSink, private ProgressListener {
   LivePlan plan_;
   std::unique_ptr<TraceRecorder> recorder_;
   LiveBreakpoints breakpoints_;
-  LiveCall call_;  // the outermost
+  std::vector<LiveCall> calls_;  // that are under way, the outermost first
   std::optional<LiveCall> last_, last_accepted_;
-  unsigned depth_ = 0;  // of the attempt at hand
-  LivePass pass_;       // at work
+  LivePass pass_;  // at work
   std::size_t attempts_ = 0;
   std::size_t accepted_ = 0;
   Clock::time_point pass_start_;

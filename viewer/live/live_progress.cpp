@@ -32,7 +32,8 @@ json to_json(const LiveCall& call) {
           {"place", {call.place.x(), call.place.y(), call.place.z()}},
           {"before", call.before},
           {"after", call.after},
-          {"verdict", to_string(call.verdict)},
+          {"verdict", call.is_under_way ? "under way" : to_string(call.verdict)},
+          {"level", call.level},
           {"number", call.number}};
 }
 

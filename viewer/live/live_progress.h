@@ -19,7 +19,7 @@ namespace tetmend::viewer {
 enum class LiveState : std::uint8_t {
   idle,      ///< nothing has run yet
   running,   ///< at work
-  paused,    ///< held between two calls
+  paused,    ///< held between two calls, or at a breakpoint inside of one
   stopping,  ///< about to end, as it was told to
   stopped,   ///< ended because it was told to
   finished,  ///< the schedule came to its end
@@ -37,7 +37,7 @@ struct LivePass {
   QualityIndicators after;
 };
 
-/// An attempt by the schedule.
+/// An attempt by the schedule; at a breakpoint, one by another attempt.
 struct LiveCall {
   std::string operator_name;
   Point place = Point::Zero();  ///< middle of what it aimed at
@@ -45,7 +45,10 @@ struct LiveCall {
   Quality after = 0;            ///< worst of those that it made
   Verdict verdict = Verdict::accepted;
   std::vector<Point> target;  ///< corners of what it aimed at, as they were then
-  std::size_t number = 0;     ///< of the attempt, from 1
+  std::size_t number = 0;     ///< of the attempt by the schedule, from 1
+  unsigned level = 0;         ///< of recursion
+  bool is_inside = false;     ///< made by another attempt
+  bool is_under_way = false;  ///< not ended: there is no verdict yet
 };
 
 struct LiveProgress {

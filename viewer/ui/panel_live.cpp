@@ -10,6 +10,7 @@
 #include "kernel/error.h"
 #include "viewer/live/operator_schedule.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -161,11 +162,17 @@ void tell_progress(const LiveProgress& run) {
   if (!run.breakpoint.empty()) ImGui::TextWrapped("breakpoint: %s", run.breakpoint.c_str());
   if (run.state == LiveState::paused && run.last) {
     const LiveCall& call = *run.last;
-    const std::string verdict(to_string(call.verdict));
-    ImGui::TextWrapped("call %zu, %s: %s, worst %.4f, now %.4f, at %.4g %.4g %.4g", call.number,
-                       call.operator_name.c_str(), verdict.c_str(),
-                       static_cast<double>(call.before), static_cast<double>(call.after),
-                       call.place.x(), call.place.y(), call.place.z());
+    std::string text = fmt::format("call {}, {}{}", call.number, call.is_inside ? "in it " : "",
+                                   call.operator_name);
+    if (call.is_inside) text += fmt::format(" on level {}", call.level);
+    if (call.is_under_way) {
+      text += " begins";
+    } else {
+      text += fmt::format(": {}, worst {:.4f}, now {:.4f}", to_string(call.verdict), call.before,
+                          call.after);
+    }
+    wrapped_text(fmt::format("{}, at {:.4g} {:.4g} {:.4g}", text, call.place.x(), call.place.y(),
+                             call.place.z()));
   }
   if (!run.error.empty()) ImGui::TextWrapped("%s", run.error.c_str());
   if (!run.notes.empty()) ImGui::TextWrapped("%s", run.notes.back().c_str());

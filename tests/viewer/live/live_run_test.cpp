@@ -426,7 +426,7 @@ TEST_CASE("a run that begins paused has made no call, and steps from the first o
   CHECK(last_mesh(run) == truth);
 }
 
-TEST_CASE("breakpoints hold a live run after the call in which they hold") {
+TEST_CASE("breakpoints hold a live run at the end of the call for which they hold") {
   const LiveRun::Input mesh = asset("sheet.mesh");
   LiveRun run;
   run.breakpoints = {{parse_condition("accepted and worse than 0.9")},
@@ -479,8 +479,77 @@ TEST_CASE("a breakpoint on an edge is met where the trace of the run has it") {
   again.breakpoints = {{condition}};
   again.start(mesh, LiveRun::From::file, "sheet.mesh");
   REQUIRE(again.wait(kForever) == LiveState::paused);
-  CHECK(again.progress().attempts == first);
+  CHECK(again.progress().attempts == first - 1);
+  CHECK(again.progress().last->number == first);
+  CHECK(again.progress().last->is_under_way);
   again.ask(Demand::stop);
+}
+
+TEST_CASE("a breakpoint holds inside of a recursion, as often as the trace has such calls") {
+  const test::TempFolder folder;
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.trace = folder / "live.trace";
+  run.breakpoints = {{parse_condition("deeper 1")}};
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  std::size_t held = 0;
+  while (run.wait(kForever) == LiveState::paused) {
+    ++held;
+    const LiveProgress progress = run.progress();
+    CHECK(progress.breakpoint == "deeper 1");
+    CHECK(progress.last->level > 1);
+    CHECK(progress.last->is_inside);
+    CHECK(progress.last->is_under_way);
+    CHECK(progress.last->number == progress.attempts + 1);
+    if (held % 16 == 1) check_sound(last_mesh(run), mesh);
+    run.ask(Demand::go_on);
+  }
+  CHECK(run.state() == LiveState::finished);
+  const TraceFile file(folder / "live.trace");
+  const auto& calls = file.calls();
+  CHECK(held > 10);
+  CHECK(held == static_cast<std::size_t>(std::count_if(
+                    calls.begin(), calls.end(), [](const Call& call) { return call.level > 1; })));
+  const auto end = last_mesh(run);
+  LiveRun plain;
+  plain.start(mesh, LiveRun::From::file, "sheet.mesh");
+  CHECK(plain.wait(kForever) == LiveState::finished);
+  CHECK(last_mesh(plain) == end);
+}
+
+TEST_CASE("breakpoints that are taken away inside of a call hold no more, and new ones do") {
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.breakpoints = {{parse_condition("deeper 0")}};
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  const std::size_t call = run.progress().last->number;
+  CHECK(run.progress().last->level > 0);
+  run.breakpoints = {{parse_condition("level 0 and accepted")}};
+  run.tell_breakpoints();
+  run.ask(Demand::go_on);
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  CHECK(run.progress().breakpoint == "level 0 and accepted");
+  CHECK(run.progress().last->number >= call);
+  run.breakpoints = {{parse_condition("deeper 0")}};
+  run.tell_breakpoints();
+  run.ask(Demand::go_on);
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  run.breakpoints.clear();
+  run.tell_breakpoints();
+  run.ask(Demand::go_on);
+  CHECK(run.wait(kForever) == LiveState::finished);
+}
+
+TEST_CASE("a run that is held inside of a call can be stopped, and its mesh is sound") {
+  const LiveRun::Input mesh = asset("sheet.mesh");
+  LiveRun run;
+  run.breakpoints = {{parse_condition("deeper 1")}};
+  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  REQUIRE(run.wait(kForever) == LiveState::paused);
+  run.ask(Demand::stop);
+  CHECK(run.wait(kForever) == LiveState::stopped);
+  check_sound(last_mesh(run), mesh);
 }
 
 TEST_CASE("a run of some changes a second shows each, and gives the same mesh") {
