@@ -117,6 +117,8 @@ json history(Session& s, const json& a) {
   }
   debugger.ask_history(debugger.subject_of(asked));
   debugger.asked = asked;
+  const Selection found = s.document.selection_of(debugger.history()->subject);
+  if (found != Selection()) s.document.select(found);
   s.document.message = {fmt::format("the history of {} is in the panel History", asked), false};
   return to_json(debugger.file(), *debugger.history());
 }

@@ -67,11 +67,27 @@ void list_calls(Session& session, const History& history, bool in_trials) {
     if (ImGui::IsItemHovered()) {
       session.document.hovering = session.document.pointed_call(each.call);
       const std::string reason(debugger.file().reason(call));
-      ImGui::SetTooltip("%s", reason.c_str());
+      ImGui::SetTooltip("%s\n%s", text.c_str(), reason.c_str());
     }
     ImGui::PopID();
   }
   if (chosen != kNoCall) run_from_window(find_command("enter"), session, {chosen});
+}
+
+/// Goes to where it is, if need be to when it was there last.
+void show_subject(Session& session, const History& history) {
+  if (!ImGui::Button("show")) return;
+  Document& document = session.document;
+  guarded(document, [&] {
+    Selection found = document.selection_of(history.subject);
+    if (found == Selection()) {
+      Debugger& debugger = *document.debugger();
+      debugger.seek(history.removed.value_or(debugger.end()));
+      document.show_trace();
+      found = document.selection_of(history.subject);
+    }
+    if (found != Selection()) document.fly_to(found);
+  });
 }
 
 }  // namespace
@@ -84,6 +100,7 @@ void draw_history_panel(Session& session) {
     return;
   }
   wrapped_text(history_paragraph(session.document.debugger()->file(), *history));
+  show_subject(session, *history);
   if (history->calls.empty()) return;
   if (ImGui::TreeNodeEx("calls", ImGuiTreeNodeFlags_DefaultOpen)) {
     list_calls(session, *history, false);

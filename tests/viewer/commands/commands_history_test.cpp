@@ -49,6 +49,14 @@ TEST_CASE("a script asks a trace about tets, edges and vertices") {
   const auto worst = find_command("history").run(s.session, {"tet:worst"});
   CHECK(worst["text"].get<std::string>().find("and is there when the trace ends") !=
         std::string::npos);
+  find_command("to_end").run(s.session, {});
+  find_command("history").run(s.session, {"tet:worst"});
+  const auto* selected = std::get_if<TetHandle>(&s.document.selection());
+  REQUIRE(selected != nullptr);
+  for (const VertexHandle v : s.document.mesh().vertices(*selected)) {
+    const auto& subject = s.document.debugger()->history()->subject;
+    CHECK(std::find(subject.begin(), subject.end(), v) != subject.end());
+  }
 }
 
 TEST_CASE("the selection is asked for, and numbers of a file count from 0") {
