@@ -31,12 +31,15 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
   switch (run.state) {
     case LiveState::failed:
       return {run.error, true};
-    case LiveState::paused:
-      if (run.attempts == 0) return {"paused before the first call", false};
-      return {
-          fmt::format("{} in {} after call {}{}", run.breakpoint.empty() ? "paused" : "breakpoint",
-                      run.phase, run.attempts, run.breakpoint.empty() ? "" : ": " + run.breakpoint),
-          false};
+    case LiveState::paused: {
+      const bool is_in_call = run.last && (run.last->is_inside || run.last->is_under_way);
+      if (!is_in_call && run.attempts == 0) return {"paused before the first call", false};
+      return {fmt::format("{} in {} {} call {}{}", run.breakpoint.empty() ? "paused" : "breakpoint",
+                          run.phase, is_in_call ? "in" : "after",
+                          is_in_call ? run.last->number : run.attempts,
+                          run.breakpoint.empty() ? "" : ": " + run.breakpoint),
+              false};
+    }
     default:
       return {fmt::format("{}: {}, {:.1f} s", schedule, to_string(run.state), run.seconds), false};
   }
@@ -292,7 +295,8 @@ void Document::mark_live_call(const LiveProgress& run) {
   if (!is_watched || is_over || !call) return;
   marks_ = highlight_points(call->target, ball_.centre);
   select({});
-  if (!follow_changes_live || followed_call_ == call->number) return;
+  const bool is_known = followed_call_ == call->number && !call->is_inside;
+  if (!follow_changes_live || is_known) return;
   followed_call_ = call->number;
   constexpr double kSurroundings = 4;
   double radius = 0.02 * ball_.radius;  // of a vertex
@@ -307,6 +311,7 @@ bool Document::awaits_live() const {
 
 void Document::select(const Selection& selection) {
   selection_ = selection;
+  picked_through_.reset();
   highlight_.reset();
   legend_.clear();
   is_named_ = false;
@@ -315,9 +320,18 @@ void Document::select(const Selection& selection) {
 }
 
 void Document::pick(double x, double y) {
+  constexpr double kSamePlace = 4;  // pixels
   const glm::dvec2 at = to_canvas(x, y);
-  const auto hit = cast(scene(), view.camera.ray(at.x, at.y, canvas));
+  const Ray ray = view.camera.ray(at.x, at.y, canvas);
+  const auto front = cast(scene(), ray);
+  const auto bad = cast_through(scene(), ray);
+  const bool is_behind = bad && (!front || bad->tet != front->tet);
+  const bool is_again = picked_through_ && picked_through_->camera == view.camera &&
+                        glm::distance(picked_through_->pixel, at) < kSamePlace;
+  const bool is_through = is_behind && !(is_again && front);
+  const auto& hit = is_through ? bad : front;
   select(hit ? refine(mesh_, *hit, pick_kind, view.camera, canvas) : Selection());
+  if (is_through) picked_through_ = {at, view.camera};
 }
 
 const Histogram& Document::histogram() {

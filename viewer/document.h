@@ -158,7 +158,8 @@ class Document {
   const Selection& selection() const { return selection_; }
   /// Precondition: it names something in the mesh.
   void select(const Selection& selection);
-  /// What lies under a pixel of the window, or nothing.
+  /// What lies under a pixel of the window, or nothing. A bad tet that is seen through the rest
+  /// comes first; the next pick there takes what is in front of it.
   void pick(double x, double y);
   /// The whole mesh from the home direction.
   void go_home();
@@ -216,6 +217,12 @@ class Document {
   std::optional<MeshStatistics> before_;
   std::vector<Label> regions_;
   Selection selection_;
+  /// Where the last pick took a bad tet behind the surface.
+  struct Place {
+    glm::dvec2 pixel{0};
+    Camera camera;
+  };
+  std::optional<Place> picked_through_;
   LiveState followed_ = LiveState::idle;  // what the user was told
   std::size_t followed_call_ = 0;         // of a run: whose place is marked
 

@@ -52,8 +52,11 @@ void Controller::ask(double x, double y) {
 
 void Controller::click(double x, double y, double time) {
   constexpr double kSoon = 0.3;
-  session_.document.pick(x, y);
-  if (time - last_click_ < kSoon) session_.document.fit();
+  if (time - last_click_ < kSoon) {
+    session_.document.fit();  // what the first click has picked
+  } else {
+    session_.document.pick(x, y);
+  }
   last_click_ = time;
 }
 

@@ -37,6 +37,24 @@ double distance_to(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, con
   return t >= 0 ? t : kNone;
 }
 
+/// Triangles without a tet are passed over.
+std::optional<Hit> first_hit(std::span<const SurfaceVertex> corners,
+                             std::span<const TetHandle> tets, const glm::dvec3& origin,
+                             const Ray& ray) {
+  const Ray local = {ray.origin - origin, ray.direction};
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    const double d =
+        distance_to(local, corners[i].position, corners[i + 1].position, corners[i + 2].position);
+    if (d >= nearest || !tets[i / 3].is_valid()) continue;
+    nearest = d;
+    best = i / 3;
+  }
+  if (nearest == std::numeric_limits<double>::infinity()) return std::nullopt;
+  return Hit{tets[best], ray.origin + nearest * ray.direction};
+}
+
 glm::dvec3 at(const TetMesh& mesh, VertexHandle v) {
   return to_glm(mesh.point(v));
 }
@@ -266,18 +284,11 @@ class Teller {
 }  // namespace
 
 std::optional<Hit> cast(const Scene& scene, const Ray& ray) {
-  const Ray local = {ray.origin - scene.origin, ray.direction};
-  double nearest = std::numeric_limits<double>::infinity();
-  std::size_t best = 0;
-  for (std::size_t i = 0; i + 2 < scene.surface.size(); i += 3) {
-    const double d = distance_to(local, scene.surface[i].position, scene.surface[i + 1].position,
-                                 scene.surface[i + 2].position);
-    if (d >= nearest) continue;
-    nearest = d;
-    best = i / 3;
-  }
-  if (nearest == std::numeric_limits<double>::infinity()) return std::nullopt;
-  return Hit{scene.surface_tets[best], ray.origin + nearest * ray.direction};
+  return first_hit(scene.surface, scene.surface_tets, scene.origin, ray);
+}
+
+std::optional<Hit> cast_through(const Scene& scene, const Ray& ray) {
+  return first_hit(scene.through, scene.through_tets, scene.origin, ray);
 }
 
 Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camera& camera,

@@ -32,6 +32,9 @@ struct Hit {
 /// milliseconds for a million.
 std::optional<Hit> cast(const Scene& scene, const Ray& ray);
 
+/// The first bad tet that the ray meets, of those that are seen through the rest. Cost: likewise.
+std::optional<Hit> cast_through(const Scene& scene, const Ray& ray);
+
 /// The tet of the hit, or its edge or vertex. PickKind::nearest takes a vertex or an edge only when
 /// the mouse is within a few pixels of it.
 Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camera& camera,

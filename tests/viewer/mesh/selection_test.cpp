@@ -46,6 +46,43 @@ TEST_CASE("the ray through the middle of every visible triangle hits its tet") {
   CHECK(seen == 3 * 8);
 }
 
+TEST_CASE("a bad tet behind the surface is picked through it, and then what is in front") {
+  TestSession s(test::kuhn_cube(4, 0.35, 1));
+  const TetMesh& mesh = s.document.mesh();
+  const Scene& scene = s.document.scene();
+  const Camera& camera = s.document.view.camera;
+  const auto pick = [&](const glm::dvec2& at) {
+    s.document.pick(at.x, at.y);
+    return s.document.selection();
+  };
+  s.run("pick_kind", {"tet"});
+  unsigned seen = 0;
+  for (const TetHandle t : scene.through_tets) {
+    if (!t.is_valid()) continue;
+    const auto c = corners(mesh, t);
+    const auto at = camera.project((c[0] + c[1] + c[2] + c[3]) / 4.0, s.document.canvas);
+    const Ray ray = camera.ray(at->x, at->y, s.document.canvas);
+    const TetHandle front = cast(scene, ray)->tet;
+    const TetHandle bad = cast_through(scene, ray)->tet;
+    CHECK(mesh.quality(bad) < kBadThreshold);
+    if (front == bad) continue;
+    ++seen;
+    CHECK(pick(*at) == viewer::Selection(bad));
+    CHECK(pick(*at) == viewer::Selection(front));
+    CHECK(pick(*at) == viewer::Selection(bad));
+    s.document.view.camera.orbit(10, 0);
+    CHECK(pick(*at) != viewer::Selection(front));  // another view: from the beginning
+    s.document.view.camera.orbit(-10, 0);
+  }
+  CHECK(seen > 3);
+  s.run("bad");
+  CHECK(s.document.scene().bad_shown == 0);
+  const glm::dvec2 middle(200, 150);
+  const TetHandle front = cast(s.document.scene(), camera.ray(200, 150, s.document.canvas))->tet;
+  CHECK(pick(middle) == viewer::Selection(front));
+  CHECK(pick(middle) == viewer::Selection(front));
+}
+
 TEST_CASE("a click beside the mesh selects nothing") {
   TestSession s(test::one_tet());
   CHECK(s.run("pick", {200, 150})["kind"] != "nothing");
