@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -42,6 +43,7 @@ class OverlayDrawer {
         bottom_(top_ + document.canvas.height) {
     const bool on_dark =
         document.view.theme == "dark" && document.view.background == Background::gradient;
+    on_dark_ = on_dark;
     ink_ = on_dark ? figure::kWhite : figure::kBlack;
     ground_ = on_dark ? Colour{33, 36, 41, 255} : Colour{246, 247, 249, 255};
     drawing_.width = document.window.width;
@@ -208,9 +210,19 @@ class OverlayDrawer {
     const bool is_end = name.role == "a" || name.role == "b" || name.role == "v";
     Text role_text = figure::centred({left, middle}, role, text);
     role_text.anchor = Anchor::start;
-    role_text.colour = is_end ? kSupportingEdgeColour : kSkirtColour;
+    role_text.colour = readable(is_end ? kSupportingEdgeColour : kSkirtColour);
     if (!role.empty()) drawing_.add(std::move(role_text));
     words({left + role_width, middle}, number, Anchor::start, text);
+  }
+
+  /// A colour of lines, for words.
+  Colour readable(Colour colour) const {
+    if (!on_dark_) return colour;
+    constexpr int kWhite = 255;
+    for (std::uint8_t* part : {&colour.red, &colour.green, &colour.blue}) {
+      *part = static_cast<std::uint8_t>((*part + kWhite) / 2);
+    }
+    return colour;
   }
 
   void swatch(double left, double y, const Colour& colour, std::string text) {
@@ -241,6 +253,7 @@ class OverlayDrawer {
   const OverlayLook& look_;
   double scale_;
   double left_, top_, right_, bottom_;
+  bool on_dark_ = false;
   Colour ink_, ground_;
   Drawing drawing_;
   std::vector<figure::Box> taken_;  // by numbers

@@ -22,8 +22,9 @@ using figure::Text;
 
 namespace {
 
-constexpr double kRadius = 0.76;  // of the polygon
-constexpr double kGap = 0.05;     // between its corners and their names
+constexpr double kRadius = 0.76;  // of the polygon; less for long names
+constexpr double kLeastRadius = 0.5;
+constexpr double kGap = 0.05;  // between its corners and their names
 
 Place mix(const Place& p, const Place& q, double t) {
   return {(1 - t) * p.x + t * q.x, (1 - t) * p.y + t * q.y};
@@ -31,7 +32,8 @@ Place mix(const Place& p, const Place& q, double t) {
 
 class PolygonDrawer {
  public:
-  PolygonDrawer(const ShellPicture& shell, const RingLook& look) : shell_(shell), look_(look) {}
+  PolygonDrawer(const ShellPicture& shell, const RingLook& look)
+      : shell_(shell), look_(look), radius_(look.half * radius_for_names()) {}
 
   void chords() {
     const std::vector<Chord> chords = chords_of(shell_);
@@ -86,17 +88,40 @@ class PolygonDrawer {
   }
   Place corner(std::size_t i) const {
     const Eigen::Vector2d at = shell_.place(i);
-    return {look_.middle.x + look_.half * kRadius * at.x(),
-            look_.middle.y - look_.half * kRadius * at.y()};
+    return {look_.middle.x + radius_ * at.x(), look_.middle.y - radius_ * at.y()};
+  }
+
+  std::string name_text(std::size_t i) const { return fmt::format("{}", shell_.ring[i].index()); }
+  double half_width(std::size_t i) const {
+    return figure::text_width(name_text(i), look_.name_size, figure::Font::bold) / 2;
+  }
+  /// Of the middle of a name from its corner.
+  double distance_of_name(std::size_t i) const {
+    const Eigen::Vector2d out = shell_.place(i);
+    const double height = look_.name_size / 2;
+    return kGap * look_.half + half_width(i) * std::abs(out.x()) + height * std::abs(out.y());
+  }
+
+  /// The largest with which all names lie in the square, clear of the polygon.
+  double radius_for_names() const {
+    double radius = kRadius;
+    if (look_.name_size <= 0) return radius;
+    for (std::size_t i = 0; i < shell_.ring.size(); ++i) {
+      const double side = std::abs(shell_.place(i).x());
+      constexpr double kUpright = 0.3;  // above or below the polygon
+      if (side < kUpright) continue;
+      const double room = look_.half - half_width(i) - distance_of_name(i) * side;
+      radius = std::min(radius, room / (look_.half * side));
+    }
+    return std::max(radius, kLeastRadius);
   }
 
   /// Outside of its corner, so far that it is clear of the polygon, and inside of the square.
   Text name_of(std::size_t i) const {
-    const std::string number = fmt::format("{}", shell_.ring[i].index());
     const Eigen::Vector2d out = shell_.place(i);
-    const double width = figure::text_width(number, look_.name_size, figure::Font::bold) / 2;
+    const double width = half_width(i);
     const double height = look_.name_size / 2;
-    const double away = kGap * look_.half + width * std::abs(out.x()) + height * std::abs(out.y());
+    const double away = distance_of_name(i);
     const auto inside = [&](double middle, double at, double own) {
       const double most = std::max(look_.half - own, 0.0);
       return std::clamp(at, middle - most, middle + most);
@@ -104,7 +129,7 @@ class PolygonDrawer {
     const Place from = corner(i);
     Text name = figure::centred({inside(look_.middle.x, from.x + away * out.x(), width),
                                  inside(look_.middle.y, from.y - away * out.y(), height)},
-                                number, look_.name_size, figure::Font::bold);
+                                name_text(i), look_.name_size, figure::Font::bold);
     name.colour = look_.ink;
     return name;
   }
@@ -188,6 +213,7 @@ class PolygonDrawer {
 
   const ShellPicture& shell_;
   const RingLook& look_;
+  double radius_;  // of the polygon
   std::vector<std::pair<figure::Shape, Meaning>> areas_, lines_;
   std::vector<Number> numbers_;
 };

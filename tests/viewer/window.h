@@ -2,12 +2,14 @@
 // The window of the viewer under a display in memory, with real keys and mouse events.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -26,7 +28,9 @@ inline bool has_program(const std::string& name) {
 /// An X server without a screen, while it lives.
 class Display {
  public:
-  Display() {
+  /// @param size of its screen
+  explicit Display(const std::string& size) {
+    const std::string screen = size + "x24";
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
     pid_ = ::fork();
@@ -35,8 +39,8 @@ class Display {
       const auto out = fmt::format("{}", ends[1]);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDERR_FILENO);
-      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24", "-noreset",
-               static_cast<char*>(nullptr));
+      ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", screen.c_str(),
+               "-noreset", static_cast<char*>(nullptr));
       ::_exit(127);
     }
     ::close(ends[1]);
@@ -86,6 +90,22 @@ inline viewer::Image take_picture(const std::filesystem::path& folder) {
   return read_png(folder / "tetmend-view.png");
 }
 
+/// Waits until two pictures in a row are the same.
+inline void wait_until_still() {
+  viewer::Image last = take_picture(".");
+  for (int i = 0; i < 100; ++i) {
+    viewer::Image now = take_picture(".");
+    const bool is_same =
+        std::equal(last.pixels.begin(), last.pixels.end(), now.pixels.begin(), now.pixels.end(),
+                   [](const viewer::Colour& a, const viewer::Colour& b) {
+                     return a.red == b.red && a.green == b.green && a.blue == b.blue;
+                   });
+    if (is_same) return;
+    last = std::move(now);
+  }
+  FAIL("the picture goes on changing");
+}
+
 /// False, and a message that CTest understands, when a program of the test is not installed.
 inline bool can_test_window() {
   for (const char* name : {"Xvfb", "xdotool"}) {
@@ -100,12 +120,14 @@ inline bool can_test_window() {
 /// current folder. One at a time.
 class Viewer {
  public:
-  explicit Viewer(const std::filesystem::path& file, const std::string& size = "1000x700") {
+  explicit Viewer(const std::filesystem::path& file, const std::string& size = "1000x700",
+                  const std::string& scale = "1")
+      : display_(size) {
     const std::filesystem::path meshes = TETMEND_SOURCE_DIR "/assets/meshes";
     std::filesystem::current_path(folder_ / ".");
     err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
     std::vector<std::string> arguments = {"--size", size,       "--scale",
-                                          "1",      "--report", "report.json"};
+                                          scale,    "--report", "report.json"};
     if (!file.empty()) arguments.push_back((meshes / file).string());
     program_.emplace(arguments, "out", err_);
     type("search --sync --onlyvisible --name tetmend-view >/dev/null");

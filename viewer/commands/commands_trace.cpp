@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "kernel/grouped.h"
 #include "viewer/commands/command_group.h"
 
 namespace tetmend::viewer {
@@ -16,9 +17,10 @@ namespace {
 json arrive(Session& s, const std::string& text = {}) {
   s.document.show_trace();
   const Debugger& debugger = *s.document.debugger();
-  s.document.message = {text.empty() ? fmt::format("event {} of {}: {}", debugger.position(),
-                                                   debugger.end(), debugger.last_event())
-                                     : text,
+  s.document.message = {text.empty()
+                            ? fmt::format("event {} of {}: {}", grouped(debugger.position()),
+                                          grouped(debugger.end()), debugger.last_event())
+                            : text,
                         false};
   return debugger.position();
 }

@@ -206,7 +206,7 @@ void show_status(Session& session, const Area& area, float scale) {
       ImGui::SameLine();
       ImGui::TextDisabled("  shown: %s  %s", grouped(scene.tets_shown).c_str(), scene.note.c_str());
     } else {
-      ImGui::TextDisabled("drop a mesh here, or press Ctrl+O; F1 shows all keys");
+      ImGui::TextDisabled("drop a mesh or a trace here, or press Ctrl+O; F1 shows all keys");
     }
     ImGui::End();
   }

@@ -42,6 +42,7 @@ Layout lay_out(const Document& document, float scale) {
   if (bottom - top < 2 * top) return layout;  // the menu alone
   layout.status = {0, bottom, width, height - bottom};
   layout.canvas = {0, top, width, bottom - top};
+  if (!document.has_mesh()) return layout;  // the start screen
   const bool has_trace = document.debugger() != nullptr;
   if (has_trace && document.teaching && width >= kLeastTeachingWidth * scale &&
       height >= kLeastTeachingHeight * scale) {

@@ -26,7 +26,7 @@ struct Layout {
 /// Larger text for a lecture hall.
 inline constexpr float kTeachingText = 1.5F;
 
-/// Of a window that is too small for all of them, columns and then the strip are left out, so that
+/// Without a mesh there are no columns. Of a window that is too small for all of them, columns and then the strip are left out, so that
 /// the picture has at least two fifths of its width.
 Layout lay_out(const Document& document, float scale);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tree of calls: level, target, degree, quality, and how each ended, as a colour.
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -141,13 +142,28 @@ void scroll_to(const std::vector<CallRow>& rows, const Debugger& debugger) {
   }
 }
 
+/// Leaves room in the column for what stands below, so that the ring of the panel Shell is in sight.
+float table_height() {
+  constexpr float kLeastRows = 7;
+  constexpr float kMostRows = 22;
+  const float row = ImGui::GetTextLineHeightWithSpacing();
+  const float frame = ImGui::GetFrameHeightWithSpacing();
+  constexpr float kHeadings = 5;     // of panels
+  constexpr float kRunToFrames = 4;  // place, two rows of buttons, checkboxes
+  const float below = 2 * row + (kHeadings + kRunToFrames) * frame + row +
+                      kRingShare * ImGui::GetContentRegionAvail().x + frame +
+                      (kChordRows + 1) * row;
+  const float room = ImGui::GetWindowHeight() - ImGui::GetCursorPosY() - below;
+  return std::clamp(room, kLeastRows * row, kMostRows * row);
+}
+
 }  // namespace
 
 void draw_calls_panel(Session& session) {
   Debugger& debugger = *session.document.debugger();
   const std::vector<CallRow>& rows = debugger.rows();
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  const float height = 22 * ImGui::GetTextLineHeightWithSpacing();
+  const float height = table_height();
   if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
   const float font = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);

@@ -115,9 +115,9 @@ void list_chords(Document& document, const ShellPicture& shell) {
   if (shell.pockets.empty()) return ImGui::TextDisabled("too many corners to be searched");
   if (shell.locks.any()) wrapped_text(locks_text(shell));
   if (chords.empty()) return ImGui::TextDisabled("no chord has a pocket");
-  constexpr float kRows = 5.2F;  // with the head; more can be scrolled to
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  if (!ImGui::BeginTable("##chords", 3, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()}))
+  if (!ImGui::BeginTable("##chords", 3, kLooks,
+                         {0, kChordRows * ImGui::GetTextLineHeightWithSpacing()}))
     return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("chord, best first");
@@ -184,7 +184,7 @@ void draw_shell_panel(Session& session) {
   if (has_polygon) {
     wrapped_text(caption_of(*study, stage_at(*document.debugger(), *study)));
     ImGui::BeginGroup();
-    show_polygon(document, *study, 0.6F * width);
+    show_polygon(document, *study, kRingShare * width);
     ImGui::Checkbox("blended", &document.view.blended);
     ImGui::EndGroup();
     ImGui::SameLine(0.64F * width);

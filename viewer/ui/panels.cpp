@@ -11,6 +11,7 @@ std::span<const Panel> panels() {
   static constexpr std::array<Panel, 13> kPanels = {
       {{"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
+       {"Shell", left, trace, &draw_shell_panel},
        {"Histogram", left, mesh, &draw_histogram_panel},
        {"Display", left, mesh, &draw_display_panel},
        {"Cuts", left, mesh, &draw_cuts_panel},
@@ -18,7 +19,6 @@ std::span<const Panel> panels() {
        {"Step", right, trace, &draw_step_panel},
        {"History", right, trace, &draw_history_panel,
         [](const Document& d) { return d.debugger()->history().has_value(); }},
-       {"Shell", right, trace, &draw_shell_panel},
        {"Statistics", right, mesh, &draw_statistics_panel},
        {"Run", right, mesh, &draw_live_panel,
         [](const Document& d) { return d.live.state() != LiveState::idle; }},

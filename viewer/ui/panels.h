@@ -43,6 +43,10 @@ void draw_shell_panel(Session& session);
 void draw_lesson_panel(Session& session);
 void draw_history_panel(Session& session);
 
+// What others leave room for: the ring, in widths of the panel, and rows of the table of chords.
+inline constexpr float kRingShare = 0.6F;
+inline constexpr float kChordRows = 5.2F;  // with the head; more can be scrolled to
+
 // Parts of these, for the layout for teaching.
 /// The calls as a breadcrumb, and what the innermost is to do.
 void draw_stack(Session& session);

@@ -250,14 +250,18 @@ std::string name_of(const Debugger& debugger, const CallWindow& window) {
 
 void draw_legend(const Debugger& debugger, const CallWindow& window) {
   const auto& s = debugger.timeline().at(debugger.position());
-  ImGui::Text("event %s of %s", grouped(debugger.position()).c_str(),
-              grouped(debugger.end()).c_str());
+  const std::string event = fmt::format("event {}", grouped(debugger.position()));
+  const std::string all = fmt::format(" of {}", grouped(debugger.end()));
+  const std::string bad = fmt::format("  n_bad {}", grouped(s.n_bad));
+  const std::string worst = fmt::format("  q_worst {:.4f}", s.q_worst);
+  const float gaps = 2 * ImGui::GetStyle().ItemSpacing.x;
+  const bool is_wide = ImGui::CalcTextSize((event + all + bad + worst).c_str()).x + gaps <
+                       ImGui::GetContentRegionAvail().x;
+  ImGui::TextUnformatted((is_wide ? event + all : event).c_str());
   ImGui::SameLine();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kBadColour)), "  n_bad %s",
-                     grouped(s.n_bad).c_str());
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kBadColour)), "%s", bad.c_str());
   ImGui::SameLine();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kWorstColour)), "  q_worst %.4f",
-                     s.q_worst);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kWorstColour)), "%s", worst.c_str());
   const std::string below = fmt::format("  below: {}, events {} to {}", name_of(debugger, window),
                                         grouped(window.begin), grouped(window.end));
   ImGui::SameLine();

@@ -44,8 +44,9 @@ TEST_CASE("in the window a run is recorded, and opened in the debugger when it i
   click(729, 489);  // record
   click(737, 516);  // run
   wait_for("tetmend-live.trace");
-  type("sleep 1");  // its last mesh is shown
-  click(890, 536);  // debug this run
+  type("mousemove 500 350");
+  wait_until_still();  // its last mesh is shown
+  click(890, 536);     // debug this run
   type("mousemove 500 350 key Right Right Right Right");
   const nlohmann::json state = viewer.quit();
   REQUIRE(state.contains("trace"));
