@@ -108,6 +108,26 @@ TEST_CASE("an edge that is picked shows its shell") {
   CHECK(outcome.status == 0);
 }
 
+TEST_CASE("the start screen has no empty columns, in both themes") {
+  const TempFolder folder;
+  const Outcome outcome = run_script(folder, R"lua(
+    size(1000, 700)
+    panels()
+    for _, name in ipairs{"light", "dark"} do
+      theme(name)
+      for _, y in ipairs{60, 640} do
+        local side, inside = pixel(40, y), pixel(320, y)
+        for _, part in ipairs{"red", "green", "blue"} do
+          expect(math.abs(side[part] - inside[part]) <= 1, name .. " at " .. y)
+        end
+      end
+      expect((pixel(320, 640).red < 80) == (name == "dark"), name)
+    end
+  )lua");
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
 TEST_CASE("a live run takes the red away") {
   const TempFolder folder;
   // A run of a second, so that the script is in time to hold it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures and scripts of traces without a display, by the real program.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 
@@ -159,4 +160,56 @@ TEST_CASE("what is pointed at lights up in the picture and in the ring") {
   CHECK(lit(read_png(folder / "c.png"), 0, column) > 20);  // the target of the call
   CHECK(lit(read_png(folder / "e.png"), 450, 1050) > 20);  // likewise, between the columns
   CHECK(lit(read_png(folder / "d.png"), 450, 1050) == 0);
+}
+
+namespace {
+
+/// Width and height of what has the colour of the skirt polygon in the left column.
+std::array<int, 2> extent_of_ring(const viewer::Image& image) {
+  constexpr int kColumn = 450;
+  const auto is_skirt = [](const viewer::Colour& c) {
+    constexpr int kNear = 4;
+    return std::abs(c.red - 20) < kNear && std::abs(c.green - 120) < kNear &&
+           std::abs(c.blue - 220) < kNear;
+  };
+  int left = image.width, right = 0, top = image.height, bottom = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < kColumn; ++x) {
+      if (!is_skirt(image.at(x, y))) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      top = std::min(top, y);
+      bottom = std::max(bottom, y);
+    }
+  }
+  return {right - left, bottom - top};
+}
+
+}  // namespace
+
+TEST_CASE("the whole ring is in sight in small windows, without scrolling") {
+  const TempFolder folder;
+  const std::array<const char*, 3> names = {"large.png", "small.png", "least.png"};
+  const auto picture = [&](std::size_t i) { return (folder / names[i]).string(); };
+  const Outcome outcome =
+      run_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace",
+                 fmt::format(R"lua(
+    panels()
+    if state().teaching then teaching() end
+    seek(9)
+    size(1300, 1500)
+    screenshot("{}")
+    size(1300, 850)
+    screenshot("{}")
+    size(1280, 720)
+    screenshot("{}")
+  )lua",
+                             picture(0), picture(1), picture(2)));
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.status == 0);
+  const auto whole = extent_of_ring(read_png(picture(0)));
+  CHECK(whole[0] > 100);
+  CHECK(whole[1] > 100);
+  CHECK(extent_of_ring(read_png(picture(1))) == whole);
+  CHECK(extent_of_ring(read_png(picture(2))) == whole);
 }
