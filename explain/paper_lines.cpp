@@ -125,6 +125,25 @@ constexpr std::array<std::string_view, 7> kPolyhedron = {
     "fail"};
 constexpr Pseudocode kPolyhedronCode = {"Small polyhedron reconnection, at tet t", kPolyhedron};
 
+constexpr std::array<std::string_view, 6> kJoint = {
+    "the free vertices of tet t, and all tets around them",
+    "climb with all of them to where the bad tets lack least",
+    "    first in sum, then more and more the worst of them",
+    "if that helps tet t",
+    "if the tets are better as a whole",
+    "    move the vertices there"};
+constexpr Pseudocode kJointCode = {"Joint smoothing of tet t", kJoint};
+
+constexpr std::array<std::string_view, 7> kSequence = {
+    "opening: the first operator, which may make tets worse",
+    "if it has changed nothing: fail",
+    "for the bad tets among all that has changed so far",
+    "    try the next operators, as if they were alone",
+    "if all that has changed is better than at first",
+    "    keep it",
+    "else undo it all"};
+constexpr Pseudocode kSequenceCode = {"Sequence of operators at one target", kSequence};
+
 /// The line of an attempt that calls nothing described here, by what has happened last.
 struct Lines {
   Algorithm algorithm;
@@ -142,11 +161,18 @@ constexpr std::array<Lines, 6> kLines = {{
     {Algorithm::polyhedron_reconnection, &kPolyhedronCode, 1, 2, 6, 5, 4, 6, 7, 7, 1},
 }};
 
-const Lines* lines_of(Algorithm algorithm) {
+// Those that a trace knows by their names alone.
+constexpr Lines kJointLines = {Algorithm::other, &kJointCode, 1, 4, 6, 5, 2, 6, 5, 4, 1};
+constexpr Lines kSequenceLines = {Algorithm::other, &kSequenceCode, 1, 5, 1, 7, 4, 6, 7, 2, 1};
+
+const Lines* lines_of(const TraceFile& file, const Call& call) {
   for (const Lines& lines : kLines) {
-    if (lines.algorithm == algorithm) return &lines;
+    if (lines.algorithm == call.algorithm) return &lines;
   }
-  return nullptr;
+  if (call.algorithm != Algorithm::other) return nullptr;
+  const std::string_view name = file.name(call.operator_name);
+  if (name == "joint_smoothing") return &kJointLines;
+  return name.substr(0, name.find('(')) == "sequence" ? &kSequenceLines : nullptr;
 }
 
 bool is_shell(const Call& call) {
@@ -239,19 +265,22 @@ const Pseudocode& table_code() {
   return kTableCode;
 }
 
-const Pseudocode* code_of(Algorithm algorithm) {
-  if (const Lines* lines = lines_of(algorithm)) return lines->code;
-  if (algorithm == Algorithm::recursion) return &kRecursionCode;
-  return searches_covering(algorithm) ? &kShellCode : nullptr;
+const Pseudocode* code_of(const TraceFile& file, const Call& call) {
+  if (const Lines* lines = lines_of(file, call)) return lines->code;
+  if (call.algorithm == Algorithm::recursion) return &kRecursionCode;
+  return searches_covering(call.algorithm) ? &kShellCode : nullptr;
 }
 
 CodePlace code_place(const TraceFile& file, std::span<const std::uint32_t> stack, std::size_t i,
                      std::uint64_t position) {
   const Call& call = file.calls()[stack[i]];
-  const Pseudocode* code = code_of(call.algorithm);
+  const Pseudocode* code = code_of(file, call);
   if (code == nullptr) return {};
   const bool is_innermost = i + 1 == stack.size();
-  if (const Lines* lines = lines_of(call.algorithm)) {
+  if (const Lines* lines = lines_of(file, call)) {
+    const bool is_opening =
+        lines == &kSequenceLines && !is_innermost && stack[i + 1] == stack[i] + 1;
+    if (is_opening) return {code, 1};
     return {code, is_innermost ? line_of(file, *lines, call, position) : lines->inner};
   }
   if (is_shell(call)) return {code, is_innermost ? line_of_shell(file, call, position) : 1};

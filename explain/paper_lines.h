@@ -30,7 +30,7 @@ struct CodePlace {
 };
 
 /// What an attempt of that kind follows; null where it is not described.
-const Pseudocode* code_of(Algorithm algorithm);
+const Pseudocode* code_of(const TraceFile& file, const Call& call);
 
 /// Where call number stack[i] is when `position` events have happened. Precondition: it is on the
 /// stack of calls, which is given outermost first.

@@ -320,7 +320,7 @@ class Recording {
             {"outcome", name_of(outcome_of(call))},
             {"degrees", degree_text(facts)},
             {"qualities", quality_text(call, facts)},
-            {"code", code_number(code_of(call.algorithm))}};
+            {"code", code_number(code_of(file_, call))}};
   }
 
   Json call_at(std::uint32_t k) {

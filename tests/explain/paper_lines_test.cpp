@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "explain/paper_lines.h"
 
+#include <map>
+
 #include <doctest/doctest.h>
 
 #include "explain/stepper.h"
@@ -92,6 +94,40 @@ TEST_CASE("a transformation that is undone goes from its covering back to the co
     }
   }
   CHECK(seen > 0);
+}
+
+TEST_CASE("a sequence opens, goes on with the other operators, and keeps or undoes it all") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  test::record(mesh, folder / "run.trace", {}, {}, Schedule("test.lua", R"lua(
+    for _ = 1, 3 do
+      apply(sequence{{"edge_split", order = "longest"}, "smoothing", "joint_smoothing"},
+            {on = {worst = 50}})
+    end)lua"));
+  const TraceFile file(folder / "run.trace");
+  std::map<unsigned, unsigned> lines;
+  unsigned joint = 0;
+  for (std::uint32_t k = 0; k < file.calls().size(); ++k) {
+    const Call& call = file.calls()[k];
+    for (const std::uint64_t position : {call.events.begin + 1, call.events.end}) {
+      const auto stack = call_stack(file, position);
+      for (std::size_t i = 0; i < stack.size(); ++i) {
+        const CodePlace place = code_place(file, stack, i, position);
+        REQUIRE(place.code != nullptr);
+        CHECK(place.line >= 1);
+        CHECK(place.line <= place.code->lines.size());
+        const Call& at = file.calls()[stack[i]];
+        joint += file.name(at.operator_name) == "joint_smoothing" ? 1 : 0;
+        if (at.depth > 0) continue;
+        CHECK(place.code->title == "Sequence of operators at one target");
+        ++lines[place.line];
+        if (position == at.events.end) CHECK((place.line == 6) == at.accepted());
+      }
+    }
+  }
+  for (const unsigned line : {1U, 4U, 6U}) CHECK(lines[line] > 0);
+  CHECK(lines[2] + lines[7] > 0);
+  CHECK(joint > 0);
 }
 
 TEST_CASE("the algorithms have as many lines as in the paper") {
