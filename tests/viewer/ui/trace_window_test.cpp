@@ -30,14 +30,14 @@ TEST_CASE("breakpoints are set, switched off and taken away with the mouse") {
   const HandmadeTrace trace;
   Viewer viewer(trace.path(), "1300x850");
   for (const char* place : {"refused", "deeper 0", "accepted"}) {
-    click(200, 611);  // the place to run to
+    click(200, 296);  // the place to run to
     type("key ctrl+a");
     type(fmt::format("type --delay 80 '{}'", place));
-    click(213, 638);  // breakpoint
+    click(213, 323);  // breakpoint
   }
   // Now there is a row for each, 27 pixels high.
-  click(18, 665);   // "refused" is off
-  click(414, 719);  // "accepted" is gone
+  click(18, 350);   // "refused" is off
+  click(414, 404);  // "accepted" is gone
   click(1071, 70);  // run
   const auto state = viewer.quit();
   CHECK(state["trace"]["breakpoints"] == nlohmann::json{"refused", "deeper 0"});
@@ -48,17 +48,17 @@ TEST_CASE("the mouse runs to a place and back, and enters a call in tree and bre
   if (!can_test_window()) return;
   const HandmadeTrace trace;
   Viewer viewer(trace.path(), "1300x850");
-  click(200, 611);
+  click(200, 296);
   type("key ctrl+a");
   type("type --delay 80 'edge 0 2'");
-  click(50, 638);  // run to next: 7
+  click(50, 323);  // run to next: 7
   type("mousemove 650 300 key l");
   click(100, 109);  // the second row of the tree: the transformation, 4
   type("mousemove 650 300 key l");
   click(900, 153);  // the first crumb: the recursion around it, 3
   type("mousemove 650 300 key l");
   click(1025, 70);  // out: 9
-  click(133, 638);  // before: back to 7
+  click(133, 323);  // before: back to 7
   const auto state = viewer.quit();
   CHECK(state["trace"]["bookmarks"] == nlohmann::json{3, 4, 7});
   CHECK(state["trace"]["position"] == 7);
@@ -97,7 +97,7 @@ TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, rin
   const std::vector<Place> places = {{200, 109, {0, 1}},   // second row of the tree
                                      {545, 731, {0, 1}},   // the same call in the icicles
                                      {1060, 302, {1, 5}},  // the second crumb
-                                     {984, 473, {0}},      // the name of a corner of the ring
+                                     {134, 461, {0}},      // the name of a corner of the ring
                                      {627, 369, {0}},      // the vertex in the picture
                                      {700, 150, {}}};      // nothing
   for (const Place& place : places) {
@@ -118,13 +118,12 @@ TEST_CASE("on a screen of 3840 x 2160 with text twice as large the mouse hits wh
   Viewer viewer(kLesson, "3840x2160", "2");
   type("mousemove 1900 900 key shift+t");
   for (int i = 0; i < 4; ++i) type("key shift+l");
-  type("mousemove 400 218");  // second row of the tree
-  for (int i = 0; i < 2; ++i) take_picture(".");
-  type("key l");
-  type("mousemove 3400 592 click 1");  // the first crumb
+  type("mousemove 3080 604 click 1");  // the first crumb: the recursion for edge 0 1
+  type("mousemove 1900 900 key l");
+  type("mousemove 400 218 click 1");  // the second row of the tree: its transformation
   const auto state = viewer.quit();
-  CHECK(state["trace"]["bookmarks"] == nlohmann::json{8});
-  CHECK(state["trace"]["position"] == 2);
+  CHECK(state["trace"]["bookmarks"] == nlohmann::json{2});
+  CHECK(state["trace"]["position"] == 4);
 }
 
 TEST_CASE("a right click goes to what the mouse is on, or asks for its history") {
@@ -149,8 +148,8 @@ TEST_CASE("a right click goes to what the mouse is on, or asks for its history")
   SUBCASE("the history of a vertex of the ring") {
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
-    type("mousemove 984 473 click 3");
-    click(1010, 530);  // History of this vertex
+    type("mousemove 134 461 click 3");
+    click(160, 518);  // History of this vertex
     CHECK(viewer.quit()["message"] == "the history of vertex:0 is in the panel History");
   }
   SUBCASE("Escape closes the menu, and nothing else") {
