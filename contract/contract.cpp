@@ -49,11 +49,9 @@ MeshData slid(MeshData data, const std::vector<double>& planes, double step, std
   return data;
 }
 
-/// The mesh with a surface that may move by so much; 0: where that changes no shape.
-TetMesh with_free_surface(const MeshData& data, double length) {
+/// The mesh with a surface that may move by so much; nothing asked for: where that changes no shape.
+TetMesh with_free_surface(const MeshData& data, const EnvelopeOptions& options) {
   TetMesh mesh(data);
-  EnvelopeOptions options;
-  options.length = length;
   mesh.set_surface_guard(Envelope::of(mesh, options));
   return mesh;
 }
@@ -94,7 +92,7 @@ Outcome try_everything(const Cast& cast, const TetMesh& mesh) {
 }  // namespace
 
 TetMesh cube_with_free_sides(unsigned cells, std::uint64_t seed) {
-  return with_free_surface(slid(kuhn_cube(cells, 0, seed), {0, 1}, 0.2 / cells, seed), 0);
+  return with_free_surface(slid(kuhn_cube(cells, 0, seed), {0, 1}, 0.2 / cells, seed), {});
 }
 
 std::vector<Ground> grounds() {
@@ -104,10 +102,27 @@ std::vector<Ground> grounds() {
   all.push_back({"half_frozen_ball", half_frozen(delaunay_ball(150, 13))});
   all.push_back({"ball_with_free_slots", with_free_slots(delaunay_ball(100, 12))});
   all.push_back({"cube_with_free_sides", cube_with_free_sides(3, 14)});
+  all.push_back({"regions_with_free_wall",
+                 with_free_surface(slid(two_regions(), {0, 0.5, 1}, 0.12, 15), {})});
   all.push_back(
-      {"regions_with_free_wall", with_free_surface(slid(two_regions(), {0, 0.5, 1}, 0.12, 15), 0)});
-  all.push_back({"ball_with_free_surface", with_free_surface(delaunay_ball(120, 16), 0.05)});
+      {"ball_with_free_surface", with_free_surface(delaunay_ball(120, 16), {.length = 0.05})});
+  all.push_back({"bowl_with_free_surface", bowl_with_free_surface({.length = 0.004}, 17)});
+  all.push_back({"bowl_with_a_share", bowl_with_free_surface({.share = 0.01}, 18)});
   return all;
+}
+
+TetMesh bowl_with_free_surface(const EnvelopeOptions& options, std::uint64_t seed) {
+  constexpr unsigned kCells = 3;
+  MeshData data = slid(kuhn_cube(kCells, 0, seed), {0, 1}, 0.2 / kCells, seed);
+  for (std::size_t i = 0; i < data.tets.size(); ++i) {
+    data.tets[i].label = i / 6 < kCells * kCells ? 1 : 2;  // the lowest layer of cells
+  }
+  for (Point& p : data.points) {
+    const double x = p.x() - 0.5;
+    const double y = p.y() - 0.5;
+    p.z() += 0.6 * (x * x + y * y);
+  }
+  return with_free_surface(data, options);
 }
 
 Candidate with_defaults(const Registry& registry, std::string_view name) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contract/trials.h"
+#include "envelope/envelope.h"
 #include "ops/registry.h"
 
 namespace tetmend::contract {
@@ -24,6 +25,9 @@ std::vector<Ground> grounds();
 /// A cube of cells^3 cells, each of six tets, all vertices but the corners moved from their places,
 /// those of sides and edges along them. Its surface may change where that changes no shape.
 TetMesh cube_with_free_sides(unsigned cells, std::uint64_t seed);
+/// A block of 27 cells in two layers of labels 1 and 2, bent so much that a flip of two triangles of
+/// its faces or of the wall between them may take the surface a twentieth of an edge away.
+TetMesh bowl_with_free_surface(const EnvelopeOptions& options, std::uint64_t seed);
 
 /// With the default parameters.
 Candidate with_defaults(const Registry& registry, std::string_view name);

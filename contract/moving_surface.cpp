@@ -37,15 +37,6 @@ double distance(const Point& p, const Triangle& t) {
   return inside ? std::abs(normal.dot(p - t[0])) / length : nearest;
 }
 
-double distance(const Point& p, const std::vector<Triangle>& triangles) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : triangles) {
-    const double reach = std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
-    if ((p - t[0]).norm() - reach < nearest) nearest = std::min(nearest, distance(p, t));
-  }
-  return nearest;
-}
-
 /// From the corner that comes first on, the sense kept.
 std::array<std::array<double, 3>, 3> key_of(const Triangle& t) {
   std::array<std::array<double, 3>, 3> key;
@@ -67,18 +58,60 @@ std::vector<Triangle> missing(const std::vector<Triangle>& some,
   return rest;
 }
 
-/// The largest distance of samples of what is not among `others` to them.
-double farthest(const std::vector<Triangle>& some, const std::vector<Triangle>& others) {
-  constexpr int kParts = 4;
-  double worst = 0;
-  for (const Triangle& t : missing(some, others)) {
-    for (int i = 0; i <= kParts; ++i) {
-      for (int k = 0; i + k <= kParts; ++k) {
-        const double u = static_cast<double>(i) / kParts;
-        const double v = static_cast<double>(k) / kParts;
-        worst = std::max(worst, distance(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]), others));
-      }
+/// Calls f(p) at samples of a triangle.
+template <class F>
+void sample(const Triangle& t, F&& f) {
+  constexpr int kParts = 5;
+  for (int i = 0; i <= kParts; ++i) {
+    for (int k = 0; i + k <= kParts; ++k) {
+      const double u = static_cast<double>(i) / kParts;
+      const double v = static_cast<double>(k) / kParts;
+      f(Point(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0])));
     }
+  }
+}
+
+/// Triangles, and how near a point must be to each of them.
+struct Targets {
+  const std::vector<Triangle>& triangles;
+  std::vector<double> tolerances;  ///< none: 0
+
+  /// By how much the point is too far from all of them; negative: it is near enough.
+  double excess(const Point& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const Triangle& t = triangles[i];
+      const double tolerance = tolerances.empty() ? 0 : tolerances[i];
+      const double reach = std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
+      if ((p - t[0]).norm() - reach - tolerance >= least) continue;
+      least = std::min(least, distance(p, t) - tolerance);
+    }
+    return least;
+  }
+};
+
+/// The worst excess of samples of either surface, and which way it was found.
+struct Excess {
+  double most = -std::numeric_limits<double>::infinity();
+  bool of_old = false;
+
+  void note(double excess, bool old) {
+    if (excess > most) *this = {excess, old};
+  }
+};
+
+Excess worst_excess(const SurfaceShape& before, const std::vector<Triangle>& old,
+                    const std::vector<Triangle>& now) {
+  Excess worst;
+  Targets near{old, {}};
+  for (const Triangle& t : old) near.tolerances.push_back(before.tolerance(t));
+  for (const Triangle& t : missing(now, old)) {
+    sample(t, [&](const Point& p) { worst.note(near.excess(p), false); });
+  }
+  const Targets present{now, {}};
+  for (const Triangle& t : missing(old, now)) {
+    const double tolerance = before.tolerance(t);
+    sample(t, [&](const Point& p) { worst.note(present.excess(p) - tolerance, true); });
   }
   return worst;
 }
@@ -91,8 +124,17 @@ double area(const std::vector<Triangle>& triangles) {
 
 }  // namespace
 
+double SurfaceShape::tolerance(const Triangle& t) const {
+  if (length > 0) return length;
+  const double edges = (t[1] - t[0]).norm() + (t[2] - t[1]).norm() + (t[0] - t[2]).norm();
+  return std::min(share * edges / 3, 0.01 * diagonal);
+}
+
 SurfaceShape surface_shape(const TetMesh& mesh) {
   SurfaceShape shape;
+  const auto& envelope = dynamic_cast<const Envelope&>(*mesh.surface_guard());
+  shape.share = envelope.reference().share;
+  shape.length = envelope.reference().length;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low = Point::Constant(kFar);
   Point high = Point::Constant(-kFar);
@@ -117,26 +159,18 @@ SurfaceShape surface_shape(const TetMesh& mesh) {
   return shape;
 }
 
-double surface_tolerance(const TetMesh& mesh) {
-  const auto& envelope = dynamic_cast<const Envelope&>(*mesh.surface_guard());
-  const auto& tolerances = envelope.reference().tolerances;
-  return tolerances.empty() ? 0 : *std::max_element(tolerances.begin(), tolerances.end());
-}
-
-std::string complaint_about_shape(const SurfaceShape& before, const SurfaceShape& now,
-                                  double tolerance) {
+std::string complaint_about_shape(const SurfaceShape& before, const SurfaceShape& now) {
   const double rounding = 1e-12 * before.diagonal;
   for (const auto& [sides, faces] : now.faces) {
     const auto old = before.faces.find(sides);
     if (old == before.faces.end()) return "labels meet that did not meet before";
-    const double there = farthest(faces, old->second);
-    const double back = farthest(old->second, faces);
-    if (std::max(there, back) > tolerance + rounding) {
-      return fmt::format("the surface is {:.3g} off, and may be {:.3g}", std::max(there, back),
-                         tolerance);
+    const Excess excess = worst_excess(before, old->second, faces);
+    if (excess.most > rounding) {
+      return fmt::format("a point of the {} surface lies {:.3g} farther off than it may",
+                         excess.of_old ? "old" : "new", excess.most);
     }
     const double was = area(old->second);
-    if (tolerance == 0 && std::abs(area(faces) - was) > 1e-12 * was) {
+    if (before.is_flat() && std::abs(area(faces) - was) > 1e-12 * was) {
       return "the area of the surface changed";
     }
   }

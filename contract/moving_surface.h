@@ -21,18 +21,23 @@ struct SurfaceShape {
 
   std::map<Sides, std::vector<Triangle>> faces;
   double diagonal = 0;  ///< of the box around them
+  /// How far the surface may move from here, as the guard was asked: a share of the mean edge
+  /// length of each triangle, or a length; both 0: by rounding alone.
+  double share = 0, length = 0;
+
+  bool is_flat() const { return share == 0 && length == 0; }
+  /// Of a triangle of this surface. Computed from what was asked: a guard that grants more is
+  /// found out.
+  double tolerance(const Triangle& t) const;
 };
 
+/// Precondition: the mesh has a guard.
 SurfaceShape surface_shape(const TetMesh& mesh);
 
-/// By how much a surface may be off that of the mesh when its guard was made; 0: only by rounding.
-/// Precondition: it has a guard.
-double surface_tolerance(const TetMesh& mesh);
-
 /// What is wrong with a surface that was another before; empty if nothing is. Samples where faces
-/// are others than before, in both directions; asks for the same areas if the tolerance is 0.
+/// are others than before, in both directions, each triangle of the old surface with a tolerance
+/// of its own; asks for the same areas if that is 0. Shares no code with the guard.
 /// Cost: the product of the numbers of faces, of which most are passed over.
-std::string complaint_about_shape(const SurfaceShape& before, const SurfaceShape& now,
-                                  double tolerance);
+std::string complaint_about_shape(const SurfaceShape& before, const SurfaceShape& now);
 
 }  // namespace tetmend::contract

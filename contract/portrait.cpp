@@ -125,12 +125,12 @@ std::string complaint_about_loss(const Portrait& before, const TetMesh& changed)
   if (now.constrained_edges != before.constrained_edges) return "constrained edges changed";
   if (now.fixed != before.fixed) return "a fixed vertex moved or vanished";
   if (now.frozen != before.frozen) return "a frozen tet changed";
-  const double tolerance = before.shape ? surface_tolerance(mesh) : 0;
-  if (auto about = complaint_about_regions(before, now, tolerance == 0); !about.empty()) {
+  const bool exact = !before.shape || before.shape->is_flat();
+  if (auto about = complaint_about_regions(before, now, exact); !about.empty()) {
     return about;
   }
   if (before.shape) {
-    auto about = complaint_about_shape(*before.shape, *now.shape, tolerance);
+    auto about = complaint_about_shape(*before.shape, *now.shape);
     if (!about.empty()) return about;
   }
   for (const TetVertices& tet : now.doubtful) {

@@ -27,7 +27,7 @@ struct TETMEND_API EnvelopeOptions {
   double share = 0;   ///< of the mean edge length of each triangle of the input
   double length = 0;  ///< the same everywhere, in lengths of the mesh (TetMesh::scale()); not both
   double angle = 40;  ///< of features, in degrees
-  std::vector<VertexHandle> kept;  ///< further vertices that stay
+  std::vector<VertexHandle> kept = {};  ///< further vertices that stay
 
   bool is_flat() const { return share == 0 && length == 0; }
 };

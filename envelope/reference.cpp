@@ -75,7 +75,11 @@ bool face_each_other(const Element& a, const Element& b, const Point& way, doubl
 
 Reference::Reference(const TetMesh& mesh, const SurfaceFeatures& features,
                      const EnvelopeOptions& options)
-    : patches(features.patches), lines(features.lines), flatness(tetmend::flatness(mesh)) {
+    : patches(features.patches),
+      lines(features.lines),
+      share(options.share),
+      length(options.length),
+      flatness(tetmend::flatness(mesh)) {
   std::vector<TriangleSet::Corners> corners;
   corners.reserve(features.faces.size());
   for (const auto& face : features.faces) {

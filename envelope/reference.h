@@ -34,7 +34,8 @@ class Reference {
 
   std::vector<SurfaceFeatures::Patch> patches;
   std::vector<SurfaceFeatures::Line> lines;
-  double flatness = 0;  ///< see flatness()
+  double share = 0, length = 0;  ///< what was asked for, see EnvelopeOptions
+  double flatness = 0;           ///< see flatness()
   TriangleSet triangles;
   std::vector<Element> elements;
   std::size_t faces = 0;  ///< so many of the elements are triangles
