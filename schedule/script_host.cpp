@@ -473,6 +473,7 @@ void ScriptHost::quality(WordCall& call) {
   count("vertices", run_->mesh().vertex_count());
   number("seconds", run_->seconds());
   count("passes", run_->records.size());
+  count("date", run_->worker().workspace().date() + 1);  // of the sweep that comes next
   call.give(std::move(table));
 }
 
@@ -518,8 +519,8 @@ void ScriptHost::measure(WordCall& call) {
   const std::string& wanted = name.kind == ScriptValue::Kind::text ? name.text : "?";
   if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda") {
     throw Error(fmt::format(
-        "quality() has no '{}'; valid: lambda, n_bad, n_needles, passes, q_aver, q_worst, "
-        "seconds, tets, theta_max, theta_min, vertices",
+        "quality() has no '{}'; valid: date, goal_max, goal_min, lambda, n_bad, n_needles, "
+        "passes, q_aver, q_worst, seconds, tets, theta_max, theta_min, vertices",
         wanted));
   }
   const ScriptValue passes = call.argument(2);

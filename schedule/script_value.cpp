@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,6 +43,11 @@ std::size_t read_count(const Subject& subject, const ScriptValue& value) {
     throw Error(fmt::format("{} = {} is not a whole number", subject.text, number));
   }
   return static_cast<std::size_t>(number);
+}
+
+Date read_date(const Subject& subject, const ScriptValue& value) {
+  const double most = std::numeric_limits<Date>::max();
+  return static_cast<Date>(std::min(static_cast<double>(read_count(subject, value)), most));
 }
 
 Label read_label(const Subject& subject, const ScriptValue& value) {
@@ -221,8 +227,8 @@ const std::string& read_text(const Subject& subject, const ScriptValue& value) {
 }
 
 Selection read_selection(const Subject& subject, const ScriptValue& value) {
-  static constexpr std::array<std::string_view, 7> kFields = {"at_least", "below", "box",  "label",
-                                                              "property", "share", "worst"};
+  static constexpr std::array<std::string_view, 8> kFields = {
+      "at_least", "below", "box", "label", "property", "share", "since", "worst"};
   Selection selection;
   if (value.kind == Kind::text && value.text == "bad") return selection;
   if (value.kind == Kind::text && value.text == "all") {
@@ -246,6 +252,8 @@ Selection read_selection(const Subject& subject, const ScriptValue& value) {
       selection.labels = read_labels(field, condition);
     } else if (name == "box") {
       selection.box = read_box(field, condition);
+    } else if (name == "since") {
+      selection.since = read_date(field, condition);
     } else if (name == "property") {
       selection.value = read_range(field, condition);
     } else {

@@ -22,13 +22,15 @@ std::string Selection::describe() const {
                         high.z());
   }
   if (value) text += fmt::format(" {} {} to {}", value->name, value->low, value->high);
+  if (since > 0) text += fmt::format(" since {}", since);
   return text;
 }
 
 SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection)
     : mesh_(mesh),
       selection_(selection),
-      plain_(selection.labels.empty() && !selection.box && !selection.value) {
+      plain_(selection.labels.empty() && !selection.box && !selection.value &&
+             selection.since == 0) {
   if (!selection.value) return;
   const std::string& name = selection.value->name;
   real_ = mesh.tet_properties().find<double>(name);
@@ -49,6 +51,12 @@ bool SelectionTest::admits(TetHandle t) const {
     for (const VertexHandle v : mesh_.vertices(t)) {
       if (!selection_.box->contains(mesh_.point_in_file(v))) return false;
     }
+  }
+  if (selection_.since > 0) {
+    const TetVertices& v = mesh_.vertices(t);
+    if (std::none_of(v.begin(), v.end(),
+                     [&](VertexHandle w) { return mesh_.changed(w) >= selection_.since; }))
+      return false;
   }
   if (!selection_.value) return true;
   const double value = value_of(t);

@@ -35,6 +35,8 @@ struct Selection {
   std::vector<Label> labels = {};  ///< of the region; empty: any
   std::optional<Eigen::AlignedBox3d> box = {};  ///< with all vertices in it or on its border
   std::optional<ValueRange> value = {};
+  /// With a vertex around which something changed at that date or later (TetMesh::changed()).
+  Date since = 0;
 
   /// Equal for selections that mean the same.
   std::string describe() const;

@@ -144,8 +144,9 @@ constexpr std::array<WordInfo, 24> kWords = {{
     {"quality", "quality()",
      "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
      "(others of a quality below 1), q_aver (mean quality of both), goal_min, goal_max, theta_min, "
-     "theta_max, lambda, tets, vertices, seconds (since the start), passes (so far). theta_min, "
-     "theta_max and lambda are measured when they are read, which must be before the next pass"},
+     "theta_max, lambda, tets, vertices, seconds (since the start), passes (so far), date (of the "
+     "sweep that comes next, for selections). theta_min, theta_max and lambda are measured when "
+     "they are read, which must be before the next pass"},
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
      "the least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. "

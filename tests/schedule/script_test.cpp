@@ -151,9 +151,23 @@ TEST_CASE("quality tells the figures of the mesh, the costly ones until the next
             .notes.front() == "true");
   CHECK(contains(run("local q = quality() smooth{}\nlog(q.lambda)").error,
                  "test.lua:2: quality(): lambda was not read before the next pass"));
-  CHECK(contains(run("log(quality().n_bat)").error, "quality() has no 'n_bat'; valid: lambda, "));
+  CHECK(contains(run("log(quality().n_bat)").error,
+                 "quality() has no 'n_bat'; valid: date, goal_max, "));
   const Outcome later = run("smooth{} log(quality().n_bad)");
   CHECK(later.notes.front() == std::to_string(quality_indicators(later.mesh).n_bad));
+}
+
+TEST_CASE("'since' selects tets around which something has changed") {
+  const std::string changes = "local date = quality().date\n";
+  const std::string apply =
+      "log(select(2, apply('smoothing', {on = {below = 100, since = date}})))";
+  CHECK(run(changes + apply).notes.front() == "0");
+  const Outcome some = run(changes + "smooth{on = {worst = 1}, cycles = 1}\n" + apply);
+  const Outcome all = run("smooth{on = {worst = 1}, cycles = 1}\nlocal date = 0\n" + apply);
+  CHECK(some.records[0].accepted() == all.records[0].accepted());
+  REQUIRE(some.records[0].accepted() > 0);
+  CHECK(std::stoi(some.notes.front()) > 0);
+  CHECK(std::stoi(some.notes.front()) < std::stoi(all.notes.front()));
 }
 
 TEST_CASE(
