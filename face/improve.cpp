@@ -26,6 +26,7 @@
 #include "face/plan.h"
 #include "face/recorded.h"
 #include "face/regions.h"
+#include "face/surface_points.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
 #include "kernel/bounds.h"
@@ -179,7 +180,10 @@ void Improvement::build() {
     face::check_conserve(input_, options_.conserve);
     MeshData data = input_;
     carries_ = face::holds_more(data);
-    if (!plan_.surface.is_fixed()) marks_ = face::mark_surface(data);
+    if (!plan_.surface.is_fixed()) {
+      marks_ = face::mark_surface(data);
+      carries_ = carries_ || !data.point_labels.empty();
+    }
     build_mesh(data);
   } catch (...) {
     give_back_input();
@@ -387,6 +391,9 @@ void Improvement::give_back_improved() {
     }
     result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve,
                                   data, plan_.surface.is_fixed() ? nullptr : &marks_);
+    if (!plan_.surface.is_fixed()) {
+      face::label_surface_points(input_, result_.vertex_map, data);
+    }
     scale_.to_file(data.points);
   }
   user_mesh_ = MeshAccess::make(std::move(data));

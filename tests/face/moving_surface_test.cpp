@@ -12,6 +12,7 @@
 
 #include "face/carry.h"
 #include "face/mesh_access.h"
+#include "face/surface_points.h"
 #include "kernel/geometry.h"
 #include "kernel/tet_faces.h"
 #include "tests/face/meshes.h"
@@ -169,4 +170,31 @@ TEST_CASE("what a file says of triangles goes to the new ones near them") {
   const auto& load = std::get<std::vector<double>>(now.triangle_data[0].values);
   CHECK(load[2] == 3);
   CHECK(load[0] != 3);
+}
+
+TEST_CASE("a new point of the surface has the label that the ends of its edge share") {
+  MeshData before;
+  before.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+  before.point_labels = {5, 5, 7, 5, 9};
+  before.tets = {{{0, 1, 2, 4}, 0}, {{0, 2, 3, 4}, 0}};
+  MeshData now;  // a point on the edge 0 1, one on 1 2, one inside the face 0 1 2, one inside all
+  now.points = before.points;
+  now.points.insert(now.points.end(),
+                    {{0.4, 0, 0}, {1, 0.4, 0}, {0.6, 0.3, 0}, {0.6, 0.3, 0.2}, {0.2, 0.6, 0}});
+  now.point_labels = {5, 5, 7, 5, 9, 0, 0, 0, 0, 0};
+  const std::vector<std::uint32_t> vertex_map = {0, 1, 2, 3, 4};
+  // Each of the new ones but the fourth has a face of the boundary.
+  now.tets = {{{0, 5, 8, 4}, 0}, {{1, 6, 8, 4}, 0}, {{0, 7, 8, 4}, 0}, {{0, 9, 3, 4}, 0}};
+  face::label_surface_points(before, vertex_map, now);
+  CHECK(now.point_labels[5] == 5);
+  CHECK(now.point_labels[6] == 0);  // 5 and 7
+  CHECK(now.point_labels[7] == 0);  // 5, 5 and 7
+  CHECK(now.point_labels[9] == 0);  // 5, 7 and 5
+  before.point_labels[2] = 5;
+  face::label_surface_points(before, vertex_map, now);
+  for (const std::size_t v : {5, 6, 7, 9}) CHECK(now.point_labels[v] == 5);
+  now.point_labels.clear();
+  before.point_labels.clear();
+  face::label_surface_points(before, vertex_map, now);
+  CHECK(now.point_labels.empty());
 }
