@@ -7,8 +7,10 @@ function(tetmend_unity target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  # Of the eight, gcc takes each for a header and warns of what only a header must not do.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # gcc takes each of the eight for a header and warns of what only a header must not do; and it inlines less in what it
+  # takes for a large source.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:--param=large-unit-insns=80000>)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     get_filename_component(source ${source} ABSOLUTE)
