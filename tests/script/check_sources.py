@@ -20,6 +20,8 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import unity_names
+
 MOST = 32  # sources in a batch
 ALONE = ["pieces/medit_slices.cpp"]  # hides a function of a header that it includes: of that, only a compiler knows
 # Of the standard and of others: what many sources include.
@@ -27,27 +29,13 @@ PRECOMPILED = """algorithm any array atomic charconv cmath condition_variable cs
     iostream limits list map memory mutex numeric optional queue random regex set span sstream string string_view thread tuple
     unordered_map unordered_set utility variant vector Eigen/Core Eigen/Geometry Eigen/LU fmt/format.h fmt/ranges.h
     nlohmann/json.hpp""".split()
-DECLARED = re.compile(
-    r"^(?:template *<[^;{]*> *)?(?:constexpr |inline |static |extern )*(?:(?:struct|class|enum(?: class)?|union|concept|using) (?P<type>\w+)"
-    r"|namespace (?P<space>\w+) ="
-    r"|[\w:<>,&*\[\] ]*?[\w>&*\]]\s*[&*]*\s*\b(?P<name>\w+) ?(?=[({=\[;]))")
 
 
 def own_names(text: str) -> set[str]:
-    """What a source declares in an unnamed namespace, as static or as a macro; by the form that clang-format gives it."""
+    """What a source declares for itself, macros and names of others too."""
     names = set(re.findall(r"^#define (\w+)|^using (?:\w*::)*(\w+);", text, re.M))
     names = {name for pair in names for name in pair if name}
-    inside = False
-    for line in text.splitlines():
-        if line == "namespace {":
-            inside = True
-        elif line.startswith("}  // namespace"):
-            inside = False
-        elif (inside or line.startswith(("static ", "using "))) and line[:1].isalpha():
-            found = DECLARED.match(line)
-            if found:
-                names.add(next(name for name in found.groups() if name))
-    return names
+    return names | unity_names.own_names(text)
 
 
 class Build:

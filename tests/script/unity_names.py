@@ -24,10 +24,10 @@ DECLARED = re.compile(
     r"|(?:[\w:<>,&*\[\]\" ]|\([^()]*\))*?[\w>&*\]] ?[&*]*(?P<name>\w+)(?= ?(?:\(|\{|=|\[|;)))")
 
 
-def own_names(path):
+def own_names(text):
     """Names that a source declares for itself: at the beginning of a line in an unnamed namespace, or static."""
-    names, depth, inside = set(), 0, False
-    for line in path.read_text(encoding="utf-8").splitlines():
+    names, inside = set(), False
+    for line in text.splitlines():
         if line == "namespace {":
             inside = True
         elif line == "}  // namespace":
@@ -59,9 +59,10 @@ def alone(root, known=()):
         name = path.relative_to(root).as_posix()
         group = None if name.startswith("build/") else group_of(name)
         if group:
-            groups[group][name] = own_names(path)
+            names = own_names(path.read_text(encoding="utf-8"))
+            groups[group][name] = names
             if name.startswith(PYTHON_CHARTS):
-                groups["bindings/python"][name] = own_names(path)
+                groups["bindings/python"][name] = names
     result = set(known)
     for sources in groups.values():
         while True:
