@@ -78,7 +78,7 @@ std::string text_of(const json& value) {
 
 json print(Session& s, const json& a) {
   std::string line;
-  for (const json& value : a) line += (line.empty() ? "" : " ") + text_of(value);
+  for (const json& value : a) line += fmt::format("{}{}", line.empty() ? "" : " ", text_of(value));
   s.host.print(line);
   return nullptr;
 }

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tetmend/error.h>
 #include <tetmend/improve.h>
 
@@ -73,10 +74,10 @@ template <class Integer>
 }
 
 std::string place_of(py::ssize_t i) {
-  return std::string("[") + std::to_string(i) + "]";
+  return fmt::format("[{}]", i);
 }
 std::string place_of(py::ssize_t i, py::ssize_t k) {
-  return std::string("[") + std::to_string(i) + ", " + std::to_string(k) + "]";
+  return fmt::format("[{}, {}]", i, k);
 }
 
 template <class Value>
