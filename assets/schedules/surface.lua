@@ -6,16 +6,12 @@ local max_rounds = parameter{"max_rounds", default = 12, low = 0, high = 10000,
 local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
                              help = "such rounds in sequence without progress that end them"}
 
-local max_beyond = parameter{"max_beyond", default = 4, low = 0, high = 100,
-                             help = "rounds beyond the goal once it is met, where something has changed"}
-
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local refill = {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 18, max_nodes = 50, desperate = 0.7}
 local split = {"surface_split", order = "longest"}
 
 local start = quality()
-local first_date = start.date
 
 -- Where more are bad after the cheap rounds, the surface forces most of them, and what raises the worst
 -- makes many mild ones.
@@ -71,15 +67,13 @@ local openings = {"surface_contraction", "surface_edge_removal", "edge_removal",
                   {"edge_split", order = "angle", most_edges = 2}, "edge_contraction",
                   "surface_smoothing", "smoothing"}
 
--- Returns how often something changed.
-local function costly_round(on)
+local function costly_round()
   begin_round()
-  local changed = 0
-  for _, opening in ipairs(openings) do changed = changed + apply(open_by(opening), {on = on}) end
-  changed = changed + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = on})
-  changed = changed + apply(refill, {on = on})
-  changed = changed + local_reconnection{on = on, reflex_only = false}
-  return changed + smooth{on = on, desperate = 0.7, steps = 30}
+  for _, opening in ipairs(openings) do apply(open_by(opening), {on = worst}) end
+  apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = worst})
+  apply(refill, {on = worst})
+  local_reconnection{on = worst, reflex_only = false}
+  smooth{on = worst, desperate = 0.7, steps = 30}
 end
 
 -- As if the goal were so many times as far from 0 and from 180 degrees.
@@ -100,28 +94,11 @@ while can_move and rounds < max_rounds and failed < max_failed
   local is_stuck = failed > 0
   judge_by{price = is_stuck and full_price or 0, measure = "sine"}
   aim(is_stuck and 1.05 or 1)
-  costly_round(worst)
+  costly_round()
   aim(1)
   judge_by{price = half_price}
   plain_rounds()
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1
   before = now
-end
-
--- The goal is met. A tet may still be at its very edge where the surface has moved, and better tets
--- cost little there. Nowhere else: what did not miss the goal stays as it is.
-local beyond = 0
-if can_move and quality().n_bad == 0 then
-  judge_by{price = full_price, measure = "sine"}
-  local on = {below = 1, worst = few, since = first_date}
-  while beyond < max_beyond do
-    beyond = beyond + 1
-    aim(1 + 0.025 * beyond)
-    local changed = apply({"surface_edge_removal", order = "angle"}, {on = on})
-    changed = changed + apply("surface_smoothing", {on = on}) + smooth{on = on}
-    if changed + costly_round(on) == 0 then break end
-  end
-  aim(1)
-  judge_by{price = half_price}
 end

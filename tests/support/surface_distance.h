@@ -10,6 +10,8 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "kernel/mesh_data.h"
 
 namespace tetmend::test {
