@@ -121,6 +121,16 @@ bool has_one_fan_each(const Whole& whole) {
   });
 }
 
+/// Whether a triangle is there from both sides: no surface of tets has that.
+bool has_twins(Whole whole, const std::vector<Face>& before, const std::vector<Face>& after) {
+  for (const Face& f : before) whole.faces.erase(rotated(f));
+  for (const Face& f : after) whole.faces[rotated(f)] = 0;
+  return std::any_of(whole.faces.begin(), whole.faces.end(), [&](const auto& face) {
+    const Face& f = face.first;
+    return whole.faces.contains({f[0], f[2], f[1]});
+  });
+}
+
 /// What is wrong; empty if nothing.
 std::string complaint(const Whole& before, const Whole& now) {
   std::set<Face> triples;
@@ -308,6 +318,7 @@ TEST_CASE("random edits: what is taken leaves patches, lines, corners and topolo
     for (int i = 0; i < 20'000; ++i) {
       const auto [before, after] = proposals.next();
       if (after.empty() || border(before) != border(after)) continue;
+      if (has_twins(whole, before, after)) continue;
       if (!edit.read(present, with_points(before, mesh), with_points(after, mesh))) continue;
       ++taken;
       const std::string about = complaint(whole, after_edit(whole, edit));
