@@ -111,11 +111,11 @@ TEST_CASE("random solids: whole runs keep the surface within the tolerance, both
 
 TEST_CASE("a ball whose surface moves keeps its volume to a tenth of what the tolerance allows") {
   std::size_t touched = 0;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     CAPTURE(seed);
-    Mesh mesh = MeshAccess::make(contract::delaunay_ball(700, seed));
+    Mesh mesh = MeshAccess::make(contract::delaunay_ball(2000, seed));
     const Result result =
-        improve(mesh, {.goal = Goal{40, 140}, .surface = "10%", .feature_angle = 170});
+        improve(mesh, {.goal = Goal{40, 140}, .surface = "5%", .feature_angle = 170});
     REQUIRE(result.surface_change);
     const SurfaceChange& change = *result.surface_change;
     REQUIRE(change.regions.size() == 1);
