@@ -37,7 +37,7 @@ TEST_CASE("breakpoints are set, switched off and taken away with the mouse") {
   }
   // Now there is a row for each, 27 pixels high.
   click(18, 350);   // "refused" is off
-  click(414, 404);  // "accepted" is gone
+  click(428, 404);  // "accepted" is gone
   click(1071, 70);  // run
   const auto state = viewer.quit();
   CHECK(state["trace"]["breakpoints"] == nlohmann::json{"refused", "deeper 0"});
@@ -118,7 +118,7 @@ TEST_CASE("on a screen of 3840 x 2160 with text twice as large the mouse hits wh
   Viewer viewer(kLesson, "3840x2160", "2");
   type("mousemove 1900 900 key shift+t");
   for (int i = 0; i < 4; ++i) type("key shift+l");
-  type("mousemove 3080 604 click 1");  // the first crumb: the recursion for edge 0 1
+  type("mousemove 3080 572 click 1");  // the first crumb: the recursion for edge 0 1
   type("mousemove 1900 900 key l");
   type("mousemove 400 218 click 1");  // the second row of the tree: its transformation
   const auto state = viewer.quit();
