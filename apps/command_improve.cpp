@@ -116,6 +116,7 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
   files.output = options.output;
   files.memory = options.pieces.memory;
   files.checkpoint = options.pieces.checkpoint;
+  files.costs = &report.costs;
   pieces::Division division;
   division.pieces = options.pieces.pieces;
   OneRank alone;
@@ -160,18 +161,18 @@ std::string finish(TraceRecorder* trace) {
 }
 
 /// Of all ranks.
-std::size_t largest(std::size_t mine, Ranks* ranks) {
-  if (ranks == nullptr) return mine;
+void note_peaks(ImproveReport& report, Ranks* ranks) {
+  report.peak_memory = platform::peak_memory();
+  if (ranks == nullptr) return;
   std::string bytes;
-  pieces::put(std::uint64_t{mine}, bytes);
-  std::uint64_t most = 0;
+  pieces::put(std::uint64_t{report.peak_memory}, bytes);
   for (const std::string& from : ranks->gather(bytes)) {
     std::string_view rest = from;
-    std::uint64_t other = 0;
-    pieces::take(rest, other);
-    most = std::max(most, other);
+    std::uint64_t peak = 0;
+    pieces::take(rest, peak);
+    report.peaks_of_ranks.push_back(peak);
+    report.peak_memory = std::max<std::size_t>(report.peak_memory, peak);
   }
-  return most;
 }
 
 int run_improve(ImproveOptions& options, Invocation& invocation) {
@@ -191,7 +192,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   } else {
     improve_in_core(options, progress, interruption, report, trace);
   }
-  report.peak_memory = largest(platform::peak_memory(), invocation.ranks);
+  note_peaks(report, invocation.ranks);
   if (!is_first) return kSuccess;
   write_reports(options.reports, report);
   invocation.wrote_files = true;

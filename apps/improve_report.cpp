@@ -150,6 +150,10 @@ std::string format_checks(const ImproveReport& report) {
   line("speed", fmt::format("{} tets a second of improving",
                             grouped(static_cast<std::size_t>(report.tets_per_second()))));
   line("peak memory", fmt::format("{:.0f} MB", static_cast<double>(report.peak_memory) / 1e6));
+  if (report.costs.ranks > 1) {
+    line("traffic", fmt::format("{:.1f} bytes a tet and division, {} processes",
+                                report.costs.bytes_a_tet(), report.costs.ranks));
+  }
   return text;
 }
 
@@ -189,6 +193,24 @@ nlohmann::json to_json(const std::optional<SizeDrift>& drift) {
   return {{"one_percent", drift->one_percent},
           {"median", drift->median},
           {"ninety_nine_percent", drift->ninety_nine_percent}};
+}
+
+nlohmann::json costs_to_json(const ImproveReport& report) {
+  const pieces::RunCosts& costs = report.costs;
+  nlohmann::json divisions = nlohmann::json::array();
+  for (const pieces::Traffic& each : costs.divisions) {
+    divisions.push_back({{"tets", each.tets}, {"bytes", each.received}, {"seconds", each.seconds}});
+  }
+  nlohmann::json parts = nlohmann::json::array();
+  for (const pieces::PartTime& each : costs.parts) {
+    parts.push_back(
+        {{"step", each.step}, {"part", each.part}, {"tets", each.tets}, {"seconds", each.seconds}});
+  }
+  return {{"count", costs.ranks},
+          {"peak_memory_bytes", report.peaks_of_ranks},
+          {"bytes_a_tet_and_division", costs.bytes_a_tet()},
+          {"divisions", divisions},
+          {"parts", parts}};
 }
 
 nlohmann::json seconds_to_json(const ImproveReport& report) {
@@ -336,39 +358,42 @@ nlohmann::json to_json(const ImproveReport& report) {
   notes.insert(notes.end(), result.notes.begin(), result.notes.end());
   nlohmann::json settings = nlohmann::json::object();
   for (const auto& [name, value] : options.set) settings[name] = value;
-  return {{"tetmend", version()},
-          {"arguments", report.arguments},
-          {"input", report.options.input.string()},
-          {"output", report.options.output.string()},
-          {"schedule", options.schedule},
-          {"settings", settings},
-          {"goal", {{"min_angle", result.goal.min_angle}, {"max_angle", result.goal.max_angle}}},
-          {"measure", options.measure},
-          {"worse_than_before", result.worse()},
-          {"missed_aims", result.missed_aims()},
-          {"size_drift", to_json(result.size_drift)},
-          {"threads", options.threads},
-          {"interrupted", result.ending == Ending::cancelled},
-          {"out_of_time", result.ending == Ending::time_limit},
-          {"notes", notes},
-          {"data", data},
-          {"build", to_json(result.build)},
-          {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
-          {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},
-          {"before", to_json(result.before, result.rulers_before, result.curved_before)},
-          {"after", to_json(result.after, result.rulers_after, result.curved_after)},
-          {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
-          {"surface", surface_to_json(result)},
-          {"not_positive_tets",
-           {{"before", result.not_positive_before}, {"after", result.not_positive_after}}},
-          {"volume_change", result.volume_change()},
-          {"touched_share", report.touched_share()},
-          {"seconds", seconds_to_json(report)},
-          {"tets_per_second", report.tets_per_second()},
-          {"peak_memory_bytes", report.peak_memory},
-          {"histograms", histograms_to_json(report.portrait)},
-          {"worst_tets", worst_tets_to_json(report.portrait)},
-          {"passes", passes}};
+  nlohmann::json json = {
+      {"tetmend", version()},
+      {"arguments", report.arguments},
+      {"input", report.options.input.string()},
+      {"output", report.options.output.string()},
+      {"schedule", options.schedule},
+      {"settings", settings},
+      {"goal", {{"min_angle", result.goal.min_angle}, {"max_angle", result.goal.max_angle}}},
+      {"measure", options.measure},
+      {"worse_than_before", result.worse()},
+      {"missed_aims", result.missed_aims()},
+      {"size_drift", to_json(result.size_drift)},
+      {"threads", options.threads},
+      {"interrupted", result.ending == Ending::cancelled},
+      {"out_of_time", result.ending == Ending::time_limit},
+      {"notes", notes},
+      {"data", data},
+      {"build", to_json(result.build)},
+      {"protected", {{"tets", result.protected_tets}, {"bad_tets", result.protected_bad_tets}}},
+      {"layers", {{"tets", result.layer_tets}, {"bad_tets", result.layer_bad_tets}}},
+      {"before", to_json(result.before, result.rulers_before, result.curved_before)},
+      {"after", to_json(result.after, result.rulers_after, result.curved_after)},
+      {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
+      {"surface", surface_to_json(result)},
+      {"not_positive_tets",
+       {{"before", result.not_positive_before}, {"after", result.not_positive_after}}},
+      {"volume_change", result.volume_change()},
+      {"touched_share", report.touched_share()},
+      {"seconds", seconds_to_json(report)},
+      {"tets_per_second", report.tets_per_second()},
+      {"peak_memory_bytes", report.peak_memory},
+      {"histograms", histograms_to_json(report.portrait)},
+      {"worst_tets", worst_tets_to_json(report.portrait)},
+      {"passes", passes}};
+  if (report.costs.ranks > 0) json["ranks"] = costs_to_json(report);
+  return json;
 }
 
 }  // namespace tetmend::apps

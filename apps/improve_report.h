@@ -11,6 +11,7 @@
 
 #include "apps/improve_options.h"
 #include "face/portrait.h"
+#include "pieces/out_of_core.h"
 
 namespace tetmend::apps {
 
@@ -19,10 +20,12 @@ struct ImproveReport {
   const ImproveOptions& options;
   std::vector<std::string> file_notes = {};  ///< what of the input is not in the output
   Result result = {};
-  face::Portrait portrait = {};  ///< drawn if a report was asked for
-  double reading = 0;            ///< seconds
-  double writing = 0;            ///< seconds
-  std::size_t peak_memory = 0;   ///< bytes of the process
+  face::Portrait portrait = {};                  ///< drawn if a report was asked for
+  double reading = 0;                            ///< seconds
+  double writing = 0;                            ///< seconds
+  std::size_t peak_memory = 0;                   ///< bytes of the process, of many the largest
+  std::vector<std::size_t> peaks_of_ranks = {};  ///< bytes; none where one process worked alone
+  pieces::RunCosts costs = {};                   ///< likewise
 
   double total_seconds() const;
   /// Tets created or with a moved vertex, as a share of all, 0 to 1.

@@ -3,6 +3,7 @@
 #include "pieces/divided_mesh.h"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <utility>
 
@@ -98,6 +99,7 @@ void append(const DivisionState& state, std::string& bytes) {
   };
   put_point(state.low);
   put_point(state.high);
+  put(state.first_id, bytes);
   put(state.next_id, bytes);
   put(state.stored, bytes);
   put(state.first_added, bytes);
@@ -120,6 +122,7 @@ DivisionState take_state(std::string_view& bytes) {
   };
   take_point(state.low);
   take_point(state.high);
+  take(bytes, state.first_id);
   take(bytes, state.next_id);
   take(bytes, state.stored);
   take(bytes, state.first_added);
@@ -181,12 +184,13 @@ void DividedMesh::own_those_of(const std::vector<std::uint32_t>& owners) {
   }
 }
 
-void DividedMesh::add_slice(std::size_t number, const Piece& slice) {
+void DividedMesh::add_slice(std::size_t number, Piece slice) {
   for (const Point& p : slice.points) {
     if (!std::exchange(has_box_, true)) state_.low = state_.high = p;
     state_.low = state_.low.cwiseMin(p).eval();
     state_.high = state_.high.cwiseMax(p).eval();
   }
+  for (VertexId& id : slice.ids) id += state_.first_id;
   store(number, slice);
   own_.push_back(number);
 }
@@ -227,14 +231,19 @@ Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift, ZoneMap zo
   if (pieces == 1) return parting;
   const HilbertCurve curve = shifted_curve(state_.low, side, shift);
   KeyHistogram histogram;
-  for (const std::size_t part : own_) {
-    const Piece piece = stored(part);
-    for (std::size_t v = 0; v < piece.ids.size(); ++v) {
-      if (is_own(piece.marks[v])) histogram.count(curve.key(piece.points[v]));
+  const auto count_all = [&] {
+    for (const std::size_t part : own_) {
+      const Piece piece = stored_vertices(part);
+      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
+        if (is_own(piece.marks[v])) histogram.count(curve.key(piece.points[v]));
+      }
     }
-  }
-  ranks_.add(histogram.counts());
-  parting.cuts = histogram.cuts(pieces);
+    ranks_.add(histogram.counts());
+  };
+  count_all();
+  histogram.refine(pieces);
+  count_all();
+  parting.cuts = histogram.cuts();
   return parting;
 }
 
@@ -254,6 +263,8 @@ std::size_t DividedMesh::most_own() const {
 
 /// All ranks send one piece at a time: so memory holds the messages of few.
 void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones, Shelf* next) {
+  const auto start = std::chrono::steady_clock::now();
+  traffic_.emplace_back();
   state_.parting = make_parting(pieces, shift, std::move(zones));
   Shelf& to = next == nullptr ? *shelf_ : *next;
   const std::vector<std::uint32_t> owners = owners_of(state_.parting, ranks_.count());
@@ -267,7 +278,7 @@ void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones, Shel
     }
     if (ranks_.count() == 1) continue;
     for (const std::string& from : ranks_.exchange(std::move(messages))) {
-      received_ += from.size();
+      traffic_.back().received += from.size();
       keep(from, to);
     }
   }
@@ -275,6 +286,8 @@ void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones, Shel
   own_those_of(owners);
   state_.stored = 0;
   state_.first_added.clear();
+  traffic_.back().seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// What is for this rank goes to the shelf, the rest is returned, by rank.
@@ -282,6 +295,7 @@ std::vector<std::string> DividedMesh::send(std::size_t part,
                                            const std::vector<std::uint32_t>& owners, Shelf& next) {
   std::vector<std::string> to(ranks_.count());
   const Piece piece = stored(part);
+  traffic_.back().tets += piece.tets.size();
   Messages messages(piece, state_.parting);
   for (std::size_t target = 0; target < parts(); ++target) {
     const std::string bytes = messages.message(target);
@@ -356,14 +370,34 @@ void DividedMesh::number_added(const std::vector<std::uint64_t>& added) {
   state_.stored = added.size();
 }
 
+/// Vertices that were added to a stored piece get their numbers when it is read.
+void DividedMesh::number(std::size_t part, std::vector<VertexId>& ids) const {
+  for (VertexId& id : ids) {
+    if (id < TaskResult::kNewVertex) continue;
+    id = state_.first_added[part] + (id - TaskResult::kNewVertex);
+  }
+}
+
 Piece DividedMesh::stored(std::size_t part) const {
   const std::string bytes = shelf_->read(stored_name(part));
   std::string_view rest = bytes;
   Piece piece = take_piece(rest);
-  for (VertexId& id : piece.ids) {
-    if (id < TaskResult::kNewVertex) continue;
-    id = state_.first_added[part] + (id - TaskResult::kNewVertex);
-  }
+  number(part, piece.ids);
+  return piece;
+}
+
+std::vector<VertexId> DividedMesh::stored_ids(std::size_t part) const {
+  std::vector<VertexId> ids =
+      read_ids([&](auto begin, auto size) { return shelf_->read(stored_name(part), begin, size); });
+  number(part, ids);
+  return ids;
+}
+
+Piece DividedMesh::stored_vertices(std::size_t part, std::size_t begin, std::size_t end) const {
+  const std::string name = stored_name(part);
+  const auto read = [&](auto from, auto size) { return shelf_->read(name, from, size); };
+  Piece piece = read_vertices(read, begin, end);
+  number(part, piece.ids);
   return piece;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace tetmend::pieces {
 struct DivisionState {
   Point low = Point::Zero();   ///< of the box around the mesh
   Point high = Point::Zero();  ///< likewise
+  VertexId first_id = 0;       ///< of the first vertex of the file
   VertexId next_id = 0;        ///< of the next vertex that is added
   std::uint64_t stored = 0;    ///< number of stored pieces; 0: they are gathered
   /// By stored piece: the id of the first vertex that it has added.
@@ -30,14 +32,24 @@ void append(const DivisionState& state, std::string& bytes);
 /// @throws Error when the bytes end too early.
 DivisionState take_state(std::string_view& bytes);
 
+/// What one division took.
+struct Traffic {
+  std::uint64_t tets = 0;      ///< that were divided
+  std::uint64_t received = 0;  ///< bytes that came from other ranks
+  double seconds = 0;
+};
+
 /// Stored pieces go when they are divided, gathered ones when they are stored again. Nothing but
 /// the content of pieces and their number enters: not who works on them, nor when. Each piece is on
 /// the shelf of one rank.
 class DividedMesh {
  public:
   /// @param vertices in the file
-  DividedMesh(Shelf& shelf, Ranks& ranks, VertexId vertices) : shelf_(&shelf), ranks_(ranks) {
-    state_.next_id = vertices;
+  /// @param first_id of them; it cannot show in the result
+  DividedMesh(Shelf& shelf, Ranks& ranks, VertexId vertices, VertexId first_id = 0)
+      : shelf_(&shelf), ranks_(ranks) {
+    state_.first_id = first_id;
+    state_.next_id = first_id + vertices;
   }
   /// Of pieces that are there: each rank has a range of them, see own().
   DividedMesh(Shelf& shelf, Ranks& ranks, DivisionState state);
@@ -47,9 +59,9 @@ class DividedMesh {
   /// The pieces of this rank, ascending: the stored ones, or where there are none the gathered ones.
   const std::vector<std::size_t>& own() const { return own_; }
 
-  /// A slice of the file. Their numbers, from 0 on, are in their order there, whoever adds them. Each
-  /// vertex is marked as its own in one.
-  void add_slice(std::size_t number, const Piece& slice);
+  /// A slice of the file, whose ids are numbers in the file. Their numbers, from 0 on, are in their
+  /// order there, whoever adds them. Each vertex is marked as its own in one.
+  void add_slice(std::size_t number, Piece slice);
   /// All ranks, when all slices are there.
   void end_slices();
   /// All ranks: divides the stored pieces by the shifted curve, and zones where there are any.
@@ -65,6 +77,11 @@ class DividedMesh {
   void number_added(const std::vector<std::uint64_t>& added);
   /// A stored piece.
   Piece stored(std::size_t part) const;
+  /// The ids of its vertices, ascending.
+  std::vector<VertexId> stored_ids(std::size_t part) const;
+  /// Its vertices from the one that is `begin` of these to `end`, without what lies between them.
+  Piece stored_vertices(std::size_t part, std::size_t begin = 0,
+                        std::size_t end = std::numeric_limits<std::size_t>::max()) const;
   /// Copies the stored pieces of this rank.
   void copy_stored(Shelf& to) const;
   /// Copies the pieces of this rank, stored or gathered, from a shelf that has those of all.
@@ -72,8 +89,8 @@ class DividedMesh {
   void take_from(const Shelf& from);
   /// All ranks: the first has all stored pieces then.
   void bring_to_first();
-  /// Bytes that came from other ranks so far.
-  std::uint64_t received() const { return received_; }
+  /// Of this rank, by division.
+  const std::vector<Traffic>& traffic() const { return traffic_; }
 
  private:
   Parting make_parting(std::size_t pieces, unsigned shift, ZoneMap zones) const;
@@ -81,6 +98,7 @@ class DividedMesh {
   std::vector<std::string> send(std::size_t part, const std::vector<std::uint32_t>& owners,
                                 Shelf& next);
   void keep(std::string_view messages, Shelf& next);
+  void number(std::size_t part, std::vector<VertexId>& ids) const;
   void own_those_of(const std::vector<std::uint32_t>& owners);
 
   Shelf* shelf_;
@@ -88,7 +106,7 @@ class DividedMesh {
   DivisionState state_;
   std::vector<std::size_t> own_;
   bool has_box_ = false;
-  std::uint64_t received_ = 0;
+  std::vector<Traffic> traffic_;
 };
 
 /// Which rank has which part: neighbours on the curve together, zones where least is.

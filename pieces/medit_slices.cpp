@@ -298,6 +298,37 @@ struct FileVertex {
   Label label;
 };
 
+/// Ranges of ids, of which the vertices are written at once: short enough for the memory of the first
+/// rank. Each vertex is read once.
+class VertexRanges {
+ public:
+  explicit VertexRanges(const DividedMesh& mesh) {
+    constexpr VertexId kLeast = 50'000;
+    constexpr VertexId kMost = 500'000;
+    const VertexId first = mesh.state().first_id;
+    const VertexId all = mesh.state().next_id - first;
+    const VertexId at_once = std::clamp<VertexId>(all / (4 * mesh.ranks().count()), kLeast, kMost);
+    count_ = static_cast<std::size_t>((all + at_once - 1) / at_once);
+    for (const std::size_t part : mesh.own()) {
+      const std::vector<VertexId> ids = mesh.stored_ids(part);
+      for (std::size_t i = 0; i <= count_; ++i) {
+        const auto place = std::lower_bound(ids.begin(), ids.end(), first + i * at_once);
+        begins_.push_back(static_cast<std::size_t>(place - ids.begin()));
+      }
+    }
+  }
+  std::size_t count() const { return count_; }
+  /// Of the vertices of own piece i those of a range: from where to where they are.
+  std::pair<std::size_t, std::size_t> of_piece(std::size_t i, std::size_t range) const {
+    const std::size_t at = i * (count_ + 1) + range;
+    return {begins_[at], begins_[at + 1]};
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<std::size_t> begins_;  // by own piece and range, and the end of the last one
+};
+
 /// The first rank writes what all send it: a piece, or a range of vertices, at a time.
 class Writer {
  public:
@@ -403,14 +434,18 @@ class Writer {
   /// A range of ids at a time, from all pieces.
   template <class Integer>
   void write_vertices() {
-    constexpr VertexId kAtOnce = 2'000'000;
-    const VertexId most = mesh_.state().next_id;
-    for (VertexId begin = 0; begin < most; begin += kAtOnce) {
+    const VertexRanges ranges(mesh_);
+    for (std::size_t i = 0; i < ranges.count(); ++i) {
       std::vector<FileVertex> range;
-      for (const std::string& from :
-           send_to_first(collect(begin, std::min(most, begin + kAtOnce)))) {
-        for (std::string_view rest = from; !rest.empty();) {
-          pieces::take(rest, range.emplace_back());
+      {
+        const std::vector<std::string> came = send_to_first(collect(ranges, i));
+        std::size_t bytes = 0;
+        for (const std::string& from : came) bytes += from.size();
+        range.reserve(bytes / sizeof(FileVertex));
+        for (const std::string& from : came) {
+          for (std::string_view rest = from; !rest.empty();) {
+            pieces::take(rest, range.emplace_back());
+          }
         }
       }
       std::sort(range.begin(), range.end(),
@@ -421,13 +456,12 @@ class Writer {
       }
     }
   }
-  std::string collect(VertexId begin, VertexId end) const {
+  std::string collect(const VertexRanges& ranges, std::size_t number) const {
     std::string bytes;
-    for (const std::size_t i : mesh_.own()) {
-      const Piece piece = mesh_.stored(i);
-      const auto first = std::lower_bound(piece.ids.begin(), piece.ids.end(), begin);
-      for (auto v = static_cast<std::size_t>(first - piece.ids.begin());
-           v < piece.ids.size() && piece.ids[v] < end; ++v) {
+    for (std::size_t i = 0; i < mesh_.own().size(); ++i) {
+      const auto [begin, end] = ranges.of_piece(i, number);
+      const Piece piece = mesh_.stored_vertices(mesh_.own()[i], begin, end);
+      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
         if ((piece.marks[v] & kOwn) == 0) continue;
         const Point& p = piece.points[v];
         pieces::put(FileVertex{piece.ids[v], {p.x(), p.y(), p.z()}, piece.label(v)}, bytes);

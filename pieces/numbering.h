@@ -17,9 +17,10 @@ class Numbering {
 
   std::uint64_t size() const { return count_; }
   /// @throws Error for a vertex that belongs to no piece
-  std::uint64_t number(VertexId id) const;
+  std::uint64_t number(VertexId vertex) const;
 
  private:
+  VertexId first_;
   std::vector<std::int64_t> is_there_;  // a bit for each id
   std::vector<std::uint64_t> before_;
   std::uint64_t count_ = 0;

@@ -2,6 +2,7 @@
 //   slices of the file | measure all pieces | divisions and zones | measure all pieces | write
 #include "pieces/out_of_core.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "face/mesh_access.h"
 #include "face/plan.h"
 #include "face/watcher.h"
+#include "pieces/bytes.h"
 #include "pieces/improve.h"
 #include "pieces/run_folder.h"
 #include "pieces/slices.h"
@@ -66,6 +68,7 @@ class FileRun {
   void work();
   void measure_after();
   void write();
+  void note_costs() const;
   /// False for one.
   bool is_divided(std::size_t tets) {
     if (division_.pieces == 0) {
@@ -114,6 +117,7 @@ Result FileRun::run() {
   }
   work();
   measure_after();
+  if (files_.costs != nullptr) note_costs();
   write();
   watcher_.rethrow();
   return std::move(result_);
@@ -152,7 +156,7 @@ bool FileRun::read() {
   InputMesh input(files_.input, ranks_, files_.array_files);
   if (!is_divided(input.tets())) return false;
   vertices_ = input.vertices();
-  mesh_.emplace(*shelf_, ranks_, vertices_);
+  mesh_.emplace(*shelf_, ranks_, vertices_, files_.first_id);
   input.add_to(*mesh_, division_.pieces);
   return true;
 }
@@ -243,6 +247,29 @@ void FileRun::measure_after() {
   check_after(before_, steps_->measure_after(), result_);
 }
 
+void FileRun::note_costs() const {
+  std::string mine;
+  pieces::put(mesh_->traffic(), mine);
+  pieces::put(steps_->times(), mine);
+  RunCosts& costs = *files_.costs;
+  for (const std::string& from : ranks_.gather(mine)) {
+    std::string_view rest = from;
+    std::vector<Traffic> divisions;
+    std::vector<PartTime> parts;
+    pieces::take(rest, divisions);
+    pieces::take(rest, parts);
+    costs.divisions.resize(divisions.size());
+    for (std::size_t i = 0; i < divisions.size(); ++i) {
+      Traffic& all = costs.divisions[i];
+      all.tets += divisions[i].tets;
+      all.received += divisions[i].received;
+      all.seconds = std::max(all.seconds, divisions[i].seconds);
+    }
+    costs.parts.insert(costs.parts.end(), parts.begin(), parts.end());
+    ++costs.ranks;
+  }
+}
+
 void FileRun::write() {
   if (!result_.worse().empty()) {
     result_.notes.push_back(why_as_it_was(result_));
@@ -256,6 +283,16 @@ void FileRun::write() {
 }
 
 }  // namespace
+
+double RunCosts::bytes_a_tet() const {
+  double bytes = 0;
+  double tets = 0;
+  for (const Traffic& division : divisions) {
+    bytes += static_cast<double>(division.received);
+    tets += static_cast<double>(division.tets);
+  }
+  return bytes / std::max(tets, 1.0);
+}
 
 Result improve_files(const OutOfCore& files, const Options& options, Division& division,
                      Ranks& ranks) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include <tetmend/improve.h>
 
@@ -12,6 +13,16 @@
 #include "pieces/shelf.h"
 
 namespace tetmend::pieces {
+
+/// What a run took; the same on all ranks.
+struct RunCosts {
+  std::size_t ranks = 0;
+  std::vector<Traffic> divisions;  ///< of all ranks together; seconds: of the slowest
+  std::vector<PartTime> parts;     ///< by rank
+
+  /// That came from another rank, for each tet and division.
+  double bytes_a_tet() const;
+};
 
 /// What a run from file to file is to use. All ranks see the same files.
 struct OutOfCore {
@@ -23,6 +34,8 @@ struct OutOfCore {
   /// goes on from there. Empty: none. What is in it goes when the output is there.
   std::filesystem::path checkpoint = {};
   const ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
+  RunCosts* costs = nullptr;                ///< null, or where they are put
+  VertexId first_id = 0;  ///< of the file's vertices in pieces; cannot show: for tests of that
   /// Changes each piece before it is stored, as a fault would: for tests of the final check.
   std::function<void(std::size_t part, Piece& piece)> fault = {};
 };

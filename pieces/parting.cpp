@@ -16,22 +16,43 @@ HilbertCurve shifted_curve(const Point& low, double side, unsigned shift) {
   return HilbertCurve(box);
 }
 
-std::vector<std::uint64_t> KeyHistogram::cuts(std::size_t parts) const {
+void KeyHistogram::count(std::uint64_t key) {
+  const std::uint64_t fine = key >> kShift;
+  if (refined_.empty()) {
+    ++counts_[fine / kFine];
+    return;
+  }
+  const std::uint32_t at = refined_[fine / kFine];
+  if (at != kNone) ++counts_[at * kFine + fine % kFine];
+}
+
+/// A part begins at the first fine cell that has its share of all keys before it.
+void KeyHistogram::refine(std::size_t parts) {
+  const auto factor = static_cast<std::int64_t>(parts);
   std::int64_t total = 0;
   for (const std::int64_t count : counts_) total += count;
-  std::vector<std::uint64_t> cuts(parts, 0);
+  refined_.assign(counts_.size(), kNone);
+  std::uint32_t chosen = 0;
+  std::uint32_t cell = 0;
   std::int64_t before = 0;
-  std::size_t part = 1;
-  for (std::size_t cell = 0; cell < counts_.size(); ++cell) {
-    const auto is_full = [&] {
-      return part < parts &&
-             before * static_cast<std::int64_t>(parts) >= total * static_cast<std::int64_t>(part);
-    };
-    for (; is_full(); ++part) cuts[part] = std::uint64_t{cell} << kShift;
-    before += counts_[cell];
+  for (std::int64_t part = 1; part < factor; ++part) {
+    while (total > 0 && (before + counts_[cell]) * factor < total * part) before += counts_[cell++];
+    cuts_.push_back({cell, total * part - before * factor});
+    if (refined_[cell] == kNone) refined_[cell] = chosen++;
   }
-  for (; part < parts; ++part) cuts[part] = std::uint64_t{counts_.size()} << kShift;
-  return cuts;
+  counts_.assign(chosen * kFine, 0);
+}
+
+std::vector<std::uint64_t> KeyHistogram::cuts() const {
+  const auto factor = static_cast<std::int64_t>(cuts_.size() + 1);
+  std::vector<std::uint64_t> keys = {0};
+  for (const Cut& cut : cuts_) {
+    const std::int64_t* const counts = &counts_[refined_[cut.cell] * kFine];
+    std::size_t fine = 0;
+    for (std::int64_t before = 0; before * factor < cut.missing; ++fine) before += counts[fine];
+    keys.push_back((cut.cell * std::uint64_t{kFine} + fine) << kShift);
+  }
+  return keys;
 }
 
 std::vector<std::uint32_t> Parting::parts_of(std::span<const Point> points) const {

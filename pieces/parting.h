@@ -18,19 +18,34 @@ namespace tetmend::pieces {
 HilbertCurve shifted_curve(const Point& low, double side, unsigned shift);
 
 /// Counts keys, to cut a curve into parts of about the same weight. Whole numbers: who counts which
-/// key, and in which order, cannot show.
+/// key, and in which order, cannot show. All keys are counted twice, so that a few fine cells are
+/// enough: those around the cuts.
 class KeyHistogram {
  public:
-  void count(std::uint64_t key) { ++counts_[key >> kShift]; }
+  void count(std::uint64_t key);
   /// By cell of the curve; those of several histograms may be added up.
   std::span<std::int64_t> counts() { return counts_; }
-  /// Keys at which the parts begin; the first is 0.
-  std::vector<std::uint64_t> cuts(std::size_t parts) const;
+  /// After the first count, of all keys: from now on cells are finer, and counts are 0 again.
+  void refine(std::size_t parts);
+  /// After the second: keys at which the parts begin; the first is 0.
+  std::vector<std::uint64_t> cuts() const;
 
  private:
-  static constexpr int kBits = 21;  // cells of 1/128 of the cube
+  static constexpr int kBits = 21;        // fine cells of 1/128 of the cube
+  static constexpr int kCoarseBits = 12;  // coarse ones of 1/16
   static constexpr int kShift = 63 - kBits;
-  std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(std::size_t{1} << kBits, 0);
+  static constexpr std::size_t kFine = std::size_t{1} << (kBits - kCoarseBits);  // of a coarse one
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+  /// Where a part begins.
+  struct Cut {
+    std::uint32_t cell = 0;    ///< coarse
+    std::int64_t missing = 0;  ///< keys of that cell that are before it, at least; times parts
+  };
+  std::vector<std::int64_t> counts_ = std::vector<std::int64_t>(std::size_t{1} << kCoarseBits, 0);
+  std::vector<std::uint32_t>
+      refined_;            // by coarse cell: which it is of those that are counted finely
+  std::vector<Cut> cuts_;  // of all parts but the first
 };
 
 /// The parts of one division: stretches of a Hilbert curve, and zones, which go before them.

@@ -108,6 +108,56 @@ Piece take_piece(std::string_view& bytes) {
   return piece;
 }
 
+namespace {
+
+/// An array of an appended piece: where its values are, and how many.
+template <class Value>
+class PlacedArray {
+ public:
+  PlacedArray(const ReadBytes& read, std::uint64_t place) : read_(read), place_(place) {
+    const std::string bytes = read(place, sizeof(count_));
+    std::string_view rest = bytes;
+    pieces::take(rest, count_);
+  }
+  std::uint64_t count() const { return count_; }
+  std::uint64_t end() const { return place_ + sizeof(count_) + count_ * sizeof(Value); }
+  std::vector<Value> values(std::uint64_t begin, std::uint64_t end) const {
+    begin = std::min(begin, count_);
+    end = std::min(end, count_);
+    const std::string bytes =
+        read_(place_ + sizeof(count_) + begin * sizeof(Value), (end - begin) * sizeof(Value));
+    std::vector<Value> taken(end - begin);
+    if (bytes.size() != taken.size() * sizeof(Value)) throw Error("a piece ends too early");
+    if (!taken.empty()) std::memcpy(static_cast<void*>(taken.data()), bytes.data(), bytes.size());
+    return taken;
+  }
+
+ private:
+  const ReadBytes& read_;
+  std::uint64_t place_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace
+
+std::vector<VertexId> read_ids(const ReadBytes& read) {
+  const PlacedArray<VertexId> ids(read, 0);
+  return ids.values(0, ids.count());
+}
+
+Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t end) {
+  const PlacedArray<VertexId> ids(read, 0);
+  const PlacedArray<Point> points(read, ids.end());
+  const PlacedArray<Label> labels(read, points.end());
+  const PlacedArray<std::uint8_t> marks(read, labels.end());
+  Piece piece;
+  piece.ids = ids.values(begin, end);
+  piece.points = points.values(begin, end);
+  if (labels.count() > 0) piece.labels = labels.values(begin, end);
+  piece.marks = marks.values(begin, end);
+  return piece;
+}
+
 Piece extract(const Piece& from, const Extract& what) {
   Piece piece;
   std::vector<std::uint32_t> numbers(from.ids.size(), kGoneVertex);

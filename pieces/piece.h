@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +54,13 @@ void append(const Piece& piece, std::string& bytes);
 /// Takes a piece off the front of `bytes`.
 /// @throws Error when they end too early, or name a vertex that is not there.
 Piece take_piece(std::string_view& bytes);
+
+/// Of an appended piece, some of whose bytes can be read, the vertices from `begin` to `end`, as far as
+/// there are so many; nothing else.
+using ReadBytes = std::function<std::string(std::uint64_t begin, std::uint64_t size)>;
+Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t end);
+/// The ids alone, of all vertices.
+std::vector<VertexId> read_ids(const ReadBytes& read);
 
 /// The vertices of `wanted` (a mark for each) and these tets, triangles and edges of a piece, with
 /// numbers of their own.

@@ -148,6 +148,8 @@ void PieceRun::run() {
     for (const std::size_t part : mesh_.own()) {
       mine.push_back(work_on_part(part, *record));
       mesh_.remove_gathered(part);
+      if (mine.size() == 1) continue;  // one list of worst tets is enough
+      mine.front().standing.worst.add(std::exchange(mine.back().standing.worst, {}));
     }
     std::vector<PartOutcome> all = share(std::move(mine));
     record->seconds = seconds_since(start);
@@ -196,7 +198,10 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
   if (!is_active(part, record) || is_to_stop() || gathered.tets.empty()) {
     result.piece = own_part(gathered, parting, number);
   } else {
+    const auto start = std::chrono::steady_clock::now();
     result = work_on(gathered, parting, number, options_, limits_of_a_piece(record));
+    times_.push_back({static_cast<std::uint32_t>(state_.records.size()), number,
+                      gathered.tets.size(), seconds_since(start)});
   }
   PartOutcome outcome;
   outcome.part = part;
@@ -211,13 +216,10 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
   return outcome;
 }
 
-/// Those of all ranks. Of the worst tets of a rank one list is enough.
+/// Those of all ranks.
 std::vector<PartOutcome> PieceRun::share(std::vector<PartOutcome> mine) {
   if (mesh_.ranks().count() == 1) return mine;
   std::string bytes;
-  WorstTets worst;
-  for (PartOutcome& outcome : mine) worst.add(std::exchange(outcome.standing.worst, {}));
-  if (!mine.empty()) mine.front().standing.worst = std::move(worst);
   for (const PartOutcome& outcome : mine) append(outcome, bytes);
   std::vector<PartOutcome> all;
   for (const std::string& from : mesh_.ranks().gather(bytes)) {

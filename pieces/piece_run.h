@@ -56,6 +56,14 @@ void append(const PartOutcome& outcome, std::string& bytes);
 /// @throws Error when the bytes end too early.
 PartOutcome take_outcome(std::string_view& bytes);
 
+/// How long a rank worked on a part.
+struct PartTime {
+  std::uint32_t step = 0;  ///< from 0; divisions, then rounds of zones
+  std::uint32_t part = 0;
+  std::uint64_t tets = 0;  ///< in it, shared ones included
+  double seconds = 0;
+};
+
 /// What the mesh is before a run, and what it may come to.
 struct RunLimits {
   std::uint64_t tets = 0;   ///< that there are
@@ -113,6 +121,8 @@ class PieceRun {
 
   const RunState& state() const { return state_; }
   const std::vector<StepRecord>& records() const { return state_.records; }
+  /// Of this rank, in the order in which it worked.
+  const std::vector<PartTime>& times() const { return times_; }
   /// The time was up, or somebody asked it to stop.
   bool stopped() const { return stopped_; }
   bool out_of_time() const { return out_of_time_; }
@@ -131,6 +141,7 @@ class PieceRun {
   RunState state_;
   std::function<bool()> stop_;
   std::function<void(const StepRecord&)> listener_;
+  std::vector<PartTime> times_;
   bool stopped_ = false;
   bool out_of_time_ = false;
 };

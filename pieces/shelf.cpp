@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "pieces/shelf.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -23,16 +25,33 @@ namespace {
 }  // namespace
 
 void MemoryShelf::append(const std::string& name, std::string_view bytes) {
-  bytes_[name].append(bytes);
+  bytes_[name].emplace_back(bytes);
 }
 
 void MemoryShelf::put(const std::string& name, std::string_view bytes) {
-  bytes_[name] = bytes;
+  bytes_[name] = {std::string(bytes)};
 }
 
 std::string MemoryShelf::read(const std::string& name) const {
+  return read(name, 0, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::string MemoryShelf::read(const std::string& name, std::uint64_t begin,
+                              std::uint64_t size) const {
+  std::string bytes;
   const auto found = bytes_.find(name);
-  return found == bytes_.end() ? std::string() : found->second;
+  if (found == bytes_.end()) return bytes;
+  std::uint64_t total = 0;
+  for (const std::string& part : found->second) total += part.size();
+  bytes.reserve(std::min(size, total - std::min(total, begin)));
+  for (const std::string& part : found->second) {
+    if (begin < part.size()) {
+      bytes.append(part, begin, size - bytes.size());
+      begin = part.size();
+    }
+    begin -= part.size();
+  }
+  return bytes;
 }
 
 void MemoryShelf::remove(const std::string& name) {
@@ -64,15 +83,21 @@ bool FolderShelf::has(const std::string& name) const {
 }
 
 std::string FolderShelf::read(const std::string& name) const {
+  return read(name, 0, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::string FolderShelf::read(const std::string& name, std::uint64_t begin,
+                              std::uint64_t size) const {
   const std::filesystem::path file = folder_ / name;
   std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
+  const std::uint64_t total = std::filesystem::file_size(file, error);
   if (error == std::errc::no_such_file_or_directory) return {};
   if (error) fail("cannot read", file, error.value());
-  std::string bytes(size, '\0');
+  std::string bytes(std::min(size, total - std::min(total, begin)), '\0');
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  in.seekg(static_cast<std::streamoff>(std::min(begin, total)));
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!in) fail("cannot read", file, errno);
   return bytes;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tetmend::pieces {
 
@@ -20,6 +21,9 @@ class Shelf {
   virtual void put(const std::string& name, std::string_view bytes) = 0;
   /// All of it; empty if there is none of that name. @throws Error for a file that cannot be read.
   virtual std::string read(const std::string& name) const = 0;
+  /// Some of it, as far as there is so much.
+  virtual std::string read(const std::string& name, std::uint64_t begin,
+                           std::uint64_t size) const = 0;
   virtual void remove(const std::string& name) = 0;
 };
 
@@ -28,10 +32,12 @@ class MemoryShelf final : public Shelf {
   void append(const std::string& name, std::string_view bytes) override;
   void put(const std::string& name, std::string_view bytes) override;
   std::string read(const std::string& name) const override;
+  std::string read(const std::string& name, std::uint64_t begin, std::uint64_t size) const override;
   void remove(const std::string& name) override;
 
  private:
-  std::map<std::string, std::string> bytes_;
+  /// Parts as they came: one string that grows would have room for twice as much.
+  std::map<std::string, std::vector<std::string>> bytes_;
 };
 
 /// Each name is a file.
@@ -47,6 +53,7 @@ class FolderShelf final : public Shelf {
   void append(const std::string& name, std::string_view bytes) override;
   void put(const std::string& name, std::string_view bytes) override;
   std::string read(const std::string& name) const override;
+  std::string read(const std::string& name, std::uint64_t begin, std::uint64_t size) const override;
   void remove(const std::string& name) override;
   bool has(const std::string& name) const;
 

@@ -107,7 +107,7 @@ class Vertices {
     }
     return static_cast<std::uint32_t>(found - all_.begin());
   }
-  void write(std::size_t in_file, Joined& joined) {
+  void write(VertexId first, std::size_t in_file, Joined& joined) {
     MeshData& data = joined.data;
     const bool has_labels =
         std::any_of(all_.begin(), all_.end(), [](const Vertex& v) { return v.label != 0; });
@@ -117,8 +117,9 @@ class Vertices {
       }
       data.points.push_back(vertex.point);
       if (has_labels) data.point_labels.push_back(vertex.label);
-      joined.vertex_origins.push_back(vertex.id < in_file ? static_cast<std::uint32_t>(vertex.id)
-                                                          : kGone);
+      const VertexId number = vertex.id - first;
+      joined.vertex_origins.push_back(number < in_file ? static_cast<std::uint32_t>(number)
+                                                       : kGone);
     }
     all_ = {};
   }
@@ -139,7 +140,7 @@ Joined join(const DividedMesh& mesh, std::size_t vertices) {
   Joined joined;
   Vertices all;
   const std::size_t pieces = mesh.state().stored;
-  for (std::size_t i = 0; i < pieces; ++i) all.add(mesh.stored(i));
+  for (std::size_t i = 0; i < pieces; ++i) all.add(mesh.stored_vertices(i));
   all.sort();
   for (std::size_t i = 0; i < pieces; ++i) {
     Piece piece = mesh.stored(i);
@@ -157,7 +158,7 @@ Joined join(const DividedMesh& mesh, std::size_t vertices) {
     data.triangles.insert(data.triangles.end(), piece.triangles.begin(), piece.triangles.end());
     data.edges.insert(data.edges.end(), piece.edges.begin(), piece.edges.end());
   }
-  all.write(vertices, joined);
+  all.write(mesh.state().first_id, vertices, joined);
   return joined;
 }
 

@@ -77,6 +77,10 @@ def any_number_of_ranks(folder, expected):
     check("worse than before    nothing" in done.stdout, "there is no report", done.stdout)
     check(json.loads(report.read_text())["after"]["n_bad"] == 0, "bad tets are left")
     check(done.stdout.count("peak memory") == 1, "not one rank alone reports")
+    ranks = json.loads(report.read_text())["ranks"]
+    check("bytes a tet and division, 2 processes" in done.stdout, "there is no traffic", done.stdout)
+    check(len(ranks["peak_memory_bytes"]) == 2 and 1 < ranks["bytes_a_tet_and_division"] < 35, "traffic", ranks)
+    check(len(ranks["parts"]) >= 3 * PIECES and all(each["tets"] > 30000 for each in ranks["divisions"]), "parts", ranks)
     taken(folder)
     whole = folder / "whole.meshb"
     done = run(*mpi(2, MESH, "-o", whole, "-q"))

@@ -22,6 +22,7 @@ import growth  # noqa: E402
 import measures  # noqa: E402
 import micro  # noqa: E402
 import pages  # noqa: E402
+import ranks  # noqa: E402
 import report  # noqa: E402
 
 MADE = documents.Stamp("script/bench --quick", "0123abc", "2026-11-22", "AMD EPYC, 2 cores, 25 GB")
@@ -163,6 +164,45 @@ class Tables(unittest.TestCase):
         [table] = tables(growth.page(MADE, growth.table_of(runs)))
         self.assertEqual([row[8:] for row in table[1:]],
                          [["1.00", "", "80"], ["2.00", "", "80"], ["3.00", "1.50", "80"]])
+
+    def test_pieces_are_played_again_on_more_processes(self) -> None:
+        def told(count: int) -> dict:
+            parts = [{"step": step, "part": part, "tets": 100, "seconds": seconds}
+                     for step, times in enumerate([[1.0, 3.0, 2.0, 2.0], [0.5] * 4, [0.2, 0.1]])
+                     for part, seconds in enumerate(times)]
+            divisions = [{"tets": 400, "bytes": 8000, "seconds": 0.4}] * 4
+            passes = [{"name": name, "n_bad": n_bad}
+                      for name, n_bad in (("division", 20), ("division", 10), ("zones", 5))]
+            return {"before": {"tets": 400, "n_bad": 90}, "passes": passes,
+                    "seconds": {"building": 0.1, "measuring": 1.2, "improving": 9.0, "total": 11.0},
+                    "ranks": {"count": count, "peak_memory_bytes": [50_000_000] * count,
+                              "bytes_a_tet_and_division": 20.0, "divisions": divisions,
+                              "parts": parts}}
+
+        runs = {1: told(1), 2: told(2)}
+        memory, pieces, *played = tables(ranks.page(MADE, runs, {**told(1), "peak_memory_bytes": 3e7}))
+        self.assertEqual(memory[2][:5], ["2", "50", "50", "60", "20.0"])
+        self.assertEqual(pieces[1:], [["division 1", "4", "20000.00", "1.50", "1000.00"],
+                                      ["division 2", "4", "5000.00", "1.00", "1000.00"],
+                                      ["zones 1", "2", "750.00", "1.33", "1000.00"]])
+        self.assertEqual([[row[0] for row in table[1:]] for table in played],
+                         [["1", "4", "16", "64", "256", "1,024"]] * 3)
+        # The measured run itself, on one core without a network, is what was measured.
+        known = ranks.Measured(ranks.steps_of(runs[1]), ranks.checking_of(runs[1]), 0.0)
+        same = ranks.play(known, 400, 4, 1, ranks.Cluster(cores=1))
+        self.assertAlmostEqual(same.improving, 8 + 2)
+        self.assertAlmostEqual(same.zones, 0.3)
+        self.assertAlmostEqual(same.dividing, 4 * 0.4 + 0.4)
+        self.assertAlmostEqual(same.work, 10.3)
+        # Pieces 0 and 1 are of the first process: it works 4 + 1, the other one waits no less.
+        two = ranks.play(known, 400, 4, 2, ranks.Cluster(cores=1))
+        self.assertAlmostEqual(two.improving, 4 + 1)
+        self.assertAlmostEqual(two.zones, 0.2)
+        self.assertAlmostEqual(two.dividing, 1.0)
+        # Twice the mesh in twice the pieces: the same for each of twice the processes, but zones.
+        more = ranks.play(known, 800, 8, 4, ranks.Cluster(cores=1))
+        self.assertAlmostEqual(more.improving, two.improving)
+        self.assertEqual(ranks.loads_of_ranges([1, 2, 3], 5), [1, 2, 0, 3, 0])
 
     def test_the_tables_of_scaling_keep_all_their_figures(self) -> None:
         threads, passes, blocks = tables(cores.page(MADE, {"cube": PRINTED}))

@@ -19,7 +19,9 @@ Parting parting_of(const std::vector<Point>& points, std::size_t parts, unsigned
   KeyHistogram histogram;
   const HilbertCurve curve = shifted_curve(parting.low, parting.side, shift);
   for (const Point& p : points) histogram.count(curve.key(p));
-  parting.cuts = histogram.cuts(parts);
+  histogram.refine(parts);
+  for (const Point& p : points) histogram.count(curve.key(p));
+  parting.cuts = histogram.cuts();
   return parting;
 }
 
@@ -35,6 +37,53 @@ TEST_CASE("parts have about the same number of points, for every shift") {
       CHECK(count > points.size() / 8 * 9 / 10);
       CHECK(count < points.size() / 8 * 11 / 10);
     }
+  }
+}
+
+TEST_CASE("a cut is where the fine cell begins before which the share of a part is full") {
+  std::vector<std::uint64_t> keys;
+  std::uint64_t state = 5;
+  for (int i = 0; i < 20'000; ++i) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    keys.push_back(i % 3 == 0 ? (state >> 1) / 1000 : state >> 1);  // many are close to 0
+  }
+  std::vector<std::uint64_t> cells;
+  for (const std::uint64_t key : keys) cells.push_back(key >> 42);
+  std::sort(cells.begin(), cells.end());
+  for (const std::size_t parts : {2, 3, 64, 5000}) {
+    KeyHistogram histogram;
+    for (const std::uint64_t key : keys) histogram.count(key);
+    histogram.refine(parts);
+    for (const std::uint64_t key : keys) histogram.count(key);
+    const std::vector<std::uint64_t> cuts = histogram.cuts();
+    REQUIRE(cuts.size() == parts);
+    CHECK(cuts[0] == 0);
+    for (std::size_t part = 1; part < parts; ++part) {
+      const std::size_t least = (keys.size() * part + parts - 1) / parts;
+      CHECK(cuts[part] == (cells[least - 1] + 1) << 42);
+    }
+  }
+  KeyHistogram none;
+  none.refine(4);
+  CHECK(none.cuts() == std::vector<std::uint64_t>(4, 0));
+}
+
+TEST_CASE("a shelf gives some of its bytes, wherever they came in") {
+  const test::Folder folder;
+  MemoryShelf memory;
+  FolderShelf files(folder.path());
+  for (Shelf* shelf : {static_cast<Shelf*>(&memory), static_cast<Shelf*>(&files)}) {
+    for (const char* part : {"abc", "", "defg", "h"}) shelf->append("x", part);
+    CHECK(shelf->read("x") == "abcdefgh");
+    CHECK(shelf->read("x", 0, 2) == "ab");
+    CHECK(shelf->read("x", 2, 3) == "cde");
+    CHECK(shelf->read("x", 3, 5) == "defgh");
+    CHECK(shelf->read("x", 7, 9) == "h");
+    CHECK(shelf->read("x", 8, 1) == "");
+    CHECK(shelf->read("x", 20, 1) == "");
+    CHECK(shelf->read("none", 1, 2) == "");
+    shelf->put("x", "new");
+    CHECK(shelf->read("x", 1, 9) == "ew");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who works on the pieces cannot show: ranks, tasks over files, and runs that go on where others were
 // killed give the same bytes.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <fstream>
@@ -147,6 +148,52 @@ TEST_CASE("the number of ranks does not show in the result, nor that of their th
         CHECK(result.worse().empty());
       });
       CHECK(bytes_of(files.out) == files.expected);
+    }
+  }
+}
+
+TEST_CASE("by which number the first vertex goes does not show in the result") {
+  for (const char* ending : {".meshb", ".mesh"}) {
+    const Files files(ending);
+    OutOfCore shifted = files.all();
+    shifted.first_id = pieces::VertexId{1} << 33;
+    for (const std::size_t count : {1, 3}) {
+      CAPTURE(count);
+      std::filesystem::remove(files.out);
+      on_ranks(count, [&](Ranks& ranks) { improve(shifted, ranks); });
+      CHECK(bytes_of(files.out) == files.expected);
+    }
+  }
+}
+
+TEST_CASE("what a run took is known to all ranks: bytes, seconds, pieces") {
+  const Files files;
+  std::vector<pieces::PartTime> alone;
+  for (const std::size_t count : {1, 4}) {
+    std::vector<pieces::RunCosts> costs(count);
+    on_ranks(count, [&](Ranks& ranks) {
+      OutOfCore told = files.all();
+      told.costs = &costs[ranks.number()];
+      improve(told, ranks);
+    });
+    for (const pieces::RunCosts& of_rank : costs) {
+      CHECK(of_rank.ranks == count);
+      CHECK(of_rank.bytes_a_tet() == costs[0].bytes_a_tet());
+      CHECK((of_rank.bytes_a_tet() > 0) == (count > 1));
+      CHECK(of_rank.bytes_a_tet() < 60);  // pieces are tiny
+      for (const pieces::Traffic& division : of_rank.divisions) CHECK(division.tets > 3000);
+      if (alone.empty()) alone = of_rank.parts;
+      std::vector<pieces::PartTime> parts = of_rank.parts;
+      std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.step, a.part) < std::pair(b.step, b.part);
+      });
+      REQUIRE(parts.size() == alone.size());
+      CHECK(parts.size() >= 3 * kPieces);
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        CHECK(parts[i].part == alone[i].part);
+        CHECK(parts[i].tets == alone[i].tets);
+        CHECK(parts[i].seconds > 0);
+      }
     }
   }
 }
