@@ -80,10 +80,18 @@ void number_tets(face::Portrait& portrait, const Mesh& mesh) {
   for (face::DrawnTet& tet : portrait.bad_after) tet.facts.number = numbers[tet.facts.tet];
 }
 
+/// Runs from file to file: those of several processes, and where not all is in memory.
+bool is_by_files(const ImproveOptions& options, const Invocation& invocation) {
+  const pieces::ArrayFiles* const known = invocation.array_files;
+  const bool is_in_parts =
+      known != nullptr && (known->is_one(options.input) || known->is_one(options.output));
+  return invocation.ranks != nullptr || options.pieces.memory > 0 ||
+         !options.pieces.checkpoint.empty() || is_in_parts;
+}
+
 /// A run from file to file never has the whole mesh that the page draws.
-void check_reports(const ImproveOptions& options, const Ranks* ranks) {
-  const bool is_by_files = options.pieces.memory > 0 || !options.pieces.checkpoint.empty();
-  if (!is_by_files && ranks == nullptr) return;
+void check_reports(const ImproveOptions& options, const Invocation& invocation) {
+  if (!is_by_files(options, invocation)) return;
   for (const std::filesystem::path& file : options.reports) {
     if (lower_extension(file) == ".json") continue;
     throw UsageError(fmt::format(
@@ -116,7 +124,13 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
   files.output = options.output;
   files.memory = options.pieces.memory;
   files.checkpoint = options.pieces.checkpoint;
+  files.label_array = options.carry.label_array;
+  files.variant = options.carry.variant;
+  files.tell_lost = [&](const std::vector<std::string>& lost) {
+    tell_lost(options.input, lost, options.carry, report.file_notes);
+  };
   files.costs = &report.costs;
+  files.first_id = invocation.first_vertex_id;
   pieces::Division division;
   division.pieces = options.pieces.pieces;
   OneRank alone;
@@ -180,14 +194,13 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
   if (is_first) check_files(options, invocation.array_files);
   complete(options);
-  check_reports(options, invocation.ranks);
+  check_reports(options, invocation);
   if (!is_first) options.quiet = true;
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};
   std::optional<Interruption> interruption;  // until all is written
   std::unique_ptr<TraceRecorder> trace;
-  if (invocation.ranks != nullptr || options.pieces.memory > 0 ||
-      !options.pieces.checkpoint.empty()) {
+  if (is_by_files(options, invocation)) {
     improve_out_of_core(options, progress, interruption, report, invocation);
   } else {
     improve_in_core(options, progress, interruption, report, trace);

@@ -71,14 +71,24 @@ int split(PiecesOptions& options, Invocation& invocation) {
   improve.input = options.more.front();
   check_mesh_extension(improve.input);
   check_mesh_extension(improve.output);
+  check_variant(improve.output, improve.carry);
   const NamedFile input = {"IN", improve.input, true};
   const NamedFile output = {"-o", improve.output, true};
   prepare_files({&input, 1}, {&output, 1});
   complete(improve);
   pieces::Division division;
   division.pieces = improve.pieces.pieces;
+  std::vector<std::string> notes;
+  pieces::OutOfCore files;
+  files.input = improve.input;
+  files.output = improve.output;
+  files.label_array = improve.carry.label_array;
+  files.variant = improve.carry.variant;
+  files.tell_lost = [&](const std::vector<std::string>& lost) {
+    tell_lost(improve.input, lost, improve.carry, notes);
+  };
   try {
-    pieces::FolderRun::split(improve.input, improve.output, options.folder, improve.run, division);
+    pieces::FolderRun::split(files, options.folder, improve.run, division);
   } catch (const OptionError& error) {
     throw Error("--" + message_of(error));
   }

@@ -2,6 +2,7 @@
 // The subcommands of tetmend. Each adds itself to the parser and leaves the action to be run.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,7 @@ struct Invocation {
   bool wrote_files = false;            ///< then what was said besides is not what counts
   Ranks* ranks = nullptr;              ///< that all run the same command; null: it is alone
   const pieces::ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
+  std::uint64_t first_vertex_id = 0;                ///< in pieces; cannot show: for tests of that
 };
 
 // Precondition of each: `invocation` outlives the parser.

@@ -157,11 +157,8 @@ void check_variant(const std::filesystem::path& output, const CarryOptions& opti
                                              : fmt::format("one of {}", fmt::join(known, ", "))));
 }
 
-Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& output, int threads,
-              const CarryOptions& options, std::vector<std::string>& notes) {
-  Mesh mesh = load(input, threads, options.label_array);
-  std::vector<std::string> lost = mesh.notes();
-  for (std::string& text : not_saved(output, mesh)) lost.push_back(std::move(text));
+void tell_lost(const std::filesystem::path& input, const std::vector<std::string>& lost,
+               const CarryOptions& options, std::vector<std::string>& notes) {
   for (const std::string& text : lost) {
     say(stderr, fmt::format("note: {}: {}\n", shown(input), text));
   }
@@ -171,6 +168,14 @@ Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& o
                     lost.size() == 1 ? "something" : fmt::format("{} things", lost.size())));
   }
   notes.insert(notes.end(), lost.begin(), lost.end());
+}
+
+Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& output, int threads,
+              const CarryOptions& options, std::vector<std::string>& notes) {
+  Mesh mesh = load(input, threads, options.label_array);
+  std::vector<std::string> lost = mesh.notes();
+  for (std::string& text : not_saved(output, mesh)) lost.push_back(std::move(text));
+  tell_lost(input, lost, options, notes);
   return mesh;
 }
 

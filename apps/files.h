@@ -69,6 +69,12 @@ void add_carry_options(CLI::App& command, CarryOptions& options);
 /// @throws UsageError unless the format of `output` has the variant, if there is one.
 void check_variant(const std::filesystem::path& output, const CarryOptions& options);
 
+/// Names on standard error what of `input` the output will not have.
+/// @param notes these sentences are added
+/// @throws Error also when there are any and the options are strict
+void tell_lost(const std::filesystem::path& input, const std::vector<std::string>& lost,
+               const CarryOptions& options, std::vector<std::string>& notes);
+
 /// Loads `input`. Names on standard error all of it that `output` will not have.
 /// @param notes these sentences are added
 /// @throws Error also when there are any and the options are strict

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // tetmend-mpi: `tetmend improve` by all processes that mpirun starts.
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,6 +15,7 @@
 #include <tetmend/catalogue.h>
 
 #include "apps/commands.h"
+#include "apps/convert_pieces.h"
 #include "apps/files.h"
 #include "apps/help_formatter.h"
 #include "apps/interruption.h"
@@ -22,7 +24,7 @@
 #include "mpi/hdf5_mesh.h"
 #endif
 #include "mpi/mpi_ranks.h"
-#include "pieces/mesh_files.h"
+#include "pieces/rank_share.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -40,11 +42,15 @@ class Mpi {
   Mpi& operator=(const Mpi&) = delete;
 };
 
-/// For tests: longer messages are cut.
+/// For tests. 0: not set.
+std::uint64_t number_of_environment(const char* name) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+}
+
+/// Longer messages are cut.
 std::size_t most_bytes() {
-  const char* text = std::getenv("TETMEND_MPI_MESSAGE_BYTES");
-  if (text == nullptr) return mpi::MpiRanks::kMostBytes;
-  const unsigned long long bytes = std::strtoull(text, nullptr, 10);
+  const std::uint64_t bytes = number_of_environment("TETMEND_MPI_MESSAGE_BYTES");
   return bytes > 0 ? bytes : mpi::MpiRanks::kMostBytes;
 }
 
@@ -69,27 +75,6 @@ struct ConvertOptions {
   std::filesystem::path output;
 };
 
-/// No rank has more than its share, where both formats allow that.
-int run_convert(const ConvertOptions& options, Invocation& invocation) {
-  Ranks& ranks = *invocation.ranks;
-  if (ranks.is_first()) {
-    for (const std::filesystem::path& file : {options.input, options.output}) {
-      const pieces::ArrayFiles* known = invocation.array_files;
-      if (known == nullptr || !known->is_one(file)) check_mesh_extension(file);
-    }
-    const NamedFile input = {"IN", options.input};
-    const NamedFile output = {"OUT", options.output};
-    prepare_files({&input, 1}, {&output, 1});
-  }
-  pieces::InputMesh mesh(options.input, ranks, invocation.array_files);
-  const std::uint64_t vertices = mesh.vertices();
-  pieces::MemoryShelf shelf;
-  pieces::DividedMesh slices(shelf, ranks, vertices);
-  mesh.add_to(slices, ranks.count());
-  pieces::write_pieces(options.output, slices, vertices, invocation.array_files);
-  return kSuccess;
-}
-
 void add_convert_by_ranks(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another format");
@@ -104,7 +89,11 @@ Examples:
 
 Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)");
   command->callback([options, &invocation] {
-    invocation.action = [options, &invocation] { return run_convert(*options, invocation); };
+    invocation.action = [options, &invocation] {
+      convert_pieces(options->input, options->output, {}, invocation.array_files,
+                     *invocation.ranks);
+      return kSuccess;
+    };
   });
 }
 
@@ -127,7 +116,8 @@ same files. Pieces lie in the memory of the processes, or below --scratch.
 When a process dies the others end, and no mesh is written; with --checkpoint
 the same command goes on from the last division, with any number of processes.
 Files of HDF5 (.h5) are read and written by all processes together, if tetmend-mpi
-was built with it; FILE.xdmf beside them is what ParaView opens.
+was built with it; FILE.xdmf beside them is what ParaView opens. Other formats are
+read and written by the first process alone.
 SIGUSR1 to mpirun stops the work: the mesh is written as improved so far.
 
 Exit status: that of tetmend improve)");
@@ -139,6 +129,7 @@ Exit status: that of tetmend improve)");
 int run(int argc, char** argv, Ranks& ranks) {
   Invocation invocation;
   invocation.ranks = &ranks;
+  invocation.first_vertex_id = number_of_environment("TETMEND_MPI_FIRST_VERTEX_ID");
 #ifdef TETMEND_HAS_HDF5
   const Hdf5Files files;
   invocation.array_files = &files;

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -90,41 +91,6 @@ std::vector<Region> parse_all(std::string_view option, const std::vector<std::st
   return regions;
 }
 
-/// Every label of each region has a tet, every box holds one.
-void check_not_empty(const MeshData& data, std::span<const Region> regions) {
-  if (regions.empty()) return;
-  std::set<Label> labels;
-  Eigen::AlignedBox3d bounds;
-  std::vector<char> found(regions.size(), 0);
-  for (const MeshData::Tet& tet : data.tets) {
-    const auto& v = tet.vertices;
-    const Corners corners = {data.points[v[0]], data.points[v[1]], data.points[v[2]],
-                             data.points[v[3]]};
-    labels.insert(tet.label);
-    for (const Point& p : corners) bounds.extend(p);
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-      if (regions[i].is_box() && !found[i]) found[i] = regions[i].contains(tet.label, corners);
-    }
-  }
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    for (const Label label : regions[i].labels) {
-      if (labels.contains(label)) continue;
-      constexpr std::size_t kMostListed = 20;
-      const auto listed = std::vector<Label>(labels.begin(), labels.end());
-      const std::size_t count = std::min(kMostListed, listed.size());
-      throw regions[i].error(fmt::format(
-          "no tet has label {}: the mesh has {}{}", label,
-          fmt::join(listed.begin(), listed.begin() + static_cast<std::ptrdiff_t>(count), ", "),
-          count < listed.size() ? ", ..." : ""));
-    }
-    if (!regions[i].is_box() || found[i]) continue;
-    const Point& low = bounds.min();
-    const Point& high = bounds.max();
-    throw regions[i].error(fmt::format("no tet lies in the box: the mesh fills {},{},{},{},{},{}",
-                                       low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
-  }
-}
-
 bool contain(std::span<const Region> regions, const TetMesh& mesh, TetHandle t) {
   const TetVertices& v = mesh.vertices(t);
   const Corners corners = {mesh.point_in_file(v[0]), mesh.point_in_file(v[1]),
@@ -135,14 +101,97 @@ bool contain(std::span<const Region> regions, const TetMesh& mesh, TetHandle t) 
 
 }  // namespace
 
+struct Regions::Lists {
+  std::vector<Region> protect, only;
+
+  /// Those of `protect` first.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    std::size_t i = 0;
+    for (const Region& region : protect) visit(i++, region);
+    for (const Region& region : only) visit(i++, region);
+  }
+};
+
+Regions::Regions(const Options& options) : lists_(std::make_unique<Lists>()) {
+  lists_->protect = parse_all("protect", options.protect);
+  lists_->only = parse_all("only", options.only);
+}
+
+Regions::~Regions() = default;
+
+bool Regions::are_there() const {
+  return !lists_->protect.empty() || !lists_->only.empty();
+}
+
+void Regions::Seen::merge(const Seen& other) {
+  std::vector<Label> all;
+  std::set_union(labels.begin(), labels.end(), other.labels.begin(), other.labels.end(),
+                 std::back_inserter(all));
+  labels = std::move(all);
+  box[0] = box[0].cwiseMin(other.box[0]).eval();
+  box[1] = box[1].cwiseMax(other.box[1]).eval();
+  found.resize(std::max(found.size(), other.found.size()), 0);
+  for (std::size_t i = 0; i < other.found.size(); ++i) {
+    if (other.found[i] != 0) found[i] = 1;
+  }
+}
+
+void Regions::see(Label label, const Corners& corners, Seen& seen) const {
+  const auto place = std::lower_bound(seen.labels.begin(), seen.labels.end(), label);
+  if (place == seen.labels.end() || *place != label) seen.labels.insert(place, label);
+  for (const Point& p : corners) {
+    seen.box[0] = seen.box[0].cwiseMin(p).eval();
+    seen.box[1] = seen.box[1].cwiseMax(p).eval();
+  }
+  seen.found.resize(lists_->protect.size() + lists_->only.size(), 0);
+  lists_->for_each([&](std::size_t i, const Region& region) {
+    if (region.is_box() && seen.found[i] == 0 && region.contains(label, corners)) seen.found[i] = 1;
+  });
+}
+
+bool Regions::protect(Label label, const Corners& corners) const {
+  const auto contain = [&](const std::vector<Region>& regions) {
+    return std::any_of(regions.begin(), regions.end(),
+                       [&](const Region& region) { return region.contains(label, corners); });
+  };
+  return contain(lists_->protect) || (!lists_->only.empty() && !contain(lists_->only));
+}
+
+/// Every label of each region has a tet, every box holds one.
+void Regions::check(const Seen& seen) const {
+  const std::vector<Label>& labels = seen.labels;
+  lists_->for_each([&](std::size_t i, const Region& region) {
+    for (const Label label : region.labels) {
+      if (std::binary_search(labels.begin(), labels.end(), label)) continue;
+      constexpr std::size_t kMostListed = 20;
+      const std::size_t count = std::min(kMostListed, labels.size());
+      throw region.error(fmt::format(
+          "no tet has label {}: the mesh has {}{}", label,
+          fmt::join(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(count), ", "),
+          count < labels.size() ? ", ..." : ""));
+    }
+    if (!region.is_box() || (i < seen.found.size() && seen.found[i] != 0)) return;
+    const auto& [low, high] = seen.box;
+    throw region.error(fmt::format("no tet lies in the box: the mesh fills {},{},{},{},{},{}",
+                                   low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
+  });
+}
+
 void check_regions(const Options& options) {
-  parse_all("protect", options.protect);
-  parse_all("only", options.only);
+  const Regions regions(options);
 }
 
 void find_regions(const MeshData& data, const Options& options) {
-  check_not_empty(data, parse_all("protect", options.protect));
-  check_not_empty(data, parse_all("only", options.only));
+  const Regions regions(options);
+  if (!regions.are_there()) return;
+  Regions::Seen seen;
+  for (const MeshData::Tet& tet : data.tets) {
+    const auto& v = tet.vertices;
+    regions.see(tet.label,
+                {data.points[v[0]], data.points[v[1]], data.points[v[2]], data.points[v[3]]}, seen);
+  }
+  regions.check(seen);
 }
 
 ProtectedPart protect(TetMesh& mesh, const Options& options) {

@@ -185,6 +185,7 @@ void DividedMesh::own_those_of(const std::vector<std::uint32_t>& owners) {
 }
 
 void DividedMesh::add_slice(std::size_t number, Piece slice) {
+  if (marker_) marker_(slice);
   for (const Point& p : slice.points) {
     if (!std::exchange(has_box_, true)) state_.low = state_.high = p;
     state_.low = state_.low.cwiseMin(p).eval();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -62,6 +63,8 @@ class DividedMesh {
   /// A slice of the file, whose ids are numbers in the file. Their numbers, from 0 on, are in their
   /// order there, whoever adds them. Each vertex is marked as its own in one.
   void add_slice(std::size_t number, Piece slice);
+  /// Called with each slice before it is added: may mark its tets.
+  void set_slice_marker(std::function<void(Piece&)> marker) { marker_ = std::move(marker); }
   /// All ranks, when all slices are there.
   void end_slices();
   /// All ranks: divides the stored pieces by the shifted curve, and zones where there are any.
@@ -105,6 +108,7 @@ class DividedMesh {
   Ranks& ranks_;
   DivisionState state_;
   std::vector<std::size_t> own_;
+  std::function<void(Piece&)> marker_;
   bool has_box_ = false;
   std::vector<Traffic> traffic_;
 };

@@ -69,9 +69,8 @@ FolderShelf FolderRun::shelf() const {
   return FolderShelf(folder_.pieces_of(saved_.run), kLasts);
 }
 
-void FolderRun::split(const std::filesystem::path& input, const std::filesystem::path& output,
-                      const std::filesystem::path& folder, const Options& options,
-                      const Division& division) {
+void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folder,
+                      const Options& options, const Division& division) {
   check_for_files(options);
   check(options, division);
   if (division.pieces < 2) throw OptionError("pieces", "pieces: at least 2 are needed");
@@ -86,22 +85,27 @@ void FolderRun::split(const std::filesystem::path& input, const std::filesystem:
     Tools tools(options);
     OneRank ranks;
     SavedRun saved;
-    saved.input = std::filesystem::absolute(input).string();
-    saved.output = std::filesystem::absolute(output).string();
+    saved.input = std::filesystem::absolute(files.input).string();
+    saved.output = std::filesystem::absolute(files.output).string();
+    saved.label_array = files.label_array;
+    saved.variant = files.variant;
     saved.options = texts_of(options);
     saved.division = division;
     saved.run.is_divided = true;
     try {
-      InputMesh mesh_file(input, ranks);
-      saved.input_size = std::filesystem::file_size(input);
+      InputMesh mesh_file(files.input, ranks, nullptr, files.label_array);
+      saved.input_size = std::filesystem::file_size(files.input);
       saved.vertices = mesh_file.vertices();
+      saved.holds_more = mesh_file.holds_more();
+      mesh_file.check_conserve(options.conserve);
+      if (files.tell_lost) files.tell_lost(mesh_file.lost_in(files.output));
       FolderShelf slices(run_folder.make_step(0));
       FolderShelf first(run_folder.make_step(1), kLasts);
       DividedMesh mesh(slices, ranks, saved.vertices);
-      mesh_file.add_to(mesh, division.pieces);
+      add_protected(mesh_file, options, mesh, division.pieces);
       PieceRun steps(mesh, saved.division, tools.task());
       saved.before = steps.measure_before(&first);
-      check_before(saved.before, options, input);
+      check_before(saved.before, options, files.input);
       const MeshStatistics& before = saved.before.statistics;
       saved.run.limits = {before.tets, before.n_bad,
                           tools.plan().growth.most(before.tets).value_or(RunLimits().most_tets)};
@@ -226,15 +230,21 @@ Result FolderRun::finish(const Options& options) {
   for (const StepRecord& record : saved_.run.records) result.passes.push_back(to_pass(record));
   check_after(saved_.before, steps.measure_after(&to), result);
   const std::filesystem::path output = saved_.output;
+  const WriteDetails details = {.vertices = saved_.vertices,
+                                .variant = saved_.variant,
+                                .source = saved_.holds_more ? saved_.input : "",
+                                .label_array = saved_.label_array,
+                                .conserve = options.conserve};
   if (result.worse().empty()) {
-    write_pieces(output, mesh, saved_.vertices);
+    result.carried = write_pieces(output, mesh, details);
   } else {
     result.notes.push_back(why_as_it_was(result));
     result.after = result.before;
     FolderShelf again(folder_.make_step(last + 1));
     DividedMesh slices(again, ranks, saved_.vertices);
-    InputMesh(saved_.input, ranks).add_to(slices, saved_.division.pieces);
-    write_pieces(output, slices, saved_.vertices);
+    InputMesh(saved_.input, ranks, nullptr, saved_.label_array)
+        .add_to(slices, saved_.division.pieces);
+    result.carried = write_pieces(output, slices, details);
   }
   saved_.is_finished = true;
   folder_.save(saved_);

@@ -10,6 +10,7 @@
 
 #include <tetmend/improve.h>
 
+#include "pieces/out_of_core.h"
 #include "pieces/run_folder.h"
 
 namespace tetmend::pieces {
@@ -27,11 +28,11 @@ class FolderRun {
   /// Of a folder in which split() has been, or a checkpoint. @throws Error when there is no run.
   explicit FolderRun(const std::filesystem::path& folder);
 
-  /// Divides `input` for the first round. @throws Error as improve_files(), and for a folder that has
-  /// something already; OptionError for less than two pieces.
-  static void split(const std::filesystem::path& input, const std::filesystem::path& output,
-                    const std::filesystem::path& folder, const Options& options,
-                    const Division& division);
+  /// Divides the input for the first round. Of `files` input, output and what is said of them count.
+  /// @throws Error as improve_files(), and for a folder that has something already; OptionError for
+  /// less than two pieces.
+  static void split(const OutOfCore& files, const std::filesystem::path& folder,
+                    const Options& options, const Division& division);
 
   const SavedRun& saved() const { return saved_; }
   bool is_finished() const { return saved_.is_finished; }

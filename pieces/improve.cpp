@@ -270,18 +270,17 @@ void Improvement::measure_after(Joined& joined) {
 
 /// Where the vertices and tets of the input are, and which tets are not as they were.
 void Improvement::map(const Joined& joined) {
-  result_.vertex_map.assign(input_.points.size(), kGone);
-  result_.tet_map.assign(input_.tets.size(), kGone);
+  Maps maps = maps_of(joined, input_.points.size(), input_.tets.size());
+  result_.vertex_map = std::move(maps.vertices);
+  result_.tet_map = std::move(maps.tets);
   std::vector<char> has_moved(joined.vertex_origins.size(), 1);
   for (std::uint32_t v = 0; v < has_moved.size(); ++v) {
     const std::uint32_t origin = joined.vertex_origins[v];
     if (origin == kGone) continue;
-    result_.vertex_map[origin] = v;
     has_moved[v] = joined.data.points[v] != input_.points[origin] ? 1 : 0;
   }
   for (std::uint32_t t = 0; t < joined.tet_origins.size(); ++t) {
     const std::uint32_t origin = joined.tet_origins[t];
-    if (origin != PieceTet::kNone) result_.tet_map[origin] = t;
     const auto& v = joined.data.tets[t].vertices;
     const bool is_touched =
         origin == PieceTet::kNone ||

@@ -103,7 +103,7 @@ std::optional<MeditSlices> MeditSlices::open(const std::filesystem::path& file) 
   slices.file_ = file;
   if (!slices.list_sections()) return std::nullopt;
   slices.counts_ = {slices.vertices_.rows, slices.tets_.rows, slices.triangles_.rows,
-                    slices.edges_.rows};
+                    slices.edges_.rows, slices.required_.rows};
   if (slices.counts_.tets == 0) return std::nullopt;
   return slices;
 }

@@ -15,6 +15,7 @@ struct FileCounts {
   std::uint64_t tets = 0;
   std::uint64_t triangles = 0;
   std::uint64_t edges = 0;
+  std::uint64_t required_vertices = 0;
 };
 
 /// A file of version 2 to 4, in this machine's byte order, with vertices, edges, triangles, tets and

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "pieces/mesh_files.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "face/carry.h"
+#include "face/regions.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "pieces/bytes.h"
@@ -15,36 +19,85 @@
 
 namespace tetmend::pieces {
 
-InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const ArrayFiles* files)
-    : slices_(MeditSlices::open(file)) {
+namespace {
+
+/// Of all ranks, each once.
+std::vector<std::string> gather_notes(const std::vector<std::string>& mine, Ranks& ranks) {
+  std::string bytes;
+  for (const std::string& note : mine) put(note, bytes);
+  std::set<std::string> all;
+  for (const std::string& from : ranks.gather(bytes)) {
+    for (std::string_view rest = from; !rest.empty();) {
+      std::string note;
+      pieces::take(rest, note);
+      all.insert(std::move(note));
+    }
+  }
+  return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const ArrayFiles* files,
+                     const std::string& label_array)
+    : files_(files), slices_(MeditSlices::open(file)) {
   if (files != nullptr && files->is_one(file)) {
     arrays_ = files->read(file);
     const ArrayCounts counts = count_all(*arrays_, ranks);
     tets_ = counts.tets;
     vertices_ = counts.points;
+    required_vertices_ = counts.required_vertices;
+    data_.notes = gather_notes(arrays_->notes, ranks);
     return;
   }
   if (slices_) {
     tets_ = slices_->counts().tets;
     vertices_ = slices_->counts().vertices;
+    required_vertices_ = slices_->counts().required_vertices;
     return;
   }
-  std::string counts;
+  is_elsewhere_ = !ranks.is_first();
+  std::string facts;
   if (ranks.is_first()) {
-    data_ = read_mesh(file);
-    if (face::holds_more(data_) || !data_.mid_nodes.empty()) {
-      throw Error(
-          fmt::format("{}: holds more than tets, labels and constraints, which needs the "
-                      "whole mesh in memory",
-                      file.string()));
-    }
-    put(std::uint64_t{data_.tets.size()}, counts);
-    put(std::uint64_t{data_.points.size()}, counts);
+    read_whole(file, label_array);
+    put(std::uint64_t{data_.tets.size()}, facts);
+    put(std::uint64_t{data_.points.size()}, facts);
+    put(holds_more_, facts);
   }
-  const std::vector<std::string> all = ranks.gather(counts);
+  const std::vector<std::string> all = ranks.gather(facts);
   std::string_view rest = all.front();
-  take(rest, tets_);
-  take(rest, vertices_);
+  pieces::take(rest, tets_);
+  pieces::take(rest, vertices_);
+  pieces::take(rest, holds_more_);
+}
+
+void InputMesh::read_whole(const std::filesystem::path& file, const std::string& label_array) {
+  data_ = read_mesh(file, label_array);
+  if (!data_.mid_nodes.empty()) {
+    throw Error(fmt::format("{}: a mesh of second order cannot be divided", file.string()));
+  }
+  holds_more_ = face::holds_more(data_);
+  required_vertices_ = data_.required_vertices.size();
+}
+
+std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output) const {
+  std::vector<std::string> lost = data_.notes;
+  if (files_ == nullptr || !files_->is_one(output)) {
+    for (std::string& text : not_written(output, data_)) lost.push_back(std::move(text));
+    return lost;
+  }
+  if (holds_more_) {
+    lost.emplace_back(
+        "arrays, groups and whatever there is besides labels and constraints are not written");
+  }
+  if (required_vertices_ > 0 && !files_->has_required_vertices(output)) {
+    lost.emplace_back("required vertices are not written");
+  }
+  return lost;
+}
+
+void InputMesh::check_conserve(const std::vector<std::string>& names) const {
+  if (!is_elsewhere_) face::check_conserve(data_, names);
 }
 
 void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
@@ -56,22 +109,93 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
   if (slices_) {
     slices_->add_to(mesh, std::min<std::size_t>(kTetsOfSlice, 1 + tets_ / pieces));
   } else if (mesh.ranks().is_first()) {
+    const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data_);
+    data_.triangles.insert(data_.triangles.end(), walls.begin(), walls.end());
     add_slices(data_, {}, mesh);
     data_ = {};
   }
   mesh.end_slices();
 }
 
-void write_pieces(const std::filesystem::path& file, DividedMesh& mesh, std::uint64_t vertices,
-                  const ArrayFiles* files) {
-  if (files != nullptr && files->is_one(file)) return files->write(file, take_arrays(mesh));
-  if (file.extension() == ".meshb") return write_medit_slices(file, mesh);
-  mesh.bring_to_first();
-  if (mesh.ranks().is_first()) {
-    const Joined joined = join(mesh, vertices);
-    write_mesh(file, MeshView(joined.data));
+namespace {
+
+/// Over all ranks.
+face::Regions::Seen gather_seen(const face::Regions::Seen& mine, Ranks& ranks) {
+  std::string bytes;
+  put(mine.labels, bytes);
+  for (const Point& corner : mine.box) {
+    for (const double x : corner) put(x, bytes);
   }
+  put(mine.found, bytes);
+  face::Regions::Seen all;
+  for (const std::string& from : ranks.gather(bytes)) {
+    std::string_view rest = from;
+    face::Regions::Seen other;
+    pieces::take(rest, other.labels);
+    for (Point& corner : other.box) {
+      for (double& x : corner) pieces::take(rest, x);
+    }
+    pieces::take(rest, other.found);
+    all.merge(other);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_protected(InputMesh& input, const Options& options, DividedMesh& mesh,
+                   std::size_t pieces) {
+  const face::Regions regions(options);
+  if (!regions.are_there()) return input.add_to(mesh, pieces);
+  face::Regions::Seen seen;
+  mesh.set_slice_marker([&](Piece& slice) {
+    for (PieceTet& tet : slice.tets) {
+      std::array<Point, 4> corners;
+      for (std::size_t i = 0; i < 4; ++i) corners[i] = slice.points[tet.vertices[i]];
+      regions.see(tet.label, corners, seen);
+      if (regions.protect(tet.label, corners)) tet.origin |= PieceTet::kProtected;
+    }
+  });
+  input.add_to(mesh, pieces);
+  mesh.set_slice_marker({});
+  regions.check(gather_seen(seen, mesh.ranks()));
+}
+
+namespace {
+
+std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const DividedMesh& mesh,
+                                      const WriteDetails& details) {
+  Joined joined = join(mesh, details.vertices);
+  std::vector<CarriedArray> carried;
+  if (!details.source.empty()) {
+    const MeshData before = read_mesh(details.source, details.label_array);
+    const Maps maps = maps_of(joined, before.points.size(), before.tets.size());
+    carried = face::carry(before, maps.vertices, maps.tets, details.conserve, joined.data);
+  }
+  MeshView view(joined.data);
+  view.set_variant(details.variant);
+  write_mesh(file, view);
+  return carried;
+}
+
+}  // namespace
+
+std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
+                                       const WriteDetails& details) {
+  const ArrayFiles* const files = details.array_files;
+  if (files != nullptr && files->is_one(file)) {
+    files->write_stored(file, mesh);
+    return {};
+  }
+  if (file.extension() == ".meshb" && details.source.empty()) {
+    write_medit_slices(file, mesh);
+    return {};
+  }
+  mesh.bring_to_first();
+  std::vector<CarriedArray> carried;
+  if (mesh.ranks().is_first()) carried = write_whole(file, mesh, details);
   mesh.ranks().meet();
+  return carried;
 }
 
 void check_for_files(const Options& options) {
@@ -79,11 +203,8 @@ void check_for_files(const Options& options) {
     if (!given) return;
     throw OptionError(name, fmt::format("{}: needs the whole mesh in memory", option));
   };
-  refuse(!options.protect.empty(), "protect", "protect");
-  refuse(!options.only.empty(), "only", "only");
   refuse(!options.surface.empty() && options.surface != "fixed", "surface", "surface");
   refuse(options.keep_size, "keep_size", "keep-size");
-  refuse(!options.conserve.empty(), "conserve", "conserve");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
   refuse(!options.trace.empty(), "trace", "trace");
   refuse(options.check_operators, "check_operators", "check-operators");
@@ -107,6 +228,8 @@ void check_before(const Figures& before, const Options& options,
 void check_after(const Figures& before, const Figures& after, Result& result) {
   result.before = before.statistics;
   result.not_positive_before = before.not_positive;
+  result.protected_tets = before.protected_tets;
+  result.protected_bad_tets = before.protected_bad_tets;
   result.after = after.statistics;
   result.surface_fingerprint = after.surface;
   result.not_positive_after = after.not_positive;
@@ -146,6 +269,9 @@ OptionTexts texts_of(const Options& options) {
   add("measure", options.measure);
   add("layers", options.layers == Layers::keep ? "keep" : "improve");
   add("tets", options.tets);
+  for (const std::string& region : options.protect) add("protect", region);
+  for (const std::string& region : options.only) add("only", region);
+  for (const std::string& name : options.conserve) add("conserve", name);
   return texts;
 }
 

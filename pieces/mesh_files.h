@@ -17,32 +17,62 @@
 
 namespace tetmend::pieces {
 
-/// A mesh that is to be divided. `.meshb` is read slice by slice; of other formats the first rank has
-/// the arrays of the whole mesh, until they are in pieces.
+/// A mesh that is to be divided. `.meshb` is read slice by slice; of other formats, and where a file
+/// holds more than labels and constraints, the first rank has the arrays of the whole mesh, until they
+/// are in pieces.
 class InputMesh {
  public:
-  /// All ranks. @throws Error as read_mesh(), and for a mesh that has more than labels and
-  /// constraints.
+  /// All ranks. @throws Error as read_mesh(), and for a mesh of second order.
   /// @param files  of formats that only they know; null: none
-  InputMesh(const std::filesystem::path& file, Ranks& ranks, const ArrayFiles* files = nullptr);
+  InputMesh(const std::filesystem::path& file, Ranks& ranks, const ArrayFiles* files = nullptr,
+            const std::string& label_array = {});
 
   std::uint64_t tets() const { return tets_; }
   std::uint64_t vertices() const { return vertices_; }
+  /// There is more than labels and constraints.
+  bool holds_more() const { return holds_more_; }
+  /// First rank: what of the file will not be in that one, a sentence each.
+  std::vector<std::string> lost_in(const std::filesystem::path& output) const;
+  /// All ranks: @throws OptionError, where the arrays are, unless each name is that of one of the tets
+  void check_conserve(const std::vector<std::string>& names) const;
   /// All ranks: adds all of it, in slices for so many pieces, with end_slices(). Once.
   void add_to(DividedMesh& mesh, std::size_t pieces);
 
  private:
+  void read_whole(const std::filesystem::path& file, const std::string& label_array);
+
+  const ArrayFiles* files_ = nullptr;
   std::optional<MeditSlices> slices_;
   std::optional<RankShare> arrays_;
   MeshData data_;
   std::uint64_t tets_ = 0;
   std::uint64_t vertices_ = 0;
+  std::uint64_t required_vertices_ = 0;
+  bool holds_more_ = false;
+  bool is_elsewhere_ = false;  // the first rank has it
 };
 
-/// All ranks: the first writes the stored pieces. `vertices`: of the file that was read.
-/// @throws Error as write_mesh()
-void write_pieces(const std::filesystem::path& file, DividedMesh& mesh, std::uint64_t vertices,
-                  const ArrayFiles* files = nullptr);
+/// All ranks: adds the mesh, with the tets marked that the options protect.
+/// @throws OptionError for a region without a tet
+void add_protected(InputMesh& input, const Options& options, DividedMesh& mesh, std::size_t pieces);
+
+/// What is written besides the pieces.
+struct WriteDetails {
+  std::uint64_t vertices = 0;               ///< of the file that was read
+  const ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
+  std::string variant = {};                 ///< see MeshView::variant()
+  /// The file that was read, if it holds more than labels and constraints. Read again by the first
+  /// rank, which brings over what it holds. Empty: there is nothing.
+  std::filesystem::path source = {};
+  std::string label_array = {};            ///< of `source`
+  std::vector<std::string> conserve = {};  ///< see Options
+};
+
+/// All ranks: the first writes the stored pieces, others help.
+/// @returns on the first rank, what was brought over
+/// @throws Error as write_mesh() and read_mesh()
+std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
+                                       const WriteDetails& details);
 
 /// @throws OptionError for an option that needs the whole mesh in memory.
 void check_for_files(const Options& options);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -88,6 +89,8 @@ class FileRun {
   std::optional<DividedMesh> mesh_;
   std::optional<PieceRun> steps_;
   std::uint64_t vertices_ = 0;
+  bool holds_more_ = false;
+  bool is_told_ = false;
   QualityIndicators now_;
   Figures before_;
   Result result_;
@@ -127,14 +130,14 @@ Result FileRun::run() {
 Result FileRun::improve_whole() {
   const ArrayFiles* known = files_.array_files;
   Mesh mesh = known != nullptr && known->is_one(files_.input) ? gather_whole()
-              : ranks_.is_first()                             ? load(files_.input, options_.threads)
-                                                              : Mesh();
+              : ranks_.is_first() ? load(files_.input, options_.threads, files_.label_array)
+                                  : Mesh();
   Result result;
   if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
   if (known != nullptr && known->is_one(files_.output)) {
     known->write(files_.output, ranks_.is_first() ? all_of(MeshAccess::data(mesh)) : RankShare());
   } else if (ranks_.is_first()) {
-    tetmend::save(files_.output, mesh, options_.threads);
+    tetmend::save(files_.output, mesh, options_.threads, files_.variant);
   }
   ranks_.meet();
   return result;
@@ -153,11 +156,16 @@ Mesh FileRun::gather_whole() {
 
 /// False if one piece is enough.
 bool FileRun::read() {
-  InputMesh input(files_.input, ranks_, files_.array_files);
+  InputMesh input(files_.input, ranks_, files_.array_files, files_.label_array);
+  input.check_conserve(options_.conserve);
+  if (ranks_.is_first() && files_.tell_lost && !std::exchange(is_told_, true)) {
+    files_.tell_lost(input.lost_in(files_.output));
+  }
   if (!is_divided(input.tets())) return false;
   vertices_ = input.vertices();
+  holds_more_ = input.holds_more();
   mesh_.emplace(*shelf_, ranks_, vertices_, files_.first_id);
-  input.add_to(*mesh_, division_.pieces);
+  add_protected(input, options_, *mesh_, division_.pieces);
   return true;
 }
 
@@ -176,8 +184,12 @@ SavedRun FileRun::saved() const {
   SavedRun run;
   run.input = std::filesystem::absolute(files_.input).string();
   run.output = std::filesystem::absolute(files_.output).string();
-  run.input_size = std::filesystem::file_size(files_.input);
+  std::error_code several_files;
+  run.input_size = std::filesystem::file_size(files_.input, several_files);
   run.vertices = vertices_;
+  run.holds_more = holds_more_;
+  run.label_array = files_.label_array;
+  run.variant = files_.variant;
   run.options = texts_of(options_);
   run.division = division_;
   run.before = before_;
@@ -190,13 +202,14 @@ bool FileRun::go_on() {
   const SavedRun found = checkpoint_.load();
   const SavedRun mine = saved();
   if (found.input != mine.input || found.input_size != mine.input_size ||
-      found.options != mine.options || found.is_finished ||
+      found.options != mine.options || found.label_array != mine.label_array || found.is_finished ||
       (division_.pieces != 0 && division_.pieces != found.division.pieces)) {
     throw Error(fmt::format("{}: has a run of another mesh, or with other options",
                             files_.checkpoint.string()));
   }
   division_ = found.division;
   vertices_ = found.vertices;
+  holds_more_ = found.holds_more;
   before_ = found.before;
   result_.before = before_.statistics;
   for (const StepRecord& record : found.run.records) result_.passes.push_back(to_pass(record));
@@ -278,7 +291,13 @@ void FileRun::write() {
     if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too
   }
-  write_pieces(files_.output, *mesh_, vertices_, files_.array_files);
+  result_.carried = write_pieces(files_.output, *mesh_,
+                                 {.vertices = vertices_,
+                                  .array_files = files_.array_files,
+                                  .variant = files_.variant,
+                                  .source = holds_more_ ? files_.input : std::filesystem::path(),
+                                  .label_array = files_.label_array,
+                                  .conserve = options_.conserve});
   if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.remove();
 }
 

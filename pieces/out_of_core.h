@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include <tetmend/improve.h>
@@ -34,20 +36,25 @@ struct OutOfCore {
   /// goes on from there. Empty: none. What is in it goes when the output is there.
   std::filesystem::path checkpoint = {};
   const ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
-  RunCosts* costs = nullptr;                ///< null, or where they are put
-  VertexId first_id = 0;  ///< of the file's vertices in pieces; cannot show: for tests of that
+  std::string label_array = {};             ///< of the input, see read_mesh()
+  std::string variant = {};                 ///< of the output, see MeshView::variant()
+  /// First rank: told what of the input will not be in the output, a sentence each; may throw.
+  std::function<void(const std::vector<std::string>&)> tell_lost = {};
+  RunCosts* costs = nullptr;  ///< null, or where they are put
+  VertexId first_id = 0;      ///< of the file's vertices in pieces; cannot show: for tests of that
   /// Changes each piece before it is stored, as a fault would: for tests of the final check.
   std::function<void(std::size_t part, Piece& piece)> fault = {};
 };
 
-/// All ranks; what they return is the same but for times. The output has the bytes of improve() with
-/// the same number of pieces. Only of `.meshb` files no more than a piece is ever in memory; of other
-/// formats the first rank has the arrays of the whole mesh, while it is read and while it is written.
+/// All ranks; what they return is the same but for times, and `carried`, which is on the first. The
+/// output has the bytes of improve() with the same number of pieces. Only of `.meshb` files no more
+/// than a piece is ever in memory; of other formats, and where there is more than labels and
+/// constraints, the first rank has the arrays of the whole mesh, while it is read and while it is
+/// written.
 /// @param division  0 pieces: as many as the memory asks for, or one for each 4 million tets; the
 /// number that it was then. With one piece the first rank works alone, as improve() does.
-/// @throws OptionError for an option that needs the whole mesh: protect, only, keep_size, conserve,
-/// ignore_interior, trace, check_operators; Error as improve(), and for a mesh that has more than
-/// labels and constraints, inverted tets, or boundary layers that are to be kept.
+/// @throws OptionError for an option that needs the whole mesh: keep_size, ignore_interior, trace,
+/// check_operators; Error as improve(), and for inverted tets, or boundary layers that are to be kept.
 Result improve_files(const OutOfCore& files, const Options& options, Division& division,
                      Ranks& ranks);
 

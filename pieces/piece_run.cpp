@@ -133,7 +133,7 @@ Figures PieceRun::measure_before(Shelf* next) {
   std::vector<PartFigures> mine;
   for (const std::size_t part : mesh_.own()) {
     mine.push_back({part, measure_own(mesh_.gathered(part), mesh_.state().parting,
-                                      static_cast<std::uint32_t>(part), options_.standard.goal())});
+                                      static_cast<std::uint32_t>(part), options_.standard)});
   }
   return sum(mine, mesh_.ranks());
 }
@@ -275,7 +275,7 @@ Figures PieceRun::measure_after(Shelf* next) {
     const Piece gathered = mesh_.gathered(part);
     const auto number = static_cast<std::uint32_t>(part);
     const Parting& parting = mesh_.state().parting;
-    mine.push_back({part, measure_own(gathered, parting, number, options_.standard.goal())});
+    mine.push_back({part, measure_own(gathered, parting, number, options_.standard)});
     mesh_.store(part, own_part(gathered, parting, number));
     mesh_.remove_gathered(part);
   }

@@ -394,10 +394,29 @@ void Figures::add(const Figures& other) {
   not_positive += other.not_positive;
   peculiar += other.peculiar;
   layer_tets += other.layer_tets;
+  protected_tets += other.protected_tets;
+  protected_bad_tets += other.protected_bad_tets;
 }
 
+namespace {
+
+/// @param numbers of the tets in the piece, by slot
+void count_protected(const Piece& own, std::span<const std::uint32_t> numbers,
+                     const Standard& standard, TetMesh& mesh, Figures& figures) {
+  figures.protected_tets = static_cast<std::size_t>(std::count_if(
+      own.tets.begin(), own.tets.end(), [](const PieceTet& tet) { return tet.is_protected(); }));
+  if (figures.protected_tets == 0) return;
+  mesh.set_standard(standard);
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const bool counts = own.tets[numbers[slot]].is_protected();
+    if (counts && mesh.quality(TetHandle(slot)) < kBadThreshold) ++figures.protected_bad_tets;
+  }
+}
+
+}  // namespace
+
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Goal& goal) {
+                    const Standard& standard) {
   Figures figures;
   const Piece own = own_part(gathered, parting, number);
   const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
@@ -428,9 +447,11 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
     MeshData data = to_data(own);
     data.triangles.clear();
     data.edges.clear();
-    const TetMesh mesh = TetMesh::build(data, {});
-    figures.statistics = compute_statistics(mesh, goal);
+    std::vector<std::uint32_t> numbers;
+    TetMesh mesh = TetMesh::build(data, {.report = nullptr, .tet_numbers = &numbers});
+    figures.statistics = compute_statistics(mesh, standard.goal());
     figures.not_positive = count_not_positive(mesh);
+    count_protected(own, numbers, standard, mesh, figures);
   }
   figures.statistics.boundary_triangles = boundary;
   figures.statistics.vertices = static_cast<std::size_t>(std::count_if(

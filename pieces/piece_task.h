@@ -89,6 +89,8 @@ struct Figures {
   std::size_t not_positive = 0;
   std::size_t peculiar = 0;  ///< tets that building turned round, inverted and flat ones
   std::size_t layer_tets = 0;
+  std::size_t protected_tets = 0;      ///< by the user
+  std::size_t protected_bad_tets = 0;  ///< of them
 
   void add(const Figures& other);
 };
@@ -96,6 +98,6 @@ struct Figures {
 /// Builds all of a piece, which fails where a face has more than two tets, and measures what is its
 /// own. A face is that of the piece with the lowest part of its vertices: all its tets are there.
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Goal& goal);
+                    const Standard& standard);
 
 }  // namespace tetmend::pieces

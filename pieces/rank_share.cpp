@@ -241,6 +241,10 @@ void place_vertices(const std::vector<std::string>& came, std::uint64_t begin, s
 
 }  // namespace
 
+void ArrayFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
+  write(file, take_arrays(mesh));
+}
+
 RankShare all_of(const MeshData& data) {
   RankShare arrays;
   const auto take = [](const auto& from, auto& to) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -27,6 +28,7 @@ struct RankShare {
   std::vector<Element<3>> triangles;
   std::vector<Element<2>> edges;
   std::vector<std::uint64_t> required_vertices;  ///< in the whole mesh
+  std::vector<std::string> notes;                ///< what of a file is not here, one sentence each
 };
 
 /// Files that all ranks read and write together.
@@ -38,6 +40,10 @@ class ArrayFiles {
   virtual RankShare read(const std::filesystem::path& file) const = 0;
   /// All ranks. @throws Error
   virtual void write(const std::filesystem::path& file, const RankShare& arrays) const = 0;
+  /// All ranks: the stored pieces. @throws Error
+  virtual void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const;
+  /// Whether it can hold required vertices.
+  virtual bool has_required_vertices(const std::filesystem::path&) const { return true; }
 };
 
 /// All of a mesh, as the share of one rank.

@@ -20,7 +20,7 @@ constexpr std::string_view kStep = "step-";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 1\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 2\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {
@@ -28,6 +28,9 @@ void append(const SavedRun& saved, std::string& bytes) {
   put(saved.output, bytes);
   put(saved.input_size, bytes);
   put(saved.vertices, bytes);
+  put(saved.holds_more, bytes);
+  put(saved.label_array, bytes);
+  put(saved.variant, bytes);
   put(std::uint64_t{saved.options.size()}, bytes);
   for (const auto& [name, value] : saved.options) {
     put(name, bytes);
@@ -46,6 +49,9 @@ SavedRun take_run(std::string_view bytes) {
   take(bytes, saved.output);
   take(bytes, saved.input_size);
   take(bytes, saved.vertices);
+  take(bytes, saved.holds_more);
+  take(bytes, saved.label_array);
+  take(bytes, saved.variant);
   std::uint64_t count = 0;
   take(bytes, count);
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -21,6 +21,9 @@ struct SavedRun {
   std::string output;
   std::uint64_t input_size = 0;  ///< bytes
   std::uint64_t vertices = 0;    ///< of the input
+  bool holds_more = false;       ///< it has more than labels and constraints
+  std::string label_array;       ///< see read_mesh()
+  std::string variant;           ///< of the output
   OptionTexts options;
   Division division;
   Figures before;

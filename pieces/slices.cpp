@@ -162,4 +162,15 @@ Joined join(const DividedMesh& mesh, std::size_t vertices) {
   return joined;
 }
 
+Maps maps_of(const Joined& joined, std::size_t vertices, std::size_t tets) {
+  Maps maps{std::vector<std::uint32_t>(vertices, kGone), std::vector<std::uint32_t>(tets, kGone)};
+  for (std::uint32_t v = 0; v < joined.vertex_origins.size(); ++v) {
+    if (joined.vertex_origins[v] != kGone) maps.vertices[joined.vertex_origins[v]] = v;
+  }
+  for (std::uint32_t t = 0; t < joined.tet_origins.size(); ++t) {
+    if (joined.tet_origins[t] != PieceTet::kNone) maps.tets[joined.tet_origins[t]] = t;
+  }
+  return maps;
+}
+
 }  // namespace tetmend::pieces

@@ -26,6 +26,12 @@ struct Joined {
   std::vector<char> is_protected;             ///< by tet
 };
 
+/// Where the vertices and tets of the file are in `joined`, or kGone.
+struct Maps {
+  std::vector<std::uint32_t> vertices, tets;
+};
+Maps maps_of(const Joined& joined, std::size_t vertices, std::size_t tets);
+
 /// Puts the stored pieces together. `vertices`: of the file.
 Joined join(const DividedMesh& mesh, std::size_t vertices);
 

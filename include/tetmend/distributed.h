@@ -84,9 +84,9 @@ struct Pieces {
 ///
 /// Options::progress and Options::cancel stop all ranks when they stop one. When an exception is
 /// thrown on one rank, the others wait in a call of `ranks`: end them, as MPI_Abort does.
-/// @throws OptionError for an option that needs the whole mesh (protect, only, keep_size, conserve,
-/// ignore_interior, trace, check_operators), and as improve() of a Mesh; Error for arrays that
-/// contradict themselves, inverted tets, and boundary layers that are to be kept.
+/// @throws OptionError for an option that needs the whole mesh (keep_size, ignore_interior, trace,
+/// check_operators) or arrays, of which there are none (conserve), and as improve() of a Mesh; Error
+/// for arrays that contradict themselves, inverted tets, and boundary layers that are to be kept.
 TETMEND_API Result improve(RankArrays& mesh, Ranks& ranks, const Options& options = {},
                            const Pieces& pieces = {});
 

@@ -72,6 +72,8 @@ def any_number_of_ranks(folder, expected):
         check(done.returncode == 0 and taken(folder) == expected, "other bytes", ranks, threads, done.stderr)
     done = run(*mpi(3, *improve(folder, "-q")), TETMEND_MPI_MESSAGE_BYTES="4096")
     check(done.returncode == 0 and taken(folder) == expected, "cut messages show", done.stderr)
+    done = run(*mpi(3, *improve(folder, "-q")), TETMEND_MPI_FIRST_VERTEX_ID=str(2**33))
+    check(done.returncode == 0 and taken(folder) == expected, "ids of vertices show", done.stderr)
     report = folder / "report.json"
     done = run(*mpi(2, *improve(folder, "--report", report)))
     check("worse than before    nothing" in done.stdout, "there is no report", done.stdout)
@@ -93,8 +95,11 @@ def mistakes(folder):
     check(done.returncode == 1 and done.stderr.count("none.meshb") == 1, "a missing mesh", done.returncode, done.stderr)
     done = run(*mpi(2, *improve(folder, "--threads", "many")))
     check(done.returncode == 2 and done.stderr.count("threads") == 1, "a wrong option", done.returncode, done.stderr)
-    done = run(*mpi(2, *improve(folder, "--protect", "label:1")))
-    check(done.returncode == 1 and "needs the whole mesh" in done.stderr, "protect", done.stderr)
+    done = run(*mpi(2, *improve(folder, "--keep-size")))
+    check(done.returncode == 1 and "needs the whole mesh" in done.stderr, "keep-size", done.stderr)
+    done = run(*mpi(2, *improve(folder, "--protect", "label:77")))
+    check(done.returncode != 0 and done.stderr.count("no tet has label 77") == 1, "a region without tets",
+          done.returncode, done.stderr)
     check(taken(folder) is None, "there is an output after a mistake")
 
 

@@ -277,8 +277,8 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
   save(in, MeshAccess::make(data));
   const pieces::OutOfCore files{
       .input = in, .output = folder.path() / "out.meshb", .scratch = folder.path()};
-  CHECK(improve_files(files, 2, {.protect = {"label:1"}}) ==
-        "protect: needs the whole mesh in memory");
+  CHECK(improve_files(files, 2, {.ignore_interior = true}) ==
+        "ignore-interior: needs the whole mesh in memory");
   CHECK(improve_files(files, 2, {.keep_size = true}) ==
         "keep-size: needs the whole mesh in memory");
   CHECK(improve_files(files, 2, {.surface = "1%"}) == "surface: needs the whole mesh in memory");

@@ -299,8 +299,8 @@ TEST_CASE("tasks over the files of a folder give the same bytes, killed or not")
   const std::filesystem::path work = files.folder.path() / "work";
   Division division;
   division.pieces = kPieces;
-  FolderRun::split(files.in, files.out, work, options, division);
-  CHECK_THROWS_AS(FolderRun::split(files.in, files.out, work, options, division), Error);
+  FolderRun::split(files.all(), work, options, division);
+  CHECK_THROWS_AS(FolderRun::split(files.all(), work, options, division), Error);
   FolderRun run(work);
   CHECK(run.round().name == "division 1");
   CHECK(run.round().open == std::vector<std::size_t>{0, 1, 2, 3, 4});
@@ -411,10 +411,11 @@ TEST_CASE("a folder without a run, and a mesh that tasks cannot have, are errors
   CHECK_THROWS_AS(FolderRun{none}, Error);
   Division division;
   division.pieces = kPieces;
-  CHECK_THROWS_AS(FolderRun::split(files.in, files.out, none, {.keep_size = true}, division),
-                  OptionError);
-  CHECK_THROWS_AS(FolderRun::split(none, files.out, none, {}, division), Error);
+  CHECK_THROWS_AS(FolderRun::split(files.all(), none, {.keep_size = true}, division), OptionError);
+  OutOfCore missing = files.all();
+  missing.input = none;
+  CHECK_THROWS_AS(FolderRun::split(missing, none, {}, division), Error);
   CHECK(!std::filesystem::exists(none));
   division.pieces = 1;
-  CHECK_THROWS_AS(FolderRun::split(files.in, files.out, none, {}, division), OptionError);
+  CHECK_THROWS_AS(FolderRun::split(files.all(), none, {}, division), OptionError);
 }

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// What a file holds besides its mesh, and regions that stay, when no process has the whole mesh: the
+// bytes of a run in pieces that has it.
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include <doctest/doctest.h>
+#include <tetmend/io.h>
+
+#include "face/mesh_access.h"
+#include "pieces/folder_run.h"
+#include "pieces/improve.h"
+#include "pieces/out_of_core.h"
+#include "tests/pieces/meshes.h"
+#include "tests/pieces/played_ranks.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+using pieces::Division;
+using pieces::FolderRun;
+using pieces::OutOfCore;
+using pieces::Ranks;
+
+namespace {
+
+constexpr std::size_t kPieces = 3;
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Division in_pieces() {
+  Division division;
+  division.pieces = kPieces;
+  return division;
+}
+
+/// Arrays of points and tets, groups, and parts that are finer than labels.
+MeshData lattice_with_data() {
+  MeshData data = lattice(7);
+  std::vector<double> heights;
+  for (const Point& p : data.points) heights.push_back(p.z() * p.z() + p.x());
+  data.point_data.push_back({"height", 1, heights});
+  std::vector<std::int32_t> colours;
+  for (std::size_t i = 0; i < data.tets.size(); ++i) {
+    colours.push_back(static_cast<std::int32_t>(i % 7));
+    data.tet_parts.push_back(data.points[data.tets[i].vertices[0]].x() < 3 ? 1 : 2);
+  }
+  data.tet_data.push_back({"colour", 1, colours});
+  data.groups.push_back({.dimension = 3, .number = 1, .name = "left", .parts = {1}});
+  data.groups.push_back({.dimension = 3, .number = 2, .name = "right", .parts = {2}});
+  return data;
+}
+
+/// A file, and what a run in pieces with all of it in memory makes of it.
+struct Files {
+  Files(const MeshData& data, const std::string& ending, const Options& options)
+      : in(folder.path() / ("in" + ending)), out(folder.path() / ("out" + ending)) {
+    save(in, MeshAccess::make(data));
+    Mesh mesh = load(in);
+    result = pieces::improve(mesh, options, in_pieces());
+    save(out, mesh);
+    expected = bytes_of(out);
+    std::filesystem::remove(out);
+  }
+  OutOfCore all() const {
+    OutOfCore files;
+    files.input = in;
+    files.output = out;
+    return files;
+  }
+
+  Folder folder;
+  std::filesystem::path in, out;
+  Result result;
+  std::string expected;
+};
+
+void improve_by_tasks(const Files& files, const Options& options) {
+  const std::filesystem::path work = files.folder.path() / "work";
+  FolderRun::split(files.all(), work, options, in_pieces());
+  for (FolderRun run(work); !run.is_finished(); run = FolderRun(work)) {
+    run.improve(run.round().open, {});
+    FolderRun(work).join({});
+  }
+}
+
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("arrays, groups and parts are carried by ranks and by tasks as by one process") {
+  for (const char* ending : {".vtu", ".msh"}) {
+    CAPTURE(ending);
+    const Options options = {.conserve = {}};
+    const Files files(lattice_with_data(), ending, options);
+    CHECK(files.result.carried.size() >= 2);
+    for (const std::size_t count : {1, 3}) {
+      CAPTURE(count);
+      std::filesystem::remove(files.out);
+      on_ranks(count, [&](Ranks& ranks) {
+        Division division = in_pieces();
+        const Result result = pieces::improve_files(files.all(), options, division, ranks);
+        CHECK(result.carried.size() == (ranks.is_first() ? files.result.carried.size() : 0));
+      });
+      CHECK(bytes_of(files.out) == files.expected);
+    }
+    std::filesystem::remove(files.out);
+    improve_by_tasks(files, options);
+    CHECK(bytes_of(files.out) == files.expected);
+  }
+}
+
+TEST_CASE("what a file holds that the output cannot have is told, once") {
+  const Files files(lattice_with_data(), ".msh", {});
+  OutOfCore plain = files.all();
+  plain.output = files.folder.path() / "out.mesh";
+  std::atomic<int> told = 0;
+  plain.tell_lost = [&](const std::vector<std::string>& lost) {
+    ++told;
+    CHECK(!lost.empty());
+  };
+  on_ranks(2, [&](Ranks& ranks) {
+    Division division = in_pieces();
+    pieces::improve_files(plain, {}, division, ranks);
+  });
+  CHECK(told == 1);
+  plain.tell_lost = [](const std::vector<std::string>&) { throw Error("too much"); };
+  std::filesystem::remove(plain.output);
+  CHECK(message_of([&] {
+          pieces::OneRank alone;
+          Division division = in_pieces();
+          pieces::improve_files(plain, {}, division, alone);
+        }) == "too much");
+  CHECK(!std::filesystem::exists(plain.output));
+}
+
+TEST_CASE("regions that are protected stay, whoever has them") {
+  const std::vector<Options> all = {
+      {.protect = {"label:1"}},
+      {.protect = {"box:-1,-1,-1,3.5,8,8"}, .only = {"label:2", "box:0,0,0,8,8,5"}}};
+  for (const Options& options : all) {
+    const Files files(lattice(8), ".meshb", options);
+    CHECK(files.result.protected_tets > 0);
+    CHECK(files.expected != Files(lattice(8), ".meshb", {}).expected);
+    for (const std::size_t count : {1, 3}) {
+      std::filesystem::remove(files.out);
+      on_ranks(count, [&](Ranks& ranks) {
+        Division division = in_pieces();
+        const Result result = pieces::improve_files(files.all(), options, division, ranks);
+        CHECK(result.protected_tets == files.result.protected_tets);
+        CHECK(result.protected_bad_tets == files.result.protected_bad_tets);
+      });
+      CHECK(bytes_of(files.out) == files.expected);
+    }
+    std::filesystem::remove(files.out);
+    improve_by_tasks(files, options);
+    CHECK(bytes_of(files.out) == files.expected);
+  }
+}
+
+TEST_CASE("a region without a tet is an error, also where each rank has some tets of others") {
+  const Files files(lattice(6), ".meshb", {});
+  const auto message = [&](const Options& options) {
+    return message_of([&] {
+      on_ranks(2, [&](Ranks& ranks) {
+        Division division = in_pieces();
+        pieces::improve_files(files.all(), options, division, ranks);
+      });
+    });
+  };
+  CHECK(message({.protect = {"label:1,2"}}) == "");  // each rank has seen some of both, or one
+  CHECK(message({.protect = {"label:3"}}) ==
+        "protect label:3: no tet has label 3: the mesh has 1, 2");
+  CHECK(message({.only = {"box:7,7,7,8,8,8"}}) ==
+        "only box:7,7,7,8,8,8: no tet lies in the box: the mesh fills 0,0,0,6,6,6");
+}
