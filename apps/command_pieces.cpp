@@ -231,7 +231,7 @@ works on pieces of the round, any number of times at once, on any machine that
 has the folder. 'join' begins the next round when all pieces are finished; in
 the end it checks everything and writes OUT. OUT has the bytes of
 'tetmend improve --pieces N' with the same options, which 'split' takes: they
-are the run's from then on, but for --threads.
+are the run's from then on, but for --threads. A SPEC is what it is there.
 
 FOLDER/plan.json says what is to be done: "round", its "name", its number of
 "pieces", which count from 0, and whether all is "finished". Each program may be

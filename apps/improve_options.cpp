@@ -110,9 +110,19 @@ void add_layers_and_tets(CLI::App& command, Options& options) {
             "(default:\nas far as it pays)");
 }
 
-void add_region_options(CLI::App& command, Options& options) {
+void add_protected_regions(CLI::App& command, Options& options) {
   add_values(command, options, "protect", "Leave these tets as they are; repeatable");
   add_values(command, options, "only", "Leave all other tets as they are; repeatable");
+}
+
+void add_conserve(CLI::App& command, Options& options) {
+  add_values(command, options, "conserve",
+             "Keep the integral of this array of the\ntets: new tets get the mean of the old "
+             "by\nshared volume; may be repeated");
+}
+
+void add_region_options(CLI::App& command, Options& options) {
+  add_protected_regions(command, options);
   add_layers_and_tets(command, options);
   command.add_flag("--keep-size", options.keep_size,
                    "Make no edge that is shorter than half or\nlonger than twice what edges are "
@@ -148,7 +158,10 @@ void add_trace_options(CLI::App& command, Options& options) {
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options) {
   add_schedule_options(command, options);
   add_plugin_option(command, options.run.plugin);
+  add_protected_regions(command, options.run);
   add_layers_and_tets(command, options.run);
+  add_carry_options(command, options.carry);
+  add_conserve(command, options.run);
   add_threads_option(command, options.run.threads);
   command
       .add_option(
@@ -179,9 +192,7 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_region_options(command, options.run);
   add_trace_options(command, options.run);
   add_carry_options(command, options.carry);
-  add_values(command, options.run, "conserve",
-             "Keep the integral of this array of the\ntets: new tets get the mean of the old "
-             "by\nshared volume; may be repeated");
+  add_conserve(command, options.run);
   add_format_option(command, options.format);
   command
       .add_option(

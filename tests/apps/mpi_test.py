@@ -198,6 +198,28 @@ def tasks(folder, expected):
         check(run(PROGRAM, "pieces", step, work).returncode == 0, "a round too many", step)
 
 
+def regions_and_arrays(folder):
+    """Tasks leave what is protected, and carry what a file holds, as one process does."""
+    mesh = folder / "data.vtu"
+    run(PROGRAM, "convert", MESHES / "two_materials.mesh", mesh)
+    out = folder / "regions.vtu"
+    more = [mesh, "-o", out, "--pieces", "3", "--protect", "label:1", "--only", "label:1,2"]
+    done = run(PROGRAM, "improve", *more, "-q")
+    check(done.returncode == 0, "improve with regions", done.stderr)
+    expected = out.read_bytes()
+    out.unlink()
+    work = folder / "regions"
+    done = run(PROGRAM, "pieces", "split", work, *more)
+    check(done.returncode == 0, "split with regions", done.stderr)
+    while done.returncode == 0 and not json.loads((work / "plan.json").read_text())["finished"]:
+        done = run(PROGRAM, "pieces", "improve", work, "-q")
+        check(done.returncode == 0, "improve with regions by tasks", done.stderr)
+        done = run(PROGRAM, "pieces", "join", work)
+        check(done.returncode == 0, "join with regions", done.stderr)
+    check(out.exists() and out.read_bytes() == expected, "other bytes with regions by tasks")
+    check("protected" in done.stdout, "the report of tasks has no protected tets", done.stdout)
+
+
 def main() -> int:
     has_mpi = MPI_PROGRAM != "none" and shutil.which("mpirun") is not None
     with tempfile.TemporaryDirectory(prefix="tetmend-") as name:
@@ -206,6 +228,7 @@ def main() -> int:
         expected = taken(folder)
         check(done.returncode == 0 and expected is not None, "improve", done.stderr)
         tasks(folder, expected)
+        regions_and_arrays(folder)
         if has_mpi:
             any_number_of_ranks(folder, expected)
             mistakes(folder)
