@@ -298,8 +298,9 @@ TEST_CASE("random edits: what is taken leaves patches, lines, corners and topolo
        {std::pair(kuhn_cube(2, 0, 1), 40.0), std::pair(kuhn_cube(3, 0, 1), 40.0),
         std::pair(one_tet(), 180.0), std::pair(delaunay_ball(7, 1), 180.0),
         std::pair(delaunay_ball(14, 2), 180.0), std::pair(delaunay_ball(30, 3), 60.0)}) {
+    const double degrees = angle;  // a macro captures it
     const TetMesh mesh(data);
-    const SurfaceFeatures features = find_features(mesh, {angle, false, {}});
+    const SurfaceFeatures features = find_features(mesh, {degrees, false, {}});
     const PresentSurface present(mesh, features);
     Whole whole;
     for (const auto& face : features.faces) whole.faces[rotated(face.vertices)] = face.patch;
@@ -322,7 +323,7 @@ TEST_CASE("random edits: what is taken leaves patches, lines, corners and topolo
       if (!edit.read(present, with_points(before, mesh), with_points(after, mesh))) continue;
       ++taken;
       const std::string about = complaint(whole, after_edit(whole, edit));
-      REQUIRE_MESSAGE(about.empty(), about, " after proposal ", i, " of ", angle, " degrees, ",
+      REQUIRE_MESSAGE(about.empty(), about, " after proposal ", i, " of ", degrees, " degrees, ",
                       whole.faces.size(), " faces");
     }
     CHECK(taken > 50);
