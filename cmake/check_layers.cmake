@@ -5,7 +5,7 @@
 # For each room: what its files may include, besides itself. Folders that are no rooms (tests, bench, plugins, python)
 # may include anything.
 # What users see, include/tetmend, is divided among the layers, and includes nothing but itself and the standard library.
-# Bindings include what users see, and nothing else of ours but platform and the charts of reports.
+# Bindings include what users see, and nothing else of ours but platform, the charts of reports and the ranks of MPI.
 # platform alone includes headers of the system.
 cmake_minimum_required(VERSION 3.21)
 if(NOT IS_DIRECTORY "${SOURCE_DIR}")
@@ -28,7 +28,7 @@ set(below_face platform kernel trace search envelope ops contract schedule)
 set(below_report platform kernel trace search envelope figure explain ops contract schedule face)
 set(below_pieces platform kernel trace search envelope ops contract schedule face)
 set(below_mpi platform kernel trace search envelope ops contract schedule face pieces)
-set(below_bindings platform report)
+set(below_bindings platform report mpi)
 set(below_viewer/mesh platform kernel figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)
 set(below_viewer/live platform kernel trace ops schedule viewer/mesh viewer/debugger)
@@ -43,10 +43,10 @@ set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
 set(public_of_face check improve io measure mesh option_text trace)
 set(public_of_pieces distributed)
-set(public_of_bindings tetmend)
+set(public_of_bindings petsc tetmend)
 
 # <NAME.h> is a header of the system, unless it belongs to a library.
-set(headers_of_libraries hdf5.h imgui.h imgui_internal.h imgui_stdlib.h mpi.h stb_image_write.h zlib.h zstd.h)
+set(headers_of_libraries hdf5.h imgui.h imgui_internal.h imgui_stdlib.h mpi.h petscdmplex.h petscsf.h petscsys.h stb_image_write.h zlib.h zstd.h)
 set(system_headers "^(csignal|(sys|mach|mach-o|linux|net|netinet|arpa|asm)/.*|[^/]+\\.h)$")
 set(system_names "(_WIN32|__APPLE__|__linux__|__GLIBC__)")
 
@@ -116,6 +116,8 @@ foreach(layer IN LISTS layers)
         continue()
       elseif(source STREQUAL "include/tetmend/tetmend.h" AND path MATCHES "^std(def|int)\\.h$")
         continue()  # it is for C
+      elseif(source STREQUAL "include/tetmend/petsc.h" AND path STREQUAL "petscdmplex.h")
+        continue()  # it is for programs that have PETSc
       elseif(source MATCHES "^include/" AND (path MATCHES "/|\\.h" OR quote STREQUAL "\""))
         report(${source} "${content}" "${include}" "users are not to see ${path}")
       elseif(NOT room STREQUAL "platform" AND quote STREQUAL "<" AND path MATCHES "${system_headers}"

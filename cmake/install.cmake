@@ -1,5 +1,5 @@
 # What is installed: the library, its headers, how others find it, and the licences.
-#   find_package(tetmend)   the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin
+#   find_package(tetmend)   the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin; petsc.cmake has tetmend::petsc
 #   pkg-config tetmend      the same for other build tools; with --static what a static libtetmend needs
 # The components are those of the packages that cmake/packages.cmake makes: program, viewer, library, development, python.
 include(CMakePackageConfigHelpers)

@@ -3,6 +3,7 @@
 #include "mpi/mpi_ranks.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tetmend::mpi {
 

@@ -3,15 +3,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <mpi.h>
-
-#include "pieces/ranks.h"
+#include <tetmend/distributed.h>
 
 namespace tetmend::mpi {
 
-/// Needs no more than MPI 3.1. Calls come from one thread at a time.
-class MpiRanks final : public pieces::Ranks {
+/// Needs no more than MPI 3.1. It is compiled in other programs, too: see bindings/petsc. Calls come from one thread at a time.
+class MpiRanks final : public Ranks {
  public:
   static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 

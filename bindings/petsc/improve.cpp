@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include <tetmend/petsc.h>
+
+#include "bindings/petsc/exchange.h"
+#include "bindings/petsc/plex_arrays.h"
+#include "mpi/mpi_ranks.h"
+
+namespace tetmend::petsc {
+
+Result improve(DM from, DM* better, const Options& options, const Pieces& pieces,
+               const Labels& labels) {
+  if (from == nullptr || better == nullptr) throw Error("DM: there is none");
+  MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(from));
+  mpi::MpiRanks ranks(comm);
+  PlexArrays arrays = read_plex(from, labels, ranks);
+  Result result = tetmend::improve(arrays.mesh, ranks, options, pieces);
+  for (const std::string& what : arrays.left_behind) {
+    result.notes.push_back("not carried to the new DMPlex: " + what);
+  }
+  DM made = make_plex(comm, arrays, ranks);
+  const char* name = nullptr;
+  if (PetscObjectGetName(reinterpret_cast<PetscObject>(from), &name) == 0) {
+    PetscObjectSetName(reinterpret_cast<PetscObject>(made), name);
+  }
+  *better = made;
+  return result;
+}
+
+}  // namespace tetmend::petsc
