@@ -24,6 +24,9 @@ SurfaceTolerance::SurfaceTolerance(const Options& options) : feature_angle_(opti
         fmt::format("feature_angle: {} is no angle above 0 and up to 180 degrees", feature_angle_));
   }
   std::string_view text = options.surface;
+  if (text.empty() && feature_angle_ != Options().feature_angle) {
+    throw OptionError("feature_angle", "feature_angle: it needs the option surface");
+  }
   if (text.empty() || text == "fixed") return;
   is_fixed_ = false;
   if (text == "flat") return;

@@ -42,6 +42,18 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
+// What belongs to a trace means nothing without one.
+void check_needs(const Options& options) {
+  if (!options.trace.empty()) return;
+  const auto refuse = [](const char* name) {
+    throw OptionError(name, fmt::format("{}: it needs the option trace", name));
+  };
+  if (!options.trace_around.empty()) refuse(kAround);
+  if (!options.trace_operator.empty()) refuse("trace_operator");
+  if (options.trace_depth >= 0) refuse("trace_depth");
+  if (options.trace_limit > 0) refuse("trace_limit");
+}
+
 }  // namespace
 
 TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(options.trace) {
@@ -56,6 +68,7 @@ TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(o
   if (options.trace_depth >= 0) filter_.depth = static_cast<unsigned>(options.trace_depth);
   if (options.trace_limit > 0) filter_.most_bytes = options.trace_limit;
   if (!options.trace_around.empty()) read_around(options.trace_around);
+  check_needs(options);
   if (!file_.empty()) const formats::PendingFile probe(file_);  // vanishes without commit()
 }
 

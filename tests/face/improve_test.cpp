@@ -216,7 +216,12 @@ TEST_CASE("a wrong option is named, and the mesh stays as it was") {
       {"protect", {.protect = {"lable:1"}}},
       {"only", {.only = {"box:0,0,0,1"}}},
       {"trace_operator", {.trace_operator = {"polish"}}},
-      {"trace_around", {.trace_around = "here"}}};
+      {"trace_around", {.trace_around = "here"}},
+      {"trace_around", {.trace_around = "1"}},
+      {"trace_operator", {.trace_operator = {"shell_transformation"}}},
+      {"trace_depth", {.trace_depth = 0}},
+      {"trace_limit", {.trace_limit = 1000000}},
+      {"feature_angle", {.feature_angle = 30}}};
   const std::vector<std::pair<std::string, Options>> wrong_for_this_mesh = {
       {"protect", {.protect = {"label:99"}}},
       {"only", {.only = {"box:90,90,90,91,91,91"}}},

@@ -23,7 +23,7 @@ from pathlib import Path
 import unity_names
 
 MOST = 32  # sources in a batch
-ALONE = ["pieces/medit_slices.cpp"]  # hides a function of a header that it includes: of that, only a compiler knows
+ALONE = ["pieces/medit_slices.cpp", "viewer/ui/drawing_canvas.cpp"]  # they hide functions of headers: only a compiler knows
 # Of the standard and of others: what many sources include.
 PRECOMPILED = """algorithm any array atomic charconv cmath condition_variable cstdint cstring deque filesystem fstream functional
     iostream limits list map memory mutex numeric optional queue random regex set span sstream string string_view thread tuple
@@ -121,7 +121,8 @@ class Names:
             self.known[header] = (set(), set())
             text = header.read_text(encoding="utf-8")
             files, names = self.headers(text)
-            found = (DECLARED.match(line) for line in text.splitlines() if line[:1].isalpha() and not line.startswith("namespace"))
+            lines = (line for line in text.splitlines() if line[:1].isalpha() and not line.startswith("namespace"))
+            found = (unity_names.DECLARED.match(line) for line in lines)
             own = {next(name for name in match.groups() if name) for match in found if match}
             self.known[header] = (files | {header}, names | own)
         return self.known[header]

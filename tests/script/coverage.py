@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reads what llvm-cov exports: the share of lines that were run, by layer.
 
-usage: coverage.py SOURCE_FOLDER [--files] [--write FILE] <EXPORT
+usage: coverage.py SOURCE_FOLDER [--short] [--files] [--write FILE] <EXPORT
 """
 
 import json

@@ -108,7 +108,8 @@ class RandomSolids {
   unsigned cells() { return 2 + static_cast<unsigned>(random_.index(3)); }
 
   Solid box(const char* name, const Point& size) {
-    return {name, grid(cells(), cells(), cells(), size)};
+    const unsigned z = cells(), y = cells(), x = cells();  // one after another with any compiler
+    return {name, grid(x, y, z, size)};
   }
 
   static Point into_disk(double x, double y) {  // the square [-1, 1]^2
@@ -201,7 +202,8 @@ class RandomSolids {
   }
 
   void turn(MeshData& data) {
-    const Eigen::AngleAxisd rotation(random_.real(0, 3), random_.in_ball(1).normalized());
+    const Point axis = random_.in_ball(1).normalized();
+    const Eigen::AngleAxisd rotation(random_.real(0, 3), axis);
     for (Point& p : data.points) p = rotation * p;
   }
 
