@@ -205,6 +205,7 @@ TEST_CASE("a mesh of broken topology from a file is told with its line, as often
 }
 
 TEST_CASE("a wrong option is named, and the mesh stays as it was") {
+  const TempFolder folder;
   const Mesh old = load(asset("two_materials.mesh"));
   const std::vector<std::pair<std::string, Options>> wrong = {
       {"schedule", {.schedule = "varnish"}},
@@ -225,7 +226,7 @@ TEST_CASE("a wrong option is named, and the mesh stays as it was") {
   const std::vector<std::pair<std::string, Options>> wrong_for_this_mesh = {
       {"protect", {.protect = {"label:99"}}},
       {"only", {.only = {"box:90,90,90,91,91,91"}}},
-      {"trace_around", {.trace_around = "1000000"}}};
+      {"trace_around", {.trace = folder / "no.trace", .trace_around = "1000000"}}};
   const auto check_error = [](const std::string& name, const auto& call) {
     try {
       call();
