@@ -65,6 +65,12 @@ const cutOff = () => {
   for (const name of document.querySelectorAll("#names span:not(.quiet)")) {
     const r = name.getBoundingClientRect();
     if (r.left < stage.left - 1 || r.right > stage.right + 1 || r.top < stage.top - 1 || r.bottom > stage.bottom + 1) bad.push(`name ${name.textContent}`);
+    for (const other of document.querySelectorAll("#names span:not(.quiet)")) {
+      if (other === name) break;
+      const s = other.getBoundingClientRect();
+      const over = Math.min(Math.min(r.right, s.right) - Math.max(r.left, s.left), Math.min(r.bottom, s.bottom) - Math.max(r.top, s.top));
+      if (over > 1) bad.push(`names ${name.textContent} and ${other.textContent} overlap`);
+    }
   }
   return bad;
 };

@@ -119,6 +119,25 @@ function sortedFaces(scene, camera) {
   return scene.faces.map((face) => [depth(face), face]).sort((x, y) => x[0] - y[0]).map(([, face]) => face);
 }
 
+/** Moves boxes {at: [x, y], half: [width, height]} that overlap away from each other, and all of them into the picture. */
+function spread(boxes, size) {
+  const extent = [size.width, size.height];
+  for (let round = 0; round < 40; ++round) {
+    let isDone = true;
+    boxes.forEach((box, i) => boxes.slice(i + 1).forEach((other) => {
+      const over = [0, 1].map((axis) => box.half[axis] + other.half[axis] - Math.abs(other.at[axis] - box.at[axis]));
+      const axis = over[0] < over[1] ? 0 : 1;
+      if (over[axis] < 0.5) return;
+      isDone = false;
+      const way = (other.at[axis] < box.at[axis] ? -1 : 1) * over[axis] / 2;
+      box.at[axis] -= way;
+      other.at[axis] += way;
+    }));
+    for (const box of boxes) box.at = box.at.map((x, axis) => Math.max(Math.min(x, extent[axis] - box.half[axis]), box.half[axis]));
+    if (isDone) return;
+  }
+}
+
 /** The scene as SVG, with the names. */
 function drawFlat(svg, scene, camera, size) {
   svg.setAttribute("viewBox", `0 0 ${size.width} ${size.height}`);
@@ -139,9 +158,13 @@ function drawFlat(svg, scene, camera, size) {
         "stroke-opacity": line.opacity, "stroke-linecap": "round", "stroke-dasharray": line.dashed ? "7 7" : "none"}));
     }
   }
-  for (const name of scene.names) {
-    const [x, y] = camera.project(name.place, size);
-    parts.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-weight": name.quiet ? 400 : 700, "font-size": Math.max(size.height / 30, 11),
+  const em = Math.max(size.height / 30, 11);
+  const names = scene.names.map((name) => ({...name, at: camera.project(name.place, size).slice(0, 2), half: [3 + 0.32 * em * name.text.length, 0.6 * em]}));
+  const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width && y <= size.height;
+  spread(names.filter((name) => !name.quiet && isInside(name.at)), size);
+  for (const name of names) {
+    const [x, y] = name.at;
+    parts.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-weight": name.quiet ? 400 : 700, "font-size": em,
       fill: inCss(colourOf(name.end ? "edge" : "ink")), stroke: inCss(colourOf("card")), "stroke-width": 3, "paint-order": "stroke"}, name.text));
   }
   svg.replaceChildren(...parts);

@@ -27,16 +27,19 @@ function drawPicture() {
   if (size.width === 0 || size.height === 0) return;
   if (painter && !painter.gl.isContextLost()) painter.draw(scene, camera, size, Math.min(window.devicePixelRatio, 3));
   else drawFlat(flat, scene, camera, size);
-  const names = scene.names.map((name) => ({...name, at: camera.project(name.place, size)}));
-  byId("names").replaceChildren(...names.sort((x, y) => x.at[2] - y.at[2]).map((name) => {
-    const span = make("span", {"data-vertex": name.vertex, class: `${name.end ? "end" : ""} ${name.quiet ? "quiet" : ""}`}, name.text);
+  const names = scene.names.map((name) => {
+    const [x, y, depth] = camera.project(name.place, size);
     // Whole where its place is near the border; gone where that is far outside, as of a caller's edge.
     const half = [8 + 5 * name.text.length, 12];
-    const [x, y] = [0, 1].map((axis) => within(name.at[axis], half[axis], axis === 0 ? size.width : size.height));
-    span.hidden = x === null || y === null;
-    if (span.hidden) span.classList.add("quiet");
-    span.style.left = `${x}px`;
-    span.style.top = `${y}px`;
+    const at = [within(x, half[0], size.width), within(y, half[1], size.height)];
+    return {...name, depth, half, at, hidden: at.includes(null)};
+  });
+  spread(names.filter((name) => !name.hidden && !name.quiet), size);
+  byId("names").replaceChildren(...names.sort((x, y) => x.depth - y.depth).map((name) => {
+    const span = make("span", {"data-vertex": name.vertex, class: `${name.end ? "end" : ""} ${name.quiet || name.hidden ? "quiet" : ""}`}, name.text);
+    span.hidden = name.hidden;
+    span.style.left = `${name.at[0]}px`;
+    span.style.top = `${name.at[1]}px`;
     return span;
   }));
 }
