@@ -35,6 +35,8 @@ enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2 };
 struct Options {
   std::string file;
   std::string before;
+  std::string reference;
+  std::string tolerance;
   std::string picture;
   std::string script;
   std::string size;
@@ -75,12 +77,25 @@ void go_to(Document& document, std::uint64_t event) {
   document.show_trace();
 }
 
+/// As the script word does; what --view says comes after.
+void show_reference(const Options& options, Document& document) {
+  if (options.reference.empty()) {
+    if (!options.tolerance.empty()) throw Error("--tolerance is for --reference: there is none");
+    return;
+  }
+  Allowance allowance;
+  if (!options.tolerance.empty()) allowance = Allowance::parse(options.tolerance);
+  document.set_reference(options.reference, allowance);
+  document.view.show_reference(true);
+}
+
 void prepare(const Options& options, Document& document) {
   document.live.load_plugins(all_plugins(options.plugins));
   if (!options.size.empty()) document.resize(read_size(options.size));
   if (!options.before.empty()) document.compare_with(options.before);
   if (!options.file.empty()) document.open(options.file);
   if (options.at) go_to(document, *options.at);
+  show_reference(options, document);
   if (!options.view.empty()) apply_json_text(document.view, options.view);
   if (!options.background.empty()) {
     apply_json(document.view, {{"background", options.background}});
@@ -165,6 +180,14 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("FILE", options.file, "Mesh or trace to open")->type_name("");
   app.add_option("--before", options.before, "Mesh whose statistics are shown beside")
       ->type_name("MESH");
+  app.add_option("--reference", options.reference,
+                 "Colour the surface by its distance from that of this\nmesh, which is seen as a "
+                 "ghost")
+      ->type_name("MESH");
+  app.add_option("--tolerance", options.tolerance,
+                 "What the surface might move, as improve --surface has\nit: 1%, 0.01; the figures "
+                 "are in parts of it, too")
+      ->type_name("P%|LENGTH");
   app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display")
       ->type_name("FILE.png");
   app.add_option("--video", options.video, "Write a video of a trace (.mp4) by ffmpeg and exit")
@@ -201,6 +224,7 @@ void add_options(CLI::App& app, Options& options) {
   app.footer(R"(Examples:
   tetmend-view part.mesh
   tetmend-view --before part.mesh better.mesh
+  tetmend-view --reference part.mesh --tolerance 1% moved.mesh
   tetmend-view run.trace
   tetmend-view --render part.png --size 1200x900 part.mesh
   tetmend-view --render fig.png --size 3840x2160 --scale 2 --view '{"colour": "quality"}' --colour-bar --background transparent part.mesh

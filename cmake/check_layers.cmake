@@ -29,7 +29,7 @@ set(below_report platform kernel trace search envelope figure explain ops contra
 set(below_pieces platform kernel trace search envelope ops contract schedule face)
 set(below_mpi platform kernel trace search envelope ops contract schedule face pieces)
 set(below_bindings platform report mpi)
-set(below_viewer/mesh platform kernel figure)
+set(below_viewer/mesh platform kernel envelope figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)
 set(below_viewer/live platform kernel trace ops schedule viewer/mesh viewer/debugger)
 set(below_viewer platform kernel figure explain viewer/mesh viewer/debugger viewer/live)

@@ -11,6 +11,7 @@
 
 #include "kernel/formats/pending_file.h"
 #include "kernel/from_chars.h"
+#include "trace/surface_setting.h"
 
 namespace tetmend::face {
 
@@ -64,6 +65,7 @@ TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(o
       throw OptionError("trace_operator", fmt::format("trace_operator: {}", error.what()));
     }
   }
+  if (options.surface != "fixed") surface_ = options.surface;
   filter_.operators = options.trace_operator;
   if (options.trace_depth >= 0) filter_.depth = static_cast<unsigned>(options.trace_depth);
   if (options.trace_limit > 0) filter_.most_bytes = options.trace_limit;
@@ -125,6 +127,7 @@ std::unique_ptr<TraceRecorder> TracePlan::start(const TetMesh& mesh,
   header.schedule = schedule.name();
   header.schedule_text = schedule.text();
   header.settings = settings;
+  if (!surface_.empty()) header.settings.emplace_back(kSurfaceSetting, surface_);
   return std::make_unique<TraceRecorder>(file_, mesh, std::move(header), filter_);
 }
 

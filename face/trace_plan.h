@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <tetmend/improve.h>
 
@@ -33,6 +34,7 @@ class TracePlan {
 
   std::filesystem::path file_;
   TraceFilter filter_;
+  std::string surface_;  // Options::surface, unless the surface is fixed
   std::optional<std::uint64_t> tet_;
 };
 

@@ -14,6 +14,7 @@
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/grouped.h"
 #include "viewer/debugger/call_highlight.h"
+#include "viewer/debugger/recorded_allowance.h"
 #include "viewer/debugger/tets_drawing.h"
 #include "viewer/mesh/tet_values.h"
 
@@ -125,6 +126,8 @@ void Document::open_trace(const std::filesystem::path& file) {
   view.scene.isolate = isolate;
   teaching = debugger_->lesson().has_value();
   standard_ = debugger_->file().initial_mesh().standard();
+  trace_reference_ = std::make_unique<ReferenceSurface>(
+      mesh_, recorded_allowance(debugger_->file().header()), "the beginning of the trace");
   shown_mesh_ = debugger_->mesh_number();
   shown_root_ = shown_call_ = kNoCall;
   show_trace();
@@ -150,6 +153,7 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   if (debugger_ != nullptr) view.scene.isolate = false;  // it is for the calls of a trace
   debugger_.reset();
+  trace_reference_.reset();
   target_ = {};
   caller_edge_.reset();
   call_legend_.clear();
@@ -182,6 +186,14 @@ void Document::forget_derived() {
   trace_statistics_.forget();
   lists_.forget();
   layers_.clear();
+  departure_.reset();
+  for (ReferenceSurface* reference : {given_reference_.get(), trace_reference_.get()}) {
+    if (reference != nullptr) reference->forget();
+  }
+  draw_anew();
+}
+
+void Document::draw_anew() {
   for (Drawing* drawing : {&whole_, &isolated_}) {
     drawing->settings.reset();
     drawing->changed.clear();
@@ -190,6 +202,7 @@ void Document::forget_derived() {
 
 /// After a change of these tets.
 void Document::follow_changes(std::span<const TetHandle> changed) {
+  departure_.reset();
   for (const TetHandle t : changed) trace_statistics_.touch(t);
   lists_.update(mesh_, changed);
   const std::vector<TetHandle> deeper = other_layers();
@@ -246,6 +259,32 @@ Selection Document::target_of(std::uint32_t call) {
 
 void Document::compare_with(const std::filesystem::path& file) {
   before_ = compute_statistics(read_tet_mesh(file), mesh_.standard().goal());
+}
+
+void Document::set_reference(const std::filesystem::path& file, const Allowance& allowance) {
+  given_reference_ =
+      std::make_unique<ReferenceSurface>(read_tet_mesh(file), allowance, file.string());
+  departure_.reset();
+  draw_anew();
+}
+
+void Document::forget_reference() {
+  given_reference_.reset();
+  departure_.reset();
+  draw_anew();
+}
+
+const SurfaceDeparture& Document::departure() {
+  if (!departure_) departure_ = reference()->measure(mesh_);
+  return *departure_;
+}
+
+Range Document::distance_range() const {
+  const ReferenceSurface* shown = reference();
+  if (shown == nullptr) return {};
+  if (shown->allowance().length > 0) return {0, shown->allowance().length};
+  const double largest = shown->largest_seen().distance;
+  return {0, largest > 0 ? largest : 1};
 }
 
 void Document::set_goal(const Goal& goal) {
@@ -360,6 +399,18 @@ unsigned Document::scene_revision() {
   return scene_revision_;
 }
 
+/// Fills in what colours tets or faces.
+void Document::colour_by(const SceneSettings& settings, bool anew, SceneInput& input) {
+  input.reference = reference();
+  if (settings.colour == kDistance) {
+    if (input.reference != nullptr && anew) departure();
+    input.colour_range = distance_range();
+  } else if (settings.colour != "region") {
+    input.colour_values = lists_.values(mesh_, settings.colour);
+    input.colour_range = find_tet_value(settings.colour).range;
+  }
+}
+
 void Document::update_scene() {
   const std::vector<TetHandle> only = isolated();
   const bool isolated = !only.empty();
@@ -374,15 +425,19 @@ void Document::update_scene() {
   }
   if (settings.peel == 0) layers_.clear();
   if (settings.peel > 0 && layers_.empty()) layers_ = distances_from_boundary(mesh_);
-  SceneInput input{mesh_, settings, {values(), layers_}, {}, {}, {}, ball_};
+  SceneInput input{mesh_, settings, {values(), layers_}, {}, {}, {}, {}, ball_};
   if (isolated) input.only = only;
-  if (settings.colour != "region") {
-    input.colour_values = lists_.values(mesh_, settings.colour);
-    input.colour_range = find_tet_value(settings.colour).range;
-  }
-  if (drawing.settings == settings && !isolated) {
-    drawing.keeper.update(input, drawing.changed);
+  const bool is_anew = drawing.settings != settings || isolated;
+  colour_by(settings, is_anew, input);
+  if (is_anew) {
+    drawing.keeper.build(input);
   } else {
+    drawing.keeper.update(input, drawing.changed);
+  }
+  if (settings.colour == kDistance && distance_range().high != input.colour_range.high) {
+    // Something farther away has come: the colours of all mean other distances now.
+    draw_anew();
+    input.colour_range = distance_range();
     drawing.keeper.build(input);
   }
   drawing.settings = std::move(settings);

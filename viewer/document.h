@@ -16,6 +16,7 @@
 #include "viewer/debugger/debugger.h"
 #include "viewer/live/live_run.h"
 #include "viewer/mesh/measured_mesh.h"
+#include "viewer/mesh/reference_surface.h"
 #include "viewer/mesh/scene.h"
 #include "viewer/mesh/selection.h"
 #include "viewer/mesh/tet_lists.h"
@@ -31,7 +32,7 @@ struct Message {
 };
 
 /// What the window is to ask the user for a file for.
-enum class FileQuestion : std::uint8_t { none, open, save, schedule };
+enum class FileQuestion : std::uint8_t { none, open, save, schedule, reference };
 
 /// What the user points at in one of the views; the others light it up.
 struct Pointed {
@@ -113,6 +114,21 @@ class Document {
   void follow_live();
   /// There may be something new for follow_live() soon.
   bool awaits_live() const;
+
+  /// Compares the surface with that of another mesh, from now on. @throws Error, and nothing changes.
+  void set_reference(const std::filesystem::path& file, const Allowance& allowance);
+  /// Of a trace, what it began with is compared with again.
+  void forget_reference();
+  /// What the surface is compared with: that of a file, else the one that the trace began with; or
+  /// null.
+  ReferenceSurface* reference() const {
+    return given_reference_ != nullptr ? given_reference_.get() : trace_reference_.get();
+  }
+  /// How far the whole surface has gone. Precondition: there is a reference. Cost: a pass over the
+  /// tets when the mesh has changed.
+  const SurfaceDeparture& departure();
+  /// Ends of the colours by distance, as files have lengths.
+  Range distance_range() const;
 
   bool has_mesh() const { return mesh_.tet_count() > 0; }
   const TetMesh& mesh() const { return mesh_; }
@@ -205,6 +221,8 @@ class Document {
   std::vector<TetHandle> isolated() const;
   void update_names();
   void update_scene();
+  void draw_anew();
+  void colour_by(const SceneSettings& settings, bool anew, SceneInput& input);
 
   TetMesh mesh_;
   Standard standard_ = Standard(Goal{});
@@ -215,6 +233,8 @@ class Document {
   std::array<glm::dvec3, 8> box_{};  // corners of the box around the mesh
   MeshStatistics statistics_;
   std::optional<MeshStatistics> before_;
+  std::unique_ptr<ReferenceSurface> given_reference_, trace_reference_;
+  std::optional<SurfaceDeparture> departure_;  // of the mesh as it is
   std::vector<Label> regions_;
   Selection selection_;
   /// Where the last pick took a bad tet behind the surface.

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/grouped.h"
 #include "viewer/mesh/tet_values.h"
 #include "viewer/mesh/visibility.h"
 
@@ -106,32 +107,19 @@ class OverlayDrawer {
     drawing_.add(std::move(text));
   }
 
-  /// At the right side: a column of colours with the numbers beside it, the best on top.
+  /// At the right side: a column of colours with the numbers beside it, the best on top; of
+  /// distances, the largest.
   void colour_bar() {
-    constexpr double kWidth = 16;
-    constexpr unsigned kSteps = 128;
-    constexpr unsigned kTicks = 5;
     const SceneSettings& scene = document_.view.scene;
     if (scene.colour == "region") return regions();
-    const Range& range = find_tet_value(scene.colour).range;
+    if (scene.colour == kDistance) return distance_bar();
     const ColourMap& map = find_colour_map(scene.map);
-    const double height = std::round(0.42 * (bottom_ - top_));
-    const double upper = std::round((top_ + bottom_ - height) / 2);
-    const double left = std::round(right_ - (kMargin + kWidth + 44) * scale_);
-    const double wide = std::round(kWidth * scale_);
-    words({left + wide, upper - 14 * scale_}, scene.colour, Anchor::end);
-    for (unsigned i = 0; i < kSteps; ++i) {
-      const double from = std::round(upper + height * i / kSteps);
-      // Down to the end, lest the mesh shows between two of them.
-      drawing_.rectangle({left, from}, wide, upper + height - from, map.at(1 - (i + 0.5) / kSteps));
+    const Column column = colour_column([&](double t) { return map.at(t); });
+    words({column.left + column.wide, column.upper - 14 * scale_}, scene.colour, Anchor::end);
+    numbers(column, find_tet_value(scene.colour).range);
+    if (scene.bad) {
+      swatch(column.left, column.upper + column.height + kLine * scale_, kBadColour, "bad");
     }
-    for (const double value : figure::ticks(range.low, range.high, kTicks)) {
-      const double y = upper + height * (range.high - value) / (range.high - range.low);
-      const double x = left + wide;
-      drawing_.line({x, y}, {x + 4 * scale_, y}, Pen{ink_, scale_});
-      words({x + 8 * scale_, y}, figure::tick_text(value), Anchor::start);
-    }
-    if (scene.bad) swatch(left, upper + height + kLine * scale_, kBadColour, "bad");
   }
 
   /// At the lower left.
@@ -225,6 +213,69 @@ class OverlayDrawer {
     return colour;
   }
 
+  /// Of colours, in the middle of the right side.
+  struct Column {
+    double left, upper, wide, height;
+  };
+  /// `colour` is asked for places from 0, below, to 1.
+  template <class ColourAt>
+  Column colour_column(ColourAt colour) {
+    constexpr double kWidth = 16;
+    constexpr unsigned kSteps = 128;
+    Column column{};
+    column.height = std::round(0.42 * (bottom_ - top_));
+    column.upper = std::round((top_ + bottom_ - column.height) / 2);
+    column.left = std::round(right_ - (kMargin + kWidth + 44) * scale_);
+    column.wide = std::round(kWidth * scale_);
+    for (unsigned i = 0; i < kSteps; ++i) {
+      const double from = std::round(column.upper + column.height * i / kSteps);
+      // Down to the end, lest the mesh shows between two of them.
+      drawing_.rectangle({column.left, from}, column.wide, column.upper + column.height - from,
+                         colour(1 - (i + 0.5) / kSteps));
+    }
+    return column;
+  }
+
+  /// Right of the column, or left of it.
+  void numbers(const Column& column, const Range& range, Anchor side = Anchor::start) {
+    constexpr unsigned kTicks = 5;
+    const bool is_right = side == Anchor::start;
+    const double x = is_right ? column.left + column.wide : column.left;
+    const double out = is_right ? scale_ : -scale_;
+    for (const double value : figure::ticks(range.low, range.high, kTicks)) {
+      const double y =
+          column.upper + column.height * (range.high - value) / (range.high - range.low);
+      drawing_.line({x, y}, {x + 4 * out, y}, Pen{ink_, scale_});
+      words({x + 8 * out, y}, figure::tick_text(value), side);
+    }
+  }
+
+  /// Lengths at the right; where the tolerance is the same everywhere, parts of it at the left.
+  void distance_bar() {
+    const ReferenceSurface* reference = document_.reference();
+    if (reference == nullptr) return;
+    const ColourMap& map = find_colour_map(document_.view.scene.map);
+    const Column column = colour_column([&](double t) { return map.at(1 - t); });
+    const double right = right_ - kMargin / 2 * scale_;
+    words({right, column.upper - 14 * scale_}, "distance from the reference", Anchor::end);
+    numbers(column, document_.distance_range());
+    if (reference->allowance().length > 0) {
+      numbers(column, {0, 1}, Anchor::end);
+      words({column.left - 8 * scale_, column.upper + column.height + 0.8 * kLine * scale_},
+            "of the tolerance", Anchor::end);
+    }
+    double y = column.upper + column.height + 1.8 * kLine * scale_;
+    for (std::string& line : departure_in_words(document_)) {
+      words({right, y}, std::move(line), Anchor::end);
+      y += kLine * scale_;
+    }
+    const double left = right - 110 * scale_;
+    swatch(left, y, kUnchangedColour, "unchanged");
+    if (document_.view.scene.reference > 0) {
+      swatch(left, y + kLine * scale_, kReferenceColour, "reference");
+    }
+  }
+
   void swatch(double left, double y, const Colour& colour, std::string text) {
     const double side = 14 * scale_;
     drawing_.rectangle({left, y - side / 2}, side, side, colour);
@@ -260,6 +311,18 @@ class OverlayDrawer {
 };
 
 }  // namespace
+
+std::vector<std::string> departure_in_words(Document& document) {
+  const SurfaceDeparture& departure = document.departure();
+  std::vector<std::string> lines = {
+      "at most " + figure::tick_text(departure.most.distance),
+      fmt::format("{} of {} triangles changed", grouped(departure.others),
+                  grouped(departure.triangles))};
+  if (document.reference()->allowance().is_known()) {
+    lines.insert(lines.begin() + 1, fmt::format("{:.2g} of the tolerance", departure.most.share));
+  }
+  return lines;
+}
 
 double scale_bar_length(const Document& document, double most) {
   const double longest = document.mesh().scale().to_file(

@@ -23,6 +23,10 @@ struct OverlayLook {
 
 /// What the view of the document asks for, in pixels of its window. Nothing without a mesh.
 figure::Drawing draw_overlay(Document& document, const OverlayLook& look);
+/// How far the surface has gone from its reference, a line each: "at most 0.0094", "0.61 of the
+/// tolerance". Precondition: there is a reference.
+std::vector<std::string> departure_in_words(Document& document);
+
 /// draw_overlay() would draw something.
 bool has_overlay(Document& document);
 

@@ -1,4 +1,5 @@
 -- Makes the pictures of docs/viewer.md. From the root of the repository, after script/demo:
+--   build/release/bin/tetmend improve assets/meshes/bracket.meshb -o demo-out/moved.mesh --goal 40 --surface 5%
 --   build/release/bin/tetmend-view --panels --scale 0.85 --script docs/figures/viewer.lua
 --   pngquant --force --ext .png docs/figures/viewer-*.png      (smaller files; optional)
 
@@ -52,3 +53,11 @@ live_step()
 live_wait()
 screenshot("docs/figures/viewer-live.png")
 live_stop()
+
+-- How far the surface has moved.
+open("demo-out/moved.mesh")
+show_all()
+ghosts(0)
+reference("assets/meshes/bracket.meshb", "5%")
+home()
+screenshot("docs/figures/viewer-distance.png")

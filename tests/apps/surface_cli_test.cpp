@@ -64,6 +64,7 @@ TEST_CASE("a trace of a run that moves the surface can be read and checked") {
   CAPTURE(told.err);
   CHECK(told.status == 0);
   CHECK(contains(told.out, "surface_"));
+  CHECK(contains(told.out, "--surface = 5%"));
 }
 
 TEST_CASE("a tolerance that is none is a mistake, and nothing is written") {

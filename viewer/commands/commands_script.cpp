@@ -106,6 +106,22 @@ std::span<const Command> script_commands() {
   return kCommands;
 }
 
+namespace {
+
+json reference_state(Document& document) {
+  const ReferenceSurface& reference = *document.reference();
+  const SurfaceDeparture& departure = document.departure();
+  json state = {{"name", reference.name()},
+                {"distance", departure.most.distance},
+                {"triangles", departure.triangles},
+                {"changed", departure.others},
+                {"range", {document.distance_range().low, document.distance_range().high}}};
+  if (reference.allowance().is_known()) state["share_of_tolerance"] = departure.most.share;
+  return state;
+}
+
+}  // namespace
+
 json state_of(Document& document) {
   json selection = {{"kind", "nothing"}};
   const TetMesh& mesh = document.mesh();
@@ -126,6 +142,10 @@ json state_of(Document& document) {
   json pointed = json::array();
   for (const VertexHandle v : document.pointed().vertices) pointed.push_back(v.index());
   const Scene& scene = document.scene();
+  json reference;
+  if (document.reference() != nullptr && document.view.scene.colour == kDistance) {
+    reference = reference_state(document);
+  }
   json trace;
   if (document.debugger() != nullptr) trace = trace_state_of(document);
   return {{"file", document.file()},
@@ -146,6 +166,7 @@ json state_of(Document& document) {
           {"legend", legend},
           {"pointed", pointed},
           {"teaching", document.teaching},
+          {"reference", reference},
           {"trace", trace},
           {"view", to_json(document.view)}};
 }

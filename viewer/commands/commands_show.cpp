@@ -32,10 +32,11 @@ json colour(Session& s, const json& a) {
   std::string& now = s.document.view.scene.colour;
   if (!a.empty()) {
     apply_json(s.document.view, {{"colour", a[0]}});
-    if (now != "region") s.document.view.scene.measure = now;
+    if (now != "region" && now != kDistance) s.document.view.scene.measure = now;
     return nullptr;
   }
   std::vector<std::string> names = {"region"};
+  if (s.document.reference() != nullptr) names.emplace_back(kDistance);
   for (const TetValue& value : tet_values()) names.emplace_back(value.name);
   const auto found = std::find(names.begin(), names.end(), now);
   const auto next = found + 1 == names.end() ? names.begin() : found + 1;
@@ -50,6 +51,25 @@ json goal(Session& s, const json& a) {
   if (arguments.has(1)) goal.max_angle = arguments.number(1);
   if (!a.empty()) s.document.set_goal(goal);
   return {{"min", goal.min_angle}, {"max", goal.max_angle}};
+}
+
+/// The menu turns it on and off, or asks for a file.
+json reference(Session& s, const json& a) {
+  Document& document = s.document;
+  const Arguments arguments("reference", a);
+  if (arguments.has(0)) {
+    Allowance allowance;
+    if (arguments.has(1)) allowance = Allowance::parse(arguments.text(1));
+    document.set_reference(arguments.text(0), allowance);
+    document.view.show_reference(true);
+    return nullptr;
+  }
+  if (document.reference() == nullptr) {
+    document.question = FileQuestion::reference;
+  } else {
+    document.view.show_reference(document.view.scene.colour != kDistance);
+  }
+  return nullptr;
 }
 
 json filter(Session& s, const json& a) {
@@ -146,6 +166,11 @@ constexpr std::array kCommands = {
     Command{"constraints", "C", kShow, "constraints()", "Constraint faces inside the volume",
             &toggle<&SceneSettings::constraints>},
     Command{"ghosts", "G", kShow, "ghosts(0.15)", "Ghosts of hidden tets; opacity", &ghosts},
+    Command{
+        "reference", "Ctrl+R", kShow, "reference(\"FILE\", \"1%\")",
+        "Colour the surface by its distance from that of another mesh, seen as a ghost; then on "
+        "and off. A tolerance is a length or a share of edges; a trace has what it began with",
+        &reference},
     Command{"colour", "M", kShow, "colour(\"quality\")",
             "Colour by region or by a measure; the key takes the next", &colour},
     Command{

@@ -182,7 +182,12 @@ void Renderer::draw(Document& document, const Surface& surface) {
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glEnable(GL_CULL_FACE);
+  if (document.view.scene.reference > 0) {  // most of it lies on the surface itself
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1, 1);
+  }
   draw_surface(scene_->ghosts(), 1, document.view.edges ? 0.5F : 0.0F);
+  glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
 

@@ -24,6 +24,12 @@ using figure::kSupportingEdgeColour;
 using figure::kSupportingFaceColour;
 using figure::kWorstColour;
 
+/// The surface that this one is compared with; faces that are as they were there; and what is no
+/// surface beside them.
+inline constexpr Colour kReferenceColour{140, 70, 190, 255};
+inline constexpr Colour kUnchangedColour{206, 209, 214, 255};
+inline constexpr Colour kInsideColour{150, 153, 160, 255};
+
 /// A quiet colour for each label; the same for equal labels, different for neighbours in number.
 Colour region_colour(Label label);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -56,6 +57,7 @@ class SceneWork {
   void take_worst(std::vector<SceneKeeper::Bad>& bad);
   void draw_all();
   void add_constraints();
+  void add_reference();
   void own(std::vector<TetHandle>& tets, const std::vector<SurfaceVertex>& vertices, TetHandle t);
   void write_note();
   template <class Visit>
@@ -176,6 +178,7 @@ void SceneWork::own(std::vector<TetHandle>& tets, const std::vector<SurfaceVerte
 void SceneWork::draw_all() {
   triangles_.shrink_all(shrinks_all());
   if (settings_.constraints) add_constraints();
+  if (in_.reference != nullptr && settings_.reference > 0) add_reference();
   for_each_slot([&](std::uint32_t slot) {
     const TetHandle t(slot);
     if (k_.shown_[slot] != 0) triangles_.add_surface(t, scene_.surface);
@@ -202,6 +205,16 @@ void SceneWork::add_constraints() {
   own(scene_.through_tets, scene_.through, TetHandle());
 }
 
+void SceneWork::add_reference() {
+  Colour colour = kReferenceColour;
+  colour.alpha = static_cast<std::uint8_t>(std::lround(255 * settings_.reference));
+  for (const auto& corners : in_.reference->triangles(mesh_.scale())) {
+    add_triangle(scene_.ghosts, {to_glm(corners[0]), to_glm(corners[1]), to_glm(corners[2])},
+                 colour, scene_.origin);
+  }
+  own(scene_.ghost_tets, scene_.ghosts, TetHandle());
+}
+
 void SceneWork::write_note() {
   scene_.bad_shown = std::min(k_.bad_count_, in_.most_bad);
   scene_.note.clear();
@@ -214,6 +227,9 @@ void SceneWork::write_note() {
   }
   if (triangles_.is_shrunk() && !shrinks_all()) {
     note("many tets: only the outer two layers are drawn shrunk");
+  }
+  if (settings_.colour == kDistance && in_.reference == nullptr) {
+    note("there is no reference surface to have a distance from");
   }
 }
 

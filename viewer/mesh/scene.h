@@ -14,6 +14,7 @@
 #include "kernel/tet_mesh.h"
 #include "viewer/mesh/colour_map.h"
 #include "viewer/mesh/polygon.h"
+#include "viewer/mesh/reference_surface.h"
 #include "viewer/mesh/visibility.h"
 
 namespace tetmend::viewer {
@@ -66,6 +67,7 @@ struct SceneInput {
   TetFigures figures;                              ///< of settings.measure
   std::span<const float> colour_values;            ///< of settings.colour; empty for "region"
   Range colour_range;                              ///< ends of the colour map
+  ReferenceSurface* reference = nullptr;           ///< null: there is none
   std::optional<std::span<const TetHandle>> only;  ///< the tets to show, each once; all without
   Ball ball;                                       ///< encloses the mesh
   std::size_t most_bad = kMostBadTets;             ///< seen through the rest

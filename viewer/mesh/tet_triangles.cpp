@@ -74,7 +74,18 @@ bool TetTriangles::remains(Polygon polygon, std::size_t skipped_plane) const {
   return polygon.size > 0;
 }
 
+/// Only colours by distance tell faces of a tet apart.
+Colour TetTriangles::colour_of(HalfFace face, const Colour& of_tet) const {
+  if (in_.reference == nullptr || settings_.colour != kDistance) return of_tet;
+  if (!is_surface_face(mesh_, face)) return of_tet;
+  const double distance = in_.reference->of(mesh_, face).distance;
+  if (distance == 0) return kUnchangedColour;
+  return map_.at(1 - (distance - in_.colour_range.low) /
+                         (in_.colour_range.high - in_.colour_range.low));
+}
+
 Colour TetTriangles::colour_of(TetHandle t) const {
+  if (settings_.colour == kDistance) return kInsideColour;
   if (in_.colour_values.empty()) return is_bad(t) ? kBadColour : region_colour(mesh_.label(t));
   const auto value = static_cast<double>(in_.colour_values[t.index()]);
   return map_.at((value - in_.colour_range.low) / (in_.colour_range.high - in_.colour_range.low));
@@ -117,15 +128,17 @@ void TetTriangles::add_faces(TetHandle t, const Colour& colour,
     for (unsigned f = 0; f < 4; ++f) {
       if (!is_exposed(HalfFace(t, f))) continue;
       const auto c = corners(mesh_, HalfFace(t, f));
-      add_cut(to_polygon(c), normal_of(c), colour, exact_.size(), out);
+      add_cut(to_polygon(c), normal_of(c), colour_of(HalfFace(t, f), colour), exact_.size(), out);
     }
     return;
   }
   if (!shrinks_all_ && !is_near_the_eye(t)) return;
   const auto c = shrunk(t);
-  for (const auto& face : kFaceVertices) {
+  for (unsigned f = 0; f < 4; ++f) {
+    const auto& face = kFaceVertices[f];
     const std::array<glm::dvec3, 3> corner = {c[face[0]], c[face[1]], c[face[2]]};
-    add_cut(to_polygon(corner), normal_of(corner), colour, exact_.size(), out);
+    add_cut(to_polygon(corner), normal_of(corner), colour_of(HalfFace(t, f), colour), exact_.size(),
+            out);
   }
 }
 

@@ -37,6 +37,7 @@ class TetTriangles {
   bool is_near_the_eye(TetHandle t) const;
   bool remains(Polygon polygon, std::size_t skipped_plane) const;
   Colour colour_of(TetHandle t) const;
+  Colour colour_of(HalfFace face, const Colour& of_tet) const;
   std::uint8_t alpha_of(Quality quality) const;
   std::array<glm::dvec3, 4> shrunk(TetHandle t) const;
   void add_cut(Polygon polygon, const glm::dvec3& normal, const Colour& colour,

@@ -192,6 +192,7 @@ void visit(Visitor& v, View& view) {
   v("peel", s.peel, {0, 1000000});
   v("shrink", s.shrink, {0, 0.9});
   v("ghosts", s.ghosts, {0, 1});
+  v("reference", s.reference, {0, 1});
   v("constraints", s.constraints);
   v("isolate", s.isolate);
   v("hidden_regions", s.hidden_regions);
@@ -209,7 +210,8 @@ void visit(Visitor& v, View& view) {
 }
 
 void check(const ViewSettings& view) {
-  if (view.scene.colour != "region") find_tet_value(view.scene.colour);
+  const std::string& colour = view.scene.colour;
+  if (colour != "region" && colour != kDistance) find_tet_value(colour);
   find_tet_value(view.scene.measure);
   find_colour_map(view.scene.map);
   for (const CutPlane& cut : view.scene.cuts) {
@@ -221,6 +223,13 @@ void check(const ViewSettings& view) {
 }
 
 }  // namespace
+
+void ViewSettings::show_reference(bool on) {
+  constexpr double kGhost = 0.3;
+  scene.colour = on ? kDistance : "region";
+  scene.reference = on ? kGhost : 0;
+  colour_bar = on;
+}
 
 json to_json(const ViewSettings& view) {
   Writer writer;

@@ -24,9 +24,12 @@ struct CutPlane {
   friend bool operator==(const CutPlane&, const CutPlane&) = default;
 };
 
+/// Colours of the faces of the surface by how far they lie from another surface.
+inline constexpr const char* kDistance = "distance";
+
 /// What is drawn of the mesh and in which colours; the camera and the looks of the window apart.
 struct SceneSettings {
-  std::string colour = "region";  ///< or the name of a TetValue
+  std::string colour = "region";  ///< or the name of a TetValue, or kDistance
   std::string map = "ember";
   std::string measure = "quality";  ///< of the histogram, the filter and the list of the worst
   bool bad = true;                  ///< bad tets in red, seen through the rest
@@ -37,9 +40,10 @@ struct SceneSettings {
   bool outside = false;  ///< show those outside of `range` instead
   std::array<CutPlane, 3> cuts = {CutPlane{.normal = {1, 0, 0}}, CutPlane{.normal = {0, 1, 0}},
                                   CutPlane{.normal = {0, 0, 1}}};
-  int peel = 0;       ///< layers of tets taken off the boundary
-  double shrink = 0;  ///< of each tet towards its centre, 0 to 0.9
-  double ghosts = 0;  ///< opacity of the boundary of hidden tets, 0 to 1
+  int peel = 0;          ///< layers of tets taken off the boundary
+  double shrink = 0;     ///< of each tet towards its centre, 0 to 0.9
+  double ghosts = 0;     ///< opacity of the boundary of hidden tets, 0 to 1
+  double reference = 0;  ///< opacity of the surface that this one is compared with, 0 to 1
   bool constraints = false;
   bool isolate = false;  ///< only the tets of the call at hand, or of the selection
   std::vector<Label> hidden_regions;
@@ -63,6 +67,9 @@ struct ViewSettings {
   bool colour_bar = false;  ///< of the measure, with numbers; of regions, their colours
   bool scale_bar = false;
   std::string title;  ///< over the mesh; empty: none
+
+  /// Colours by distance, their bar, and the reference as a ghost.
+  void show_reference(bool on);
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 };
 

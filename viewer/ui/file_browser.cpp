@@ -20,6 +20,7 @@ constexpr const char* kPopup = "##file";
 
 const char* title_of(FileQuestion question) {
   if (question == FileQuestion::save) return "Save the mesh as";
+  if (question == FileQuestion::reference) return "Open a mesh whose surface to compare with";
   return question == FileQuestion::schedule ? "Choose a schedule" : "Open a mesh or a trace";
 }
 
@@ -109,6 +110,9 @@ void FileBrowser::finish(Session& session) {
     }
     if (question_ == FileQuestion::open) session.document.open(file);
     if (question_ == FileQuestion::save) session.document.save(file);
+    if (question_ == FileQuestion::reference) {
+      find_command("reference").run(session, {file.string()});
+    }
     if (question_ == FileQuestion::schedule) session.document.live.choose_schedule(file.string());
     folder_ = folder_of(file.string());
     ImGui::CloseCurrentPopup();

@@ -8,15 +8,19 @@
 
 #include "kernel/error.h"
 #include "viewer/mesh/tet_values.h"
+#include "viewer/overlay.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
 
 namespace {
 
-void choose_colour(SceneSettings& scene) {
+void choose_colour(SceneSettings& scene, bool has_reference) {
   if (ImGui::BeginCombo("colour", scene.colour.c_str())) {
     if (ImGui::Selectable("region", scene.colour == "region")) scene.colour = "region";
+    if (has_reference && ImGui::Selectable(kDistance, scene.colour == kDistance)) {
+      scene.colour = kDistance;
+    }
     for (const TetValue& value : tet_values()) {
       if (ImGui::Selectable(value.name.data(), scene.colour == value.name)) {
         scene.colour = value.name;
@@ -31,6 +35,27 @@ void choose_colour(SceneSettings& scene) {
       if (ImGui::Selectable(map.name.data(), scene.map == map.name)) scene.map = map.name;
     }
     ImGui::EndCombo();
+  }
+}
+
+void slide(const char* name, double& value, double low, double high, const char* format) {
+  ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &low, &high, format);
+}
+
+/// On without a reference, it asks for one.
+void choose_reference(Session& session) {
+  Document& document = session.document;
+  bool is_on = document.view.scene.colour == kDistance && document.reference() != nullptr;
+  if (ImGui::Checkbox("reference surface", &is_on)) {
+    run_from_window(find_command("reference"), session);
+  }
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("the surface by its distance from another one, which is seen as a ghost");
+  }
+  if (!is_on || document.reference() == nullptr) return;
+  slide("its ghost", document.view.scene.reference, 0, 1, "%.2f");
+  for (const std::string& line : departure_in_words(document)) {
+    ImGui::TextWrapped("%s", line.c_str());
   }
 }
 
@@ -53,10 +78,6 @@ void choose_goal(Document& document) {
   } catch (const Error& error) {
     document.message = {error.what(), true};
   }
-}
-
-void slide(const char* name, double& value, double low, double high, const char* format) {
-  ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &low, &high, format);
 }
 
 /// Only where there are several; a long list would drown the rest.
@@ -93,7 +114,7 @@ void draw_display_panel(Session& session) {
   ViewSettings& view = session.document.view;
   SceneSettings& scene = view.scene;
   ImGui::PushItemWidth(0.6F * ImGui::GetContentRegionAvail().x);
-  choose_colour(scene);
+  choose_colour(scene, session.document.reference() != nullptr);
   choose_goal(session.document);
   ImGui::Checkbox("bad tets in red", &scene.bad);
   if (ImGui::IsItemHovered()) {
@@ -117,9 +138,11 @@ void draw_display_panel(Session& session) {
   scene.peel = std::max(scene.peel, 0);
   slide("shrink", scene.shrink, 0, 0.9, "%.2f");
   slide("ghosts", scene.ghosts, 0, 1, "%.2f");
+  choose_reference(session);
   ImGui::PopItemWidth();
   scene.shrink = std::clamp(scene.shrink, 0.0, 0.9);
   scene.ghosts = std::clamp(scene.ghosts, 0.0, 1.0);
+  scene.reference = std::clamp(scene.reference, 0.0, 1.0);
   choose_regions(session.document.regions(), scene);
 }
 

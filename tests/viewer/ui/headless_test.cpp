@@ -159,6 +159,29 @@ TEST_CASE("a live run takes the red away") {
   CHECK(std::filesystem::exists(folder / "better.mesh"));
 }
 
+TEST_CASE("an operator of a plugin can be tried live, with its parameters") {
+  const TempFolder folder;
+  std::ofstream(folder / "script.lua") << R"lua(
+    open()lua" << in_quotes(kSheet) << R"lua()
+    expect(live_plugins()[1] == "odt_smoothing", "its name")
+    expect(live_schedule("operator odt_smoothing").halvings == 3, "its parameter")
+    live_set("rounds_at_most", 2)
+    live_set("halvings", 5)
+    live_start()
+    expect(live_wait().state == "paused", "before its first call")
+    live_step()
+    expect(live_wait().last.operator == "odt_smoothing", "stops at what it changes")
+    live_continue()
+    local run = live_wait()
+    expect(run.state == "finished", run.error)
+    expect(#run.passes >= 1, "passes")
+  )lua";
+  const Outcome outcome = run_program({"--plugin", TETMEND_TEST_PLUGINS "/odt_smoothing.so",
+                                       "--script", (folder / "script.lua").string()});
+  CHECK(outcome.err == "");
+  CHECK(outcome.status == 0);
+}
+
 TEST_CASE("panels can be part of the picture, in both themes") {
   const TempFolder folder;
   const Outcome outcome = run_script(folder, R"lua(
@@ -176,6 +199,40 @@ TEST_CASE("panels can be part of the picture, in both themes") {
   CHECK(outcome.err == "");
   CHECK(outcome.status == 0);
   CHECK(read_png(folder / "keys.png").width == 1000);
+}
+
+TEST_CASE("--reference colours what has moved, with a bar, and reports how far") {
+  const TempFolder folder;
+  MeshData cube = kuhn_cube(4, 0, 1);
+  write_mesh(folder / "cube.mesh", cube);
+  for (Point& p : cube.points) {
+    if (p == Point(0.5, 0.5, 1)) p.z() += 0.1;
+  }
+  write_mesh(folder / "moved.mesh", cube);
+  const auto coloured = [&](const std::string& name) {
+    const Outcome outcome =
+        run_program({"--render", (folder / "out.png").string(), "--size", "400x400", "--background",
+                     "white", "--reference", (folder / "cube.mesh").string(), "--tolerance", "0.2",
+                     "--view", R"({"colour_bar": false, "reference": 0, "camera": {"pitch": 89}})",
+                     "--report", (folder / "report.json").string(), (folder / name).string()});
+    CHECK(outcome.err == "");
+    REQUIRE(outcome.status == 0);
+    const viewer::Image image = read_png((folder / "out.png").string());
+    return std::count_if(image.pixels.begin(), image.pixels.end(), [](const viewer::Colour& c) {
+      return std::max({c.red, c.green, c.blue}) - std::min({c.red, c.green, c.blue}) > 40;
+    });
+  };
+  CHECK(coloured("cube.mesh") == 0);
+  CHECK(coloured("moved.mesh") > 1000);
+  const auto told = nlohmann::json::parse(read_text(folder / "report.json"))["reference"];
+  CHECK(told["distance"].get<double>() == doctest::Approx(0.1));
+  CHECK(told["share_of_tolerance"].get<double>() == doctest::Approx(0.5));
+  CHECK(told["changed"] == 6);
+
+  const Outcome alone = run_program({"--render", (folder / "out.png").string(), "--tolerance", "1%",
+                                     (folder / "cube.mesh").string()});
+  CHECK(alone.status == 1);
+  CHECK(alone.err == "tetmend-view: --tolerance is for --reference: there is none\n");
 }
 
 TEST_CASE("a view from the command line sets the camera, and one without a camera does not") {
