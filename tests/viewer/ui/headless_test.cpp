@@ -164,7 +164,7 @@ TEST_CASE("an operator of a plugin can be tried live, with its parameters") {
   std::ofstream(folder / "script.lua") << R"lua(
     open()lua" << in_quotes(kSheet) << R"lua()
     expect(live_plugins()[1] == "odt_smoothing", "its name")
-    expect(live_schedule("operator odt_smoothing").halvings == 3, "its parameter")
+    expect(live_schedule("operator odt_smoothing").halvings == "3", "its parameter")
     live_set("rounds_at_most", 2)
     live_set("halvings", 5)
     live_start()
