@@ -154,6 +154,7 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   if (debugger_ != nullptr) view.scene.isolate = false;  // it is for the calls of a trace
   debugger_.reset();
   trace_reference_.reset();
+  if (given_reference_ != nullptr) given_reference_->forget();  // the colours end elsewhere now
   target_ = {};
   caller_edge_.reset();
   call_legend_.clear();
@@ -187,9 +188,6 @@ void Document::forget_derived() {
   lists_.forget();
   layers_.clear();
   departure_.reset();
-  for (ReferenceSurface* reference : {given_reference_.get(), trace_reference_.get()}) {
-    if (reference != nullptr) reference->forget();
-  }
   draw_anew();
 }
 
