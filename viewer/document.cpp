@@ -423,7 +423,7 @@ void Document::update_scene() {
   }
   if (settings.peel == 0) layers_.clear();
   if (settings.peel > 0 && layers_.empty()) layers_ = distances_from_boundary(mesh_);
-  SceneInput input{mesh_, settings, {values(), layers_}, {}, {}, {}, {}, ball_};
+  SceneInput input{mesh_, settings, {values(), layers_}, {}, {}, {}, ball_};
   if (isolated) input.only = only;
   const bool is_anew = drawing.settings != settings || isolated;
   colour_by(settings, is_anew, input);

@@ -67,10 +67,10 @@ struct SceneInput {
   TetFigures figures;                              ///< of settings.measure
   std::span<const float> colour_values;            ///< of settings.colour; empty for "region"
   Range colour_range;                              ///< ends of the colour map
-  ReferenceSurface* reference = nullptr;           ///< null: there is none
   std::optional<std::span<const TetHandle>> only;  ///< the tets to show, each once; all without
   Ball ball;                                       ///< encloses the mesh
   std::size_t most_bad = kMostBadTets;             ///< seen through the rest
+  ReferenceSurface* reference = nullptr;           ///< null: there is none
 };
 
 /// Cost: a few passes over the tets, about 30 ms for a million; with `only`, that of these tets.
