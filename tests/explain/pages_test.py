@@ -69,7 +69,7 @@ const cutOff = () => {
       if (other === name) break;
       const s = other.getBoundingClientRect();
       const over = Math.min(Math.min(r.right, s.right) - Math.max(r.left, s.left), Math.min(r.bottom, s.bottom) - Math.max(r.top, s.top));
-      if (over > 1) bad.push(`names ${name.textContent} and ${other.textContent} overlap`);
+      if (over > 2) bad.push(`names ${name.textContent} and ${other.textContent} overlap`);
     }
   }
   return bad;

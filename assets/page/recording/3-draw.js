@@ -119,23 +119,29 @@ function sortedFaces(scene, camera) {
   return scene.faces.map((face) => [depth(face), face]).sort((x, y) => x[0] - y[0]).map(([, face]) => face);
 }
 
-/** Moves boxes {at: [x, y], half: [width, height]} that overlap away from each other, and all of them into the picture. */
+/** Moves boxes {at: [x, y], half: [width, height]} that overlap away from each other, and all of them into the picture. Those that find
+    no room get `hidden`, the last ones first. */
 function spread(boxes, size) {
   const extent = [size.width, size.height];
-  for (let round = 0; round < 40; ++round) {
-    let isDone = true;
-    boxes.forEach((box, i) => boxes.slice(i + 1).forEach((other) => {
-      const over = [0, 1].map((axis) => box.half[axis] + other.half[axis] - Math.abs(other.at[axis] - box.at[axis]));
-      const axis = over[0] < over[1] ? 0 : 1;
-      if (over[axis] < 0.5) return;
-      isDone = false;
-      const way = (other.at[axis] < box.at[axis] ? -1 : 1) * over[axis] / 2;
-      box.at[axis] -= way;
-      other.at[axis] += way;
-    }));
+  const apart = (box, other) => {
+    const overX = box.half[0] + other.half[0] - Math.abs(other.at[0] - box.at[0]);
+    const overY = box.half[1] + other.half[1] - Math.abs(other.at[1] - box.at[1]);
+    if (overX < 0.5 || overY < 0.5) return true;
+    const axis = overX < overY ? 0 : 1;
+    const way = (other.at[axis] < box.at[axis] ? -1 : 1) * (Math.min(overX, overY) / 2 + 0.2);
+    box.at[axis] -= way;
+    other.at[axis] += way;
+    return false;
+  };
+  for (let round = 0, isDone = false; round < 120 && !isDone; ++round) {
+    isDone = true;
+    for (let i = 0; i < boxes.length; ++i) {
+      for (let k = i + 1; k < boxes.length; ++k) isDone = apart(boxes[i], boxes[k]) && isDone;
+    }
     for (const box of boxes) box.at = box.at.map((x, axis) => Math.max(Math.min(x, extent[axis] - box.half[axis]), box.half[axis]));
-    if (isDone) return;
   }
+  const covers = (box, other) => [0, 1].every((axis) => Math.abs(other.at[axis] - box.at[axis]) < box.half[axis] + other.half[axis] - 1);
+  boxes.forEach((box, i) => { box.hidden = boxes.slice(0, i).some((other) => !other.hidden && covers(box, other)); });
 }
 
 /** The scene as SVG, with the names. */
@@ -163,6 +169,7 @@ function drawFlat(svg, scene, camera, size) {
   const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width && y <= size.height;
   spread(names.filter((name) => !name.quiet && isInside(name.at)), size);
   for (const name of names) {
+    if (name.hidden) continue;
     const [x, y] = name.at;
     parts.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-weight": name.quiet ? 400 : 700, "font-size": em,
       fill: inCss(colourOf(name.end ? "edge" : "ink")), stroke: inCss(colourOf("card")), "stroke-width": 3, "paint-order": "stroke"}, name.text));
