@@ -24,6 +24,7 @@ import micro  # noqa: E402
 import pages  # noqa: E402
 import ranks  # noqa: E402
 import report  # noqa: E402
+import viewing  # noqa: E402
 
 MADE = documents.Stamp("script/bench --quick", "0123abc", "2026-11-22", "AMD EPYC, 2 cores, 25 GB")
 MEASURED = {"tets": 1000, "theta_min": 0.0012, "theta_max": 179.5, "lambda": 5.25, "n_bad": 1234,
@@ -203,6 +204,19 @@ class Tables(unittest.TestCase):
         more = ranks.play(known, 800, 8, 4, ranks.Cluster(cores=1))
         self.assertAlmostEqual(more.improving, two.improving)
         self.assertEqual(ranks.loads_of_ranges([1, 2, 3], 5), [1, 2, 0, 3, 0])
+
+    def test_what_the_viewer_costs_is_in_seconds_or_milliseconds(self) -> None:
+        def figure(what: str, seconds: float) -> dict:
+            return {"what": what, "median": seconds, "mean": seconds, "most": 2 * seconds}
+
+        mesh = {"tets": 10_110_954, "events": 0, "peak_memory": 700_000_000, "figures": [figure("open", 2.345)]}
+        trace = {"tets": 998_250, "events": 2_650_000, "peak_memory": 900_000_000, "figures": [figure("step", 0.0015)]}
+        page = viewing.page(MADE, [mesh, trace])
+        opened, stepped = tables(page)
+        self.assertEqual(opened[1], ["open", "2.35 s", "2.35 s", "4.69 s"])
+        self.assertEqual(stepped[1], ["step", "1.50 ms", "1.50 ms", "3.00 ms"])
+        self.assertIn("## A mesh of 10,110,954 tets: 0.70 GB", page)
+        self.assertIn("## A trace of 998,250 tets and 2,650,000 events: 0.90 GB", page)
 
     def test_the_tables_of_scaling_keep_all_their_figures(self) -> None:
         threads, passes, blocks = tables(cores.page(MADE, {"cube": PRINTED}))
