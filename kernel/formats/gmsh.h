@@ -23,4 +23,12 @@ MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question = nullp
 /// 31 bits count in version 2.2
 void write_gmsh(const std::filesystem::path& file, const MeshView& mesh);
 
+/// read_gmsh() of a file that is one of several of a mesh: `point_numbers` are those of the file, which
+/// the others have, too, and there may be no tets. @throws Error
+MeshData read_gmsh_part(const std::filesystem::path& file);
+
+/// write_gmsh() in version 4.1, binary, with the numbers that the data has of points, tets, triangles
+/// and edges. @throws Error also for labels of points with numbers of more than 31 bits
+void write_gmsh_part(const std::filesystem::path& file, const MeshData& mesh);
+
 }  // namespace tetmend::formats

@@ -26,6 +26,13 @@ struct GmshRows {
   std::vector<const char*> places;  ///< in the file; none if nobody asks for a place
 
   std::size_t size() const { return tags.size(); }
+  void shorten(std::size_t size, std::size_t width) {
+    tags.resize(size);
+    labels.resize(size);
+    parts.resize(size);
+    vertices.resize(size * width);
+    if (!places.empty()) places.resize(size);
+  }
   std::span<const std::uint32_t> vertices_of(std::size_t i, std::size_t width) const {
     return {vertices.data() + i * width, width};
   }
@@ -37,6 +44,10 @@ class GmshDraft {
   std::vector<Group> named;               ///< without parts and members
   /// Groups of each entity, by dimension and number.
   std::map<std::pair<int, Label>, std::vector<Label>> groups_of;
+
+  /// Of each entity of a partition the one that it is a piece of, by dimension and number. Of a higher
+  /// dimension: it lies between partitions, and its elements are not of the mesh.
+  std::map<std::pair<int, Label>, std::pair<int, Label>> parents;
 
   /// Puts elements that are listed once for each of their groups together, as version 2.2 has them,
   /// and fills `groups_of`. Elements of one entity in different groups get different parts.

@@ -112,7 +112,10 @@ void GmshElementReader::read_4() {
   for (std::size_t block = 0; block < blocks; ++block) {
     const int dimension = static_cast<int>(source_.integer("the dimension of an entity", 0, 3));
     const char* at = source_.text().last_word();
-    const Label part = source_.tag("the number of an entity");
+    Label part = source_.tag("the number of an entity");
+    const auto parent = draft_.parents.find({dimension, part});
+    const bool is_between = parent != draft_.parents.end() && parent->second.first > dimension;
+    if (parent != draft_.parents.end() && !is_between) part = parent->second.second;
     const int type = read_type();
     if (gmsh_type(type).dimension != dimension) {
       source_.text().fail_at(at, fmt::format("'{}' is not the dimension of type {}: expected {}",
@@ -122,7 +125,10 @@ void GmshElementReader::read_4() {
         source_.wide("the elements of a block", 0, static_cast<std::int64_t>(count - read)));
     const auto groups = draft_.groups_of.find({dimension, part});
     const bool has_group = groups != draft_.groups_of.end() && !groups->second.empty();
+    GmshRows& rows = draft_.rows[static_cast<std::size_t>(type)];
+    const std::size_t before = rows.size();
     read_block(type, size, has_group ? groups->second.front() : 0, part);
+    if (is_between) rows.shorten(before, gmsh_type(type).width);
     read += size;
   }
   if (read != count) {

@@ -27,6 +27,9 @@ class GmshNodes {
   /// Which node has this number; GmshTags::kNone if none has.
   std::uint32_t find(std::int64_t tag) const { return tags_.find(tag); }
 
+  /// The numbers of the points, ascending.
+  const std::vector<std::int64_t>& numbers() const { return tags_.all(); }
+
   std::vector<Point> points;
   std::vector<std::array<Label, 2>> entities;  ///< empty in version 2.2
 

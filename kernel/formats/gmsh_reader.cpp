@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,13 +29,15 @@ namespace {
 
 class Reader {
  public:
-  Reader(const InputFile& file, TetPlace* question)
+  /// @param is_part one of several files of a mesh
+  Reader(const InputFile& file, TetPlace* question, bool is_part)
       : source_(file),
         text_(source_.text()),
         question_(question),
         nodes_(source_),
         elements_(source_, nodes_, draft_, question != nullptr),
-        views_(source_) {}
+        views_(source_),
+        is_part_(is_part) {}
 
   MeshData read() {
     read_header();
@@ -108,18 +111,15 @@ class Reader {
       if (source_.binary()) return expect_end(name);
       return skip_to_end(name);
     }
-    if (name == "$PartitionedEntities") {
-      text_.fail(
-          "'$PartitionedEntities' cannot be read: expected a mesh that is saved without "
-          "partitions");
-    }
-    const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" ||
-                       name == "$Elements" || name == "$Periodic";
+    const bool known = name == "$PhysicalNames" || name == "$Entities" ||
+                       name == "$PartitionedEntities" || name == "$Nodes" || name == "$Elements" ||
+                       name == "$Periodic";
     if (!known) return pass_over(name);
     if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
     seen_.push_back(name);
     if (name == "$PhysicalNames") read_names();
     if (name == "$Entities") read_entities();
+    if (name == "$PartitionedEntities") read_partitioned_entities();
     if (name == "$Nodes") is_4_ ? nodes_.read_4() : nodes_.read_2();
     if (name == "$Elements") read_elements();
     if (name == "$Periodic") read_periodic();
@@ -225,6 +225,38 @@ class Reader {
     mesh_.entities.push_back(std::move(entity));
   }
 
+  /// Of these only what they are pieces of is kept.
+  void read_partitioned_entities() {
+    if (!is_4_) text_.fail("'$PartitionedEntities' is not expected here: version 2.2 has none");
+    source_.begin_numbers();
+    source_.wide("the number of partitions", 0, INT64_MAX);
+    const std::size_t ghosts = source_.count("ghost entities", 4, 8);
+    for (std::size_t i = 0; i < 2 * ghosts; ++i) source_.tag("the number of a ghost entity");
+    std::array<std::size_t, 4> counts{};
+    for (std::size_t& count : counts) count = source_.count("entities of partitions", 12, 44);
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+        read_partitioned_entity(dimension);
+      }
+    }
+  }
+
+  void read_partitioned_entity(int dimension) {
+    const Label tag = source_.tag("the number of an entity");
+    const auto of = static_cast<int>(source_.integer("the dimension of its parent", -1, 3));
+    const Label parent = source_.tag("the number of its parent");
+    if (of >= dimension) draft_.parents[{dimension, tag}] = {of, parent};
+    const auto skip = [this](const char* what) {
+      const std::size_t count = source_.count(what, 2, 4);
+      for (std::size_t i = 0; i < count; ++i) source_.tag("a whole number");
+    };
+    skip("partitions of an entity");
+    const int reals = dimension == 0 ? 3 : 6;
+    for (int k = 0; k < reals; ++k) source_.real("a bound of an entity");
+    skip("groups of an entity");
+    if (dimension > 0) skip("bounds of an entity");
+  }
+
   void read_elements() {
     if (!seen("$Nodes")) text_.fail("'$Elements' is not expected here: expected $Nodes before");
     is_4_ ? elements_.read_4() : elements_.read_2();
@@ -293,10 +325,21 @@ class Reader {
   void finish() {
     mesh_.points = std::move(nodes_.points);
     mesh_.point_entities = std::move(nodes_.entities);
+    if (!draft_.parents.empty()) {
+      mesh_.notes.emplace_back("the partitions of elements are not kept");
+      for (auto& [dimension, tag] : mesh_.point_entities) {
+        const auto parent = draft_.parents.find({dimension, tag});
+        if (parent != draft_.parents.end()) std::tie(dimension, tag) = parent->second;
+      }
+    }
     if (!is_4_) draft_.merge_repeated();
     draft_.sort();
     answer_question();
-    refuse_without_tets();
+    if (is_part_) {
+      mesh_.point_numbers = nodes_.numbers();
+    } else {
+      refuse_without_tets();
+    }
     if (!is_4_) classify_points();
     std::array<GmshTags, 3> tags;
     draft_.move_into(mesh_, tags);
@@ -343,6 +386,7 @@ class Reader {
   GmshElementReader elements_;
   GmshViews views_;
   MeshData mesh_;
+  bool is_part_;
   bool is_4_ = false;
   std::vector<std::string_view> seen_;
   std::set<std::pair<int, Label>> named_numbers_;
@@ -352,7 +396,12 @@ class Reader {
 
 MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return Reader(input, question, false).read();
+}
+
+MeshData read_gmsh_part(const std::filesystem::path& file) {
+  const InputFile input(file);
+  return Reader(input, nullptr, true).read();
 }
 
 }  // namespace tetmend::formats

@@ -40,6 +40,8 @@ class GmshTags {
     return *at == tag ? static_cast<std::uint32_t>(at - tags_.begin()) : kNone;
   }
 
+  const std::vector<std::int64_t>& all() const { return tags_; }
+
  private:
   std::vector<std::int64_t> tags_;
   bool is_dense_ = false;

@@ -104,8 +104,14 @@ double value_of(const DataArray& array, std::size_t i) {
 class Writer {
  public:
   Writer(OutputFile& out, std::string name, const MeshView& mesh, GmshPlan& plan, bool is_4,
-         bool binary)
-      : out_(out), name_(std::move(name)), mesh_(mesh), plan_(plan), is_4_(is_4), binary_(binary) {}
+         bool binary, bool is_part = false)
+      : out_(out),
+        name_(std::move(name)),
+        mesh_(mesh),
+        plan_(plan),
+        is_4_(is_4),
+        binary_(binary),
+        is_part_(is_part) {}
 
   void write() {
     write_header();
@@ -124,6 +130,15 @@ class Writer {
 
  private:
   Row<OutputFile> row() { return {out_, binary_}; }
+
+  const std::vector<std::int64_t>& given_numbers() const {
+    static const std::vector<std::int64_t> none;
+    return is_part_ ? mesh_.data()->point_numbers : none;
+  }
+  /// The number of a point in the file.
+  std::int64_t node(std::size_t point) const {
+    return is_part_ ? mesh_.data()->point_numbers[point] : static_cast<std::int64_t>(point) + 1;
+  }
 
   void begin(std::string_view name) { out_.put(fmt::format("${}\n", name)); }
   /// Of a section whose numbers are binary in a binary file.
@@ -192,7 +207,11 @@ class Writer {
     std::size_t blocks = 0;
     for (std::size_t i = 0; i < plan_.entity_count(); ++i) blocks += points[i].empty() ? 0 : 1;
     const std::size_t count = mesh_.point_count();
-    row().size(blocks).size(count).size(count == 0 ? 0 : 1).size(count).end();
+    const auto& given = given_numbers();
+    const std::int64_t least = given.empty() ? 1 : *std::min_element(given.begin(), given.end());
+    const std::int64_t most = given.empty() ? static_cast<std::int64_t>(count)
+                                            : *std::max_element(given.begin(), given.end());
+    row().size(blocks).size(count).wide(count == 0 ? 0 : least).wide(most).end();
     std::size_t number = 0;
     for (const auto& of_dimension : plan_.entities) {
       for (const GeometricEntity& entity : of_dimension) write_node_block(entity, points[number++]);
@@ -204,7 +223,7 @@ class Writer {
     if (points.empty()) return;
     row().integer(entity.dimension).integer(entity.tag).integer(0).size(points.size()).end();
     put_rows(out_, points.size(), [&](std::size_t i, OutputBuffer& buffer) {
-      Row(buffer, binary_).wide(std::int64_t{points[i]} + 1).end();
+      Row(buffer, binary_).wide(node(points[i])).end();
     });
     put_rows(out_, points.size(), [&](std::size_t i, OutputBuffer& buffer) {
       Row(buffer, binary_).point(mesh_.point(points[i])).end();
@@ -213,15 +232,15 @@ class Writer {
 
   /// The numbers of the vertices in Gmsh's order.
   template <class Put>
-  static void put_vertices(int type, std::span<const std::uint32_t> vertices, const Put& put) {
+  void put_vertices(int type, std::span<const std::uint32_t> vertices, const Put& put) const {
     const GmshType& kind = gmsh_type(type);
     if (!kind.has_own_order()) {
-      for (const std::uint32_t v : vertices) put(std::int64_t{v} + 1);
+      for (const std::uint32_t v : vertices) put(node(v));
       return;
     }
     std::array<std::uint32_t, 27> listed{};
     for (std::size_t k = 0; k < vertices.size(); ++k) listed[kind.order[k]] = vertices[k];
-    for (std::size_t k = 0; k < vertices.size(); ++k) put(std::int64_t{listed[k]} + 1);
+    for (std::size_t k = 0; k < vertices.size(); ++k) put(node(listed[k]));
   }
 
   void write_elements_4() {
@@ -235,7 +254,8 @@ class Writer {
       for (std::size_t i = 0; i < groups; ++i) blocks += grouped.back()[i].empty() ? 0 : 1;
       count += kind.count;
     }
-    row().size(blocks).size(count).size(count == 0 ? 0 : 1).size(count).end();
+    const auto [least, most] = element_numbers(count);
+    row().size(blocks).size(count).wide(least).wide(most).end();
     for (int dimension = 0; dimension < 4; ++dimension) {
       const auto& entities = plan_.entities[static_cast<std::size_t>(dimension)];
       for (std::size_t i = 0; i < entities.size(); ++i) {
@@ -246,6 +266,21 @@ class Writer {
       }
     }
     end_numbers("Elements");
+  }
+
+  /// The least and the greatest.
+  std::pair<std::int64_t, std::int64_t> element_numbers(std::size_t count) const {
+    if (count == 0) return {0, 0};
+    if (!is_part_) return {1, static_cast<std::int64_t>(count)};
+    std::int64_t least = INT64_MAX;
+    std::int64_t most = 0;
+    for (const GmshKind& kind : plan_.kinds) {
+      if (kind.numbers.empty()) continue;
+      const auto [low, high] = std::minmax_element(kind.numbers.begin(), kind.numbers.end());
+      least = std::min(least, *low);
+      most = std::max(most, *high);
+    }
+    return {least, most};
   }
 
   const std::vector<GeometricEntity>& entities_of(const GmshKind& kind) const {
@@ -383,10 +418,7 @@ class Writer {
     if (mesh_.has_point_labels()) {
       write_view_head("NodeData", kGmshPointLabels, 1, mesh_.point_count());
       put_rows(out_, mesh_.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
-        Row(buffer, binary_)
-            .integer(static_cast<std::int64_t>(i) + 1)
-            .real(mesh_.point_label(i))
-            .end();
+        Row(buffer, binary_).integer(node(i)).real(mesh_.point_label(i)).end();
       });
       end_numbers("NodeData");
     }
@@ -465,6 +497,7 @@ class Writer {
   GmshPlan& plan_;
   bool is_4_;
   bool binary_;
+  bool is_part_;  // with the numbers of the data
 };
 
 }  // namespace
@@ -476,6 +509,25 @@ void write_gmsh(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
   GmshPlan plan(mesh);
   Writer(out, file.string(), mesh, plan, !is_2, binary).write();
+  out.commit();
+}
+
+void write_gmsh_part(const std::filesystem::path& file, const MeshData& mesh) {
+  const auto is_wide = [](std::int64_t number) { return number > INT32_MAX; };
+  if (!mesh.point_labels.empty() &&
+      std::any_of(mesh.point_numbers.begin(), mesh.point_numbers.end(), is_wide)) {
+    throw Error(fmt::format(
+        "{}: cannot be written: labels of points have numbers of at most 31 bits", file.string()));
+  }
+  const MeshView view(mesh);
+  OutputFile out(file);
+  GmshPlan plan(view);
+  for (GmshKind& kind : plan.kinds) {
+    kind.numbers = kind.type == gmsh_tet        ? mesh.tet_numbers
+                   : kind.type == gmsh_triangle ? mesh.triangle_numbers
+                                                : mesh.edge_numbers;
+  }
+  Writer(out, file.string(), view, plan, true, true, true).write();
   out.commit();
 }
 

@@ -276,6 +276,27 @@ TEST_CASE("groups by members become entities of their own") {
   CHECK(find_group(again, 0, 2)->members == std::vector<std::uint32_t>{3});
 }
 
+TEST_CASE("entities of partitions are parts of their parents; what lies between partitions goes") {
+  const TempFolder folder;
+  std::string text = replaced(text_4(), "$Nodes\n4 5",
+                              "$PartitionedEntities\n2\n1\n12 2\n0 0 1 2\n"
+                              "9 3 1 2 1 2 0 0 0 1 1 1 1 10 0 \n"
+                              "7 3 1 1 1 0 0 0 1 1 1 2 10 25 2 5 9 \n"
+                              "8 3 2 1 2 0 0 -1 1 1 0 1 20 1 -3 \n"
+                              "$EndPartitionedEntities\n$Nodes\n4 5");
+  text = replaced(text, "3 1 0 2\n900", "3 7 0 2\n900");
+  text = replaced(text, "3 2 4 1\n", "3 8 4 1\n");
+  text = replaced(text, "3 1 4 1\n", "2 9 2 1\n55 2 30 40\n3 7 4 1\n");
+  text = replaced(text, "3 1 6 2\n", "3 7 6 2\n");
+  text = replaced(text, "7 8 1 99", "8 9 1 99");
+  const MeshData mesh = read_text(folder, text);
+  const MeshData expected = two_volumes();
+  CHECK(same_mesh(mesh, expected));
+  CHECK(same_extras(mesh, expected));
+  CHECK(std::find(mesh.notes.begin(), mesh.notes.end(),
+                  "the partitions of elements are not kept") != mesh.notes.end());
+}
+
 TEST_CASE("points that came later are of the entity of an element that holds them") {
   const TempFolder folder;
   MeshData mesh = two_volumes();
@@ -387,7 +408,7 @@ TEST_CASE("a bad MSH file is refused with line and reason") {
       {"no elements", without(two, "Elements"), "", "the section $Elements is missing"},
       {"twice", four + "$Nodes\n", "", "'$Nodes' appears for the second time"},
       {"partitions", replaced(four, "$Parametrizations", "$PartitionedEntities"),
-       "64: ", "'$PartitionedEntities' cannot be read"},
+       "67: ", "'$EndParametrizations'"},
       {"unknown without end", four + "$Ghost\n1 2\n", "",
        "'$Ghost' has no end: expected $EndGhost"},
       {"words", four + "hello\n", "",
