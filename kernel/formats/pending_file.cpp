@@ -22,6 +22,13 @@ void sync_folder(const std::filesystem::path& file) {
   platform::synchronise_folder(folder_of(file));
 }
 
+/// The name does not contain the target's, which may have the greatest length allowed.
+std::filesystem::path beside(const std::filesystem::path& target, std::string_view suffix,
+                             int attempt) {
+  return target.parent_path() /
+         fmt::format(".tetmend-{}-{}.{}", platform::process_number(), attempt, suffix);
+}
+
 }  // namespace
 
 PendingFile::PendingFile(const std::filesystem::path& target, Name name)
@@ -35,6 +42,16 @@ PendingFile::PendingFile(const std::filesystem::path& target, Name name)
     platform::remove_file(temporary_.c_str());
     throw;
   }
+}
+
+PendingFile::PendingFile(const std::filesystem::path& target, const std::filesystem::path& complete)
+    : name_(target.string()), target_(target), temporary_(complete) {
+  find_target();
+  auto opened = platform::open_to_read(complete);
+  if (!opened) fail(opened.error);
+  file_ = std::move(opened.value);
+  if (has_older_) keep_owner();
+  file_.close();  // of many files few are open at a time
 }
 
 PendingFile::~PendingFile() {
@@ -68,12 +85,6 @@ void PendingFile::find_target() {
   }
 }
 
-std::filesystem::path PendingFile::beside(std::string_view suffix, int attempt) const {
-  // The name does not contain the target's, which may have the greatest length allowed.
-  return target_.parent_path() /
-         fmt::format(".tetmend-{}-{}.{}", platform::process_number(), attempt, suffix);
-}
-
 void PendingFile::make_temporary(Name name) {
   using platform::Access;
   const Access access =
@@ -84,7 +95,7 @@ void PendingFile::make_temporary(Name name) {
       temporary_ = target_;
       temporary_ += attempt == 0 ? ".part" : fmt::format(".part{}", attempt);
     } else {
-      temporary_ = beside("tmp", attempt);
+      temporary_ = beside(target_, "tmp", attempt);
     }
     auto made = platform::create(temporary_, access);
     file_ = std::move(made.value);
@@ -130,14 +141,21 @@ void PendingFile::commit() {
   sync_folder(target_);
 }
 
-/// One file of several: its older one is kept aside until all have their names.
+/// One name of several: its older file is kept aside until all are as they shall be.
 class PendingFile::Replacement {
  public:
-  explicit Replacement(PendingFile& file) : file_(file) {}
+  explicit Replacement(PendingFile& file) : file_(&file), target_(file.target_) {}
+  /// Nothing shall have that name.
+  explicit Replacement(const std::filesystem::path& gone) : target_(gone) {}
 
+  /// Nothing has the name then.
+  void clear_name() {
+    if (is_taken()) move_older();
+  }
+  /// The new file has it.
   void make() {
-    keep_older();
-    file_.take_name();
+    if (!has_aside_ && is_taken()) keep_older();
+    file_->take_name();
     is_made_ = true;
   }
   void accept() {
@@ -146,43 +164,74 @@ class PendingFile::Replacement {
   /// Where the older file is, if it could not get its name back; else empty.
   std::filesystem::path undo() {
     if (!has_aside_) {
-      if (is_made_) platform::remove_file(file_.target_.c_str());
+      if (is_made_) platform::remove_file(target_.c_str());
       return {};
     }
     if (!is_made_ && !was_moved_) return accept(), std::filesystem::path();
-    if (platform::rename(aside_, file_.target_) == 0) return {};
+    if (platform::rename(aside_, target_) == 0) return {};
     return std::move(aside_);
   }
 
+  /// Does the work that makes these; after an error nothing of it is left.
+  template <class Work>
+  static void all_or_none(std::vector<Replacement>& made, const Work& work) {
+    std::vector<std::filesystem::path> moved;  // older files that could not get their names back
+    moved.reserve(made.capacity());
+    try {
+      work();
+    } catch (const std::exception& error) {
+      for (; !made.empty(); made.pop_back()) {  // all of them before anything else may fail
+        std::filesystem::path aside = made.back().undo();
+        if (!aside.empty()) moved.push_back(std::move(aside));
+      }
+      if (moved.empty()) throw;
+      std::string message = error.what();
+      for (const std::filesystem::path& aside : moved) {
+        message += fmt::format("; an older file is now {}", aside.string());
+      }
+      throw Error(message);
+    }
+    for (Replacement& each : made) each.accept();
+  }
+
  private:
-  void keep_older() {
+  bool is_taken() const {
     using platform::FileKind;
-    const auto now = platform::look_at_name(file_.target_);
-    if (!now) return;
+    const auto now = platform::look_at_name(target_);
+    if (!now) return false;
     const FileKind kind = now.value.kind;
-    if (kind != FileKind::regular) file_.fail(kind == FileKind::folder ? EISDIR : EEXIST);
+    if (kind != FileKind::regular) fail(kind == FileKind::folder ? EISDIR : EEXIST);
+    return true;
+  }
+  void keep_older() {
     for (int attempt = 0; !has_aside_; ++attempt) {
-      aside_ = file_.beside("old", attempt);
-      const int error = platform::add_name(file_.target_, aside_);
+      aside_ = beside(target_, "old", attempt);
+      const int error = platform::add_name(target_, aside_);
       has_aside_ = error == 0;
       if (has_aside_ || error == EEXIST) continue;
       return move_older();
     }
   }
-  /// For file systems without hard links: for a moment nothing has the name.
+  /// Also for file systems without hard links: for a moment nothing has the name.
   void move_older() {
     for (int attempt = 0; !has_aside_; ++attempt) {
-      aside_ = file_.beside("old", attempt);
+      aside_ = beside(target_, "old", attempt);
       const auto made = platform::create(aside_, platform::Access::owner_only);
       if (made.error == EEXIST) continue;
-      if (!made) file_.fail(made.error);
+      if (!made) fail(made.error);
       has_aside_ = true;
     }
-    if (const int error = platform::rename(file_.target_, aside_); error != 0) file_.fail(error);
+    if (const int error = platform::rename(target_, aside_); error != 0) fail(error);
     was_moved_ = true;
   }
+  [[noreturn]] void fail(int error) const {
+    if (file_ != nullptr) file_->fail(error);
+    throw Error(fmt::format("{}: cannot be removed: {}", target_.string(),
+                            std::generic_category().message(error)));
+  }
 
-  PendingFile& file_;
+  PendingFile* file_ = nullptr;
+  std::filesystem::path target_;
   std::filesystem::path aside_;
   bool has_aside_ = false;
   bool was_moved_ = false;
@@ -194,24 +243,28 @@ void PendingFile::commit_all(std::span<PendingFile* const> files) {
   const EndDelay delay;
   std::vector<Replacement> made;
   made.reserve(files.size());
-  std::vector<std::filesystem::path> moved;  // older files that could not get their names back
-  moved.reserve(files.size());
-  try {
+  Replacement::all_or_none(made, [&] {
     for (PendingFile* file : files) made.emplace_back(*file).make();
-  } catch (const std::exception& error) {
-    for (; !made.empty(); made.pop_back()) {  // all of them before anything else may fail
-      std::filesystem::path aside = made.back().undo();
-      if (!aside.empty()) moved.push_back(std::move(aside));
-    }
-    if (moved.empty()) throw;
-    std::string message = error.what();
-    for (const std::filesystem::path& aside : moved) {
-      message += fmt::format("; an older file is now {}", aside.string());
-    }
-    throw Error(message);
-  }
-  for (Replacement& each : made) each.accept();
+  });
   for (const PendingFile* file : files) sync_folder(file->target_);
+}
+
+void PendingFile::commit_behind(PendingFile& index, std::span<PendingFile* const> files,
+                                std::span<const std::filesystem::path> gone) {
+  for (PendingFile* file : files) file->finish();
+  index.finish();
+  const EndDelay delay;
+  std::vector<Replacement> made;
+  made.reserve(1 + files.size() + gone.size());
+  Replacement::all_or_none(made, [&] {
+    made.emplace_back(index).clear_name();
+    sync_folder(index.target_);
+    for (PendingFile* file : files) made.emplace_back(*file).make();
+    for (const std::filesystem::path& file : gone) made.emplace_back(file).clear_name();
+    for (const PendingFile* file : files) sync_folder(file->target_);
+    made.front().make();
+  });
+  sync_folder(index.target_);
 }
 
 void PendingFile::fail(int error) const {

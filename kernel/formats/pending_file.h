@@ -30,6 +30,10 @@ class PendingFile {
   /// @throws Error when the target is no regular file or write-protected or when its folder cannot
   /// be written.
   explicit PendingFile(const std::filesystem::path& target, Name name = Name::hidden);
+  /// One that is complete and on the disk, under another name of the same file system. Nothing can be
+  /// written then.
+  /// @throws Error also when there is no such file
+  PendingFile(const std::filesystem::path& target, const std::filesystem::path& complete);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
@@ -49,6 +53,12 @@ class PendingFile {
   /// The same for files that belong together: all get their names, or the older ones are as they
   /// were. In between, some are new: only a loss of power or SIGKILL shows that.
   static void commit_all(std::span<PendingFile* const> files);
+  /// The same where readers open `index` first: nothing has its name while the others get theirs. So
+  /// even a loss of power or SIGKILL leaves no mixture of old and new to readers: the older mesh, the
+  /// new one, or no index; then older files are beside, under names that begin with ".tetmend-".
+  /// @param gone files of the older mesh that the new one does not have; they go
+  static void commit_behind(PendingFile& index, std::span<PendingFile* const> files,
+                            std::span<const std::filesystem::path> gone = {});
 
  private:
   class Replacement;
@@ -56,7 +66,6 @@ class PendingFile {
   void find_target();
   void make_temporary(Name name);
   void keep_owner();
-  std::filesystem::path beside(std::string_view suffix, int attempt) const;
   void take_name();
   [[noreturn]] void fail(int error) const;
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <csignal>
 #include <optional>
+#include <string_view>
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -170,6 +171,56 @@ TEST_CASE("files that belong together are all new, or all old after a fault at a
       CHECK(folder.entries() == 4);
     }
   }
+}
+
+TEST_CASE("an index is the last to be new; after a fault all is old") {
+  // What cannot be replaced: nothing, the index, a file, one that shall go.
+  for (const char* bad : {"", "index", "1", "3"}) {
+    CAPTURE(bad);
+    const bool is_bad = bad[0] != '\0';
+    const TempFolder folder;
+    const TempFolder drafts;
+    for (const char* name : {"index", "1", "2", "3"}) write_text(folder / name, "old");
+    for (const char* name : {"index", "1", "2"}) write_text(drafts / name, "new");
+    {
+      PendingFile index(folder / "index", drafts / "index");
+      PendingFile first(folder / "1", drafts / "1");
+      PendingFile second(folder / "2", drafts / "2");
+      if (is_bad) {
+        std::filesystem::remove(folder / bad);
+        std::filesystem::create_directory(folder / bad);
+      }
+      const std::array files = {&first, &second};
+      const std::array<std::filesystem::path, 1> gone = {folder / "3"};
+      const auto commit = [&] { PendingFile::commit_behind(index, files, gone); };
+      if (is_bad) {
+        CHECK_THROWS_WITH_AS(commit(), doctest::Contains("Is a directory"), Error);
+      } else {
+        commit();
+      }
+    }
+    for (const char* name : {"index", "1", "2"}) {
+      if (std::string_view(name) != bad) {
+        CHECK(read_text(folder / name) == (is_bad ? "old" : "new"));
+      }
+    }
+    CHECK(std::filesystem::exists(folder / "3") == is_bad);
+    CHECK(folder.entries() == (is_bad ? 4 : 3));
+    CHECK(drafts.entries() == 0);
+  }
+}
+
+TEST_CASE("a file that is complete keeps the permissions of the one that it replaces") {
+  const TempFolder folder;
+  write_text(folder / "a", "old");
+  write_text(folder / "draft", "new");
+  REQUIRE(::chmod((folder / "a").c_str(), 0640) == 0);
+  PendingFile(folder / "a", folder / "draft").commit();
+  CHECK(read_text(folder / "a") == "new");
+  CHECK((status_of(folder / "a").st_mode & 07777) == 0640);
+  CHECK(folder.entries() == 1);
+  CHECK_THROWS_WITH_AS(PendingFile(folder / "a", folder / "none"),
+                       doctest::Contains("No such file"), Error);
 }
 
 TEST_CASE(
