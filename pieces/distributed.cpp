@@ -53,7 +53,7 @@ class Arrays final : public pieces::ArrayFiles {
 
   bool is_one(const std::filesystem::path&) const override { return true; }
 
-  RankShare read(const std::filesystem::path&) const override {
+  RankShare read(const std::filesystem::path&, const std::string&) const override {
     RankShare share;
     for (const auto& p : arrays_.points) share.points.emplace_back(p[0], p[1], p[2]);
     check_labels(arrays_.point_labels.size(), arrays_.points.size(), "point_labels");

@@ -62,8 +62,8 @@ class Tools {
 
 }  // namespace
 
-FolderRun::FolderRun(const std::filesystem::path& folder)
-    : folder_(folder), saved_(folder_.load()) {}
+FolderRun::FolderRun(const std::filesystem::path& folder, const ArrayFiles* array_files)
+    : folder_(folder), saved_(folder_.load()), array_files_(array_files) {}
 
 FolderShelf FolderRun::shelf() const {
   return FolderShelf(folder_.pieces_of(saved_.run), kLasts);
@@ -93,8 +93,9 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
     saved.division = division;
     saved.run.is_divided = true;
     try {
-      InputMesh mesh_file(files.input, ranks, nullptr, files.label_array);
-      saved.input_size = std::filesystem::file_size(files.input);
+      InputMesh mesh_file(files.input, ranks, files.array_files, files.label_array);
+      std::error_code several_files;
+      saved.input_size = std::filesystem::file_size(files.input, several_files);
       saved.vertices = mesh_file.vertices();
       saved.holds_more = mesh_file.holds_more();
       mesh_file.check_conserve(options.conserve);
@@ -230,11 +231,12 @@ Result FolderRun::finish(const Options& options) {
   for (const StepRecord& record : saved_.run.records) result.passes.push_back(to_pass(record));
   check_after(saved_.before, steps.measure_after(&to), result);
   const std::filesystem::path output = saved_.output;
-  const WriteDetails details = {.vertices = saved_.vertices,
-                                .variant = saved_.variant,
-                                .source = saved_.holds_more ? saved_.input : "",
-                                .label_array = saved_.label_array,
-                                .conserve = options.conserve};
+  WriteDetails details = {.vertices = saved_.vertices,
+                          .array_files = array_files_,
+                          .variant = saved_.variant,
+                          .source = saved_.holds_more ? saved_.input : "",
+                          .label_array = saved_.label_array,
+                          .conserve = options.conserve};
   if (result.worse().empty()) {
     result.carried = write_pieces(output, mesh, details);
   } else {
@@ -242,7 +244,8 @@ Result FolderRun::finish(const Options& options) {
     result.after = result.before;
     FolderShelf again(folder_.make_step(last + 1));
     DividedMesh slices(again, ranks, saved_.vertices);
-    InputMesh(saved_.input, ranks, nullptr, saved_.label_array)
+    details.parts = saved_.division.pieces;
+    InputMesh(saved_.input, ranks, array_files_, saved_.label_array)
         .add_to(slices, saved_.division.pieces);
     result.carried = write_pieces(output, slices, details);
   }

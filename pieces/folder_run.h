@@ -26,9 +26,11 @@ struct Round {
 class FolderRun {
  public:
   /// Of a folder in which split() has been, or a checkpoint. @throws Error when there is no run.
-  explicit FolderRun(const std::filesystem::path& folder);
+  /// @param array_files of formats that only they know; null: none
+  explicit FolderRun(const std::filesystem::path& folder, const ArrayFiles* array_files = nullptr);
 
-  /// Divides the input for the first round. Of `files` input, output and what is said of them count.
+  /// Divides the input for the first round. Of `files` input, output, their formats and what is said
+  /// of them count.
   /// @throws Error as improve_files(), and for a folder that has something already; OptionError for
   /// less than two pieces.
   static void split(const OutOfCore& files, const std::filesystem::path& folder,
@@ -59,6 +61,7 @@ class FolderRun {
 
   RunFolder folder_;
   SavedRun saved_;
+  const ArrayFiles* array_files_ = nullptr;
 };
 
 }  // namespace tetmend::pieces

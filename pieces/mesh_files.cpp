@@ -15,6 +15,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "pieces/bytes.h"
+#include "pieces/partitioned_files.h"
 #include "pieces/slices.h"
 
 namespace tetmend::pieces {
@@ -42,7 +43,7 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
                      const std::string& label_array)
     : files_(files), slices_(MeditSlices::open(file)) {
   if (files != nullptr && files->is_one(file)) {
-    arrays_ = files->read(file);
+    arrays_ = files->read(file, label_array);
     const ArrayCounts counts = count_all(*arrays_, ranks);
     tets_ = counts.tets;
     vertices_ = counts.points;
@@ -184,6 +185,7 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
                                        const WriteDetails& details) {
   const ArrayFiles* const files = details.array_files;
   if (files != nullptr && files->is_one(file)) {
+    if (details.parts > 0 && files->is_in_parts(file)) divide_into_parts(mesh, details.parts);
     files->write_stored(file, mesh);
     return {};
   }

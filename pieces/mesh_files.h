@@ -60,7 +60,9 @@ void add_protected(InputMesh& input, const Options& options, DividedMesh& mesh, 
 struct WriteDetails {
   std::uint64_t vertices = 0;               ///< of the file that was read
   const ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
-  std::string variant = {};                 ///< see MeshView::variant()
+  /// For files of parts, into how many the mesh is divided before; 0: each stored piece is one.
+  std::size_t parts = 0;
+  std::string variant = {};  ///< see MeshView::variant()
   /// The file that was read, if it holds more than labels and constraints. Read again by the first
   /// rank, which brings over what it holds. Empty: there is nothing.
   std::filesystem::path source = {};

@@ -145,7 +145,7 @@ Result FileRun::improve_whole() {
 
 /// On the first rank.
 Mesh FileRun::gather_whole() {
-  InputMesh input(files_.input, ranks_, files_.array_files);
+  InputMesh input(files_.input, ranks_, files_.array_files, files_.label_array);
   MemoryShelf shelf;
   DividedMesh pieces(shelf, ranks_, input.vertices());
   const std::uint64_t vertices = input.vertices();
@@ -284,16 +284,19 @@ void FileRun::note_costs() const {
 }
 
 void FileRun::write() {
+  std::size_t parts = 0;
   if (!result_.worse().empty()) {
     result_.notes.push_back(why_as_it_was(result_));
     watcher_.noted(result_.notes.back());
     result_.after = result_.before;
     if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too
+    parts = division_.pieces;
   }
   result_.carried = write_pieces(files_.output, *mesh_,
                                  {.vertices = vertices_,
                                   .array_files = files_.array_files,
+                                  .parts = parts,
                                   .variant = files_.variant,
                                   .source = holds_more_ ? files_.input : std::filesystem::path(),
                                   .label_array = files_.label_array,

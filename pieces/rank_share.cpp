@@ -245,6 +245,42 @@ void ArrayFiles::write_stored(const std::filesystem::path& file, const DividedMe
   write(file, take_arrays(mesh));
 }
 
+bool SeveralArrayFiles::is_one(const std::filesystem::path& file) const {
+  return std::any_of(kinds_.begin(), kinds_.end(),
+                     [&](const ArrayFiles* kind) { return kind->is_one(file); });
+}
+
+const ArrayFiles& SeveralArrayFiles::of(const std::filesystem::path& file) const {
+  return **std::find_if(kinds_.begin(), kinds_.end(),
+                        [&](const ArrayFiles* kind) { return kind->is_one(file); });
+}
+
+RankShare SeveralArrayFiles::read(const std::filesystem::path& file,
+                                  const std::string& label_array) const {
+  return of(file).read(file, label_array);
+}
+
+void SeveralArrayFiles::write(const std::filesystem::path& file, const RankShare& arrays) const {
+  of(file).write(file, arrays);
+}
+
+void SeveralArrayFiles::write_stored(const std::filesystem::path& file,
+                                     const DividedMesh& mesh) const {
+  of(file).write_stored(file, mesh);
+}
+
+void SeveralArrayFiles::check_output(const std::filesystem::path& file) const {
+  of(file).check_output(file);
+}
+
+bool SeveralArrayFiles::is_in_parts(const std::filesystem::path& file) const {
+  return is_one(file) && of(file).is_in_parts(file);
+}
+
+bool SeveralArrayFiles::has_required_vertices(const std::filesystem::path& file) const {
+  return of(file).has_required_vertices(file);
+}
+
 RankShare all_of(const MeshData& data) {
   RankShare arrays;
   const auto take = [](const auto& from, auto& to) {

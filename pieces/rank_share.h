@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -37,13 +38,38 @@ class ArrayFiles {
   virtual ~ArrayFiles() = default;
   virtual bool is_one(const std::filesystem::path& file) const = 0;
   /// All ranks: each gets a share. @throws Error
-  virtual RankShare read(const std::filesystem::path& file) const = 0;
+  /// @param label_array for formats of named arrays, which of them holds labels; empty: as usual
+  virtual RankShare read(const std::filesystem::path& file,
+                         const std::string& label_array) const = 0;
   /// All ranks. @throws Error
   virtual void write(const std::filesystem::path& file, const RankShare& arrays) const = 0;
   /// All ranks: the stored pieces. @throws Error
   virtual void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const;
+  /// @throws Error when it is known already that it cannot be written
+  virtual void check_output(const std::filesystem::path&) const {}
+  /// Whether each stored piece is a file of its own.
+  virtual bool is_in_parts(const std::filesystem::path&) const { return false; }
   /// Whether it can hold required vertices.
   virtual bool has_required_vertices(const std::filesystem::path&) const { return true; }
+};
+
+/// Those of several kinds: the first that knows a file has it. All must outlive it.
+class SeveralArrayFiles final : public ArrayFiles {
+ public:
+  explicit SeveralArrayFiles(std::vector<const ArrayFiles*> kinds) : kinds_(std::move(kinds)) {}
+  bool is_one(const std::filesystem::path& file) const override;
+  RankShare read(const std::filesystem::path& file, const std::string& label_array) const override;
+  void write(const std::filesystem::path& file, const RankShare& arrays) const override;
+  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const override;
+  void check_output(const std::filesystem::path& file) const override;
+  bool is_in_parts(const std::filesystem::path& file) const override;
+  bool has_required_vertices(const std::filesystem::path& file) const override;
+
+ private:
+  /// Precondition: is_one().
+  const ArrayFiles& of(const std::filesystem::path& file) const;
+
+  std::vector<const ArrayFiles*> kinds_;
 };
 
 /// All of a mesh, as the share of one rank.

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+// Meshes in several files: no rank has all, and none of them shows in the result.
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <tetmend/io.h>
+
+#include "face/mesh_access.h"
+#include "kernel/formats/mesh_io.h"
+#include "pieces/improve.h"
+#include "pieces/merged_points.h"
+#include "pieces/mesh_files.h"
+#include "pieces/out_of_core.h"
+#include "pieces/partitioned_files.h"
+#include "pieces/pvtu.h"
+#include "tests/pieces/meshes.h"
+#include "tests/pieces/played_ranks.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+using pieces::GmshParts;
+using pieces::PvtuFiles;
+using pieces::Ranks;
+
+namespace {
+
+constexpr std::size_t kPieces = 4;
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// VTK has no required vertices.
+MeshData mesh_of_vtk() {
+  MeshData data = lattice(7);
+  data.required_vertices.clear();
+  return data;
+}
+
+std::ptrdiff_t drafts_in(const std::filesystem::path& folder) {
+  const std::filesystem::directory_iterator entries(folder);
+  return std::count_if(begin(entries), end(entries), [](const auto& entry) {
+    return entry.path().filename().string().starts_with(".tetmend");
+  });
+}
+
+void improve_to(const std::filesystem::path& in, const std::filesystem::path& out, Ranks& ranks,
+                std::size_t pieces = kPieces) {
+  const PvtuFiles pvtu(ranks);
+  const GmshParts gmsh(ranks);
+  const pieces::SeveralArrayFiles parts({&pvtu, &gmsh});
+  pieces::OutOfCore files;
+  files.input = in;
+  files.output = out;
+  files.array_files = &parts;
+  pieces::Division division;
+  division.pieces = pieces;
+  pieces::improve_files(files, {}, division, ranks);
+}
+
+void convert(const std::filesystem::path& in, const std::filesystem::path& out, Ranks& ranks) {
+  const PvtuFiles pvtu(ranks);
+  const GmshParts gmsh(ranks);
+  const pieces::SeveralArrayFiles parts({&pvtu, &gmsh});
+  pieces::InputMesh mesh(in, ranks, &parts);
+  pieces::MemoryShelf shelf;
+  pieces::DividedMesh slices(shelf, ranks, mesh.vertices());
+  mesh.add_to(slices, kPieces);
+  pieces::write_pieces(out, slices, {.vertices = mesh.vertices(), .array_files = &parts});
+}
+
+std::map<std::string, std::string> bytes_of_all(const std::filesystem::path& file) {
+  std::map<std::string, std::string> all = {{"", bytes_of(file)}};
+  for (const auto& part : pieces::read_pvtu(file)) all[part.filename().string()] = bytes_of(part);
+  return all;
+}
+
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Names of the points as they were go, as in files of others.
+void without_ids(const std::filesystem::path& file) {
+  for (const auto& part : pieces::read_pvtu(file)) {
+    MeshData data = read_mesh(part);
+    std::erase_if(data.point_data, [](const DataArray& a) { return a.name == "GlobalNodeId"; });
+    write_mesh(part, data);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a mesh in parts is written by all ranks, with the same bytes for any number of them") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto whole = folder.path() / "whole.meshb";
+  save(in, MeshAccess::make(mesh_of_vtk()));
+  on_ranks(1, [&](Ranks& ranks) { improve_to(in, whole, ranks); });
+  std::map<std::string, std::string> expected;
+  for (const std::size_t count : {1, 2, 6}) {
+    CAPTURE(count);
+    const auto out = folder.path() / "out.pvtu";
+    on_ranks(count, [&](Ranks& ranks) { improve_to(in, out, ranks); });
+    const auto now = bytes_of_all(out);
+    CHECK(now.size() == kPieces + 1);
+    if (expected.empty()) expected = now;
+    CHECK((now == expected));
+    CHECK(drafts_in(folder.path()) == 0);
+    // And it is read by any number of ranks as the mesh that it is.
+    const auto again = folder.path() / "again.meshb";
+    on_ranks(7 - count, [&](Ranks& ranks) { convert(out, again, ranks); });
+    CHECK(bytes_of(again) == bytes_of(whole));
+  }
+}
+
+TEST_CASE("parts of Gmsh are written and read by any number of ranks") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto whole = folder.path() / "whole.meshb";
+  save(in, MeshAccess::make(mesh_of_vtk()));
+  on_ranks(1, [&](Ranks& ranks) { improve_to(in, whole, ranks); });
+  const auto parts = folder.path() / "out_%d.msh";
+  std::vector<std::string> expected;
+  for (const std::size_t count : {1, 3}) {
+    CAPTURE(count);
+    on_ranks(count, [&](Ranks& ranks) { improve_to(in, parts, ranks); });
+    std::vector<std::string> now;
+    for (std::size_t part = 1; part <= kPieces; ++part) {
+      now.push_back(bytes_of(folder.path() / fmt::format("out_{}.msh", part)));
+      CHECK(!now.back().empty());
+    }
+    if (expected.empty()) expected = now;
+    CHECK((now == expected));
+    const auto again = folder.path() / "again.meshb";
+    on_ranks(4 - count, [&](Ranks& ranks) { convert(parts, again, ranks); });
+    CHECK(bytes_of(again) == bytes_of(whole));
+  }
+  for (const char* part : {"out_5.msh", "out_6.msh", "out_8.msh"}) {
+    std::ofstream(folder.path() / part) << "of an older mesh";
+  }
+  on_ranks(2, [&](Ranks& ranks) { improve_to(in, parts, ranks); });
+  CHECK(!std::filesystem::exists(folder.path() / "out_5.msh"));
+  CHECK(!std::filesystem::exists(folder.path() / "out_6.msh"));
+  CHECK(std::filesystem::exists(folder.path() / "out_8.msh"));  // without 7 no part of the mesh
+  CHECK(drafts_in(folder.path()) == 0);
+  CHECK(message_of([&] {
+          pieces::OneRank alone;
+          convert(folder.path() / "none_%d.msh", whole, alone);
+        }).find("none_1.msh") != std::string::npos);
+}
+
+TEST_CASE("a mesh that is not divided is one part, whatever the number of ranks") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto out = folder.path() / "out.pvtu";
+  save(in, MeshAccess::make(mesh_of_vtk()));
+  for (const std::size_t count : {1, 3}) {
+    on_ranks(count, [&](Ranks& ranks) { improve_to(in, out, ranks, 1); });
+    CHECK(pieces::read_pvtu(out).size() == 1);
+  }
+}
+
+TEST_CASE("parts without numbers of their points are one mesh by their places") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto parts = folder.path() / "in.pvtu";
+  const MeshData data = mesh_of_vtk();
+  save(in, MeshAccess::make(data));
+  on_ranks(2, [&](Ranks& ranks) { improve_to(in, parts, ranks); });
+  const auto whole = folder.path() / "whole.meshb";
+  on_ranks(1, [&](Ranks& ranks) { convert(parts, whole, ranks); });
+  const MeshData expected = read_mesh(whole);
+  without_ids(parts);
+  std::string first;
+  for (const std::size_t count : {1, 3, 6}) {
+    CAPTURE(count);
+    const auto again = folder.path() / "again.meshb";
+    on_ranks(count, [&](Ranks& ranks) { convert(parts, again, ranks); });
+    const MeshData now = read_mesh(again);
+    CHECK(now.points.size() == expected.points.size());
+    CHECK(now.tets.size() == expected.tets.size());
+    for (std::size_t t = 0; t < now.tets.size(); ++t) {
+      CHECK(now.tets[t].label == expected.tets[t].label);
+      for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(
+            (now.points[now.tets[t].vertices[i]] == expected.points[expected.tets[t].vertices[i]]));
+      }
+    }
+    if (first.empty()) first = bytes_of(again);
+    CHECK(bytes_of(again) == first);
+  }
+}
+
+TEST_CASE("ghost tets of parts go, and arrays that are not kept are named") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto parts = folder.path() / "in.pvtu";
+  save(in, MeshAccess::make(mesh_of_vtk()));
+  on_ranks(2, [&](Ranks& ranks) { improve_to(in, parts, ranks); });
+  std::size_t tets = 0;
+  for (const auto& part : pieces::read_pvtu(parts)) {
+    MeshData data = read_mesh(part);
+    tets += data.tets.size();
+    std::vector<std::int32_t> ghosts(data.tets.size(), 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      data.tets.push_back(data.tets[i]);
+      ghosts.push_back(1);
+    }
+    data.tet_data.push_back({"vtkGhostType", 1, ghosts});
+    data.point_data.push_back({"heat", 1, std::vector<double>(data.points.size(), 1.0)});
+    write_mesh(part, data);
+  }
+  on_ranks(2, [&](Ranks& ranks) {
+    const PvtuFiles files(ranks);
+    const pieces::InputMesh mesh(parts, ranks, &files);
+    CHECK(mesh.tets() == tets);
+    CHECK(mesh.lost_in(folder.path() / "x.pvtu") ==
+          std::vector<std::string>{
+              "the array 'heat' of points is not kept: parts have labels alone"});
+  });
+}
+
+TEST_CASE("parts that do not fit are errors") {
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto parts = folder.path() / "in.pvtu";
+  save(in, MeshAccess::make(mesh_of_vtk()));
+  on_ranks(2, [&](Ranks& ranks) { improve_to(in, parts, ranks); });
+  const auto last = pieces::read_pvtu(parts).back();
+  const auto message = [&] {
+    return message_of([&] {
+      on_ranks(2, [&](Ranks& ranks) { convert(parts, folder.path() / "out.meshb", ranks); });
+    });
+  };
+  CHECK(message() == "");
+  const MeshData sound = read_mesh(last);
+  MeshData moved = sound;
+  for (Point& p : moved.points) p.x() += 1e-9;
+  write_mesh(last, moved);
+  CHECK(message().find("lies at two places") != std::string::npos);
+  MeshData twice = sound;
+  auto& ids = std::get<std::vector<std::int64_t>>(twice.point_data.front().values);
+  ids[1] = ids[0];
+  write_mesh(last, twice);
+  CHECK(message().find("two points have the number") != std::string::npos);
+  std::filesystem::remove(last);
+  CHECK(message().find(last.filename().string()) != std::string::npos);
+  std::ofstream(parts) << "<VTKFile/>";
+  CHECK(message().find("expected a VTKFile with a PUnstructuredGrid") != std::string::npos);
+}
+
+TEST_CASE("points of one part stay apart; where another part has one, too, it is an error") {
+  const auto merged = [](bool is_everywhere, std::size_t count) {
+    std::vector<std::uint64_t> numbers;
+    on_ranks(count, [&](Ranks& ranks) {
+      pieces::PartPoints mine;
+      for (std::uint64_t part = 0; part < 2; ++part) {
+        if (part * count / 2 != ranks.number()) continue;
+        for (const double x : {double(part), 5.0, part == 0 || is_everywhere ? 5.0 : 7.0}) {
+          if (part == 1 && !is_everywhere && x == 5.0) continue;
+          mine.points.emplace_back(x, 0, 0);
+          mine.part_of.push_back(part);
+        }
+      }
+      const pieces::MergedPoints now = pieces::merge_points(mine, ranks);
+      if (ranks.is_first()) numbers = now.numbers;
+    });
+    return numbers;
+  };
+  CHECK(merged(false, 2) == std::vector<std::uint64_t>{0, 1, 2});
+  CHECK(merged(false, 1) == std::vector<std::uint64_t>{0, 1, 2, 3, 4});
+  CHECK_THROWS_AS(merged(true, 2), Error);
+}
