@@ -9,7 +9,9 @@
 #include <tetmend/io.h>
 
 #include "apps/commands.h"
+#include "apps/convert_pieces.h"
 #include "apps/files.h"
+#include "apps/piece_options.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 
@@ -21,12 +23,23 @@ struct Options {
   std::filesystem::path output;
   CarryOptions carry;
   std::string format;
+  std::size_t parts = 0;
   int threads = 1;
 };
 
 /// No adjacency is built, so that a mesh of broken topology can be converted too.
 int run_convert(Options& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
+  const pieces::ArrayFiles& parts = *invocation.array_files;
+  if (options.parts > 0 && !parts.is_in_parts(options.output)) {
+    throw UsageError("--pieces: OUT is no mesh in parts");
+  }
+  if (parts.is_one(options.input) || parts.is_one(options.output)) {
+    OneRank alone;
+    convert_pieces(options.input, options.output, options.carry, &parts, options.parts, alone);
+    invocation.wrote_files = true;
+    return kSuccess;
+  }
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_variant(options.output, options.carry);
@@ -54,6 +67,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   add_carry_options(*command, options->carry);
   add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);
+  add_parts_option(*command, options->parts);
   command->footer(fmt::format(
       R"(Keeps points, elements, labels, named arrays and groups, and their order, as
 far as the format of OUT can hold them; coordinates keep all their bits. What it
@@ -62,10 +76,14 @@ topology is broken, or whose tets are inverted, is converted as it is.
 
 Formats, by extension:
 {}A TetGen mesh is named by its .node or .ele file; its other files go with it.
+A mesh in parts is named by its .pvtu file, or as part_%d.msh for part_1.msh,
+part_2.msh and so on of Gmsh; of these labels and constraints alone are kept.
+OUT in parts has tets in another order.
 
 Examples:
   tetmend convert part.mesh part.vtk
   tetmend convert part.ele part.meshb --strict
+  tetmend convert part.mesh parts.pvtu --pieces 8
   tetmend convert part.vtu part.msh --variant "2.2 ASCII"
   mesher | tetmend convert - part.vtu --format msh
 

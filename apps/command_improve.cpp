@@ -22,6 +22,7 @@
 #include "apps/improve_report.h"
 #include "apps/improve_watched.h"
 #include "apps/interruption.h"
+#include "apps/mesh_formats.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
 #include "face/mesh_access.h"
@@ -54,10 +55,7 @@ constexpr std::array<std::string_view, 3> kReportExtensions = {".json", ".html",
 
 /// What would stop the run at its end is better found at its beginning.
 void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known) {
-  for (const std::filesystem::path& file : {options.input, options.output}) {
-    if (known == nullptr || !known->is_one(file)) check_mesh_extension(file);
-  }
-  check_variant(options.output, options.carry);
+  check_formats(options.input, options.output, options.carry, known);
   for (const std::filesystem::path& report : options.reports) {
     check_extension(report, kReportExtensions);
   }

@@ -13,6 +13,7 @@
 #include "apps/improve_options.h"
 #include "apps/improve_report.h"
 #include "apps/improve_watched.h"
+#include "apps/mesh_formats.h"
 #include "apps/standard_streams.h"
 #include "kernel/formats/output_file.h"
 #include "pieces/folder_run.h"
@@ -69,9 +70,7 @@ int split(PiecesOptions& options, Invocation& invocation) {
   if (improve.pieces.pieces < 2)
     throw UsageError("pieces split: --pieces N, 2 or more, is missing");
   improve.input = options.more.front();
-  check_mesh_extension(improve.input);
-  check_mesh_extension(improve.output);
-  check_variant(improve.output, improve.carry);
+  check_formats(improve.input, improve.output, improve.carry, invocation.array_files);
   const NamedFile input = {"IN", improve.input, true};
   const NamedFile output = {"-o", improve.output, true};
   prepare_files({&input, 1}, {&output, 1});
@@ -80,6 +79,7 @@ int split(PiecesOptions& options, Invocation& invocation) {
   division.pieces = improve.pieces.pieces;
   std::vector<std::string> notes;
   pieces::OutOfCore files;
+  files.array_files = invocation.array_files;
   files.input = improve.input;
   files.output = improve.output;
   files.label_array = improve.carry.label_array;
@@ -150,7 +150,7 @@ int improve(PiecesOptions& options, Invocation& invocation) {
 
 int join(PiecesOptions& options, Invocation& invocation) {
   ImproveOptions& improve = options.improve;
-  pieces::FolderRun run(options.folder);
+  pieces::FolderRun run(options.folder, invocation.array_files);
   if (run.is_finished()) {
     if (!improve.quiet) say(stdout, fmt::format("finished: {}\n", run.saved().output));
     return kSuccess;

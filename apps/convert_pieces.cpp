@@ -5,20 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "apps/mesh_formats.h"
+#include "pieces/improve.h"
 #include "pieces/mesh_files.h"
 
 namespace tetmend::apps {
 
 void convert_pieces(const std::filesystem::path& input, const std::filesystem::path& output,
-                    const CarryOptions& carry, const pieces::ArrayFiles* known, Ranks& ranks) {
-  const auto is_known = [&](const std::filesystem::path& file) {
-    return known != nullptr && known->is_one(file);
-  };
+                    const CarryOptions& carry, const pieces::ArrayFiles* known, std::size_t parts,
+                    Ranks& ranks) {
   if (ranks.is_first()) {
-    for (const std::filesystem::path& file : {input, output}) {
-      if (!is_known(file)) check_mesh_extension(file);
-    }
-    if (!is_known(output)) check_variant(output, carry);
+    check_formats(input, output, carry, known);
     const NamedFile from = {"IN", input};
     const NamedFile to = {"OUT", output};
     prepare_files({&from, 1}, {&to, 1});
@@ -31,11 +28,13 @@ void convert_pieces(const std::filesystem::path& input, const std::filesystem::p
   pieces::MemoryShelf shelf;
   pieces::DividedMesh slices(shelf, ranks, mesh.vertices());
   const std::uint64_t vertices = mesh.vertices();
+  const std::uint64_t tets = mesh.tets();
   const bool holds_more = mesh.holds_more();
   mesh.add_to(slices, ranks.count());
   pieces::write_pieces(output, slices,
                        {.vertices = vertices,
                         .array_files = known,
+                        .parts = parts > 0 ? parts : pieces::usual_pieces(tets),
                         .variant = carry.variant,
                         .source = holds_more ? input : std::filesystem::path(),
                         .label_array = carry.label_array});

@@ -8,6 +8,14 @@
 
 namespace tetmend::apps {
 
+void add_parts_option(CLI::App& command, std::size_t& parts) {
+  command
+      .add_option("--pieces", parts,
+                  "Files that a mesh in parts gets (default: one for\neach 4 million tets)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}))
+      ->type_name("N");
+}
+
 void add_piece_options(CLI::App& command, PieceOptions& options) {
   command
       .add_option("--pieces", options.pieces,

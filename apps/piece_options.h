@@ -2,6 +2,7 @@
 // Options of commands that work on a mesh in pieces.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 
@@ -22,6 +23,8 @@ struct PieceOptions {
   bool is_divided() const { return pieces > 1 || memory > 0 || !checkpoint.empty(); }
 };
 
+/// --pieces of commands that only write.
+void add_parts_option(CLI::App& command, std::size_t& parts);
 void add_piece_options(CLI::App& command, PieceOptions& options);
 
 }  // namespace tetmend::apps

@@ -27,6 +27,7 @@
 #include "apps/interruption.h"
 #include "apps/standard_streams.h"
 #include "kernel/quality.h"
+#include "pieces/partitioned_files.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -153,6 +154,11 @@ int end_of_talk(int status, bool wrote_files) {
 int run_and_catch(int argc, char** argv) {
   try {
     Invocation invocation;
+    OneRank alone;
+    const pieces::PvtuFiles pvtu(alone);
+    const pieces::GmshParts gmsh(alone);
+    const pieces::SeveralArrayFiles parts({&pvtu, &gmsh});
+    invocation.array_files = &parts;
     const int status = run(argc, argv, invocation);
     return end_of_talk(status, invocation.wrote_files);
   } catch (const UsageError& error) {

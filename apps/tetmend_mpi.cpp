@@ -23,8 +23,9 @@
 #ifdef TETMEND_HAS_HDF5
 #include "mpi/hdf5_mesh.h"
 #endif
+#include "apps/piece_options.h"
 #include "mpi/mpi_ranks.h"
-#include "pieces/rank_share.h"
+#include "pieces/partitioned_files.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -61,7 +62,7 @@ class Hdf5Files final : public pieces::ArrayFiles {
   bool is_one(const std::filesystem::path& file) const override {
     return file.extension() == ".h5";
   }
-  pieces::RankShare read(const std::filesystem::path& file) const override {
+  pieces::RankShare read(const std::filesystem::path& file, const std::string&) const override {
     return mpi::read_hdf5(file, MPI_COMM_WORLD);
   }
   void write(const std::filesystem::path& file, const pieces::RankShare& arrays) const override {
@@ -73,6 +74,7 @@ class Hdf5Files final : public pieces::ArrayFiles {
 struct ConvertOptions {
   std::filesystem::path input;
   std::filesystem::path output;
+  std::size_t parts = 0;
 };
 
 void add_convert_by_ranks(CLI::App& app, Invocation& invocation) {
@@ -80,17 +82,23 @@ void add_convert_by_ranks(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another format");
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write")->required()->type_name("");
+  add_parts_option(*command, options->parts);
   command->footer(
-      R"(Vertices and tets keep their order. Files of HDF5 (.h5) and .meshb are read by
-all processes, each its share; other formats by the first one alone.
+      R"(Vertices and tets keep their order; OUT in parts has tets in another one. Files
+of HDF5 (.h5), .meshb and meshes in parts are read by all processes, each its
+share; other formats by the first one alone.
 
 Examples:
   mpirun -n 8 tetmend-mpi convert part.meshb part.h5
+  mpirun -n 8 tetmend-mpi convert part.h5 part.pvtu
 
 Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)");
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] {
-      convert_pieces(options->input, options->output, {}, invocation.array_files,
+      if (options->parts > 0 && !invocation.array_files->is_in_parts(options->output)) {
+        throw UsageError("--pieces: OUT is no mesh in parts");
+      }
+      convert_pieces(options->input, options->output, {}, invocation.array_files, options->parts,
                      *invocation.ranks);
       return kSuccess;
     };
@@ -116,8 +124,9 @@ same files. Pieces lie in the memory of the processes, or below --scratch.
 When a process dies the others end, and no mesh is written; with --checkpoint
 the same command goes on from the last division, with any number of processes.
 Files of HDF5 (.h5) are read and written by all processes together, if tetmend-mpi
-was built with it; FILE.xdmf beside them is what ParaView opens. Other formats are
-read and written by the first process alone.
+was built with it; FILE.xdmf beside them is what ParaView opens. So are meshes in
+parts: .pvtu with its .vtu files, and Gmsh's part_1.msh, part_2.msh... under the
+name part_%d.msh. Other formats are read and written by the first process alone.
 SIGUSR1 to mpirun stops the work: the mesh is written as improved so far.
 
 Exit status: that of tetmend improve)");
@@ -130,10 +139,15 @@ int run(int argc, char** argv, Ranks& ranks) {
   Invocation invocation;
   invocation.ranks = &ranks;
   invocation.first_vertex_id = number_of_environment("TETMEND_MPI_FIRST_VERTEX_ID");
+  const pieces::PvtuFiles pvtu(ranks);
+  const pieces::GmshParts gmsh(ranks);
+  std::vector<const pieces::ArrayFiles*> kinds = {&pvtu, &gmsh};
 #ifdef TETMEND_HAS_HDF5
-  const Hdf5Files files;
-  invocation.array_files = &files;
+  const Hdf5Files hdf5;
+  kinds.push_back(&hdf5);
 #endif
+  const pieces::SeveralArrayFiles files(std::move(kinds));
+  invocation.array_files = &files;
   invocation.arguments = platform::arguments(argc, argv);
   if (!invocation.arguments.empty()) invocation.arguments.erase(invocation.arguments.begin());
   const auto app = make_parser(invocation);

@@ -170,6 +170,32 @@ def seen_by_meshio(folder):
           seen[4] == seen[0], "meshio sees another mesh", done.stdout, done.stderr[-300:])
 
 
+def meshes_in_parts(folder):
+    """Written and read by all processes: their number shows in neither."""
+    for name in ("out.pvtu", "out_%d.msh"):
+        contents = set()
+        for ranks in (1, 3):
+            done = run(*mpi(ranks, MESH, "-o", folder / name, "--pieces", PIECES, "-q"))
+            check(done.returncode == 0, "improve to parts", name, done.stderr)
+            parts = sorted([*folder.glob("out/*.vtu"), *folder.glob("out_*.msh"), *folder.glob("out.pvtu")])
+            contents.add(tuple(part.read_bytes() for part in parts))
+        check(len(contents) == 1 and len(parts) == PIECES + (name == "out.pvtu"), "processes show in parts", name, parts)
+        whole = set()
+        for command in (["mpirun", "-n", "2", MPI_PROGRAM], [PROGRAM]):
+            done = run(*command, "convert", folder / name, folder / "again.meshb")
+            check(done.returncode == 0, "convert of parts", name, command, done.stderr)
+            whole.add((folder / "again.meshb").read_bytes())
+        check(len(whole) == 1, "processes show in what is read of parts", name)
+        run("mpirun", "-n", "3", MPI_PROGRAM, "convert", MESH, folder / name, "--pieces", 2)
+        one = (folder / ("out.pvtu" if "pvtu" in name else "out_2.msh")).read_bytes()
+        run(PROGRAM, "convert", MESH, folder / name, "--pieces", 2)
+        two = (folder / ("out.pvtu" if "pvtu" in name else "out_2.msh")).read_bytes()
+        check(one == two and not (folder / "out_3.msh").exists(), "processes show in converted parts", name)
+        shutil.rmtree(folder / "out", ignore_errors=True)
+        (folder / "out.pvtu").unlink(missing_ok=True)
+        check(not [each for each in folder.iterdir() if each.name.startswith(".tetmend")], "drafts are left", name)
+
+
 def tasks(folder, expected):
     work = folder / "work"
     done = run(PROGRAM, "pieces", "split", work, *improve(folder))
@@ -234,6 +260,7 @@ def main() -> int:
             mistakes(folder)
             killed_rank(folder, expected)
             files_of_hdf5(folder, expected)
+            meshes_in_parts(folder)
         else:
             print("tetmend-mpi or mpirun is not there: processes of MPI were not tried")
     print(f"{len(failures)} failures")
