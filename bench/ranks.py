@@ -5,14 +5,16 @@ make of a billion tets on up to 1,024 processes.
 A lattice (bench/lattice.cpp) is improved in pieces by 1, 2, 4... processes, whose outputs must have
 the same bytes. The seconds of each piece, as one process with one thread needs them, are then played
 again: each simulated process works on its pieces one after another, and all wait for the slowest
-after each division.
+after each division. What else runs on the machine does not enter: seconds are those of the processor.
 """
 
 import argparse
 import hashlib
 import json
 import os
+import resource
 import subprocess
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,6 +23,8 @@ import documents
 import report
 
 PROGRAM = 40e6  # bytes that a process may take besides its share
+MOST_TRAFFIC = 35.0  # bytes a tet and division, wanted
+MEMORY, MOST_MEMORY = "200M", 240e6  # of a run out of core: what it is told, what it may take
 PROCESSES = (1, 4, 16, 64, 256, 1024)  # that are simulated
 MOST_BALLS = 10_000  # zones are made around so many tets at most, however large the mesh is
 RANKS_MAY_SHARE_CORES = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -56,14 +60,14 @@ class Step:
 
 def steps_of(told: dict) -> list[Step]:
     """@param told  the report of a run of one process"""
-    ranks, steps = told["ranks"], []
+    ranks, steps, share = told["ranks"], [], told["processor_share"]
     bad = told["before"]["n_bad"]
     for number, made in enumerate(told["passes"]):
-        parts = sorted((part["part"], part["seconds"]) for part in ranks["parts"]
+        parts = sorted((part["part"], part["seconds"] * share) for part in ranks["parts"]
                        if part["step"] == number)
         divided = ranks["divisions"][number]
         steps.append(Step(made["name"] == "zones", divided["tets"], [s for _, s in parts],
-                          divided["seconds"], bad))
+                          divided["seconds"] * share, bad))
         bad = made["n_bad"]
     return steps
 
@@ -72,7 +76,7 @@ def checking_of(told: dict) -> float:
     """Seconds a tet of one process to measure the mesh before and after, dividing apart."""
     divisions = told["ranks"]["divisions"]
     seconds = told["seconds"]["measuring"] - divisions[0]["seconds"] - divisions[-1]["seconds"]
-    return max(0.0, seconds) / told["before"]["tets"]
+    return max(0.0, seconds) * told["processor_share"] / told["before"]["tets"]
 
 
 def traffic_table(runs: dict[int, dict], whole: dict) -> documents.Table:
@@ -81,7 +85,7 @@ def traffic_table(runs: dict[int, dict], whole: dict) -> documents.Table:
               "reading s", "improving s", "seconds in all"]]
     for count, told in runs.items():
         peaks = told["ranks"]["peak_memory_bytes"]
-        bound = 1.3 / count * whole["peak_memory_bytes"] + PROGRAM
+        bound = bound_of(count, whole)
         seconds = told["seconds"]
         table.append([f"{count}", f"{max(peaks) / 1e6:.0f}", f"{min(peaks) / 1e6:.0f}",
                       f"{bound / 1e6:.0f}" if count > 1 else "",
@@ -89,6 +93,38 @@ def traffic_table(runs: dict[int, dict], whole: dict) -> documents.Table:
                       f"{seconds['building']:.1f}", f"{seconds['improving']:.1f}",
                       f"{seconds['total']:.1f}"])
     return table
+
+
+def bound_of(count: int, whole: dict) -> float:
+    return 1.3 / count * whole["peak_memory_bytes"] + PROGRAM
+
+
+def kept_or_missed(runs: dict[int, dict], whole: dict) -> str:
+    """Each bound with what was measured, and why the largest process is so large."""
+    several = {count: told["ranks"] for count, told in runs.items() if count > 1}
+    if not several:
+        return "Bounds are for several processes: none ran."
+    said = []
+    for count, ranks in several.items():
+        peak, bound = max(ranks["peak_memory_bytes"]), bound_of(count, whole)
+        said.append(f"{count} processes {'keep' if peak <= bound else 'miss'} the bound for memory, with "
+                    f"{peak / 1e6:.0f} of {bound / 1e6:.0f} MB")
+    traffic = max(ranks["bytes_a_tet_and_division"] for ranks in several.values())
+    said.append(f"traffic is at most {traffic:.1f} bytes a tet and division, "
+                f"{'within' if traffic <= MOST_TRAFFIC else 'more than'} the {MOST_TRAFFIC:.0f} that are wanted")
+    told = runs[max(runs)]
+    largest = {is_zones: max((part["tets"] for part in told["ranks"]["parts"]
+                              if (told["passes"][part["step"]]["name"] == "zones") == is_zones), default=0)
+               for is_zones in (False, True)}
+    return (f"{'; '.join(said)}. A zone is worked on by one process, however large it is: the largest has "
+            f"{largest[True]:,} tets, the largest piece {largest[False]:,}.")
+
+
+def out_of_core(told: dict) -> str:
+    peak = told["peak_memory_bytes"]
+    return (f"`tetmend improve --memory {MEMORY}` of the same mesh took {peak / 1e6:.0f} MB, "
+            f"{'within' if peak <= MOST_MEMORY else 'more than'} the {MOST_MEMORY / 1e6:.0f} MB that "
+            "it may take.")
 
 
 def steps_table(steps: list[Step]) -> documents.Table:
@@ -177,7 +213,7 @@ def play(measured: Measured, tets: float, pieces: int, ranks: int, cluster: Clus
 
 
 def played_row(ranks: int, tets: float, pieces: int, played: Played) -> list[str]:
-    waiting = 1 - played.work / ranks / (played.improving + played.zones)
+    waiting = max(0.0, 1 - played.work / ranks / (played.improving + played.zones))
     return [f"{ranks:,}", f"{tets / 1e6:,.0f}", f"{pieces:,}", f"{played.improving:.1f}",
             f"{played.zones:.1f}", f"{played.dividing:.1f}", f"{played.files:.1f}",
             f"{played.total():.1f}", f"{100 * waiting:.0f}"]
@@ -208,10 +244,11 @@ MEASURED = (
     "A lattice of moved points, {tets:,} tets, {pieces} pieces, one thread a process. All outputs "
     "have the same bytes. *bound*: 1.3 / n of the {whole:.0f} MB that a run without pieces takes, "
     "and 40 MB. Processes share {cores} cores with each other and with what else ran on this "
-    "machine, so seconds of more processes than cores say little."
+    "machine, so these seconds say little."
 )
 STEPS = (
-    "One process: seconds of improving a piece, for each tet of the mesh, and how uneven pieces are. "
+    "One process: seconds of improving all pieces, for each tet of the mesh, and how uneven pieces "
+    "are; of the processor, of which this run had {0:.0f} %. "
     "Dividing is what is not improving: reading pieces, sorting their tets, and sending."
 )
 ASSUMED = (
@@ -224,7 +261,7 @@ ASSUMED = (
 )
 
 
-def page(made: documents.Stamp, runs: dict[int, dict], whole: dict) -> str:
+def page(made: documents.Stamp, runs: dict[int, dict], whole: dict, on_disk: dict) -> str:
     """@param runs  what each run in pieces reported, by the number of processes; 1 is among them"""
     alone, most = runs[1], runs[max(runs)]
     steps = steps_of(alone)
@@ -235,7 +272,9 @@ def page(made: documents.Stamp, runs: dict[int, dict], whole: dict) -> str:
     assumed = ASSUMED.format(cluster, 100 * cluster.efficiency, cluster.network / 1e9,
                              cluster.files / 1e9, MOST_BALLS)
     parts = ["## Memory and traffic", measured, documents.markdown_table(traffic_table(runs, whole)),
-             "## Pieces", STEPS, documents.markdown_table(steps_table(steps)),
+             kept_or_missed(runs, whole), out_of_core(on_disk),
+             "## Pieces", STEPS.format(100 * alone["processor_share"]),
+             documents.markdown_table(steps_table(steps)),
              "## Played on more processes", assumed,
              "A billion tets in pieces of 4 million:",
              documents.markdown_table(strong_table(known, 4e6)),
@@ -249,18 +288,30 @@ def page(made: documents.Stamp, runs: dict[int, dict], whole: dict) -> str:
 # --- measuring
 
 
+def processor_seconds() -> float:
+    """Of all programs that were started and have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def told_by(command: list, told: Path, **environment: str) -> dict:
+    """The report of a run, and which share of its time it had a processor."""
+    used, start = processor_seconds(), time.monotonic()
     subprocess.run([*map(str, command), "--quiet", "--report", str(told)], check=True,
                    env=dict(os.environ, **environment))
-    return json.loads(told.read_text())
+    share = (processor_seconds() - used) / (time.monotonic() - start)
+    return dict(json.loads(told.read_text()), processor_share=min(share, 1.0))
 
 
-def measure(size: float, pieces: int, counts: list[int]) -> tuple[dict[int, dict], dict]:
+def measure(size: float, pieces: int, counts: list[int]) -> tuple[dict[int, dict], dict, dict]:
+    """Runs in pieces by their number of processes, one without pieces, one out of core"""
     folder = compare.WORK / "ranks"
     folder.mkdir(parents=True, exist_ok=True)
     mesh, improved, told = (folder / name for name in ("lattice.meshb", "out.meshb", "report.json"))
     subprocess.run([compare.BUILD / "bench" / "lattice", f"{size:.0f}", mesh], check=True)
     whole = told_by([compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved], told)
+    on_disk = told_by([compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved, "--memory",
+                       MEMORY], told)
     runs, contents = {}, set()
     for count in counts:
         runs[count] = told_by(["mpirun", "-n", count, compare.BUILD / "bin" / "tetmend-mpi", "improve",
@@ -275,7 +326,7 @@ def measure(size: float, pieces: int, counts: list[int]) -> tuple[dict[int, dict
         raise SystemExit("ranks: the number of processes shows in the result")
     mesh.unlink()
     improved.unlink()
-    return runs, whole
+    return runs, whole, on_disk
 
 
 def main() -> None:
@@ -290,11 +341,13 @@ def main() -> None:
     counts = [int(word) for word in options.processes.split(",")]
     if 1 not in counts:
         parser.error("--processes: 1 must be among them")
-    runs, whole = measure(options.size, options.pieces, counts)
+    runs, whole, on_disk = measure(options.size, options.pieces, counts)
     print(report.text_table(traffic_table(runs, whole)))
+    print(kept_or_missed(runs, whole))
+    print(out_of_core(on_disk))
     print(report.text_table(steps_table(steps_of(runs[1]))))
     if options.write:
-        documents.write(options.write, page(documents.stamp("script/bench --ranks"), runs, whole))
+        documents.write(options.write, page(documents.stamp("script/bench --ranks"), runs, whole, on_disk))
 
 
 if __name__ == "__main__":

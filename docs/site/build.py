@@ -32,7 +32,7 @@ NAVIGATION: dict[str, list[str]] = {
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",
                 "results/tangled", "results/renumbered", "results/reconnection", "results/angles",
                 "results/constraints", "results/surface", "results/cores", "results/growth", "results/viewing",
-                "results/files", "results/parts"],
+                "results/ranks", "results/files", "results/parts"],
     "reliability": ["results/faults", "results/fuzzing"],
     "reference": ["command-line", "formats", "cpp", "python-reference", "c-reference", "fortran-reference",
                   "dependencies", "changes"],

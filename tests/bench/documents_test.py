@@ -174,20 +174,29 @@ class Tables(unittest.TestCase):
             divisions = [{"tets": 400, "bytes": 8000, "seconds": 0.4}] * 4
             passes = [{"name": name, "n_bad": n_bad}
                       for name, n_bad in (("division", 20), ("division", 10), ("zones", 5))]
-            return {"before": {"tets": 400, "n_bad": 90}, "passes": passes,
+            return {"before": {"tets": 400, "n_bad": 90}, "passes": passes, "processor_share": 1.0,
                     "seconds": {"building": 0.1, "measuring": 1.2, "improving": 9.0, "total": 11.0},
                     "ranks": {"count": count, "peak_memory_bytes": [50_000_000] * count,
                               "bytes_a_tet_and_division": 20.0, "divisions": divisions,
                               "parts": parts}}
 
         runs = {1: told(1), 2: told(2)}
-        memory, pieces, *played = tables(ranks.page(MADE, runs, {**told(1), "peak_memory_bytes": 3e7}))
+        whole, on_disk = ({**told(1), "peak_memory_bytes": peak} for peak in (3e7, 2.5e8))
+        memory, pieces, *played = tables(ranks.page(MADE, runs, whole, on_disk))
         self.assertEqual(memory[2][:5], ["2", "50", "50", "60", "20.0"])
         self.assertEqual(pieces[1:], [["division 1", "4", "20000.00", "1.50", "1000.00"],
                                       ["division 2", "4", "5000.00", "1.00", "1000.00"],
                                       ["zones 1", "2", "750.00", "1.33", "1000.00"]])
         self.assertEqual([[row[0] for row in table[1:]] for table in played],
                          [["1", "4", "16", "64", "256", "1,024"]] * 3)
+        # What is kept and what is missed is said.
+        self.assertIn("2 processes keep the bound for memory, with 50 of 60 MB", ranks.kept_or_missed(runs, whole))
+        runs[2]["ranks"]["peak_memory_bytes"] = [5e7, 6.1e7]
+        self.assertIn("2 processes miss the bound for memory, with 61 of 60 MB", ranks.kept_or_missed(runs, whole))
+        self.assertIn("took 250 MB, more than the 240 MB", ranks.out_of_core(on_disk))
+        # Seconds are those of the processor, of which a run may have had a part.
+        [half, *_] = ranks.steps_of({**runs[1], "processor_share": 0.5})
+        self.assertEqual(half.seconds, [0.5, 1.5, 1.0, 1.0])
         # The measured run itself, on one core without a network, is what was measured.
         known = ranks.Measured(ranks.steps_of(runs[1]), ranks.checking_of(runs[1]), 0.0)
         same = ranks.play(known, 400, 4, 1, ranks.Cluster(cores=1))
