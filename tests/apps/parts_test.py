@@ -39,6 +39,12 @@ def quality_of(mesh):
     return json.loads(run(PROGRAM, "quality", mesh, "--json").stdout)
 
 
+def counts_of(mesh):
+    """What does not depend on the order of points, nor on the last bits of coordinates."""
+    told = quality_of(mesh)
+    return {key: value for key, value in told.items() if isinstance(value, int)}
+
+
 def remains(folder):
     return [each.name for each in folder.iterdir() if each.name.startswith(".tetmend")]
 
@@ -92,11 +98,11 @@ def parts_of_gmsh(folder):
     for name, split in (("cut.msh", ["-part_split"]), ("one.msh", [])):
         done = run("gmsh", "-part", "3", *split, "-format", "msh41", "-save", "-o", folder / name, folder / "plain.msh")
         check(done.returncode == 0, "gmsh makes no parts", done.stdout[-500:], done.stderr)
-    whole = quality_of(OTHER)
+    whole = counts_of(OTHER)
     for name in ("cut_%d.msh", "one.msh"):
         done = convert(folder / name, folder / "joined.meshb")
         check("partitions of elements are not kept" in done.stderr, "nothing is said of partitions", name, done.stderr)
-        check(quality_of(folder / "joined.meshb") == whole, "parts of gmsh are another mesh", name)
+        check(len(whole) > 4 and counts_of(folder / "joined.meshb") == whole, "parts of gmsh are another mesh", name, whole)
     convert(OTHER, folder / "ours_%d.msh", "--pieces", 3)
     done = run("gmsh", "-check", "-", *(folder / f"ours_{i}.msh" for i in (1, 2, 3)))
     check("Error" not in done.stdout + done.stderr, "gmsh does not read our parts", done.stdout[-500:], done.stderr)
