@@ -206,16 +206,18 @@ def declarations(xml: Path, header: Path) -> list[str]:
     """A directive of Breathe for each declaration of a header, in its order."""
     name = header.stem.replace("_", "__")  # as Doxygen writes it
     file = ElementTree.parse(xml / f"{name}_8h.xml").find("compounddef")
-    space = ElementTree.parse(xml / "namespacetetmend.xml").find("compounddef")
+    spaces = {inner.text: ElementTree.parse(xml / f"{inner.get('refid')}.xml").find("compounddef")
+              for inner in file.findall("innernamespace")}
     found: list[tuple[int, str, str]] = []
     for inner in file.findall("innerclass"):
         definition = ElementTree.parse(xml / f"{inner.get('refid')}.xml").find("compounddef")
-        if inner.text.count("::") == 1:  # a nested class stands in its outer one
+        if inner.text.rpartition("::")[0] in spaces:  # a nested class stands in its outer one
             found.append((int(definition.find("location").get("line")), f"doxygen{definition.get('kind')}", inner.text))
-    for member in [*file.iter("memberdef"), *space.iter("memberdef")]:
+    members_of = [*file.iter("memberdef"), *(each for space in spaces.values() for each in space.iter("memberdef"))]
+    for member in members_of:
         place = member.find("location")
         if place.get("file").endswith(f"include/tetmend/{header.name}"):
-            name = member.findtext("name") if member.get("kind") == "define" else f"tetmend::{member.findtext('name')}"
+            name = member.findtext("name") if member.get("kind") == "define" else member.findtext("qualifiedname")
             arguments = member.findtext("argsstring") if member.get("kind") == "function" else ""
             found.append((int(place.get("line")), DIRECTIVES[member.get("kind")], name + arguments))
     if not found:

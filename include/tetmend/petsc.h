@@ -39,8 +39,8 @@ struct Labels {
 /// carried are named in Result::notes.
 /// @param from no cell may be another's ghost (overlap); is not changed
 /// @param better is set when all is done; the caller destroys it
-/// @throws Error, the same one on all processes, for a DM that is no such mesh: what is wrong, of
-/// which cell or point; OptionError and Error as improve() of arrays in <tetmend/distributed.h>
+/// @throws Error for a DM that is no such mesh, the same on all processes: what is wrong, of which
+/// cell or point; OptionError and Error as improve() of arrays in <tetmend/distributed.h>
 Result improve(DM from, DM* better, const Options& options = {}, const Pieces& pieces = {},
                const Labels& labels = {});
 

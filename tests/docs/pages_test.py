@@ -34,6 +34,10 @@ ELSEWHERE = {
     "cmake --install build/prefix": "a plugin and a program are built against an installed tetmend, and run",
     "cmake --build build/release --target make_lessons && build/release/bin/make_lessons assets/lessons":
         "lesson_tests",
+    "cmake -S examples/petsc -B build/petsc -DCMAKE_PREFIX_PATH=~/tetmend && cmake --build build/petsc":
+        "a plugin and a program are built against an installed tetmend, and run",
+    "mpirun -n 2 build/petsc/improve_plex -dm_plex_filename part.msh -better_dm_view hdf5:better.h5":
+        "a plugin and a program are built against an installed tetmend, and run",
     "cmake -S plugins -B build/plugins -DCMAKE_PREFIX_PATH=~/tetmend":
         "a plugin and a program are built against an installed tetmend, and run",
     "cmake --build build/plugins": "a plugin and a program are built against an installed tetmend, and run",
