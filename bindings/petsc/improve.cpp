@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <string>
+
 #include <tetmend/petsc.h>
 
 #include "bindings/petsc/exchange.h"
@@ -17,12 +19,7 @@ Result improve(DM from, DM* better, const Options& options, const Pieces& pieces
   for (const std::string& what : arrays.left_behind) {
     result.notes.push_back("not carried to the new DMPlex: " + what);
   }
-  DM made = make_plex(comm, arrays, ranks);
-  const char* name = nullptr;
-  if (PetscObjectGetName(reinterpret_cast<PetscObject>(from), &name) == 0) {
-    PetscObjectSetName(reinterpret_cast<PetscObject>(made), name);
-  }
-  *better = made;
+  *better = make_plex(comm, arrays, ranks);
   return result;
 }
 

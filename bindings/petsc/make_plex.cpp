@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "bindings/petsc/exchange.h"
 #include "bindings/petsc/plex_arrays.h"

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bindings/petsc/exchange.h"
 #include "bindings/petsc/plex_arrays.h"
@@ -262,6 +269,12 @@ void PlexReader::check_cells() {
       complaint = " belongs to another rank: there must be no overlap";
     }
     if (!complaint.empty()) complaint = "cell " + std::to_string(cell) + of_rank() + complaint;
+  }
+  for (PetscInt point = chart_.begin; point < chart_.end && complaint.empty(); ++point) {
+    PetscInt count = 0;
+    check(DMPlexGetSupportSize(dm_, point, &count));
+    if (count > 0 || cells_.has(point)) continue;
+    complaint = "point " + std::to_string(point) + of_rank() + " belongs to no cell";
   }
   if (complaint.empty() && cells_.end > cells_.begin && depth != 1 && depth != 3) {
     complaint = "has faces or edges, but not both";

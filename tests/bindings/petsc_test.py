@@ -22,6 +22,7 @@ MISTAKES = {
     "hexahedra": "is a hexahedron, and no tet",
     "grid": "is no DMPlex, but da",
     "none": "there is none",
+    "lone": "point 5 of rank 0 belongs to no cell",
     "number": "is not a finite number",
     "inverted": "is inverted",
     "values": "label 'Cell Sets': point 0 of rank 0 has two values, 4 and 9",
