@@ -76,7 +76,7 @@ Point place(PetscInt number) {
   return p;
 }
 
-/// Six tets around a diagonal of each cube. PETSc's order, or turned.
+/// Six tets around a diagonal of each cube. PETSc's order, or turned and begun elsewhere.
 std::vector<PetscInt> lattice_cells(bool is_turned) {
   std::vector<PetscInt> cells;
   std::array<std::size_t, 3> axes = {0, 1, 2};
@@ -91,6 +91,7 @@ std::vector<PetscInt> lattice_cells(bool is_turned) {
       }
       const bool is_even = (order[1] + 3 - order[0]) % 3 == 1;
       if (is_even != is_turned) std::swap(tet[0], tet[1]);
+      if (is_turned) std::rotate(tet.begin(), tet.begin() + 2, tet.end());  // the same tet
       cells.insert(cells.end(), tet.begin(), tet.end());
     } while (std::next_permutation(order.begin(), order.end()));
   }
