@@ -13,8 +13,7 @@ local split = {"surface_split", order = "longest"}
 
 local start = quality()
 
--- Where more are bad after the cheap rounds, the surface forces most of them, and what raises the worst
--- makes many mild ones.
+-- Where more are bad after the cheap rounds, what raises the worst at no price makes many mild ones.
 local few = 200
 local worst = {below = 1, worst = few}
 
@@ -86,6 +85,18 @@ local full_price, half_price = 0.1, 0.02
 
 judge_by{price = full_price}
 local can_move = plain_rounds() > 0
+
+-- Where many are left, the worst rise at a price, as long as a round removes a fifth of all.
+for _ = 1, max_rounds do
+  local n_bad = quality().n_bad
+  if not can_move or n_bad <= few then break end
+  judge_by{price = half_price, measure = "sine"}
+  costly_round()
+  judge_by{price = half_price}
+  plain_rounds()
+  if quality().n_bad > 0.8 * n_bad then break end
+end
+
 local rounds, failed, before = 0, 0, quality()
 while can_move and rounds < max_rounds and failed < max_failed
       and quality().n_bad > 0 and quality().n_bad <= few do
@@ -101,4 +112,26 @@ while can_move and rounds < max_rounds and failed < max_failed
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1
   before = now
+end
+
+-- At the goal, the surface stays as it is. Inside, the largest angles are eased as long as they fall.
+local function ease(most)
+  local blunt = {below = quality_of_angle(most), worst = 50,
+                 property = {"largest_angle_sine", low = 0, high = math.sin(math.rad(180 - most))}}
+  for _, opening in ipairs{"edge_removal", {"edge_split", order = "angle", most_edges = 2},
+                           "smoothing", "edge_contraction"} do
+    apply(sequence{opening, "recursive_shell_transformation", "smoothing", "joint_smoothing",
+                   "cavity_insertion", "smoothing", "joint_smoothing", theta_max = most},
+          {on = blunt})
+  end
+end
+
+local most = start.goal_max - 2
+if can_move and max_rounds > 0 and quality().n_bad == 0 and most > 90 then
+  judge_by{measure = "sine"}
+  local largest
+  repeat
+    largest = quality().theta_max
+    ease(most)
+  until quality().theta_max > largest - 0.1
 end
