@@ -87,10 +87,10 @@ judge_by{price = full_price}
 local can_move = plain_rounds() > 0
 
 -- Where many are left, but few of all tets, the worst rise at a price, as long as a round removes a
--- fifth of the bad ones.
+-- fifth of the bad ones. It takes up to a second for each that it fails at.
 for _ = 1, max_rounds do
   local n_bad = quality().n_bad
-  if not can_move or n_bad <= few or n_bad > 0.01 * quality().tets then break end
+  if not can_move or n_bad <= few or n_bad > 0.002 * quality().tets then break end
   judge_by{price = half_price, measure = "sine"}
   costly_round()
   judge_by{price = half_price}

@@ -201,7 +201,7 @@ def without_window(command: str) -> str:
 def outputs_of(command: str) -> list[str]:
     """The files that a command says it writes."""
     named = re.findall(r"(?:\s-o|\s--cells|\s--report|\s--trace|\s--render|\s--video|>)\s+([\w./]+)", command)
-    named += re.findall(r"^tetmend convert \S+ (\S+)", command)
+    named += [name.replace("%d", "1") for name in re.findall(r"^tetmend convert \S+ (\S+)", command)]
     named += [f"{job}.dat" for job in re.findall(r"^ccx (\w+)", command)]
     return named + [f"{case}/constant/polyMesh" for case in re.findall(r"^gmshToFoam .*-case (\w+)", command)]
 
