@@ -132,8 +132,8 @@ class Writer {
   Row<OutputFile> row() { return {out_, binary_}; }
 
   const std::vector<std::int64_t>& given_numbers() const {
-    static const std::vector<std::int64_t> none;
-    return is_part_ ? mesh_.data()->point_numbers : none;
+    static const std::vector<std::int64_t> kNone;
+    return is_part_ ? mesh_.data()->point_numbers : kNone;
   }
   /// The number of a point in the file.
   std::int64_t node(std::size_t point) const {
