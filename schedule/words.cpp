@@ -150,6 +150,8 @@ constexpr std::array<WordInfo, 24> kWords = {{
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
      "the least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. "
+     "Where the surface may move, only constraints inside count, and with --surface flat sharp "
+     "feature lines. "
      "Also the numbers of bad tets by what holds them: frozen, surface, constraint, "
      "no_free_vertex, search. Takes as long as a short pass"},
     {"is_progress", "is_progress(before, now)",

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "kernel/chunks.h"
+#include "schedule/limit/moving_walls.h"
 #include "schedule/limit/wall_probe.h"
 
 namespace tetmend {
@@ -101,11 +102,19 @@ bool is_bad(const TetMesh& mesh, HalfFace wall) {
   return misses_goal(mesh, wall.tet());
 }
 
+/// All that the probe looks at stays as it is.
+bool is_lasting(const TetMesh& mesh, const WallProbe& probe) {
+  if (mesh.surface_guard() == nullptr) return true;
+  const std::vector<HalfFace> walls = probe.walls(kAll);
+  return std::none_of(walls.begin(), walls.end(), [&](HalfFace w) { return may_change(mesh, w); });
+}
+
 /// The argument about the fewest tets; without walls if there is none.
 Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
   const AngleRange good = good_angles(mesh);
   Argument argument;
   argument.name = name_of(mesh, probe.wall());
+  if (!is_lasting(mesh, probe)) return argument;
   for (const WallProbe::Scope scope : {0b0000, 0b0001, 0b0010, 0b0100, 0b0111, 0b1111}) {
     std::vector<HalfFace> walls = probe.walls(scope);
     // This mesh shows that all of them can be good.
@@ -118,6 +127,7 @@ Argument find_argument(const TetMesh& mesh, const WallProbe& probe) {
   }
   for (const HalfFace wall : argument.walls) {
     const WallProbe at(mesh, wall);
+    if (!is_lasting(mesh, at)) return {};
     bool inside = !mesh.is_boundary(wall);
     for (unsigned i = 0; i < 3; ++i) {
       inside = inside || !mesh.is_boundary(at.sector(i).other);
@@ -145,6 +155,10 @@ class Bound {
     }
   }
   void tighten(const Bound& other) { best_ = std::min(best_, other.best_); }
+  /// @param angle radians
+  void tighten(double angle) {
+    best_ = std::min(best_, 1 + static_cast<int>(angle / (kStep * kDegree)));
+  }
   /// In degrees, if there is one.
   std::optional<double> value() const {
     return best_ < kSteps ? std::optional(best_ * kStep) : std::nullopt;
@@ -213,7 +227,8 @@ AngleBounds find_bounds(const TetMesh& mesh, const Stop& stop) {
   const std::vector<SharpWall> walls = find_sharp_walls(mesh);
   const auto tighten = [&](AngleBounds& bounds, std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end && !stop(); ++n) {
-      bounds.tighten(WallProbe(mesh, walls[n].wall));
+      const WallProbe probe(mesh, walls[n].wall);
+      if (is_lasting(mesh, probe)) bounds.tighten(probe);
     }
   };
   AngleBounds all;
@@ -280,7 +295,12 @@ std::size_t count_independent(const std::vector<Argument>& arguments) {
 /// One bad tet for each argument, the worst, but none where another argument's tet will do.
 class ForcedTets {
  public:
-  ForcedTets(const TetMesh& mesh, const std::vector<Argument>& arguments) {
+  /// @param lines those with bad tets alone
+  ForcedTets(const TetMesh& mesh, const std::vector<Argument>& arguments,
+             const std::vector<SharpLine>& lines) {
+    for (const SharpLine& line : lines) {
+      for (const TetHandle t : line.worst) by_surface_.insert(t.index());
+    }
     for (const Argument& argument : arguments) {
       const auto is_chosen = [&](HalfFace wall) {
         return by_surface_.contains(wall.tet().index()) ||
@@ -306,22 +326,29 @@ Hindrance hindrance_of(const TetMesh& mesh, TetHandle t, const ForcedTets& force
   if (forced.by_surface(t)) return Hindrance::surface;
   if (forced.by_constraint(t)) return Hindrance::constraint;
   const TetVertices& v = mesh.vertices(t);
-  if (mesh.has_constraints(t) || std::any_of(v.begin(), v.end(), [&](VertexHandle w) {
-        return mesh.is_fixed(w) && !mesh.is_boundary(w);
+  if (has_lasting_constraint(mesh, t) || std::any_of(v.begin(), v.end(), [&](VertexHandle w) {
+        return is_held(mesh, w) && !mesh.is_boundary(w);
       })) {
     return Hindrance::constraint;
   }
-  const bool all_fixed =
-      std::all_of(v.begin(), v.end(), [&](VertexHandle w) { return mesh.is_fixed(w); });
-  return all_fixed ? Hindrance::no_free_vertex : Hindrance::search;
+  const bool all_held =
+      std::all_of(v.begin(), v.end(), [&](VertexHandle w) { return is_held(mesh, w); });
+  return all_held ? Hindrance::no_free_vertex : Hindrance::search;
 }
 
 SurfaceLimit compute_limit(const TetMesh& mesh, std::vector<std::pair<TetHandle, Hindrance>>* bad,
                            const Stop& stop) {
   const std::vector<TetHandle> bad_tets = find_bad_tets(mesh);
   const std::vector<Argument> arguments = find_arguments(mesh, walls_around(mesh, bad_tets), stop);
-  const ForcedTets forced(mesh, arguments);
-  const AngleBounds bounds = find_bounds(mesh, stop);
+  std::vector<SharpLine> lines = find_sharp_lines(mesh, std::numbers::pi / 2);
+  AngleBounds bounds = find_bounds(mesh, stop);
+  for (const SharpLine& line : lines) {
+    bounds.quality.tighten(line.angle);
+    bounds.smallest.tighten(line.angle);
+  }
+  const double low = good_angles(mesh).low - kAngleSlack;
+  std::erase_if(lines, [&](const SharpLine& line) { return line.angle >= low; });
+  const ForcedTets forced(mesh, arguments, lines);
   SurfaceLimit limit;
   for (const TetHandle t : bad_tets) {
     const Hindrance hindrance = hindrance_of(mesh, t, forced);
@@ -329,7 +356,9 @@ SurfaceLimit compute_limit(const TetMesh& mesh, std::vector<std::pair<TetHandle,
     if (bad != nullptr) bad->emplace_back(t, hindrance);
     if (hindrance != Hindrance::frozen) ++limit.n_bad;
   }
-  limit.n_forced = count_independent(arguments);
+  constexpr std::size_t kEdgesOfTet = 6;
+  limit.n_forced =
+      std::max(count_independent(arguments), (lines.size() + kEdgesOfTet - 1) / kEdgesOfTet);
   if (const auto angle = bounds.quality.value()) limit.q_worst = std::sin(*angle * kDegree);
   limit.theta_min = bounds.smallest.value();
   if (const auto angle = bounds.largest.value()) limit.theta_max = 180 - *angle;

@@ -8,6 +8,10 @@
 // at most what the first leaves (wall_probe.h). Only places that cannot mean the same tet are
 // counted. A wall that only stands in the way, as the far side of a thin plate does, is not looked
 // at.
+//
+// Where the surface may move, its walls prove nothing, and only what depends on others alone is
+// looked at. With tolerance 0 patches stay in their planes. So the angle between two of them at a
+// line is what it is, and bounds the tets at the line.
 #pragma once
 
 #include <atomic>

@@ -22,7 +22,7 @@ double turn_left(const Point& a, const Point& b, const Point& c, const Point& d)
                     axis.cross(to_c).dot(axis.cross(to_d)));
 }
 
-/// Calls visit(behind, ahead) for each tet of a sector, between the faces with these third
+/// Calls visit(tet, behind, ahead) for each tet of a sector, between the faces with these third
 /// vertices. Gives the wall at its end.
 template <class Visit>
 HalfFace walk_to_next_wall(const TetMesh& mesh, HalfFace wall, unsigned i, const Visit& visit) {
@@ -30,7 +30,7 @@ HalfFace walk_to_next_wall(const TetMesh& mesh, HalfFace wall, unsigned i, const
   VertexHandle behind = mesh.vertices(wall)[i];
   VertexHandle ahead = mesh.vertices(t)[wall.face()];
   for (;;) {
-    visit(behind, ahead);
+    visit(t, behind, ahead);
     const HalfFace face(t, mesh.local_index(t, behind));
     if (is_wall(mesh, face)) return face;
     const HalfFace twin = mesh.twin(face);
@@ -46,7 +46,7 @@ double sum_of_angles(const TetMesh& mesh, HalfFace wall, unsigned i) {
   const Point& a = mesh.point(corners[(i + 1) % 3]);
   const Point& b = mesh.point(corners[(i + 2) % 3]);
   double sum = 0;
-  walk_to_next_wall(mesh, wall, i, [&](VertexHandle behind, VertexHandle ahead) {
+  walk_to_next_wall(mesh, wall, i, [&](TetHandle, VertexHandle behind, VertexHandle ahead) {
     sum += std::abs(turn_left(a, b, mesh.point(behind), mesh.point(ahead)));
   });
   return sum;
@@ -56,8 +56,8 @@ double sum_of_angles(const TetMesh& mesh, HalfFace wall, unsigned i) {
 
 Sector find_sector(const TetMesh& mesh, HalfFace wall, unsigned i) {
   Sector sector;
-  sector.other = walk_to_next_wall(mesh, wall, i,
-                                   [&](VertexHandle, VertexHandle ahead) { sector.apex = ahead; });
+  sector.other = walk_to_next_wall(
+      mesh, wall, i, [&](TetHandle, VertexHandle, VertexHandle ahead) { sector.apex = ahead; });
   const auto corners = mesh.vertices(wall);  // counterclockwise as seen from outside the sector
   sector.angle = turn_left(mesh.point(corners[(i + 2) % 3]), mesh.point(corners[(i + 1) % 3]),
                            mesh.point(corners[i]), mesh.point(sector.apex));
@@ -69,6 +69,14 @@ Sector find_sector(const TetMesh& mesh, HalfFace wall, unsigned i) {
     sector.angle += kTurn;
   }
   return sector;
+}
+
+TetHandle worst_in_sector(const TetMesh& mesh, HalfFace wall, unsigned i) {
+  TetHandle worst = wall.tet();
+  walk_to_next_wall(mesh, wall, i, [&](TetHandle t, VertexHandle, VertexHandle) {
+    if (mesh.quality(t) < mesh.quality(worst)) worst = t;
+  });
+  return worst;
 }
 
 }  // namespace tetmend

@@ -31,4 +31,7 @@ struct Sector {
 /// each tet of the sector.
 Sector find_sector(const TetMesh& mesh, HalfFace wall, unsigned i);
 
+/// The tet of the lowest quality in that sector. Precondition and cost: the same.
+TetHandle worst_in_sector(const TetMesh& mesh, HalfFace wall, unsigned i);
+
 }  // namespace tetmend

@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include "envelope/envelope.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
@@ -223,4 +224,82 @@ TEST_CASE("the limit is the same on any number of threads") {
   check_same_bounds(one, four);
   CHECK(one.bad == four.bad);
   CHECK(one.n_forced >= 300);
+}
+
+TEST_CASE("a ridge that may move proves nothing, unless its sides stay in their planes") {
+  TetMesh near(ridge(5, 10));
+  near.set_surface_guard(Envelope::of(near, {.share = 0.1, .kept = {}}));
+  const SurfaceLimit moving = compute_surface_limit(near);
+  CHECK(moving.n_bad > 0);
+  CHECK(moving.n_forced == 0);
+  CHECK_FALSE(moving.theta_min.has_value());
+  CHECK_FALSE(moving.theta_max.has_value());
+  CHECK_FALSE(moving.q_worst.has_value());
+  CHECK(moving.bad_by(Hindrance::surface) == 0);
+
+  TetMesh flat(ridge(5, 10));
+  flat.set_surface_guard(Envelope::of(flat, {.kept = {}}));
+  const SurfaceLimit limit = compute_surface_limit(flat);
+  CHECK(limit.n_forced == 1);  // its five edges may become one
+  CHECK(limit.bad_by(Hindrance::surface) >= 5);
+  REQUIRE(limit.theta_min.has_value());
+  CHECK(*limit.theta_min >= 10);
+  CHECK(*limit.theta_min <= 10.002);
+  CHECK(*limit.q_worst == doctest::Approx(std::sin(10 * std::numbers::pi / 180)).epsilon(2e-4));
+
+  TetMesh blunt(ridge(5, 31));
+  blunt.set_surface_guard(Envelope::of(blunt, {.kept = {}}));
+  CHECK(compute_surface_limit(blunt).n_forced == 0);
+}
+
+TEST_CASE("named triangles inside prove the same where the surface may move") {
+  MeshData data = delaunay_ball(60, 2);
+  const TetMesh plain(data);
+  TetHandle worst;  // away from the surface
+  for (const TetHandle t : live_tets(plain)) {
+    const TetVertices& v = plain.vertices(t);
+    if (std::any_of(v.begin(), v.end(), [&](VertexHandle w) { return plain.is_boundary(w); })) {
+      continue;
+    }
+    if (!worst.is_valid() || plain.quality(t) < plain.quality(worst)) worst = t;
+  }
+  REQUIRE(worst.is_valid());
+  REQUIRE(misses_goal(plain, worst));
+  for (unsigned f = 0; f < 4; ++f) {
+    const auto v = plain.vertices(HalfFace(worst, f));
+    data.triangles.push_back({{v[0].index(), v[1].index(), v[2].index()}, 7});
+  }
+  TetMesh mesh(data);
+  const std::size_t fixed = compute_surface_limit(mesh).bad_by(Hindrance::constraint);
+  mesh.set_surface_guard(Envelope::of(mesh, {.share = 0.05, .kept = {}}));
+  const SurfaceLimit limit = compute_surface_limit(mesh);
+  CHECK(limit.n_forced >= 1);
+  CHECK(limit.bad_by(Hindrance::surface) == 0);
+  CHECK(limit.bad_by(Hindrance::constraint) > 0);
+  CHECK(limit.bad_by(Hindrance::constraint) <= fixed);
+}
+
+TEST_CASE("no improvement with a moving surface breaks the bounds") {
+  std::vector<NamedMesh> meshes = {{"ridge", ridge(4, 12)}, {"regions", two_regions()}};
+  meshes.push_back({"flat_ball", flat_ball(1)});
+  meshes.push_back({"sheet", read_mesh(TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh")});
+  for (const NamedMesh& named : meshes) {
+    for (const double share : {0.0, 0.05}) {
+      CAPTURE(named.name);
+      CAPTURE(share);
+      TetMesh mesh(named.data);
+      mesh.set_surface_guard(Envelope::of(mesh, {.share = share, .kept = {}}));
+      const SurfaceLimit before = compute_surface_limit(mesh);
+      Registry registry = Registry::builtin();
+      Run run(mesh, registry);
+      improve(run, Schedule::builtin("surface"));
+      const SurfaceLimit after = compute_surface_limit(mesh);
+      check_same_bounds(before, after);
+      const MeshStatistics statistics = compute_statistics(mesh);
+      CHECK(after.n_forced <= after.n_bad);
+      CHECK(statistics.theta_min <= after.theta_min.value_or(180));
+      CHECK(statistics.theta_max >= after.theta_max.value_or(0));
+      CHECK(statistics.q_worst <= after.q_worst.value_or(1));
+    }
+  }
 }
