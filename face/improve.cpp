@@ -442,10 +442,12 @@ std::vector<std::string> Result::worse() const {
   const auto compare = [&](std::string_view what, double now, double then, bool is_worse) {
     if (is_worse) worse.push_back(fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then));
   };
+  // Of a mesh with inverted tets no other tet is the worst.
+  const bool is_mended = not_positive_after < not_positive_before;
   compare("a theta_min", after.theta_min, before.theta_min,
-          after.theta_min < before.theta_min - kRounding);
+          !is_mended && after.theta_min < before.theta_min - kRounding);
   compare("a theta_max", after.theta_max, before.theta_max,
-          after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding);
+          !is_mended && after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding);
   compare("a number of bad tets", static_cast<double>(after.n_bad),
           static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
   compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
@@ -467,7 +469,8 @@ std::vector<std::string> Result::worse() const {
             now < then - kRounding);
   }
   compare("a worst edge ratio", worst(*rulers_after, Ruler::edge_ratio), edge_ratio,
-          worst(*rulers_after, Ruler::edge_ratio) > std::max(edge_ratio, kEdgeRatio) + kRounding);
+          !is_mended && worst(*rulers_after, Ruler::edge_ratio) >
+                            std::max(edge_ratio, kEdgeRatio) + kRounding);
   return worse;
 }
 

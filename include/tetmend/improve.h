@@ -235,7 +235,8 @@ struct Result {
   /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad
   /// tets, lambda is not higher. With rulers also: the worst mean ratio and radius ratio are not
   /// smaller, the worst edge ratio not above the larger of what it was and 10. Of a mesh of second
-  /// order also: the worst Jacobian ratio, at the nodes and by its bound, is not smaller.
+  /// order also: the worst Jacobian ratio, at the nodes and by its bound, is not smaller. Where the
+  /// run mended inverted tets: without theta_min, theta_max and the edge ratio.
   TETMEND_API std::vector<std::string> worse() const;
   /// What else is worse, in words. An aim, no promise: the means of mean ratio and radius ratio are
   /// not smaller, and no more faces are above 70 degrees non-orthogonality. Empty without rulers.

@@ -272,6 +272,27 @@ TEST_CASE("a mistake in a script has its line, and the mesh is sound and improve
   CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file + ":1: "));
 }
 
+TEST_CASE("where inverted tets are mended, their angles and edge ratios are no measure") {
+  Result result;
+  const auto edge_ratio = [](std::optional<MeshRulers>& rulers) -> double& {
+    return rulers->figures[static_cast<std::size_t>(Ruler::edge_ratio)].worst;
+  };
+  result.rulers_before.emplace();
+  result.rulers_after.emplace();
+  result.before.theta_min = 0.1;
+  result.after.theta_min = 0.05;
+  result.before.theta_max = 160;
+  result.after.theta_max = 170;
+  edge_ratio(result.rulers_before) = 7.4;
+  edge_ratio(result.rulers_after) = 10.1;
+  result.not_positive_before = result.not_positive_after = 5;
+  CHECK(result.worse().size() == 3);
+  result.not_positive_after = 4;
+  CHECK(result.worse().empty());
+  result.after.n_bad = result.before.n_bad + 1;
+  CHECK(result.worse().size() == 1);
+}
+
 TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {
   // Flat boxes: all tets are bad, and more vertices make more of them.
   MeshData data = kuhn_cube(4, 0.1, 1);
