@@ -100,7 +100,7 @@ def bound_of(count: int, whole: dict) -> float:
 
 
 def kept_or_missed(runs: dict[int, dict], whole: dict) -> str:
-    """Each bound with what was measured, and why the largest process is so large."""
+    """Each bound with what was measured, and what one process works on at once."""
     several = {count: told["ranks"] for count, told in runs.items() if count > 1}
     if not several:
         return "Bounds are for several processes: none ran."
@@ -116,8 +116,8 @@ def kept_or_missed(runs: dict[int, dict], whole: dict) -> str:
     largest = {is_zones: max((part["tets"] for part in told["ranks"]["parts"]
                               if (told["passes"][part["step"]]["name"] == "zones") == is_zones), default=0)
                for is_zones in (False, True)}
-    return (f"{'; '.join(said)}. A zone is worked on by one process, however large it is: the largest has "
-            f"{largest[True]:,} tets, the largest piece {largest[False]:,}.")
+    return (f"{'; '.join(said)}. The largest piece has {largest[False]:,} tets, the largest zone "
+            f"{largest[True]:,}.")
 
 
 def out_of_core(told: dict) -> str:

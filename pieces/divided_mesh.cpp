@@ -112,6 +112,8 @@ void append(const DivisionState& state, std::string& bytes) {
     put_point(ball.centre);
     put(ball.radius, bytes);
     put(ball.zone, bytes);
+    put(ball.cluster, bytes);
+    put(ball.is_worst, bytes);
   }
 }
 
@@ -138,6 +140,8 @@ DivisionState take_state(std::string_view& bytes) {
     take_point(ball.centre);
     take(bytes, ball.radius);
     take(bytes, ball.zone);
+    take(bytes, ball.cluster);
+    take(bytes, ball.is_worst);
   }
   state.parting.zones = ZoneMap(std::move(balls));
   return state;
@@ -246,6 +250,21 @@ Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift, ZoneMap zo
   count_all();
   parting.cuts = histogram.cuts();
   return parting;
+}
+
+std::vector<std::int64_t> DividedMesh::count_vertices(const ZoneMap& zones) const {
+  std::vector<std::int64_t> counts(zones.balls().size() + 1, 0);
+  for (const std::size_t part : own_) {
+    const Piece piece = stored_vertices(part);
+    std::vector<Point> points;
+    for (std::size_t v = 0; v < piece.ids.size(); ++v) {
+      if (is_own(piece.marks[v])) points.push_back(piece.points[v]);
+    }
+    zones.count(points, std::span(counts).first(zones.balls().size()));
+    counts.back() += static_cast<std::int64_t>(points.size());
+  }
+  ranks_.add(counts);
+  return counts;
 }
 
 /// Of all ranks: how many pieces one has at most.

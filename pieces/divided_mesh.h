@@ -90,6 +90,9 @@ class DividedMesh {
   /// Copies the pieces of this rank, stored or gathered, from a shelf that has those of all.
   /// @throws Error when one is not there.
   void take_from(const Shelf& from);
+  /// All ranks: vertices of the whole mesh by the ball of the zones that they lie in; last, how many
+  /// there are in all. Precondition: its pieces are stored.
+  std::vector<std::int64_t> count_vertices(const ZoneMap& zones) const;
   /// All ranks: the first has all stored pieces then.
   void bring_to_first();
   /// Of this rank, by division.

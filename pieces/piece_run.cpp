@@ -10,9 +10,6 @@ namespace tetmend::pieces {
 
 namespace {
 
-/// Tets that a zone may have however small the pieces are: so many need little memory.
-constexpr std::size_t kLeastZone = 200'000;
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -177,13 +174,23 @@ std::optional<StepRecord> PieceRun::begin_step(Shelf* next) {
   record.number = round + 1;
   if (!state_.is_divided) {
     if (round > 0 && !is_better(last, state_.records[step - 2].after)) return std::nullopt;
-    const std::vector<WorstTet> worst = last.worst.take();
-    const std::size_t most = std::max<std::size_t>(kLeastZone, last.tets / division_.pieces);
-    mesh_.divide(division_.pieces, division_.divisions - 1, ZoneMap(worst, most), next);
+    mesh_.divide(division_.pieces, division_.divisions - 1, make_zones(last), next);
     state_.is_divided = true;
   }
   record.pieces = mesh_.parts() - mesh_.state().parting.stretches();
   return record;
+}
+
+/// Around the worst tets, none larger than a piece. In vertices, for these are read without the rest.
+ZoneMap PieceRun::make_zones(const Standing& last) const {
+  ZoneMap zones(last.worst.take());
+  const std::vector<std::int64_t> counts = mesh_.count_vertices(zones);
+  const auto vertices = static_cast<std::uint64_t>(counts.back());
+  const std::uint64_t tets = std::max<std::uint64_t>(last.tets, 1);
+  const std::uint64_t most = std::max<std::uint64_t>(tets / division_.pieces, division_.least_zone);
+  zones.cut(std::span(counts).first(zones.balls().size()),
+            static_cast<std::int64_t>(std::max<std::uint64_t>(most * vertices / tets, 1)));
+  return zones;
 }
 
 bool PieceRun::is_active(std::size_t part, const StepRecord& record) const {
@@ -199,7 +206,7 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
     result.piece = own_part(gathered, parting, number);
   } else {
     const auto start = std::chrono::steady_clock::now();
-    result = work_on(gathered, parting, number, options_, limits_of_a_piece(record));
+    result = work_on(gathered, parting, number, options_, limits_of(part, record));
     times_.push_back({static_cast<std::uint32_t>(state_.records.size()), number,
                       gathered.tets.size(), seconds_since(start)});
   }
@@ -247,9 +254,9 @@ void PieceRun::end_step(StepRecord record, std::vector<PartOutcome> outcomes) {
   state_.records.push_back(std::move(record));
 }
 
-/// Each has an equal share of what the mesh may grow by, and zones of the bad tets that were removed:
-/// whoever would need more.
-TaskLimits PieceRun::limits_of_a_piece(const StepRecord& record) const {
+/// Each has an equal share of what the mesh may grow by, and zones have one of the bad tets that were
+/// removed: see ZoneMap::share(). Whoever would need more stays as it was.
+TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const {
   TaskLimits limits;
   limits.is_zone = record.is_zones;
   if (!record.is_zones && record.number > 1) limits.rings = division_.rings;
@@ -261,8 +268,9 @@ TaskLimits PieceRun::limits_of_a_piece(const StepRecord& record) const {
   if (record.is_zones) {
     const std::size_t now = state_.records.back().after.indicators.n_bad;
     constexpr std::size_t kShare = 20;  // of what was gained
-    limits.spare_bad =
-        state_.limits.n_bad > now ? (state_.limits.n_bad - now) / kShare / record.pieces : 0;
+    const std::size_t gained = state_.limits.n_bad > now ? state_.limits.n_bad - now : 0;
+    const Parting& parting = mesh_.state().parting;
+    limits.spare_bad = parting.zones.share(gained / kShare, part - parting.stretches());
   }
   if (state_.limits.seconds > 0) limits.seconds = std::max(1e-3, seconds_left());
   return limits;

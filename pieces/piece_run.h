@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -21,12 +22,16 @@ struct Division {
   static constexpr unsigned kDivisions = 3;
   static constexpr unsigned kZoneRounds = 3;
   static constexpr unsigned kRings = 6;
+  static constexpr std::uint64_t kLeastZone = 50'000;
 
   std::size_t pieces = 1;
   unsigned divisions = kDivisions;
   unsigned zone_rounds = kZoneRounds;
   /// How far from the borders of the last division the second and third work, in edges; 0: all over.
   unsigned rings = kRings;
+  /// Tets that a zone may have where pieces have fewer: so many need little memory, and a cut costs
+  /// quality. Larger zones are cut.
+  std::uint64_t least_zone = kLeastZone;
 };
 
 /// One division or one round of zones.
@@ -128,8 +133,9 @@ class PieceRun {
   bool out_of_time() const { return out_of_time_; }
 
  private:
+  ZoneMap make_zones(const Standing& last) const;
   std::vector<PartOutcome> share(std::vector<PartOutcome> mine);
-  TaskLimits limits_of_a_piece(const StepRecord& record) const;
+  TaskLimits limits_of(std::size_t part, const StepRecord& record) const;
   double seconds_left() const;
   bool is_to_stop();
   void agree_on_stop();

@@ -13,31 +13,80 @@ namespace {
 
 /// In longest edges of a bad tet: farther than operators reach.
 constexpr double kRadius = 4;
-/// Tets in a ball of that radius, if all edges are as long as that one.
-constexpr std::size_t kTetsOfBall = 2300;
 
-/// Sets of balls, each with its number of tets.
+/// Sets of balls that touch.
 class Clusters {
  public:
   std::size_t find(std::size_t i) {
     while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
     return i;
   }
-  std::size_t size(std::size_t leader) const { return size_[leader]; }
-  void add(std::span<const std::size_t> leaders) {
+  /// A ball, and others that it touches.
+  void add(std::span<const std::size_t> touched) {
     const std::size_t now = leader_.size();
     leader_.push_back(now);
-    size_.push_back(kTetsOfBall);
-    for (const std::size_t other : leaders) {
-      leader_[other] = now;
-      size_[now] += size_[other];
-    }
+    for (const std::size_t other : touched) leader_[find(other)] = now;
   }
 
  private:
   std::vector<std::size_t> leader_;
-  std::vector<std::size_t> size_;
 };
+
+struct WeighedBall {
+  Ball* ball;
+  std::int64_t points;
+};
+
+/// Where balls along an axis are parted: near this share of their points, where the gap is widest.
+std::size_t place_to_cut(std::span<const WeighedBall> balls, Eigen::Index axis, std::int64_t total,
+                         std::int64_t wanted) {
+  constexpr std::int64_t kSlack = 8;  // off by this part of all at most, where it can be
+  std::size_t place = 1;
+  std::int64_t least_off = std::numeric_limits<std::int64_t>::max();
+  double widest = 0;
+  std::int64_t before = 0;
+  for (std::size_t i = 1; i < balls.size(); ++i) {
+    before += balls[i - 1].points;
+    const std::int64_t off = std::max(std::abs(before - wanted) - total / kSlack, std::int64_t{0});
+    const double gap = balls[i].ball->centre[axis] - balls[i - 1].ball->centre[axis];
+    if (off > least_off || (off == least_off && gap <= widest)) continue;
+    place = i;
+    least_off = off;
+    widest = gap;
+  }
+  return place;
+}
+
+/// Parts balls of one zone until none has more points. New zones are numbered from `next` on.
+void halve(std::span<WeighedBall> balls, std::int64_t most, std::uint32_t& next) {
+  std::int64_t total = 0;
+  for (const WeighedBall& each : balls) total += each.points;
+  if (total <= most || balls.size() < 2) return;
+  std::array<Point, 2> box = {balls[0].ball->centre, balls[0].ball->centre};
+  for (const WeighedBall& each : balls) {
+    box[0] = box[0].cwiseMin(each.ball->centre);
+    box[1] = box[1].cwiseMax(each.ball->centre);
+  }
+  Eigen::Index axis = 0;
+  (box[1] - box[0]).maxCoeff(&axis);
+  std::sort(balls.begin(), balls.end(), [axis](const WeighedBall& a, const WeighedBall& b) {
+    const auto key = [axis](const Ball& ball) {
+      return std::tuple(ball.centre[axis], ball.centre.x(), ball.centre.y(), ball.centre.z(),
+                        ball.radius);
+    };
+    return key(*a.ball) < key(*b.ball);
+  });
+  const std::int64_t parts = (total + most - 1) / most;
+  const std::size_t place = place_to_cut(balls, axis, total, total * (parts / 2) / parts);
+  const std::span<WeighedBall> before = balls.first(place);
+  const std::span<WeighedBall> behind = balls.subspan(place);
+  const bool is_worst_behind = std::any_of(behind.begin(), behind.end(),
+                                           [](const WeighedBall& b) { return b.ball->is_worst; });
+  for (const WeighedBall& each : is_worst_behind ? before : behind) each.ball->zone = next;
+  ++next;
+  halve(before, most, next);
+  halve(behind, most, next);
+}
 
 }  // namespace
 
@@ -79,21 +128,16 @@ std::vector<WorstTet> WorstTets::all() const {
   return std::move(copy.tets_);
 }
 
-ZoneMap::ZoneMap(std::span<const WorstTet> worst, std::size_t most) {
+ZoneMap::ZoneMap(std::span<const WorstTet> worst) {
   Clusters clusters;
   std::vector<Ball> balls;
   for (const WorstTet& tet : worst) {
-    const Ball ball{tet.centre, kRadius * tet.reach, 0};
+    const Ball ball{tet.centre, kRadius * tet.reach};
     std::vector<std::size_t> touched;
-    std::size_t size = kTetsOfBall;
     for (std::size_t i = 0; i < balls.size(); ++i) {
-      if ((balls[i].centre - ball.centre).norm() > balls[i].radius + ball.radius) continue;
-      const std::size_t leader = clusters.find(i);
-      if (std::find(touched.begin(), touched.end(), leader) != touched.end()) continue;
-      touched.push_back(leader);
-      size += clusters.size(leader);
+      const double apart = (balls[i].centre - ball.centre).norm();
+      if (apart <= balls[i].radius + ball.radius) touched.push_back(i);
     }
-    if (!touched.empty() && size > most) continue;
     clusters.add(touched);
     balls.push_back(ball);
   }
@@ -102,15 +146,32 @@ ZoneMap::ZoneMap(std::span<const WorstTet> worst, std::size_t most) {
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < balls.size(); ++i) {
     std::uint32_t& zone = zone_of[clusters.find(i)];
-    if (zone == std::numeric_limits<std::uint32_t>::max()) zone = next++;
-    balls[i].zone = zone;
+    balls[i].is_worst = zone == std::numeric_limits<std::uint32_t>::max();
+    if (balls[i].is_worst) zone = next++;
+    balls[i].zone = balls[i].cluster = zone;
   }
   *this = ZoneMap(std::move(balls));
 }
 
 ZoneMap::ZoneMap(std::vector<Ball> balls) : balls_(std::move(balls)), boxes_(balls_.size()) {
-  for (const Ball& ball : balls_) count_ = std::max<std::size_t>(count_, ball.zone + 1);
+  note_clusters();
   arrange(0, balls_.size());
+}
+
+void ZoneMap::note_clusters() {
+  for (const Ball& ball : balls_) count_ = std::max<std::size_t>(count_, ball.zone + 1);
+  clusters_.resize(count_);
+  for (const Ball& ball : balls_) clusters_[ball.zone] = ball.cluster;
+}
+
+std::size_t ZoneMap::share(std::size_t all, std::size_t zone) const {
+  const std::uint32_t cluster = clusters_[zone];
+  const auto zones =
+      static_cast<std::size_t>(std::count(clusters_.begin(), clusters_.end(), cluster));
+  const std::size_t clusters = 1 + *std::max_element(clusters_.begin(), clusters_.end());
+  const std::size_t of_cluster = all / clusters;
+  if (zones == 1) return of_cluster;
+  return zone == cluster ? of_cluster / 2 : of_cluster / 2 / (zones - 1);
 }
 
 void ZoneMap::arrange(std::size_t begin, std::size_t end) {
@@ -133,19 +194,42 @@ void ZoneMap::arrange(std::size_t begin, std::size_t end) {
 }
 
 int ZoneMap::find(const Point& p) const {
-  const Ball* ball = search(0, balls_.size(), p);
-  return ball == nullptr ? -1 : static_cast<int>(ball->zone);
+  Nearest nearest;
+  search(0, balls_.size(), p, nearest);
+  return nearest.ball == nullptr ? -1 : static_cast<int>(nearest.ball->zone);
 }
 
-const Ball* ZoneMap::search(std::size_t begin, std::size_t end, const Point& p) const {
-  if (begin == end) return nullptr;
+void ZoneMap::search(std::size_t begin, std::size_t end, const Point& p, Nearest& nearest) const {
+  if (begin == end) return;
   const std::size_t middle = begin + (end - begin) / 2;
   const auto& [low, high] = boxes_[middle];
-  if (!(p.array() >= low.array()).all() || !(p.array() <= high.array()).all()) return nullptr;
+  if (!(p.array() >= low.array()).all() || !(p.array() <= high.array()).all()) return;
   const Ball& ball = balls_[middle];
-  if ((p - ball.centre).norm() <= ball.radius) return &ball;
-  const Ball* found = search(begin, middle, p);
-  return found != nullptr ? found : search(middle + 1, end, p);
+  const Point from_centre = p - ball.centre;
+  if (from_centre.norm() <= ball.radius) {
+    const double distance = from_centre.squaredNorm() / (ball.radius * ball.radius);
+    if (nearest.ball == nullptr || distance < nearest.distance) nearest = {&ball, distance};
+  }
+  search(begin, middle, p, nearest);
+  search(middle + 1, end, p, nearest);
+}
+
+void ZoneMap::count(std::span<const Point> points, std::span<std::int64_t> by_ball) const {
+  for (const Point& p : points) {
+    Nearest nearest;
+    search(0, balls_.size(), p, nearest);
+    if (nearest.ball != nullptr) ++by_ball[static_cast<std::size_t>(nearest.ball - balls_.data())];
+  }
+}
+
+void ZoneMap::cut(std::span<const std::int64_t> by_ball, std::int64_t most) {
+  std::vector<std::vector<WeighedBall>> zones(count_);
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    zones[balls_[i].zone].push_back({&balls_[i], by_ball[i]});
+  }
+  auto next = static_cast<std::uint32_t>(count_);
+  for (std::vector<WeighedBall>& zone : zones) halve(zone, most, next);
+  note_clusters();
 }
 
 }  // namespace tetmend::pieces

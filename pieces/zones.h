@@ -50,28 +50,47 @@ struct Ball {
   Point centre = Point::Zero();
   double radius = 0;
   std::uint32_t zone = 0;
+  std::uint32_t cluster = 0;  ///< balls of one touch each other, some in several zones
+  bool is_worst = false;      ///< around the worst tet of its cluster
 };
 
-/// Which zone a point lies in. Balls that touch are of one zone.
+/// Which zone a point lies in: that of the nearest ball around it, as measured by radii. Balls that
+/// touch are a cluster, and one zone unless that is cut. A cluster gives its number to the zone with
+/// its worst tet.
 class ZoneMap {
  public:
   ZoneMap() = default;
-  /// @param most tets of one zone, as far as their lengths tell: milder candidates that would make a
-  /// zone larger are left out.
-  ZoneMap(std::span<const WorstTet> worst, std::size_t most);
+  /// A ball around each, the worst first.
+  explicit ZoneMap(std::span<const WorstTet> worst);
   /// Of balls() of another.
   explicit ZoneMap(std::vector<Ball> balls);
 
+  /// Adds 1 for each point to the entry of the ball that is nearest to it, if it is in one.
+  void count(std::span<const Point> points, std::span<std::int64_t> by_ball) const;
+  /// Cuts zones of more points, between balls that lie far from each other. What is left larger is a
+  /// ball alone. Once.
+  /// @param by_ball  points of each of balls()
+  void cut(std::span<const std::int64_t> by_ball, std::int64_t most);
+
   std::size_t count() const { return count_; }
+  /// What a zone gets of something that there is `all` of for all of them: clusters get the same,
+  /// and of those that are cut the zone with the worst tet has half.
+  std::size_t share(std::size_t all, std::size_t zone) const;
   /// Number of the zone; -1: none. Cost: log n, mostly.
   int find(const Point& p) const;
   const std::vector<Ball>& balls() const { return balls_; }
 
  private:
+  struct Nearest {
+    const Ball* ball = nullptr;
+    double distance = 1;  ///< squared, in radii
+  };
+  void note_clusters();
   void arrange(std::size_t begin, std::size_t end);
-  const Ball* search(std::size_t begin, std::size_t end, const Point& p) const;
+  void search(std::size_t begin, std::size_t end, const Point& p, Nearest& nearest) const;
 
   std::size_t count_ = 0;
+  std::vector<std::uint32_t> clusters_;      // by zone
   std::vector<Ball> balls_;                  // a tree: the middle of a range divides it
   std::vector<std::array<Point, 2>> boxes_;  // of the range that a ball is the middle of
 };

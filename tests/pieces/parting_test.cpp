@@ -2,6 +2,7 @@
 #include "pieces/parting.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <doctest/doctest.h>
 
@@ -108,7 +109,7 @@ TEST_CASE("balls that touch are one zone, numbered by its worst tet") {
                                        {0.2f, Point(100, 0, 0), 1},
                                        {0.3f, Point(7, 0, 0), 1},
                                        {0.4f, Point(14, 0, 0), 1}};
-  const ZoneMap zones(worst, 1'000'000);
+  const ZoneMap zones(worst);
   CHECK(zones.count() == 2);
   CHECK(zones.find(Point(0, 3, 0)) == 0);
   CHECK(zones.find(Point(14, 3, 0)) == 0);
@@ -117,17 +118,52 @@ TEST_CASE("balls that touch are one zone, numbered by its worst tet") {
   CHECK(zones.find(Point(0, 4.1, 0)) == -1);
 }
 
-TEST_CASE("a zone that would be too large leaves out its mildest tets") {
-  const std::vector<WorstTet> worst = {{0.1f, Point(0, 0, 0), 1}, {0.3f, Point(7, 0, 0), 1}};
-  const ZoneMap zones(worst, 4'000);
-  CHECK(zones.count() == 1);
-  CHECK(zones.find(Point(9, 0, 0)) == -1);
+TEST_CASE("a zone of too many points is cut where its balls are far apart") {
+  // Two heaps of balls that touch each other, and a ball far away.
+  std::vector<WorstTet> worst = {{0.1f, Point(50, 0, 0), 1}};
+  for (const double x : {0.0, 1.0, 2.0, 9.0, 10.0, 11.0})
+    worst.push_back({0.2f, Point(x, 0, 0), 1});
+  std::vector<Point> points;
+  for (const Point& p : test::lattice(12).points) points.emplace_back(2 * p - Point(6, 10, 10));
+  for (const Point& p : test::lattice(2).points) points.emplace_back(p + Point(49, 0, 0));
+
+  ZoneMap zones(worst);
+  REQUIRE(zones.count() == 2);
+  std::vector<std::int64_t> by_ball(zones.balls().size(), 0);
+  zones.count(points, by_ball);
+  const auto sizes = [&] {
+    std::vector<std::int64_t> counts(zones.count(), 0);
+    for (const Point& p : points) {
+      if (const int zone = zones.find(p); zone >= 0) ++counts[static_cast<std::size_t>(zone)];
+    }
+    return counts;
+  };
+  const std::vector<std::int64_t> whole = sizes();
+  CHECK(std::accumulate(by_ball.begin(), by_ball.end(), std::int64_t{0}) == whole[0] + whole[1]);
+
+  const ZoneMap uncut = zones;
+  zones.cut(by_ball, whole[1]);
+  CHECK(zones.count() == 2);
+  for (const Point& p : points) CHECK(zones.find(p) == uncut.find(p));
+
+  zones.cut(by_ball, whole[1] * 3 / 4);
+  REQUIRE(zones.count() == 3);
+  const std::vector<std::int64_t> cut = sizes();
+  CHECK(cut[0] == whole[0]);
+  CHECK(cut[1] + cut[2] == whole[1]);
+  CHECK(std::max(cut[1], cut[2]) <= whole[1] * 3 / 4);
+  // Whoever lies nearer to one heap than to the other goes with it.
+  for (const double x : {-1.0, 0.5, 2.5, 5.0}) CHECK(zones.find(Point(x, 1, 0)) == 1);
+  for (const double x : {6.0, 8.5, 11.0, 12.5}) CHECK(zones.find(Point(x, 1, 0)) == 2);
+
+  zones.cut(by_ball, 1);
+  CHECK(zones.count() == worst.size());  // a ball is not cut
 }
 
 TEST_CASE("a point is found in the same zone as by a look at all balls") {
   std::vector<WorstTet> worst;
   for (const Point& p : test::lattice(6).points) worst.push_back({0.1f, 40 * p, 1 + p.x()});
-  const ZoneMap zones(worst, 1'000'000'000);
+  const ZoneMap zones(worst);
   for (const Point& p : test::lattice(11).points) {
     int expected = -1;
     for (const Ball& ball : zones.balls()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <doctest/doctest.h>
 #include <tetmend/io.h>
@@ -227,6 +228,38 @@ TEST_CASE("each rank has its share of the pieces, and together they have all") {
   CHECK(owners[11] != owners[10]);  // the zone of two balls has a rank for itself
   CHECK(owners[12] == owners[10]);
   for (const std::uint32_t owner : pieces::owners_of(parting, 40)) CHECK(owner < 40);
+}
+
+TEST_CASE("no zone is larger than a piece, and who has which cannot show") {
+  const Files files;
+  std::map<std::uint64_t, std::string> made;  // by the size that zones may have
+  for (const std::uint64_t least : {std::uint64_t{1}, Division::kLeastZone}) {
+    for (const std::size_t count : {1, 3}) {
+      CAPTURE(count);
+      std::size_t pieces = 0;
+      std::size_t zones = 0;
+      std::size_t number = 0;
+      on_ranks(count, [&](Ranks& ranks) {
+        Division division;
+        division.pieces = kPieces;
+        division.least_zone = least;
+        pieces::RunCosts costs;
+        OutOfCore all = files.all();
+        all.costs = &costs;
+        pieces::improve_files(all, {}, division, ranks);
+        if (!ranks.is_first()) return;
+        for (const pieces::PartTime& part : costs.parts) {
+          std::size_t& largest = part.step < division.divisions ? pieces : zones;
+          largest = std::max<std::size_t>(largest, part.tets);
+          number += part.step == division.divisions ? 1 : 0;
+        }
+      });
+      const std::string bytes = bytes_of(files.out);
+      CHECK(made.try_emplace(least, bytes).first->second == bytes);
+      CHECK((number > 1) == (least == 1));
+      CHECK((zones <= pieces * 3 / 2) == (least == 1));
+    }
+  }
 }
 
 TEST_CASE("a run that was killed goes on from its checkpoint with any number of ranks") {
