@@ -65,9 +65,8 @@ nlohmann::json to_json(std::span<const BadTet> tets, std::size_t most) {
   return list;
 }
 
-void write_bad_tets(const std::filesystem::path& input, const std::filesystem::path& output,
+void write_bad_tets(const MeshData& all, const std::filesystem::path& output,
                     std::span<const BadTet> tets) {
-  const MeshData all = read_mesh(input);
   MeshData bad;
   bad.points = all.points;
   std::vector<std::int64_t> number;

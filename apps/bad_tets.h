@@ -10,6 +10,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <tetmend/measure.h>
 
+#include "kernel/mesh_data.h"
+
 namespace tetmend::apps {
 
 /// Why a tet is there and resists, in a few words.
@@ -19,11 +21,11 @@ std::string reason_of(const BadTet& tet);
 std::string format_bad_tets(std::span<const BadTet> tets, std::size_t most);
 nlohmann::json to_json(std::span<const BadTet> tets, std::size_t most);
 
-/// Writes a mesh of these tets of the mesh in `input`, with what is known of each as arrays:
+/// Writes a mesh of these tets of `all`, with what is known of each as arrays:
 /// `number`, `theta_min`, `theta_max`, `quality`, `free_vertices`, `reason` (as
 /// Hindrance).
-/// @throws Error when `input` cannot be read or `output` not be written
-void write_bad_tets(const std::filesystem::path& input, const std::filesystem::path& output,
+/// @throws Error when `output` cannot be written
+void write_bad_tets(const MeshData& all, const std::filesystem::path& output,
                     std::span<const BadTet> tets);
 
 }  // namespace tetmend::apps

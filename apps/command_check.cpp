@@ -18,6 +18,8 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/mesh_formats.h"
+#include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/from_chars.h"
 
@@ -77,10 +79,21 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
   fmt::print("{}\n", result.dump(2));
 }
 
-int run_check(Options& options) {
+/// Of parts, groups are not kept: they cannot be compared.
+Mesh load_to_check(const Options& options, const std::filesystem::path& file,
+                   const pieces::ArrayFiles* parts) {
+  Mesh mesh = load_whole(file, options.wanted.threads, parts);
+  if (!parts->is_one(file)) return mesh;
+  for (const std::string& text : mesh.notes()) {
+    say(stderr, fmt::format("note: {}: {}\n", file.string(), text));
+  }
+  return mesh;
+}
+
+int run_check(Options& options, const pieces::ArrayFiles* parts) {
   name_streams(options.format, options.file, nullptr);
-  check_mesh_extension(options.file);
-  if (!options.improved.empty()) check_mesh_extension(options.improved);
+  check_input_format(options.file, parts);
+  if (!options.improved.empty()) check_input_format(options.improved, parts);
   CheckOptions& wanted = options.wanted;
   for (const std::string& text : options.measures) wanted.measure.push_back(to_threshold(text));
   if (!wanted.asks() && options.improved.empty()) {
@@ -89,15 +102,17 @@ int run_check(Options& options) {
         "--help)");
   }
   std::vector<Fact> facts;
-  Mesh mesh = load(options.file, wanted.threads);
+  Mesh mesh = load_to_check(options, options.file, parts);
   if (!options.improved.empty()) {
-    Mesh improved = load(options.improved, wanted.threads);
+    Mesh improved = load_to_check(options, options.improved, parts);
     facts = compare(mesh, improved, wanted.threads);
     mesh = std::move(improved);
   }
   if (wanted.asks()) {
     try {
-      for (Fact& fact : check(mesh, wanted)) facts.push_back(std::move(fact));
+      const auto& last = options.improved.empty() ? options.file : options.improved;
+      const std::vector<Fact> asked = in_parts(last, parts, [&] { return check(mesh, wanted); });
+      facts.insert(facts.end(), asked.begin(), asked.end());
     } catch (const OptionError& error) {
       throw UsageError("--" + message_of(error));
     }
@@ -157,11 +172,15 @@ Examples:
   tetmend check part.vtu --for openfoam --json
   tetmend check part.mesh better.mesh
 
+{}
 Exit status: 0 all of it holds, 3 something does not, 1 a file cannot be read,
 2 wrong usage)",
-      preset_help()));
-  command->callback(
-      [options, &invocation] { invocation.action = [options] { return run_check(*options); }; });
+      preset_help(), parts_help()));
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] {
+      return run_check(*options, invocation.array_files);
+    };
+  });
 }
 
 }  // namespace tetmend::apps

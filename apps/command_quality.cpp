@@ -2,6 +2,7 @@
 // tetmend quality: the figures by which a mesh is judged.
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "apps/bad_tets.h"
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/mesh_formats.h"
 #include "apps/report.h"
 #include "apps/threads.h"
 
@@ -62,9 +64,9 @@ void print_json(const Options& options, const Measurement& measured) {
   fmt::print("{}\n", result.dump(2));
 }
 
-int run_quality(Options& options) {
+int run_quality(Options& options, const pieces::ArrayFiles* parts) {
   name_streams(options.format, options.file, nullptr);
-  check_mesh_extension(options.file);
+  check_input_format(options.file, parts);
   if (!options.cells.empty()) {
     check_mesh_extension(options.cells);
     const NamedFile input = {"FILE", options.file};
@@ -80,8 +82,12 @@ int run_quality(Options& options) {
   } catch (const OptionError& error) {
     throw UsageError(fmt::format("--{}", error.what()));
   }
-  const Measurement measured = measure(load(options.file, options.threads), wanted);
-  if (!options.cells.empty()) write_bad_tets(options.file, options.cells, measured.bad_tets);
+  Mesh mesh = load_whole(options.file, options.threads, parts);
+  const Measurement measured =
+      in_parts(options.file, parts, [&] { return measure(std::move(mesh), wanted); });
+  if (!options.cells.empty()) {
+    write_bad_tets(read_whole(options.file, parts), options.cells, measured.bad_tets);
+  }
   if (options.json) {
     print_json(options, measured);
     return 0;
@@ -165,16 +171,19 @@ on the surface, 4 no obstacle is known.
 Measures:
 {}
 Formats, by extension:
-{}
+{}{}
 Examples:
   tetmend quality part.mesh --limit
   tetmend quality part.vtk --measure radius_ratio --measure mean_ratio --json
   tetmend quality part.msh --list 20 --cells bad.vtu
 
 Exit status: 0 success, 1 the file cannot be read, 2 wrong usage)",
-                              ruler_list(), measure_list(), mesh_format_list()));
-  command->callback(
-      [options, &invocation] { invocation.action = [options] { return run_quality(*options); }; });
+                              ruler_list(), measure_list(), mesh_format_list(), parts_help()));
+  command->callback([options, &invocation] {
+    invocation.action = [options, &invocation] {
+      return run_quality(*options, invocation.array_files);
+    };
+  });
 }
 
 }  // namespace tetmend::apps

@@ -10,12 +10,12 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/mesh_formats.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "envelope/features.h"
 #include "envelope/kept_points.h"
 #include "kernel/formats/mesh_io.h"
-#include "kernel/formats/tet_mesh_io.h"
 #include "kernel/mesh_view.h"
 #ifdef TETMEND_HAS_OPENMESH
 #include "kernel/surface.h"
@@ -75,15 +75,15 @@ MeshData labelled(const TetMesh& mesh, const SurfaceFeatures& features) {
 }
 
 int show_features(const Options& options, Invocation& invocation) {
-  check_mesh_extension(options.input);
+  check_input_format(options.input, invocation.array_files);
   if (!options.output.empty()) check_mesh_extension(options.output);
   const NamedFile input = {"IN", options.input};
   const NamedFile output = {"OUT", options.output};
   prepare_files({&input, 1}, {&output, 1});
   const ThreadLimit limit(options.threads);
-  MeshData read = read_mesh(options.input);
+  MeshData read = read_whole(options.input, invocation.array_files);
   const std::vector<char> points = find_kept_points(read);
-  const TetMesh mesh = build_tet_mesh(options.input, std::move(read), MeshOrder::of_file);
+  const TetMesh mesh = build_whole(options.input, std::move(read), nullptr, invocation.array_files);
   const std::vector<VertexHandle> kept = kept_vertices(mesh, points);
   const SurfaceFeatures bent =
       find_features(mesh, {.angle = options.feature_angle, .flat = false, .kept = kept});
@@ -108,7 +108,7 @@ int show_features(const Options& options, Invocation& invocation) {
 constexpr const char* kPurpose = "Write the boundary of a mesh as triangles";
 
 int run_surface(const Options& options, Invocation& invocation) {
-  check_mesh_extension(options.input);
+  check_input_format(options.input, invocation.array_files);
   try {
     check_surface_extension(options.output);
   } catch (const Error& error) {
@@ -118,8 +118,8 @@ int run_surface(const Options& options, Invocation& invocation) {
   const NamedFile output = {"OUT", options.output};
   prepare_files({&input, 1}, {&output, 1});
   const ThreadLimit limit(options.threads);
-  BuildReport build;
-  const TetMesh mesh = read_tet_mesh(options.input, MeshOrder::of_file, &build);
+  const pieces::ArrayFiles* const parts = invocation.array_files;
+  const TetMesh mesh = build_whole(options.input, read_whole(options.input, parts), nullptr, parts);
   const SurfaceMesh surface = options.bad           ? extract_bad_faces(mesh)
                               : options.constraints ? extract_constraints(mesh)
                                                     : extract_boundary(mesh);
@@ -186,7 +186,7 @@ void add_surface(CLI::App& app, Invocation& invocation) {
 Where the surface is not manifold, vertices appear twice.
 
 Mesh formats, by extension:
-{}
+{}{}
 Examples:
   tetmend surface part.mesh part.stl
   tetmend surface part.mesh slivers.ply --bad
@@ -194,7 +194,7 @@ Examples:
   tetmend surface part.mesh patches.mesh --features --feature-angle 30
 
 Exit status: 0 success, 1 a file cannot be read or written, 2 wrong usage)",
-      mesh_format_list()));
+      mesh_format_list(), parts_help()));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] {
       if (options->features) return show_features(*options, invocation);

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -185,9 +186,58 @@ std::size_t count_gmsh_parts(const std::filesystem::path& file) {
   return count;
 }
 
+/// @throws Error when there is a part behind the first `count`, which are all before a gap
+void check_for_gap(const std::filesystem::path& file, std::size_t count) {
+  const std::string name = file.stem().string();
+  const std::string begin = name.substr(0, name.size() - kNumber.size()) + "_";
+  const std::filesystem::path parent = file.parent_path();
+  std::error_code ignored;
+  std::string first;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           parent.empty() ? std::filesystem::path(".") : parent, ignored)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() != ".msh" || !stem.starts_with(begin)) continue;
+    const std::string number = stem.substr(begin.size());
+    const bool is_number = !number.empty() && number.front() != '0' &&
+                           std::all_of(number.begin(), number.end(),
+                                       [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (!is_number) continue;
+    const bool is_behind = number.size() > 9 || std::stoul(number) > count;
+    const std::string other = entry.path().filename().string();
+    if (is_behind && (first.empty() || other < first)) first = other;
+  }
+  if (first.empty()) return;
+  throw Error(
+      fmt::format("{}: there is no such file, but {}", gmsh_part(file, count).string(), first));
+}
+
 /// The folder of the parts.
 std::filesystem::path pvtu_folder(const std::filesystem::path& file) {
   return std::filesystem::path(file).replace_extension();
+}
+
+/// The name of a part in there.
+std::string pvtu_part(const std::filesystem::path& file, std::size_t part) {
+  return fmt::format("{}_{}.vtu", pvtu_folder(file).filename().string(), part);
+}
+
+/// Parts that the older mesh of that name has, numbered behind these.
+std::vector<std::filesystem::path> surplus_parts(const std::filesystem::path& file,
+                                                 std::span<const std::filesystem::path> parts) {
+  std::vector<std::filesystem::path> older;
+  try {
+    older = read_pvtu(file);
+  } catch (const Error&) {
+    return {};  // there is none, or it is of no use to anybody
+  }
+  const std::filesystem::path folder = pvtu_folder(file);
+  std::vector<std::filesystem::path> surplus;
+  for (std::size_t part = parts.size(); part < older.size(); ++part) {
+    const std::filesystem::path name = folder / pvtu_part(file, part);
+    const bool is_of_it = std::find(older.begin(), older.end(), name) != older.end();
+    if (is_of_it && std::filesystem::exists(name)) surplus.push_back(name);
+  }
+  return surplus;
 }
 
 }  // namespace
@@ -211,6 +261,7 @@ RankShare GmshParts::read(const std::filesystem::path& file, const std::string&)
   if (count == 0) {
     throw Error(fmt::format("{}: there is no such file", gmsh_part(file, 0).string()));
   }
+  check_for_gap(file, count);
   return read_parts(count, ranks_, [&](PartReader& reader, std::size_t part) {
     reader.read_msh(gmsh_part(file, part), part);
   });
@@ -271,7 +322,7 @@ void PvtuFiles::write(const std::filesystem::path& file, const RankShare& arrays
 void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
   const std::filesystem::path folder = pvtu_folder(file);
   const std::string stem = folder.filename().string();
-  const auto name_of = [&](std::size_t part) { return fmt::format("{}_{}.vtu", stem, part); };
+  const auto name_of = [&](std::size_t part) { return pvtu_part(file, part); };
   const Drafts drafts(file, ranks_);
   const Numbering numbering(mesh);
   const LabelsOfAll labels(mesh);
@@ -294,7 +345,7 @@ void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMes
     of_points.push_back({kPointIds, "Int64"});
     if (labels.elements) of_cells.push_back({kLabelArray, "Int32"});
     write_pvtu(drafts / file.filename().string(), pieces, of_points, of_cells);
-    drafts.name_all(file, parts, {});
+    drafts.name_all(file, parts, surplus_parts(file, parts));
   }
   ranks_.meet();
 }
@@ -309,7 +360,7 @@ void PvtuFiles::check_output(const std::filesystem::path& file) const {
         "{}: is there and is no folder: the parts of {} would lie in a folder of that name",
         folder.string(), file.filename().string()));
   }
-  const formats::PendingFile probe(folder / fmt::format("{}_0.vtu", folder.filename().string()));
+  const formats::PendingFile probe(folder / pvtu_part(file, 0));
 }
 
 }  // namespace tetmend::pieces

@@ -64,6 +64,58 @@ def tasks(folder):
     check(parts[:4] == parts[4:], "tasks write other parts")
 
 
+def only_read(folder):
+    """quality, check and surface find in parts what they find in the whole."""
+    for mesh, name in ((OTHER, "other.pvtu"), (MESH, "bracket_%d.msh")):
+        parts, whole = folder / name, counts_of(mesh)
+        convert(mesh, parts, "--pieces", 3)
+        check(len(whole) > 4 and counts_of(parts) == whole, "quality of parts", name, counts_of(parts), whole)
+        done = run(PROGRAM, "check", mesh, parts, "--min-dihedral", 0)
+        check(done.returncode == 0 and "FAIL" not in done.stdout, "check of parts", name, done.stdout, done.stderr)
+        done = run(PROGRAM, "check", parts, "--min-dihedral", 70)
+        check(done.returncode == 3, "a threshold that parts miss", name, done.returncode, done.stderr)
+        counted = []
+        for each in (mesh, parts):
+            done = run(PROGRAM, "surface", each, folder / "out.stl")
+            features = run(PROGRAM, "surface", each, "--features")
+            check(features.returncode == 0, "features of parts", name, features.stderr)
+            counted.append((done.returncode, done.stdout.split(": ")[-1], features.stdout.split(": ")[-1]))
+        check(counted[0][0] == 0 and counted[0] == counted[1], "surface of parts", name, counted)
+    done = run(PROGRAM, "quality", folder / "bracket_%d.msh", "--list", 3, "--cells", folder / "bad.vtu")
+    bad = quality_of(MESH)["n_bad"]
+    check(done.returncode == 0 and bad > 3 and quality_of(folder / "bad.vtu")["tets"] == bad, "bad tets of parts", done.stderr)
+
+
+def older_parts(folder):
+    """Those of a mesh with more parts go with it; what is not named in it stays."""
+    convert(MESH, folder / "out.pvtu", "--pieces", 4)
+    for name in ("out_7.vtu", "notes.txt"):
+        (folder / "out" / name).write_text("of the user")
+    convert(OTHER, folder / "out.pvtu", "--pieces", 2)
+    left = sorted(each.name for each in (folder / "out").iterdir())
+    check(left == ["notes.txt", "out_0.vtu", "out_1.vtu", "out_7.vtu"], "parts of the older mesh", left)
+    check(counts_of(folder / "out.pvtu") == counts_of(OTHER), "the newer mesh")
+
+
+def only_read_mistakes(folder):
+    convert(OTHER, folder / "in.pvtu", "--pieces", 3)
+    convert(OTHER, folder / "in_%d.msh", "--pieces", 3)
+    (folder / "in_2.msh").unlink()  # then in_3.msh is no part
+    index = (folder / "in.pvtu").read_text()
+    (folder / "less.pvtu").write_text(index.replace("in_1.vtu", "none.vtu"))
+    (folder / "twice.pvtu").write_text(index.replace("in_1.vtu", "in_0.vtu"))
+    (folder / "bad.pvtu").write_text("<VTKFile>\n<PUnstructuredGrid>\n")
+    for name, text in (("less.pvtu", "none.vtu"), ("twice.pvtu", "twice.pvtu: "), ("bad.pvtu", "the XML is broken"),
+                       ("none.pvtu", "there is no such file"), ("in_%d.msh", "in_2.msh: there is no such file, but in_3.msh"),
+                       ("none_%d.msh", "none_1.msh: there is no such file")):
+        for words in (("quality", folder / name), ("check", folder / name, "--no-inverted", "--measure", "mean_ratio=0"),
+                      ("surface", folder / name, folder / "x.off"), ("surface", folder / name, "--features")):
+            done = run(PROGRAM, *words)
+            lines = done.stderr.splitlines()
+            check(done.returncode == 1 and len(lines) == 1 and text in lines[0], "a mistake", words, done.returncode, done.stderr)
+    check(not (folder / "x.off").exists(), "written in spite of a mistake")
+
+
 def seen_by_vtk(folder):
     script = """
 import sys
@@ -162,11 +214,11 @@ def interrupted(folder):
                     break
         check(states == {(ends[0], "old"), (ends[0], "none"), (ends[0], "new"), (ends[1], "old"), (ends[1], "new")},
               "not all ends were tried", name, states)
-        check(name != "out_%d.msh" or not (folder / "out_4.msh").exists(), "a part of the older mesh is left")
+        check(not (folder / ("out_4.msh" if name == "out_%d.msh" else "out/out_3.vtu")).exists(), "a part of the older mesh is left")
 
 
 def main() -> int:
-    for test in (tasks, seen_by_vtk, parts_of_gmsh, mistakes, interrupted):
+    for test in (tasks, only_read, only_read_mistakes, older_parts, seen_by_vtk, parts_of_gmsh, mistakes, interrupted):
         with tempfile.TemporaryDirectory() as folder:
             test(Path(folder))
     print(f"{len(failures)} failures")
