@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // tetmend trace: looks into a recorded run.
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -40,7 +43,7 @@ struct Options {
   std::string history;
   bool slices = false;
   bool html = false;
-  std::vector<std::uint32_t> html_call;  // at most one
+  std::string html_call;  // a number; empty: of the whole trace
   std::string figure;
   std::optional<std::uint32_t> call;
   std::vector<double> look;  // yaw and pitch
@@ -157,6 +160,16 @@ void write_extract(const Options& options, const TraceFile& file) {
                          call_tree_text(file, kit.call)));
 }
 
+/// The option is text, because CLI11 takes a number that is not there for 0.
+std::uint32_t read_call(const std::string& text) {
+  std::uint32_t call = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), call);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw UsageError(fmt::format("--html: '{}' is no number of a call", text));
+  }
+  return call;
+}
+
 /// A call, or the whole trace with the lesson that may lie beside it.
 void write_html(const Options& options, const TraceFile& file) {
   constexpr std::uint64_t kMostEvents = 30000;
@@ -165,7 +178,7 @@ void write_html(const Options& options, const TraceFile& file) {
                                .range = {0, file.event_count()},
                                .program = fmt::format("tetmend {}", version())};
   if (!options.html_call.empty()) {
-    const std::uint32_t call = options.html_call.front();
+    const std::uint32_t call = read_call(options.html_call);
     check_call(file, call);
     request.title = explain::title_of_call(file, call);
     request.range = explain::range_of_call(file, call);
@@ -222,6 +235,7 @@ void write_figure(const Options& options, const TraceFile& file) {
 
 int run_trace(const Options& options) {
   check_figure(options);
+  if (!options.html_call.empty()) read_call(options.html_call);
   if (options.at) {
     if (options.output.empty()) throw UsageError("--at needs -o, a file for the mesh");
     check_mesh_extension(options.output);
@@ -318,8 +332,8 @@ events are counted from 0; vertices are named by their handle numbers. Of
 for those that event N removes, 3 for both. WHAT is tet:N, tet:worst, edge:A,B,
 face:A,B,C or vertex:N, in the numbers of the trace at its end, or with @MESH
 behind in those of the file that the run wrote or read, counted from 1; of a tet
-that is gone, tet:A,B,C,D. KIND is ring, tree, timeline or shell. A trace that is cut off or damaged
-is read up to there, with a warning.
+that is gone, tet:A,B,C,D. KIND is ring, tree, timeline or shell. A trace that
+is cut off or damaged is read up to there, with a warning.
 
 Examples:
   tetmend improve part.mesh -o better.mesh --trace run.trace

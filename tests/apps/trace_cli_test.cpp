@@ -123,6 +123,32 @@ TEST_CASE("a call is shown as a tree, as a graph and as slices") {
   CHECK(contains(none.err, "there is no call 99999999"));
 }
 
+TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not") {
+  Bench bench;
+  REQUIRE(bench.record({"--trace-depth", "0"}).status == 0);
+  const TraceFile file(bench.trace);
+  const std::string page = (bench.folder / "page.html").string();
+  const auto end_of_page = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"-o", page});
+    const Outcome outcome = bench.look(more);
+    CHECK(outcome.err == "");
+    REQUIRE(outcome.status == 0);
+    const std::string html = read_text(page);
+    const std::string begin = "id=\"recording\">";
+    const std::size_t from = html.find(begin) + begin.size();
+    const auto recording =
+        nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+    return recording["steps"].back()[0].get<std::uint64_t>();
+  };
+  REQUIRE(file.event_count() < 30000);
+  CHECK(end_of_page({"--html"}) == file.event_count());
+  CHECK(end_of_page({"--html", "0"}) == file.calls()[0].events.end);
+  CHECK(file.calls()[0].events.end < file.event_count());
+  const Outcome wrong = bench.look({"--html", "x", "-o", page});
+  CHECK(wrong.status == 2);
+  CHECK(contains(wrong.err, "--html: 'x' is no number of a call"));
+}
+
 TEST_CASE("the history of a tet is told by its number in the file that the run wrote") {
   Bench bench;
   REQUIRE(bench.record().status == 0);
