@@ -59,7 +59,9 @@ const cutOff = () => {
       const r = text.getBoundingClientRect();
       if (r.left < box.left - 1 || r.right > box.right + 1 || r.top < box.top - 1 || r.bottom > box.bottom + 1) bad.push(`ring: ${text.textContent}`);
     }
-    if (box.width < 100) bad.push(`ring ${box.width} wide`);
+    if (Math.min(box.width, box.height) < 100) bad.push(`ring ${box.width} wide, ${box.height} high`);
+    const card = document.getElementById("ring-card").getBoundingClientRect();
+    if (box.bottom > card.bottom + 1 || box.right > card.right + 1) bad.push(`ring: ${box.bottom} below its card, ${card.bottom}`);
   }
   const stage = document.getElementById("stage").getBoundingClientRect();
   for (const name of document.querySelectorAll("#names span:not(.quiet)")) {
@@ -304,7 +306,7 @@ class Pages(unittest.TestCase):
                 self.assertEqual(fact["tables"][1][cell], str(entry["k"]) if entry else "\u2013", f"{where}, M_k {cell}")
 
     def test_pages_are_whole_on_a_phone_in_the_dark_and_on_the_largest_screen(self) -> None:
-        for width, height, dark in ((390, 844, False), (390, 844, True), (3840, 2160, True), (1280, 720, False)):
+        for width, height, dark in ((390, 844, False), (390, 844, True), (3840, 2160, True), (1920, 940, False), (1280, 720, False)):
             window = browser.Browser(width, height, dark)
             try:
                 if width >= 500:
@@ -315,6 +317,23 @@ class Pages(unittest.TestCase):
                         self.assertEqual(window.run("return document.documentElement.dataset.theme"), "dark" if dark else "light")
             finally:
                 window.close()
+
+    def test_large_text_on_a_projector_leaves_algorithm_and_ring_whole(self) -> None:
+        window = browser.Browser(1920, 1080)
+        try:
+            window.command("Emulation.setDeviceMetricsOverride", width=1920, height=940, deviceScaleFactor=1, mobile=False)
+            for name, position in (("2-two-shells", 4), ("2-two-shells", 19), ("4-tables", 2)):
+                with self.subTest(page=name, position=position):
+                    window.open("about:blank")
+                    window.open((WORK / "lessons" / f"{name}.html").as_uri() + f"#step={position}")
+                    window.run("if (document.documentElement.dataset.size !== 'large') document.getElementById('text-size').click()")
+                    crushed = window.run('''return [...document.querySelectorAll("main > .card")].filter((card) => card.getClientRects().length && !card.querySelector(".scrolls")
+                        && (card.scrollHeight > card.clientHeight + 1 || card.clientHeight < 60)).map((card) => `${card.className}: ${card.scrollHeight} of ${card.clientHeight}`)''')
+                    self.assertEqual(crushed, [])
+                    self.assertEqual(window.run("return document.documentElement.dataset.size"), "large")
+                    self.assertLessEqual(window.run("return document.documentElement.scrollWidth"), 1920)
+        finally:
+            window.close()
 
     def test_keys_buttons_and_links_lead_where_the_debugger_leads(self) -> None:
         page = WORK / "lessons" / "2-two-shells.html"

@@ -294,6 +294,6 @@ function showLegend(scene) {
   };
   if (scene.kinds.has("caller")) items.push(make("li", {}, swatch([colourOf("caller")]), `shell of the caller, ${scene.caller.join(" ")}`));
   if (scene.kinds.has("face")) items.push(make("li", {}, swatch([colourOf("face")]), `face f to remove, ${scene.faceToRemove.join(" ")}`));
-  if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "q from 1 to 2"));
+  if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "quality q, from 1, which just meets the goal, to 2"));
   byId("legend").replaceChildren(...items);
 }

@@ -161,7 +161,9 @@ function ballInView(call, places) {
 
 function showPlace(step, cells) {
   byId("slider").value = place.step;
-  byId("count").textContent = `step ${step.position}${cells ? `, cell ${place.cell}/${cells}` : ""} of ${steps[steps.length - 1].position}`;
+  const first = steps[0].position;  // of a page of one call: far into the trace
+  byId("count").textContent = `step ${step.position - first}${cells ? `, cell ${place.cell}/${cells}` : ""} of ${steps[steps.length - 1].position - first}`;
+  byId("count").title = `after ${step.position} events of the trace`;
   const isFirst = place.step === 0 && place.cell === 0;
   const isLast = place.step === steps.length - 1;
   for (const button of document.querySelectorAll("nav button")) button.disabled = button.dataset.step.startsWith("back") ? isFirst : isLast;
