@@ -111,7 +111,8 @@ std::string format_worse(const Result& result) {
 std::string format_growth(const Result& result) {
   const double before = static_cast<double>(result.before.tets);
   const double added = static_cast<double>(result.after.tets) - before;
-  std::string text = fmt::format("{:+.0f}, {:+.1f} %", added, 100 * added / std::max(before, 1.0));
+  std::string text =
+      fmt::format("{:+.0f} tets, {:+.1f} %", added, 100 * added / std::max(before, 1.0));
   if (result.rulers_before && result.rulers_after) {
     text += fmt::format("; shortest edge {:.4g}, was {:.4g}", result.rulers_after->shortest_edge,
                         result.rulers_before->shortest_edge);
@@ -132,7 +133,7 @@ std::string format_checks(const ImproveReport& report) {
   line("goal", fmt::format("angles from {:g} to {:g} degrees", result.goal.min_angle,
                            result.goal.max_angle));
   line("worse than before", format_worse(result));
-  line("tets added", format_growth(result));
+  line("growth", format_growth(result));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
   line("volume", fmt::format("{}, relative change {:.2g}", volume_text(result.after, 10),

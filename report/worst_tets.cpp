@@ -159,9 +159,10 @@ std::string worst_tets(const Figures& figures) {
   std::string items;
   for (std::size_t i = 0; i < shown; ++i) items += list_item(figures, i);
   return fmt::format(
-      "<p>The worst {} of {}. Edges whose angle misses the goal are red; a ring is a vertex that "
-      "may "
-      "move, a dot one that stays.</p>\n<ol class=\"worst\">\n{}</ol>\n",
+      "<p>The worst {} of {} by their angles, counted from 1 as in the file; tetmend-view counts "
+      "from 0. "
+      "Edges whose angle misses the goal are red; a ring is a vertex that may move, a dot one that "
+      "stays.</p>\n<ol class=\"worst\">\n{}</ol>\n",
       shown, figures.shown_count("after.n_bad"), items);
 }
 
