@@ -125,7 +125,7 @@ TEST_CASE("a call is shown as a tree, as a graph and as slices") {
 
 TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not") {
   Bench bench;
-  REQUIRE(bench.record({"--trace-depth", "0"}).status == 0);
+  bench.trace = std::string(TETMEND_SOURCE_DIR) + "/assets/lessons/2-two-shells.trace";
   const TraceFile file(bench.trace);
   const std::string page = (bench.folder / "page.html").string();
   const auto end_of_page = [&](std::vector<std::string> more) {
@@ -140,7 +140,6 @@ TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not
         nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
     return recording["steps"].back()[0].get<std::uint64_t>();
   };
-  REQUIRE(file.event_count() < 30000);
   CHECK(end_of_page({"--html"}) == file.event_count());
   CHECK(end_of_page({"--html", "0"}) == file.calls()[0].events.end);
   CHECK(file.calls()[0].events.end < file.event_count());
