@@ -37,6 +37,7 @@ struct Options {
   std::string before;
   std::string reference;
   std::string tolerance;
+  bool both_ways = false;
   std::string picture;
   std::string script;
   std::string size;
@@ -81,12 +82,14 @@ void go_to(Document& document, std::uint64_t event) {
 void show_reference(const Options& options, Document& document) {
   if (options.reference.empty()) {
     if (!options.tolerance.empty()) throw Error("--tolerance is for --reference: there is none");
+    if (options.both_ways) throw Error("--both-ways is for --reference: there is none");
     return;
   }
   Allowance allowance;
   if (!options.tolerance.empty()) allowance = Allowance::parse(options.tolerance);
   document.set_reference(options.reference, allowance);
   document.view.show_reference(true);
+  document.view.scene.both_ways = options.both_ways;
 }
 
 void prepare(const Options& options, Document& document) {
@@ -188,6 +191,9 @@ void add_options(CLI::App& app, Options& options) {
                  "What the surface might move, as improve --surface has\nit: 1%, 0.01; the figures "
                  "are in parts of it, too")
       ->type_name("P%|LENGTH");
+  app.add_flag("--both-ways", options.both_ways,
+               "Colours and figures also say how far the reference lies\nfrom the mesh: the larger "
+               "distance at each place");
   app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display")
       ->type_name("FILE.png");
   app.add_option("--video", options.video, "Write a video of a trace (.mp4) by ffmpeg and exit")
@@ -224,7 +230,7 @@ void add_options(CLI::App& app, Options& options) {
   app.footer(R"(Examples:
   tetmend-view part.mesh
   tetmend-view --before part.mesh better.mesh
-  tetmend-view --reference part.mesh --tolerance 1% moved.mesh
+  tetmend-view --reference part.mesh --tolerance 1% --both-ways moved.mesh
   tetmend-view run.trace
   tetmend-view --render part.png --size 1200x900 part.mesh
   tetmend-view --render fig.png --size 3840x2160 --scale 2 --view '{"colour": "quality"}' --colour-bar --background transparent part.mesh

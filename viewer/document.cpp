@@ -175,6 +175,7 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   regions_ = std::move(mesh.regions);
   forget_derived();
   select({});
+  camera_before_alone_.reset();
   if (!keep_view) go_home();
   message = {
       fmt::format("{}: {} tets, {} of them bad", std::filesystem::path(name).filename().string(),
@@ -207,7 +208,9 @@ void Document::follow_changes(std::span<const TetHandle> changed) {
   for (const auto& tets : {changed, std::span<const TetHandle>(deeper)}) {
     whole_.changed.insert(whole_.changed.end(), tets.begin(), tets.end());
   }
-  if (whole_.changed.size() > mesh_.tet_slots()) {  // long unseen
+  // Long unseen; or faces that stay may now be nearest to other places of the reference.
+  const bool is_far = view.scene.both_ways && view.scene.colour == kDistance;
+  if (is_far || whole_.changed.size() > mesh_.tet_slots()) {
     whole_.settings.reset();
     whole_.changed.clear();
   }
@@ -273,7 +276,10 @@ void Document::forget_reference() {
 }
 
 const SurfaceDeparture& Document::departure() {
-  if (!departure_) departure_ = reference()->measure(mesh_);
+  const bool both_ways = view.scene.both_ways;
+  if (!departure_ || departure_->back.has_value() != both_ways) {
+    departure_ = reference()->measure(mesh_, both_ways);
+  }
   return *departure_;
 }
 

@@ -194,6 +194,10 @@ class Document {
   void fly_to(const Selection& selection);
   /// Selects entry i of worst(), shows it alone, and moves the camera to where it is seen best.
   void fly_to_worst(std::size_t i);
+  /// Shows the whole mesh again, from where it was seen before fly_to_worst(). In a trace the camera
+  /// follows the calls, and what is alone stays so.
+  void end_alone();
+  void forget_camera_before_alone() { camera_before_alone_.reset(); }
   std::optional<std::size_t> place_among_worst();  ///< of the selected tet
 
   const Scene& scene();
@@ -237,6 +241,7 @@ class Document {
   std::optional<SurfaceDeparture> departure_;  // of the mesh as it is
   std::vector<Label> regions_;
   Selection selection_;
+  std::optional<Camera> camera_before_alone_;
   /// Where the last pick took a bad tet behind the surface.
   struct Place {
     glm::dvec2 pixel{0};

@@ -114,10 +114,19 @@ void Document::fly_to_worst(std::size_t i) {
         fmt::format("the list of the worst has {} tets, there is no {}", worst().size(), i + 1));
   }
   const TetHandle tet = worst()[i];
+  if (!view.scene.isolate) camera_before_alone_ = view.camera;
   view.scene.isolate = true;
   turn_to(view.camera, corners(mesh_, tet));
   select(tet);
   fit();
+}
+
+void Document::end_alone() {
+  if (debugger_ == nullptr) {
+    if (view.scene.isolate && camera_before_alone_) view.camera = *camera_before_alone_;
+    view.scene.isolate = false;
+  }
+  camera_before_alone_.reset();
 }
 
 /// Its centre lies in the canvas, and it is neither a dot nor much larger than the canvas.

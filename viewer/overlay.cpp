@@ -154,6 +154,18 @@ class OverlayDrawer {
     drawing_.add(std::move(words));
   }
 
+  /// Can be read where the mesh is behind them; papers have them on nothing.
+  void words_on_ground(Place middle, std::string text, Anchor anchor) {
+    const double size = kTextSize * scale_;
+    if (document_.view.background == Background::gradient) {
+      const double width = look_.text_width(text, size);
+      const double left = anchor == Anchor::end ? middle.x - width : middle.x;
+      drawing_.rectangle({left - 0.2 * size, middle.y - 0.62 * size}, width + 0.4 * size,
+                         1.24 * size, figure::faint(ground_, 0.75));
+    }
+    words(middle, std::move(text), anchor);
+  }
+
   bool is_there(VertexHandle v) const {
     const TetMesh& mesh = document_.mesh();
     return v.index() < mesh.vertex_slots() && !mesh.is_deleted(v);
@@ -257,7 +269,10 @@ class OverlayDrawer {
     const ColourMap& map = find_colour_map(document_.view.scene.map);
     const Column column = colour_column([&](double t) { return map.at(1 - t); });
     const double right = right_ - kMargin / 2 * scale_;
-    words({right, column.upper - 14 * scale_}, "distance from the reference", Anchor::end);
+    const bool both_ways = document_.view.scene.both_ways;
+    words_on_ground({right, column.upper - 14 * scale_},
+                    both_ways ? "larger distance of both ways" : "distance from the reference",
+                    Anchor::end);
     numbers(column, document_.distance_range());
     if (reference->allowance().length > 0) {
       numbers(column, {0, 1}, Anchor::end);
@@ -266,7 +281,7 @@ class OverlayDrawer {
     }
     double y = column.upper + column.height + 1.8 * kLine * scale_;
     for (std::string& line : departure_in_words(document_)) {
-      words({right, y}, std::move(line), Anchor::end);
+      words_on_ground({right, y}, std::move(line), Anchor::end);
       y += kLine * scale_;
     }
     const double left = right - 110 * scale_;
@@ -279,7 +294,7 @@ class OverlayDrawer {
   void swatch(double left, double y, const Colour& colour, std::string text) {
     const double side = 14 * scale_;
     drawing_.rectangle({left, y - side / 2}, side, side, colour);
-    words({left + 22 * scale_, y}, std::move(text), Anchor::start);
+    words_on_ground({left + 22 * scale_, y}, std::move(text), Anchor::start);
   }
 
   /// The legend of colours that stand for no numbers.
@@ -314,13 +329,16 @@ class OverlayDrawer {
 
 std::vector<std::string> departure_in_words(Document& document) {
   const SurfaceDeparture& departure = document.departure();
-  std::vector<std::string> lines = {
-      "at most " + figure::tick_text(departure.most.distance),
-      fmt::format("{} of {} triangles changed", grouped(departure.others),
-                  grouped(departure.triangles))};
-  if (document.reference()->allowance().is_known()) {
-    lines.insert(lines.begin() + 1, fmt::format("{:.2g} of the tolerance", departure.most.share));
-  }
+  const bool has_tolerance = document.reference()->allowance().is_known();
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& before, const Departure& most) {
+    lines.push_back(before + figure::tick_text(most.distance));
+    if (has_tolerance) lines.push_back(fmt::format("{:.2g} of the tolerance", most.share));
+  };
+  add(departure.back ? "to the reference at most " : "at most ", departure.most);
+  if (departure.back) add("from the reference at most ", *departure.back);
+  lines.push_back(fmt::format("{} of {} triangles changed", grouped(departure.others),
+                              grouped(departure.triangles)));
   return lines;
 }
 

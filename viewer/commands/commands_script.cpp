@@ -117,6 +117,10 @@ json reference_state(Document& document) {
                 {"changed", departure.others},
                 {"range", {document.distance_range().low, document.distance_range().high}}};
   if (reference.allowance().is_known()) state["share_of_tolerance"] = departure.most.share;
+  if (departure.back) {
+    state["distance_back"] = departure.back->distance;
+    if (reference.allowance().is_known()) state["share_back"] = departure.back->share;
+  }
   return state;
 }
 

@@ -99,7 +99,7 @@ json go_to(Session& s, const json& a) {
 
 json deselect(Session& s, const json&) {
   s.document.show_keys = false;
-  if (s.document.debugger() == nullptr) s.document.view.scene.isolate = false;
+  s.document.end_alone();
   s.document.select({});
   return nullptr;
 }

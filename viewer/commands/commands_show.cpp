@@ -151,6 +151,7 @@ json show_all(Session& s, const json&) {
   scene.hidden_regions.clear();
   for (CutPlane& plane : scene.cuts) plane.on = false;
   if (s.document.debugger() == nullptr) scene.isolate = false;
+  s.document.forget_camera_before_alone();
   return nullptr;
 }
 

@@ -201,6 +201,7 @@ json change_speed(Session& s, const json&) {
 json isolate(Session& s, const json&) {
   need_mesh(s.document);
   s.document.view.scene.isolate = !s.document.view.scene.isolate;
+  s.document.forget_camera_before_alone();
   return nullptr;
 }
 

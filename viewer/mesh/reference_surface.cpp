@@ -29,6 +29,24 @@ void take_larger(Departure& most, const Departure& other) {
   most.share = std::max(most.share, other.share);
 }
 
+template <class Visit>
+void for_each_sample(const std::array<Point, 3>& corners, Visit visit) {
+  for (unsigned i = 0; i <= kSide; ++i) {
+    for (unsigned j = 0; i + j <= kSide; ++j) {
+      visit(Point(corners[0] + (corners[1] - corners[0]) * i / kSide +
+                  (corners[2] - corners[0]) * j / kSide));
+    }
+  }
+}
+
+std::array<Point, 3> turned(const std::array<Point, 3>& corners) {
+  return {corners[0], corners[2], corners[1]};
+}
+
+bool has_triangle(const TriangleSet& set, const std::array<Point, 3>& corners) {
+  return set.contains(corners) || set.contains(turned(corners));
+}
+
 }  // namespace
 
 bool is_surface_face(const TetMesh& mesh, HalfFace face) {
@@ -112,15 +130,8 @@ Departure ReferenceSurface::of_point(const Point& p) const {
 
 Departure ReferenceSurface::of_triangle(const Corners& corners) const {
   Departure most;
-  if (set_.contains(corners)) return most;
-  const Corners turned = {corners[0], corners[2], corners[1]};
-  if (set_.contains(turned)) return most;
-  for (unsigned i = 0; i <= kSide; ++i) {
-    for (unsigned j = 0; i + j <= kSide; ++j) {
-      take_larger(most, of_point(corners[0] + (corners[1] - corners[0]) * i / kSide +
-                                 (corners[2] - corners[0]) * j / kSide));
-    }
-  }
+  if (has_triangle(set_, corners)) return most;
+  for_each_sample(corners, [&](const Point& p) { take_larger(most, of_point(p)); });
   most.distance = scale_.to_file(most.distance);
   return most;
 }
@@ -158,18 +169,75 @@ Departure ReferenceSurface::of(const TetMesh& mesh, HalfFace face) {
   if (elements_.empty()) return {};
   const Corners corners = corners_of(mesh, face);
   const auto found = known_.find(corners);
-  return found != known_.end() ? found->second : keep(corners, of_triangle(corners));
+  Departure most = found != known_.end() ? found->second : keep(corners, of_triangle(corners));
+  if (const auto back = back_.find(corners); back != back_.end()) take_larger(most, back->second);
+  return most;
 }
 
-SurfaceDeparture ReferenceSurface::measure(const TetMesh& mesh) {
+Departure ReferenceSurface::largest_seen() const {
+  Departure most = largest_;
+  if (both_ways_) take_larger(most, largest_back_);
+  return most;
+}
+
+/// Fills back_. Some samples of a triangle may be nearest to one face, others to another.
+Departure ReferenceSurface::measure_back(const TetMesh& mesh) {
+  std::vector<Corners> faces;
+  for_each_surface_face(mesh, [&](HalfFace face) { faces.push_back(corners_of(mesh, face)); });
+  const TriangleSet present(faces);
+  std::vector<Element> elements(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) elements[i].points = faces[i];
+  const std::vector<std::uint32_t> one(elements.size(), 0);
+  const ElementTree tree(elements, one, 1);
+  std::vector<const Element*> fresh;
+  for (const Element& element : elements_) {
+    if (!has_triangle(present, element.points)) fresh.push_back(&element);
+  }
+  using Landings = std::vector<std::pair<std::uint32_t, Departure>>;
+  std::vector<Landings> landings(fresh.size());
+  const auto land = [&](std::size_t i) {
+    for_each_sample(fresh[i]->points, [&](const Point& p) {
+      const auto nearest = tree.nearest(elements, 0, p);
+      Departure departure{std::sqrt(nearest.distance2), 0};
+      if (allowance_.is_known()) departure.share = departure.distance / fresh[i]->tolerance;
+      departure.distance = scale_.to_file(departure.distance);
+      auto& list = landings[i];
+      const auto same = [&](const auto& each) { return each.first == nearest.element; };
+      const auto found = std::find_if(list.begin(), list.end(), same);
+      if (found != list.end()) {
+        take_larger(found->second, departure);
+      } else {
+        list.emplace_back(nearest.element, departure);
+      }
+    });
+  };
+  constexpr std::size_t kTriangles = 256;
+  for_chunks(
+      fresh.size(),
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) land(i);
+      },
+      kTriangles);
+  Departure most;
+  for (const Landings& list : landings) {
+    for (const auto& [element, departure] : list) {
+      take_larger(most, departure);
+      if (departure.distance > 0) take_larger(back_[faces[element]], departure);
+    }
+  }
+  return most;
+}
+
+SurfaceDeparture ReferenceSurface::measure(const TetMesh& mesh, bool both_ways) {
   build();
+  both_ways_ = both_ways;
+  back_.clear();
   SurfaceDeparture all;
   if (elements_.empty()) return all;
   std::vector<Corners> fresh;
   const auto add = [&](const Corners& corners, const Departure& departure) {
     take_larger(all.most, departure);
-    const Corners turned = {corners[0], corners[2], corners[1]};
-    all.others += set_.contains(corners) || set_.contains(turned) ? 0 : 1;
+    all.others += has_triangle(set_, corners) ? 0 : 1;
   };
   for_each_surface_face(mesh, [&](HalfFace face) {
     ++all.triangles;
@@ -190,12 +258,18 @@ SurfaceDeparture ReferenceSurface::measure(const TetMesh& mesh) {
     add(fresh[i], departures[i]);
     keep(fresh[i], departures[i]);
   }
+  if (both_ways && all.triangles > 0) {
+    all.back = measure_back(mesh);
+    take_larger(largest_back_, *all.back);
+  }
   return all;
 }
 
 void ReferenceSurface::forget() {
   known_.clear();
   largest_ = {};
+  back_.clear();
+  largest_back_ = {};
 }
 
 }  // namespace tetmend::viewer

@@ -35,9 +35,10 @@ struct Departure {
 
 /// The same for a whole mesh.
 struct SurfaceDeparture {
-  Departure most;             ///< distance and share need not come from the same place
-  std::size_t triangles = 0;  ///< of the surface
-  std::size_t others = 0;     ///< that the reference has not, corner for corner
+  Departure most;                 ///< distance and share need not come from the same place
+  std::size_t triangles = 0;      ///< of the surface
+  std::size_t others = 0;         ///< that the reference has not, corner for corner
+  std::optional<Departure> back;  ///< likewise, of the reference from the surface; if asked for
 };
 
 /// The surface of a mesh: its boundary, and its faces between two labels. Remembers answers, so only
@@ -55,14 +56,17 @@ class ReferenceSurface {
   std::vector<Corners> triangles(const Scale& scale) const;
 
   /// The farthest of 15 samples of a face, each to the nearest place of the reference, wherever that
-  /// is. Not the other way round: where the reference sticks out no sample tells. The share is that
-  /// of the triangle in whose tolerance the sample fits best. Cost: some microseconds; less when the
-  /// face was asked for before.
+  /// is. The share is that of the triangle in whose tolerance the sample fits best. Where the
+  /// reference sticks out no such sample tells: if the last measure() was of both ways, a sample of
+  /// the reference whose nearest place is on this face counts, too. Cost: some microseconds; less
+  /// when the face was asked for before.
   Departure of(const TetMesh& mesh, HalfFace face);
-  /// All faces of the surface; on all threads.
-  SurfaceDeparture measure(const TetMesh& mesh);
+  /// All faces of the surface; on all threads. Both ways: also 15 samples of each triangle of the
+  /// reference, to the nearest place of the surface, in parts of the tolerance of that triangle.
+  /// Those of triangles that the mesh has, corner for corner, are left out.
+  SurfaceDeparture measure(const TetMesh& mesh, bool both_ways = false);
   /// Of all faces that were asked for since forget().
-  const Departure& largest_seen() const { return largest_; }
+  Departure largest_seen() const;
   void forget();
 
  private:
@@ -70,8 +74,11 @@ class ReferenceSurface {
     std::size_t operator()(const Corners& corners) const;
   };
 
+  using Departures = std::unordered_map<Corners, Departure, Hash>;
+
   Departure of_point(const Point& p) const;
   Departure of_triangle(const Corners& corners) const;
+  Departure measure_back(const TetMesh& mesh);
   Corners corners_of(const TetMesh& mesh, HalfFace face) const;
   const Departure& keep(const Corners& corners, const Departure& departure);
   void build();
@@ -82,8 +89,11 @@ class ReferenceSurface {
   TriangleSet set_;
   std::vector<Element> elements_;  // empty until someone asks
   ElementTree tree_;
-  std::unordered_map<Corners, Departure, Hash> known_;
+  Departures known_;
   Departure largest_;
+  bool both_ways_ = false;
+  Departures back_;  // of the reference, by the face of the mesh that is nearest to a sample
+  Departure largest_back_;
 };
 
 /// Calls visit(face) for each face of the boundary and, once, between two labels, from the side of

@@ -193,6 +193,7 @@ void visit(Visitor& v, View& view) {
   v("shrink", s.shrink, {0, 0.9});
   v("ghosts", s.ghosts, {0, 1});
   v("reference", s.reference, {0, 1});
+  v("both_ways", s.both_ways);
   v("constraints", s.constraints);
   v("isolate", s.isolate);
   v("hidden_regions", s.hidden_regions);

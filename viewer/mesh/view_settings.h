@@ -40,10 +40,11 @@ struct SceneSettings {
   bool outside = false;  ///< show those outside of `range` instead
   std::array<CutPlane, 3> cuts = {CutPlane{.normal = {1, 0, 0}}, CutPlane{.normal = {0, 1, 0}},
                                   CutPlane{.normal = {0, 0, 1}}};
-  int peel = 0;          ///< layers of tets taken off the boundary
-  double shrink = 0;     ///< of each tet towards its centre, 0 to 0.9
-  double ghosts = 0;     ///< opacity of the boundary of hidden tets, 0 to 1
-  double reference = 0;  ///< opacity of the surface that this one is compared with, 0 to 1
+  int peel = 0;            ///< layers of tets taken off the boundary
+  double shrink = 0;       ///< of each tet towards its centre, 0 to 0.9
+  double ghosts = 0;       ///< opacity of the boundary of hidden tets, 0 to 1
+  double reference = 0;    ///< opacity of the surface that this one is compared with, 0 to 1
+  bool both_ways = false;  ///< kDistance: also how far the other surface lies from this one
   bool constraints = false;
   bool isolate = false;  ///< only the tets of the call at hand, or of the selection
   std::vector<Label> hidden_regions;

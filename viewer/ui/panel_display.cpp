@@ -54,6 +54,11 @@ void choose_reference(Session& session) {
   }
   if (!is_on || document.reference() == nullptr) return;
   slide("its ghost", document.view.scene.reference, 0, 1, "%.2f");
+  ImGui::Checkbox("both ways", &document.view.scene.both_ways);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip(
+        "also how far the reference lies from the surface: the larger distance at each place");
+  }
   for (const std::string& line : departure_in_words(document)) {
     ImGui::TextWrapped("%s", line.c_str());
   }

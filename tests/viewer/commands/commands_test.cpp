@@ -154,10 +154,19 @@ TEST_CASE("go_to selects what it is told and shows it in the middle") {
 TEST_CASE("the worst tet is shown alone, and Escape brings the mesh back") {
   TestSession s(test::delaunay_ball(100, 1));
   const std::size_t all = s.document.scene().tets_shown;
+  s.run("look_from", {"+y"});
+  const Camera before = s.document.view.camera;
   s.run("worst", nlohmann::json::array());
   CHECK(s.document.scene().tets_shown == 1);
+  CHECK_FALSE(s.document.view.camera == before);
+  s.run("next_worst");
   s.run("deselect");
   CHECK(s.document.scene().tets_shown == all);
+  CHECK(s.document.view.camera == before);  // and not at the tet, in the midst of the others
+  s.run("look_from", {"-z"});
+  const Camera other = s.document.view.camera;
+  s.run("deselect");
+  CHECK(s.document.view.camera == other);
   s.run("select_vertex", {5});
   CHECK(s.document.scene().tets_shown == all);
   s.run("isolate");

@@ -14,6 +14,7 @@
 #include "tests/viewer/session.h"
 #include "trace/recorder.h"
 #include "trace/surface_setting.h"
+#include "viewer/overlay.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;
@@ -84,6 +85,32 @@ TEST_CASE("the largest distance of a triangle may lie inside of it") {
   CHECK(back.most.distance < kLift);
 }
 
+TEST_CASE("the other way, the reference tells how far it sticks out of the mesh") {
+  for (const double size : {1.0, 1e-60, 1e60}) {
+    CAPTURE(size);
+    ReferenceSurface reference(TetMesh(lifted_cube(size)), {0, 0.2 * size}, "lifted");
+    const TetMesh flat(cube(size));
+    CHECK_FALSE(reference.measure(flat).back.has_value());
+    const double one_way = reference.largest_seen().distance;
+    CHECK(one_way < 0.95 * kLift * size);
+    const SurfaceDeparture both = reference.measure(flat, true);
+    REQUIRE(both.back.has_value());
+    CHECK(both.most.distance == one_way);
+    CHECK(both.back->distance == doctest::Approx(kLift * size).epsilon(1e-12));
+    CHECK(both.back->share == doctest::Approx(0.5).epsilon(1e-12));
+    CHECK(reference.largest_seen().distance == both.back->distance);
+    double largest = 0;
+    for_each_surface_face(
+        flat, [&](HalfFace f) { largest = std::max(largest, reference.of(flat, f).distance); });
+    CHECK(largest == both.back->distance);
+    reference.measure(flat);
+    CHECK(reference.largest_seen().distance == one_way);
+  }
+  // What both have, corner for corner, is left out.
+  ReferenceSurface same(TetMesh(cube()), {}, "cube");
+  CHECK(same.measure(TetMesh(cube()), true).back->distance == 0);
+}
+
 TEST_CASE("an allowance is a share or a length, or there is none") {
   CHECK(Allowance::parse("1%").share == 0.01);
   CHECK(Allowance::parse("0.25").length == 0.25);
@@ -123,6 +150,31 @@ TEST_CASE("faces are coloured by distance, and the reference is a ghost") {
   // Inside there is no distance.
   s.run("cut", {1});
   CHECK(triangles_of(s.document.scene().surface, kInsideColour) == 2 * 16);
+}
+
+TEST_CASE("both ways, colours and words have the larger distance") {
+  const test::TempFolder folder;
+  write_mesh(folder / "lifted.mesh", lifted_cube());
+  TestSession s(cube());
+  s.run("reference", {(folder / "lifted.mesh").string(), "0.2"});
+  const ColourMap& map = find_colour_map("ember");
+  CHECK(triangles_of(s.document.scene().surface, map.at(0.5)) == 0);
+  CHECK(s.run("state")["reference"].count("distance_back") == 0);
+  CHECK(departure_in_words(s.document).size() == 3);
+
+  s.run("view", {{{"both_ways", true}}});
+  // The top of the lifted place is nearest to one of the faces around the middle.
+  CHECK(triangles_of(s.document.scene().surface, map.at(0.5)) == 1);
+  const auto state = s.run("state")["reference"];
+  CHECK(state["distance_back"].get<double>() == doctest::Approx(kLift));
+  CHECK(state["share_back"].get<double>() == doctest::Approx(0.5));
+  CHECK(state["distance"].get<double>() < 0.95 * kLift);
+  const auto lines = departure_in_words(s.document);
+  REQUIRE(lines.size() == 5);
+  CHECK(lines[2] == "from the reference at most 0.1");
+  CHECK(lines[3] == "0.5 of the tolerance");
+  s.run("view", {{{"both_ways", false}}});
+  CHECK(triangles_of(s.document.scene().surface, map.at(0.5)) == 0);
 }
 
 TEST_CASE("colours by distance without a reference say that there is none") {

@@ -233,6 +233,28 @@ TEST_CASE("--reference colours what has moved, with a bar, and reports how far")
                                      (folder / "cube.mesh").string()});
   CHECK(alone.status == 1);
   CHECK(alone.err == "tetmend-view: --tolerance is for --reference: there is none\n");
+
+  // The other way: the cube is flat where the reference is not.
+  const auto back_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"--render",
+                                          (folder / "out.png").string(),
+                                          "--size",
+                                          "200x200",
+                                          "--reference",
+                                          (folder / "moved.mesh").string(),
+                                          "--report",
+                                          (folder / "report.json").string(),
+                                          (folder / "cube.mesh").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    CHECK(run_program(arguments).status == 0);
+    return nlohmann::json::parse(read_text(folder / "report.json"))["reference"];
+  };
+  CHECK(back_with({"--both-ways"})["distance_back"].get<double>() == doctest::Approx(0.1));
+  CHECK(back_with({}).count("distance_back") == 0);
+  const Outcome both = run_program(
+      {"--render", (folder / "out.png").string(), "--both-ways", (folder / "cube.mesh").string()});
+  CHECK(both.status == 1);
+  CHECK(both.err == "tetmend-view: --both-ways is for --reference: there is none\n");
 }
 
 TEST_CASE("a view from the command line sets the camera, and one without a camera does not") {
