@@ -61,5 +61,6 @@ open("demo-out/moved.mesh")
 show_all()
 ghosts(0)
 reference("assets/meshes/bracket.meshb", "5%")
+view{both_ways = true}
 home()
 screenshot("docs/figures/viewer-distance.png")

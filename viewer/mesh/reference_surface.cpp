@@ -190,15 +190,19 @@ Departure ReferenceSurface::measure_back(const TetMesh& mesh) {
   const std::vector<std::uint32_t> one(elements.size(), 0);
   const ElementTree tree(elements, one, 1);
   std::vector<const Element*> fresh;
+  Box all;
   for (const Element& element : elements_) {
+    all.extend(box_of(element.points));
     if (!has_triangle(present, element.points)) fresh.push_back(&element);
   }
+  const double rounding = 1e-12 * all.diagonal().norm();
   using Landings = std::vector<std::pair<std::uint32_t, Departure>>;
   std::vector<Landings> landings(fresh.size());
   const auto land = [&](std::size_t i) {
     for_each_sample(fresh[i]->points, [&](const Point& p) {
       const auto nearest = tree.nearest(elements, 0, p);
       Departure departure{std::sqrt(nearest.distance2), 0};
+      if (departure.distance < rounding) return;  // a face that it is on may be unchanged
       if (allowance_.is_known()) departure.share = departure.distance / fresh[i]->tolerance;
       departure.distance = scale_.to_file(departure.distance);
       auto& list = landings[i];
@@ -222,7 +226,7 @@ Departure ReferenceSurface::measure_back(const TetMesh& mesh) {
   for (const Landings& list : landings) {
     for (const auto& [element, departure] : list) {
       take_larger(most, departure);
-      if (departure.distance > 0) take_larger(back_[faces[element]], departure);
+      take_larger(back_[faces[element]], departure);
     }
   }
   return most;

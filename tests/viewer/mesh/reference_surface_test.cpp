@@ -109,6 +109,8 @@ TEST_CASE("the other way, the reference tells how far it sticks out of the mesh"
   // What both have, corner for corner, is left out.
   ReferenceSurface same(TetMesh(cube()), {}, "cube");
   CHECK(same.measure(TetMesh(cube()), true).back->distance == 0);
+  const TetMesh finer(test::kuhn_cube(3, 0, 1));
+  CHECK(same.measure(finer, true).back->distance == 0);  // and what lies on the same planes
 }
 
 TEST_CASE("an allowance is a share or a length, or there is none") {
