@@ -141,8 +141,9 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   command->add_flag("--limit", options->limit,
                     "Add what the surface allows at best, and why each bad\ntet is there");
   command
-      ->add_option("--list", options->list,
-                   "Name the worst N bad tets: number from 1, region,\ncentre, angles and why they resist")
+      ->add_option(
+          "--list", options->list,
+          "Name the worst N bad tets: number from 1, region,\ncentre, angles and why they resist")
       ->type_name("N")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}).description(""));
   command

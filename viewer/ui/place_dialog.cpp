@@ -28,8 +28,9 @@ void PlaceDialog::draw(Session& session) {
   ImGui::TextUnformatted("Go to");
   if (std::exchange(wants_focus_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  const bool is_entered = ImGui::InputTextWithHint("##where", "tet 17, edge 3 17 or vertex 5, from 0",
-                                                   &typed_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool is_entered =
+      ImGui::InputTextWithHint("##where", "tet 17, edge 3 17 or vertex 5, from 0", &typed_,
+                               ImGuiInputTextFlags_EnterReturnsTrue);
   const Answer answer = dialog_buttons("Go", is_entered, trouble_);
   if (answer == Answer::cancelled) {
     ImGui::CloseCurrentPopup();
