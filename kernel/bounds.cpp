@@ -111,7 +111,13 @@ Bounds Bounds::of(const TetMesh& mesh) {
   // What is safe cannot be worse: with some bad tets that is all the rest, as a rule.
   const Quality safe = bounds_by().safe();
   if (safe > kBadThreshold) worst.include(worst_shape(mesh, kBadThreshold, safe));
-  return bounds_by();
+  const Bounds now = bounds_by();
+  // A mesh that has bounds keeps them, with its angles of now where these are tighter.
+  if (!mesh.bounds().any_) return now;
+  Bounds tighter = mesh.bounds();
+  tighter.least_sine2_ = std::max(tighter.least_sine2_, now.least_sine2_);
+  tighter.least_obtuse_sine2_ = std::max(tighter.least_obtuse_sine2_, now.least_obtuse_sine2_);
+  return tighter.under(standard);
 }
 
 Bounds Bounds::under(const Standard& standard) const {

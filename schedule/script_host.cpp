@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "kernel/bounds.h"
 #include "kernel/error.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
@@ -232,6 +233,7 @@ void ScriptHost::add_words() {
   lua_.add_function("sequence", sequence);
   add("goal", &ScriptHost::goal);
   add("judge_by", &ScriptHost::judge_by);
+  add("hold_worst", &ScriptHost::hold_worst);
   add("quality_of_angle", &ScriptHost::quality_of_angle);
   lua_.add_word("quality", bind(&ScriptHost::quality), mark_quality_table);
   lua_.add_metamethod(kQualityTable, "__index", bind(&ScriptHost::measure), keep_measured);
@@ -504,6 +506,12 @@ void ScriptHost::judge_by(WordCall& call) {
     terms = to_terms(read_text({"judge_by: measure"}, *measure));
   }
   run_->set_standard(Standard(now.goal(), terms, numbers.real("price")));
+}
+
+void ScriptHost::hold_worst(WordCall& call) {
+  begin_work();
+  if (call.argument_count() > 0) throw Error("hold_worst takes nothing");
+  run_->mesh().set_bounds(Bounds::of(run_->mesh()));
 }
 
 void ScriptHost::quality_of_angle(WordCall& call) {

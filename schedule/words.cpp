@@ -65,7 +65,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 24> kWords = {{
+constexpr std::array<WordInfo, 25> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -139,6 +139,10 @@ constexpr std::array<WordInfo, 24> kWords = {{
      "from now on other judges: what they take for the quality of a tet, and what new bad tets "
      "cost. Nothing counts as tried then",
      kJudgeFields, kJudgeNumbers},
+    {"hold_worst", "hold_worst()",
+     "from now on no change makes a tet with a smaller angle than the smallest of the mesh now, or "
+     "with a larger one than its largest and that of the goal. From the start it is so with those "
+     "of the input"},
     {"quality_of_angle", "quality_of_angle(degrees)",
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",

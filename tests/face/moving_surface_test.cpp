@@ -92,6 +92,21 @@ TEST_CASE("a surface that may move leaves no more bad tets, and keeps to its tol
   }
 }
 
+TEST_CASE("a surface that moves leaves no angle worse than the fixed one does") {
+  const Mesh input = load(asset("folded_sheet.mesh"));
+  Options options;
+  options.goal = Goal::symmetric(40);
+  Mesh fixed = input;
+  const Result without = improve(fixed, options);
+  REQUIRE(without.after.theta_max > options.goal.max_angle);
+  options.surface = "1%";
+  Mesh mesh = input;
+  const Result result = improve(mesh, options);
+  CHECK(result.after.n_bad < without.after.n_bad);
+  CHECK(result.after.theta_min >= without.after.theta_min - 1e-6);
+  CHECK(result.after.theta_max <= without.after.theta_max + 1e-6);
+}
+
 TEST_CASE("with a surface that may move the number of threads does not show") {
   const Mesh input = load(asset("two_materials.mesh"));
   std::vector<Mesh> results;

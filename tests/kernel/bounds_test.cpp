@@ -93,6 +93,26 @@ TEST_CASE("a tet may have no smaller and no larger angle than the worst of the m
   CHECK_FALSE(admits(blunt, wedge(160.001)));
 }
 
+TEST_CASE("of a mesh with bounds the angles get tighter, never looser, and nothing else") {
+  MeshData data;
+  const Corners alone = wedge(20);
+  data.points.assign(alone.begin(), alone.end());
+  data.tets.push_back({{0, 1, 2, 3}, 0});
+  TetMesh mesh(data);
+  mesh.set_bounds(Bounds::of(mesh_of(wedge(10))));
+  const Bounds now = Bounds::of(mesh);
+  CHECK(admits(now, wedge(20.001)));
+  CHECK_FALSE(admits(now, wedge(19.999)));
+  const Corners needle = {Point(0, 0, 0), Point(1, 0, 0), Point(0.5, std::sqrt(0.75), 0),
+                          Point(0.5, 0.3, 29)};
+  CHECK(admits(now, needle));
+  TetMesh without(data);
+  CHECK_FALSE(admits(Bounds::of(without), needle));
+  TetMesh worse = mesh_of(wedge(10));
+  worse.set_bounds(Bounds::of(mesh_of(wedge(20))));
+  CHECK_FALSE(admits(Bounds::of(worse), wedge(19.999)));
+}
+
 TEST_CASE("a mesh without bounds, and one with an inverted tet, admit all") {
   CHECK(admits({}, wedge(0.01)));
   CHECK(Bounds().safe() < -1e30f);

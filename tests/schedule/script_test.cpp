@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "kernel/bounds.h"
 #include "kernel/error.h"
 #include "kernel/integrity.h"
 #include "schedule/limit/surface_limit.h"
@@ -352,6 +355,25 @@ TEST_CASE("a script does what a built-in schedule does, with the parameters that
   CHECK(contains(run("run_schedule('shell', {max_rounds = 0.5})").error, "max_rounds"));
   CHECK(contains(run("run_schedule('shell', {4})").error, "named parameters only"));
   CHECK(contains(run("run_schedule('test.lua')").error, "there is no schedule 'test.lua'"));
+}
+
+TEST_CASE("after hold_worst() no angle gets worse than the worst of the mesh was then") {
+  /// Whether a tet with an angle of 0.01 degrees less than the smallest may come in.
+  const auto admits_less = [](const std::string& script) {
+    TetMesh mesh(delaunay_ball(150, 7));
+    mesh.set_bounds(Bounds::of(mesh));
+    Run run(mesh, kRegistry);
+    improve(run, Schedule("test.lua", script));
+    const MeshStatistics now = compute_statistics(mesh);
+    const double turn = (now.theta_min - 0.01) * std::numbers::pi / 180;
+    const Point wing(std::cos(turn), std::sin(turn), 0);
+    return mesh.bounds().admit({0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, wing);
+  };
+  const std::string work = "local_reconnection{} smooth{} insert_points{} smooth{} ";
+  CHECK(admits_less(work));
+  CHECK_FALSE(admits_less(work + "hold_worst()"));
+  CHECK_FALSE(admits_less(work + "hold_worst() judge_by{measure = 'sine'} goal{min = 20}"));
+  CHECK(contains(run("hold_worst{1}").error, "hold_worst takes nothing"));
 }
 
 TEST_CASE("scripts see the operators that are registered") {
