@@ -19,9 +19,9 @@ class TETMEND_API Bounds {
  public:
   /// No bounds.
   Bounds() = default;
-  /// Of the mesh as it is: no smaller dihedral angle, no larger one than in the mesh or its goal, no
-  /// smaller mean ratio or radius ratio, no larger ratio of the longest to the shortest edge of a
-  /// tet than in the mesh or 10. Cost: one pass over the tets. Inverted tets bound nothing.
+  /// Of the mesh: no smaller dihedral angle, no larger one than it or its goal has, no smaller mean or
+  /// radius ratio, no larger ratio of edges of a tet than it has or 10. Bounds that a mesh has stay; its
+  /// angles of now make them tighter. Cost: one pass over the tets. Inverted tets bound nothing.
   static Bounds of(const TetMesh& mesh);
 
   /// The same bounds where tets are judged by another standard.

@@ -31,40 +31,27 @@ local function move()
   return moved
 end
 
--- Makes things worse at first, then mends them by what takes little time.
-local function open_lightly(operator)
-  return sequence{operator, "smoothing", "surface_smoothing", "recursive_shell_transformation",
-                  "smoothing", "joint_smoothing", desperate = 0.7}
-end
-
-local light_openings = {"edge_contraction", "surface_smoothing", "smoothing",
-                        {"edge_split", order = "angle", most_edges = 2}, "edge_removal"}
-
 -- Returns how often the surface changed.
-local function plain_round(opens)
+local function plain_round()
   begin_round()
   local changed = flip() + move() + apply("surface_contraction") + move()
   local_reconnection{edges = quick}
   suppress_points{}
   smooth{}
-  if opens then
-    for _, opening in ipairs(light_openings) do apply(open_lightly(opening)) end
-    smooth{}
-  end
   return changed + apply(split) + flip() + move()
 end
 
 -- Cheap: all bad tets, as long as that removes a twentieth of them.
-local function plain_rounds(opens)
+local function plain_rounds()
   local changed = 0
   repeat
     local n_bad = quality().n_bad
-    changed = changed + plain_round(opens)
+    changed = changed + plain_round()
   until n_bad == 0 or quality().n_bad > 0.95 * n_bad
   return changed
 end
 
--- The same, mended by nearly all that there is.
+-- Makes things worse at first, then mends them by nearly all that there is.
 local function open_by(operator)
   return sequence{operator, "surface_edge_removal", "surface_smoothing",
                   "recursive_shell_transformation", "smoothing", "joint_smoothing",
@@ -101,12 +88,6 @@ local full_price, half_price = 0.1, 0.02
 hold_worst()
 judge_by{price = full_price}
 local can_move = plain_rounds() > 0
-
--- Where too many are left for costly rounds, light openings, by sines alone.
-if can_move and quality().n_bad > math.max(few, 0.002 * quality().tets) then
-  judge_by{price = full_price, measure = "sine"}
-  plain_rounds(true)
-end
 
 -- Where many are left, but few of all tets, the worst rise at a price, as long as a round removes a
 -- fifth of the bad ones. It takes up to a second for each that it fails at.

@@ -132,6 +132,7 @@ void LiveJob::work() {
 }
 
 void LiveJob::run_schedule() {
+  mesh_.set_bounds({});                 // those of a run before
   mesh_.set_bounds(Bounds::of(mesh_));  // as `tetmend improve` does
   mesh_.sort_spatially();
   {
