@@ -138,7 +138,7 @@ void add_trace_options(CLI::App& command, Options& options) {
                                  "thread then");
   add_value(command, options, "trace-around",
             "Record only attempts that aim at a vertex\nin a ball: around a point, or "
-            "around tet N\nof IN, counted from 0, one less than quality\n--list says (radius: its "
+            "around tet N\nof IN, counted from 0, one less than\nquality --list says (radius: its "
             "longest edge,\nif not given)")
       ->needs(trace);
   add_values(command, options, "trace-operator",
