@@ -144,6 +144,7 @@ class PlexReader {
     check_kind();
     check_cells();
     read_coordinates();
+    compare_coordinates();
     number_vertices();
     add_cells();
     add_labelled(asked_.faces, faces_, "a face", made_.labels.faces, made_.mesh.triangles,
@@ -159,6 +160,9 @@ class PlexReader {
   void check_kind();
   void check_cells();
   void read_coordinates();
+  void compare_coordinates() const;
+  template <class Value>
+  void take_from_owners(std::vector<Value>& values, MPI_Datatype type) const;
   void number_vertices();
   std::string count_orientations(std::array<std::int64_t, 2>& counts) const;
   std::string find_inverted(bool is_turned) const;
@@ -326,6 +330,42 @@ void PlexReader::read_coordinates() {
   agree(ranks_, complaint);
 }
 
+/// Of one value for each point, those of ghosts become what their owners have.
+template <class Value>
+void PlexReader::take_from_owners(std::vector<Value>& values, MPI_Datatype type) const {
+  PetscSF sf = nullptr;
+  PetscInt roots = 0;
+  check(DMGetPointSF(dm_, &sf));
+  check(PetscSFGetGraph(sf, &roots, nullptr, nullptr, nullptr));
+  if (!ranks_.any(roots >= 0)) return;  // one rank, or a mesh that was never distributed
+  const std::vector<Value> of_owner = values;
+  check(PetscSFBcastBegin(sf, type, of_owner.data(), values.data(), MPI_REPLACE));
+  check(PetscSFBcastEnd(sf, type, of_owner.data(), values.data(), MPI_REPLACE));
+}
+
+/// Who moves vertices in the local vector alone leaves the ranks with two meshes.
+void PlexReader::compare_coordinates() const {
+  std::string complaint;
+  std::vector<double> values(static_cast<std::size_t>(chart_.end));
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (PetscInt v = vertices_.begin; v < vertices_.end; ++v) {
+      values[static_cast<std::size_t>(v)] =
+          points_[static_cast<std::size_t>(v - vertices_.begin)][k];
+    }
+    take_from_owners(values, MPI_DOUBLE);
+    for (PetscInt v = vertices_.begin; v < vertices_.end && complaint.empty(); ++v) {
+      if (values[static_cast<std::size_t>(v)] ==
+          points_[static_cast<std::size_t>(v - vertices_.begin)][k]) {
+        continue;
+      }
+      complaint =
+          "DMPlex: vertex " + std::to_string(v) + of_rank() +
+          " lies elsewhere than the rank that owns it says: its local coordinates are stale";
+    }
+  }
+  agree(ranks_, complaint);
+}
+
 /// The owner of a vertex gets its number, the others get that from the owner.
 void PlexReader::number_vertices() {
   std::vector<Point> owned;
@@ -341,14 +381,7 @@ void PlexReader::number_vertices() {
     const auto at = static_cast<std::size_t>(v);
     if (is_ghost_[at] == 0) numbers_[at] = static_cast<std::int64_t>(*next++);
   }
-  PetscSF sf = nullptr;
-  PetscInt roots = 0;
-  check(DMGetPointSF(dm_, &sf));
-  check(PetscSFGetGraph(sf, &roots, nullptr, nullptr, nullptr));
-  if (!ranks_.any(roots >= 0)) return;  // one rank, or a mesh that was never distributed
-  const std::vector<std::int64_t> of_owner = numbers_;
-  check(PetscSFBcastBegin(sf, MPI_INT64_T, of_owner.data(), numbers_.data(), MPI_REPLACE));
-  check(PetscSFBcastEnd(sf, MPI_INT64_T, of_owner.data(), numbers_.data(), MPI_REPLACE));
+  take_from_owners(numbers_, MPI_INT64_T);
 }
 
 std::string PlexReader::count_orientations(std::array<std::int64_t, 2>& counts) const {

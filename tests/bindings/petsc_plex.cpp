@@ -483,17 +483,28 @@ void expect_error(const char* what, DM dm, const tetmend::Options& options = {},
   if (dm != nullptr) must(DMDestroy(&dm));
 }
 
-/// A coordinate of the first vertex of the last rank, before and after.
-DM with_coordinate(double value) {
+/// A coordinate of the first vertex that the last rank owns gets another value, on all ranks.
+template <class Move>
+DM with_coordinate(Move&& move) {
   DM dm = make_box(true, false);
   Vec vector = nullptr;
   PetscScalar* values = nullptr;
   int ranks = 0;
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
-  must(DMGetCoordinatesLocal(dm, &vector));
+  must(DMGetCoordinates(dm, &vector));
   must(VecGetArray(vector, &values));
-  if (rank_here() == ranks - 1) values[1] = value;
+  if (rank_here() == ranks - 1) values[1] = move(PetscRealPart(values[1]));
   must(VecRestoreArray(vector, &values));
+  must(DMSetCoordinates(dm, vector));
+  return dm;
+}
+
+/// Each rank moves what it sees of the whole mesh, as if nobody else saw it.
+DM with_stale_coordinates() {
+  DM dm = make_box(true, false);
+  Vec vector = nullptr;
+  must(DMGetCoordinatesLocal(dm, &vector));
+  must(VecShift(vector, 0.01 * rank_here()));
   return dm;
 }
 
@@ -513,13 +524,19 @@ void make_mistakes() {
   int ranks = 0;
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   if (ranks > 1) expect_error("overlap", make_box(true, false, 1));
-  expect_error("number", with_coordinate(std::numeric_limits<double>::quiet_NaN()));
-  expect_error("inverted", with_coordinate(7));
+  expect_error("number",
+               with_coordinate([](double) { return std::numeric_limits<double>::quiet_NaN(); }));
+  // Wherever the vertex lies, it goes through the box and out on the other side.
+  expect_error("inverted", with_coordinate([](double x) { return x < 0.5 ? 100. : -100.; }));
+  if (ranks > 1) expect_error("stale", with_stale_coordinates());
   dm = make_box(true, false);
   must(DMSetLabelValue(dm, "Face Sets", 0, 3));  // a cell
   DMLabel label = nullptr;
   must(DMGetLabel(dm, "Cell Sets", &label));
   if (rank_here() == 0) {
+    PetscInt value = 0;  // which cell this is depends on how they were shared out
+    must(DMLabelGetValue(label, 0, &value));
+    must(DMLabelClearValue(label, 0, value));
     must(DMLabelSetValue(label, 0, 4));
     must(DMLabelSetValue(label, 0, 9));
   }
