@@ -87,6 +87,23 @@ bool is_by_files(const ImproveOptions& options, const Invocation& invocation) {
          !options.pieces.checkpoint.empty() || is_in_parts;
 }
 
+/// What pieces cannot have is better found before the mesh is read.
+void check_pieces(const ImproveOptions& options, const Invocation& invocation) {
+  const std::size_t count = options.pieces.pieces;  // 0: nobody knows yet
+  const bool is_whole = count == 1 || (count == 0 && !is_by_files(options, invocation));
+  if (is_whole && !options.run.trace_piece.empty()) {
+    throw UsageError("--trace-piece: the run is not in pieces, see --pieces");
+  }
+  if (count <= 1) return;
+  pieces::Division division;
+  division.pieces = count;
+  try {
+    pieces::check(options.run, division);
+  } catch (const OptionError& error) {
+    throw UsageError("--" + message_of(error));
+  }
+}
+
 /// A run from file to file never has the whole mesh that the page draws.
 void check_reports(const ImproveOptions& options, const Invocation& invocation) {
   if (!is_by_files(options, invocation)) return;
@@ -154,7 +171,7 @@ void improve_in_core(const ImproveOptions& options, ProgressLine& line,
     if (!options.pieces.is_divided()) return face::improve(mesh, run, trace, portrait);
     pieces::Division division;
     division.pieces = options.pieces.pieces;
-    return pieces::improve(mesh, run, division, {}, portrait);
+    return pieces::improve(mesh, run, division, {}, portrait, &trace);
   });
   number_tets(report.portrait, mesh);
   const Stopwatch watch(report.writing);
@@ -193,6 +210,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   if (is_first) check_files(options, invocation.array_files);
   complete(options);
   check_reports(options, invocation);
+  check_pieces(options, invocation);
   if (!is_first) options.quiet = true;
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};
@@ -207,7 +225,8 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   if (!is_first) return kSuccess;
   write_reports(options.reports, report);
   invocation.wrote_files = true;
-  const std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little
+  std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little
+  if (trace_trouble.empty()) trace_trouble = report.result.trace_trouble;
   progress.clear();
   if (!options.quiet) {
     say(stream_beside(options.output),

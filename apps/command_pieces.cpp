@@ -132,9 +132,10 @@ int improve(PiecesOptions& options, Invocation& invocation) {
   ProgressLine line(!options.improve.quiet);
   std::optional<Interruption> interruption;
   std::size_t done = 0;
+  std::string trace_trouble;
   bool is_told_to_stop = false;
   improve_watched(options.improve, line, interruption, [&](const Options& watched) {
-    done = run.improve(numbers, watched);
+    done = run.improve(numbers, watched, &trace_trouble);
     is_told_to_stop = watched.cancel->load();
     return Result();
   });
@@ -143,6 +144,9 @@ int improve(PiecesOptions& options, Invocation& invocation) {
   if (!options.improve.quiet) {
     say(stdout, fmt::format("{}: {} {} finished\n", run.round().name, done,
                             done == 1 ? "piece" : "pieces"));
+  }
+  if (!trace_trouble.empty()) {
+    return complain(kFailed, fmt::format("{}: finished the piece, and no trace", trace_trouble));
   }
   if (is_told_to_stop) return complain(kInterrupted, "interrupted: finished pieces are kept");
   return kSuccess;
@@ -183,6 +187,10 @@ int join(PiecesOptions& options, Invocation& invocation) {
 }
 
 int run_pieces(PiecesOptions& options, Invocation& invocation) {
+  const Options& run = options.improve.run;
+  if (options.step != "improve" && (!run.trace.empty() || run.check_operators)) {
+    throw UsageError("pieces: --trace and --check-operators are options of improve");
+  }
   if (options.step == "split") return split(options, invocation);
   const bool has_more = !options.improve.output.empty() || options.improve.pieces.pieces != 0;
   if (has_more) throw UsageError("pieces: -o and --pieces are options of split");
@@ -224,6 +232,8 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
                    "divided by N")
       ->type_name("I/N");
   add_options_of_pieces(*command, options->improve);
+  add_trace_options(*command, options->improve.run);
+  add_check_option(*command, options->improve.run);
   command->footer(
       R"(A run has rounds: three divisions of the mesh, then up to three rounds of zones
 around the worst tets. 'split' divides the mesh for the first round. 'improve'

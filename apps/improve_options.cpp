@@ -86,9 +86,7 @@ void add_plugin_options(CLI::App& command, ImproveOptions& options) {
                   "Say so when an attempt of a plugin takes\nlonger; 0: never (default: 10)")
       ->type_name("SECONDS")
       ->check(is_number_of_seconds);
-  command.add_flag("--check-operators", options.run.check_operators,
-                   "Hold each attempt of a plugin to the contract\nof operators; slow, and in one "
-                   "thread");
+  add_check_option(command, options.run);
 }
 
 void add_layers_and_tets(CLI::App& command, Options& options) {
@@ -132,6 +130,14 @@ void add_region_options(CLI::App& command, Options& options) {
                    "vertices that the file names inside a region");
 }
 
+}  // namespace
+
+void add_check_option(CLI::App& command, Options& options) {
+  command.add_flag("--check-operators", options.check_operators,
+                   "Hold each attempt of a plugin to the contract\nof operators; slow, and in one "
+                   "thread");
+}
+
 void add_trace_options(CLI::App& command, Options& options) {
   CLI::Option* trace = add_value(command, options, "trace",
                                  "Record all that happens, for 'tetmend\ntrace'; the run uses one "
@@ -153,8 +159,6 @@ void add_trace_options(CLI::App& command, Options& options) {
             "End the trace before it is larger, such as\n500M; the run goes on")
       ->needs(trace);
 }
-
-}  // namespace
 
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options) {
   add_schedule_options(command, options);
@@ -192,6 +196,10 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_piece_options(command, options.pieces);
   add_region_options(command, options.run);
   add_trace_options(command, options.run);
+  add_value(
+      command, options.run, "trace-piece",
+      "In pieces: which one is recorded, in which\nround (default: in round 1 the piece around "
+      "the\nplace of --trace-around, or the one with the\nworst tet)");
   add_carry_options(command, options.carry);
   add_conserve(command, options.run);
   add_format_option(command, options.format);

@@ -39,6 +39,10 @@ void add_improve_options(CLI::App& command, ImproveOptions& options);
 /// Those that a run by `tetmend pieces` can have.
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options);
 
+/// --trace and what belongs to it, and --check-operators. --trace-piece is not among them.
+void add_trace_options(CLI::App& command, Options& options);
+void add_check_option(CLI::App& command, Options& options);
+
 /// What the help says of a SPEC, for the end of the command's help.
 std::string region_help();
 

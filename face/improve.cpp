@@ -494,6 +494,9 @@ std::vector<std::string> Result::missed_aims() const {
 Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace,
                      Portrait* portrait) {
   Plan plan(options);
+  if (!options.trace_piece.empty()) {
+    throw OptionError("trace_piece", "trace_piece: the run is not in pieces");
+  }
   return face::on_threads(options.threads, [&] {
     Improvement improvement(mesh, options, plan, portrait);
     Result result = improvement.run();

@@ -128,6 +128,8 @@ constexpr Row kRows[] = {
     {{"conserve", "NAME", kAdds},
      [](Options& o, std::string_view text) { o.conserve.emplace_back(text); }},
     {{"trace", "FILE"}, [](Options& o, std::string_view text) { o.trace = text; }},
+    {{"trace-piece", "ROUND[:PIECE]"},
+     [](Options& o, std::string_view text) { o.trace_piece = text; }},
     {{"trace-around", "TET[,R]|X,Y,Z,R"},
      [](Options& o, std::string_view text) { o.trace_around = text; }},
     {{"trace-operator", "NAME", kAdds},

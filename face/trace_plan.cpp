@@ -18,6 +18,7 @@ namespace tetmend::face {
 namespace {
 
 constexpr const char* kAround = "trace_around";
+constexpr const char* kPiece = "trace_piece";
 
 OptionError around_error(std::string_view reason) {
   return {kAround, fmt::format("{}: {}", kAround, reason)};
@@ -49,6 +50,7 @@ void check_needs(const Options& options) {
   const auto refuse = [](const char* name) {
     throw OptionError(name, fmt::format("{}: it needs the option trace", name));
   };
+  if (!options.trace_piece.empty()) refuse(kPiece);
   if (!options.trace_around.empty()) refuse(kAround);
   if (!options.trace_operator.empty()) refuse("trace_operator");
   if (options.trace_depth >= 0) refuse("trace_depth");
@@ -56,6 +58,23 @@ void check_needs(const Options& options) {
 }
 
 }  // namespace
+
+std::optional<TracedPiece> TracedPiece::of(const Options& options) {
+  const std::string_view text = options.trace_piece;
+  if (text.empty()) return std::nullopt;
+  const auto read = [&](std::string_view word) {
+    std::uint32_t number = 0;
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), number);
+    if (error == std::errc() && end == word.data() + word.size()) return number;
+    throw OptionError(
+        kPiece, fmt::format("{}: '{}' is not of the form ROUND or ROUND:PIECE", kPiece, text));
+  };
+  TracedPiece made;
+  const std::size_t colon = text.find(':');
+  made.round = read(text.substr(0, colon));
+  if (colon != std::string_view::npos) made.piece = read(text.substr(colon + 1));
+  return made;
+}
 
 TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(options.trace) {
   for (const std::string& name : options.trace_operator) {
@@ -71,6 +90,7 @@ TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(o
   if (options.trace_limit > 0) filter_.most_bytes = options.trace_limit;
   if (!options.trace_around.empty()) read_around(options.trace_around);
   check_needs(options);
+  TracedPiece::of(options);
   if (!file_.empty()) const formats::PendingFile probe(file_);  // vanishes without commit()
 }
 
@@ -102,25 +122,33 @@ void TracePlan::locate(const MeshData& data) {
     throw around_error(fmt::format("there is no tet {}; the mesh has {}, counted from 0", *tet_,
                                    data.tets.size()));
   }
-  const Scale scale = Scale::of(data.points);
-  const auto corner = [&](std::uint32_t v) { return scale.to_work(data.points[v]); };
-  const auto& corners = data.tets[*tet_].vertices;
+  std::array<Point, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = data.points[data.tets[*tet_].vertices[i]];
+  locate(corners);
+}
+
+void TracePlan::locate(const std::array<Point, 4>& corners) {
+  const Scale scale = Scale::of(corners);
   Point centre = Point::Zero();
   double longest = 0;
-  for (const std::uint32_t v : corners) {
-    centre += corner(v) / 4;
-    for (const std::uint32_t w : corners)
-      longest = std::max(longest, (corner(v) - corner(w)).norm());
+  for (const Point& p : corners) {
+    centre += scale.to_work(p) / 4;
+    for (const Point& q : corners) {
+      longest = std::max(longest, (scale.to_work(p) - scale.to_work(q)).norm());
+    }
   }
   filter_.around->centre = scale.to_file(centre);
   if (filter_.around->radius == 0) filter_.around->radius = scale.to_file(longest);
+  tet_.reset();
 }
 
-std::unique_ptr<TraceRecorder> TracePlan::start(const TetMesh& mesh,
-                                                const std::filesystem::path& input,
-                                                const Schedule& schedule,
-                                                const ScheduleSettings& settings) const {
-  if (file_.empty()) return nullptr;
+std::optional<Point> TracePlan::place() const {
+  if (!filter_.around || tet_) return std::nullopt;
+  return filter_.around->centre;
+}
+
+TraceHeader TracePlan::header(const std::filesystem::path& input, const Schedule& schedule,
+                              const ScheduleSettings& settings) const {
   TraceHeader header;
   header.program = fmt::format("tetmend {}", version());
   header.input = input.string();
@@ -128,7 +156,26 @@ std::unique_ptr<TraceRecorder> TracePlan::start(const TetMesh& mesh,
   header.schedule_text = schedule.text();
   header.settings = settings;
   if (!surface_.empty()) header.settings.emplace_back(kSurfaceSetting, surface_);
-  return std::make_unique<TraceRecorder>(file_, mesh, std::move(header), filter_);
+  return header;
+}
+
+std::unique_ptr<TraceRecorder> TracePlan::start(const TetMesh& mesh,
+                                                const std::filesystem::path& input,
+                                                const Schedule& schedule,
+                                                const ScheduleSettings& settings) const {
+  if (file_.empty()) return nullptr;
+  return std::make_unique<TraceRecorder>(file_, mesh, header(input, schedule, settings), filter_);
+}
+
+std::unique_ptr<TraceRecorder> TracePlan::start_piece(const TetMesh& mesh,
+                                                      const std::filesystem::path& input,
+                                                      const Schedule& schedule,
+                                                      const ScheduleSettings& settings,
+                                                      const ScheduleSettings& piece) const {
+  if (file_.empty()) return nullptr;
+  TraceHeader made = header(input, schedule, settings);
+  made.settings.insert(made.settings.end(), piece.begin(), piece.end());
+  return std::make_unique<TraceRecorder>(file_, mesh, std::move(made), filter_, TraceClock::steps);
 }
 
 }  // namespace tetmend::face

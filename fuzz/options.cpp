@@ -28,6 +28,7 @@ void set(Options& options, std::string_view name, const std::string& value) {
   if (name == "ignore_interior") options.ignore_interior = true;
   if (name == "threads")
     options.threads = static_cast<int>(std::strtol(value.c_str(), nullptr, 10) % 4);
+  if (name == "trace_piece") options.trace_piece = value;
   if (name == "trace_around") options.trace_around = value;
   if (name == "trace_operator") options.trace_operator.push_back(value);
   if (name == "trace_depth")
@@ -51,7 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     set(options, line.substr(0, blank),
         blank == line.npos ? "" : std::string(line.substr(blank + 1)));
   }
-  if (!options.trace_around.empty() || !options.trace_operator.empty())
+  if (!options.trace_around.empty() || !options.trace_operator.empty() ||
+      !options.trace_piece.empty())
     options.trace = folder / "run.trace";
   const MeshArrays before = small_mesh();
   Mesh mesh(before);

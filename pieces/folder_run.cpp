@@ -16,6 +16,7 @@
 #include "face/watcher.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
+#include "pieces/piece_trace.h"
 
 namespace tetmend::pieces {
 
@@ -36,6 +37,7 @@ class Tools {
         watcher_(options),
         in_zones_(zone_settings(plan_.schedule, options.set)),
         task_{plan_.registry, plan_.schedule, options_.set, in_zones_, plan_.standard} {
+    task_.check_operators = options.check_operators;
     task_.watch = [this](Run& run) {
       run.set_listener(&watcher_);
       run.set_cancel_flag(options_.cancel);
@@ -45,7 +47,8 @@ class Tools {
   }
 
   const TaskOptions& task() const { return task_; }
-  const face::Plan& plan() const { return plan_; }
+  void record(PieceTrace& trace) { task_.trace = &trace; }
+  face::Plan& plan() { return plan_; }
   face::Watcher& watcher() { return watcher_; }
   bool is_to_stop() const {
     return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
@@ -156,12 +159,29 @@ Round FolderRun::round() const {
   return round;
 }
 
-std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Options& options) {
+/// Of one piece that is to be recorded.
+void FolderRun::check_trace(const std::vector<std::size_t>& pieces) const {
+  if (pieces.size() != 1) throw Error("trace: it is of one piece, which must be named");
+  const std::size_t part = pieces.front();
+  const std::size_t stretches = saved_.mesh.parting.stretches();
+  if (saved_.run.records.size() >= saved_.division.divisions && part < stretches) {
+    throw Error(
+        fmt::format("trace: piece {} is not worked on in this round: its zones count from {}", part,
+                    stretches));
+  }
+  if (shelf().has(outcome_name(part))) {
+    throw Error(fmt::format("trace: piece {} is finished already", part));
+  }
+}
+
+std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Options& options,
+                               std::string* trace_trouble) {
   const std::size_t parts = saved_.run.is_divided ? saved_.mesh.parting.parts() : 0;
   for (const std::size_t part : pieces) {
     if (part < parts) continue;
     throw Error(fmt::format("there is no piece {} in this round: it has {}", part, parts));
   }
+  if (!options.trace.empty()) check_trace(pieces);
   const Options all = options_of_run(options);
   return face::on_threads(options.threads, [&] {
     Tools tools(all);
@@ -169,6 +189,13 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
     OneRank ranks;
     FolderShelf from = shelf();
     DividedMesh mesh(from, ranks, saved_.mesh);
+    PieceTrace trace(all, tools.plan(), saved_.input);
+    if (trace.is_wanted()) {
+      trace.choose(static_cast<unsigned>(RunFolder::step_of(saved_.run)),
+                   static_cast<std::uint32_t>(pieces.front()));
+      trace.locate(mesh, pieces.front());
+      tools.record(trace);
+    }
     PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
     const std::optional<StepRecord> record = steps.begin_step();
     std::size_t finished = 0;
@@ -182,6 +209,8 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
       from.put(outcome_name(part), bytes);
       ++finished;
     }
+    const std::string trouble = trace.finish_all(ranks);
+    if (trace_trouble != nullptr) *trace_trouble = trouble;
     tools.watcher().rethrow();
     return finished;
   });

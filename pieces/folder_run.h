@@ -43,10 +43,14 @@ class FolderRun {
   /// Works on some pieces of the round; others may work on others at the same time, also on the same,
   /// which costs time alone. A piece that is finished is left as it is. Nothing is there of one that
   /// was not, when the program is killed.
-  /// @param options threads, progress, note and cancel; the rest is that of the run
-  /// @throws Error for a number that is not of the round
+  /// @param options threads, progress, note, cancel, check_operators and what belongs to a trace; the
+  /// rest is that of the run
+  /// @param trace_trouble null, or takes why there is no trace, as "FILE: reason"; empty: it is whole
+  /// @throws Error for a number that is not of the round, and for a trace of another number of pieces
+  /// than one, or of one that is finished or not worked on
   /// @return how many were finished; less when it was told to stop
-  std::size_t improve(const std::vector<std::size_t>& pieces, const Options& options);
+  std::size_t improve(const std::vector<std::size_t>& pieces, const Options& options,
+                      std::string* trace_trouble = nullptr);
   /// When all pieces of the round are finished: divides anew for the next one, or checks all and
   /// writes the output. Killed on the way, it can be called again.
   /// @throws Error when a piece is missing; it names them
@@ -55,6 +59,7 @@ class FolderRun {
 
  private:
   void open();
+  void check_trace(const std::vector<std::size_t>& pieces) const;
   Options options_of_run(const Options& options) const;
   Result finish(const Options& options);
   FolderShelf shelf() const;

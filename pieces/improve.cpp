@@ -24,6 +24,7 @@
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
+#include "pieces/piece_trace.h"
 #include "pieces/slices.h"
 #include "schedule/limit/surface_limit.h"
 
@@ -59,7 +60,8 @@ class Improvement {
         watcher_(options),
         file_(mesh.file()),
         input_(MeshAccess::take(mesh)),
-        divided_(shelf, ranks_, input_.points.size()) {}
+        divided_(shelf, ranks_, input_.points.size()),
+        trace_(options, plan_, file_) {}
 
   Result run() {
     try {
@@ -74,6 +76,10 @@ class Improvement {
     watcher_.rethrow();
     return std::move(result_);
   }
+  /// After run(). Null: nothing was recorded.
+  std::unique_ptr<TraceRecorder> take_trace(std::string& trouble) {
+    return trace_.take_recorder(trouble);
+  }
 
  private:
   void prepare();
@@ -86,6 +92,10 @@ class Improvement {
   void map(const Joined& joined);
   void check_promises() const;
   void give_back(Joined& joined);
+  void note(const std::string& text) {
+    watcher_.noted(text);
+    result_.notes.push_back(text);
+  }
 
   Mesh& user_mesh_;
   const Options& options_;
@@ -97,6 +107,7 @@ class Improvement {
   MeshData input_;
   OneRank ranks_;
   DividedMesh divided_;
+  PieceTrace trace_;
   std::vector<std::uint32_t> tet_numbers_;  // in the input, by slot
   std::shared_ptr<const SizeField> size_field_;
   std::uint64_t surface_before_ = 0;
@@ -121,6 +132,7 @@ void Improvement::prepare() {
   watcher_.begin(Stage::building);
   const Stopwatch watch(result_.building);
   if (!input_.mid_nodes.empty()) throw Error("a mesh of second order cannot be divided");
+  plan_.trace.locate(input_);
   face::find_regions(input_, options_);
   face::check_conserve(input_, options_.conserve);
   TetMesh mesh = build();
@@ -151,8 +163,7 @@ void Improvement::measure_before(const TetMesh& mesh) {
   if (portrait_ != nullptr) portrait_->draw_before(mesh, result_.rulers_before);
   watcher_.watch(nullptr, quality_indicators(mesh));
   for (const std::string& text : face::advice_before(mesh, result_)) {
-    watcher_.noted(text);
-    result_.notes.push_back(text);
+    note(text);
   }
 }
 
@@ -182,6 +193,8 @@ void Improvement::work() {
   const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
   TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
   task.size_field = size_field_;
+  task.trace = &trace_;
+  task.check_operators = options_.check_operators;
   QualityIndicators now;
   task.watch = [&](Run& run) {
     run.set_listener(&watcher_);
@@ -205,6 +218,7 @@ void Improvement::work() {
   if (run.stopped()) {
     result_.ending = run.out_of_time() ? Ending::time_limit : Ending::cancelled;
   }
+  if (!trace_.note().empty()) note(trace_.note());
   watcher_.begin(Stage::measuring);
   const Figures figures = run.measure_after();
   const bool fits = figures.surface == surface_before_ &&
@@ -221,8 +235,7 @@ void Improvement::finish() {
   if (!result_.worse().empty()) {
     const std::string text = fmt::format("the mesh is as it was: at the end there was {}",
                                          fmt::join(result_.worse(), "; "));
-    watcher_.noted(text);
-    result_.notes.push_back(text);
+    note(text);
     for (std::size_t i = 0; i < result_.vertex_map.size(); ++i) {
       result_.vertex_map[i] = static_cast<std::uint32_t>(i);
     }
@@ -263,8 +276,7 @@ void Improvement::measure_after(Joined& joined) {
     for (face::DrawnTet& tet : portrait_->bad_after) tet.facts.tet = numbers[tet.facts.tet];
   }
   for (const std::string& text : face::advice_after(mesh, options_, result_)) {
-    watcher_.noted(text);
-    result_.notes.push_back(text);
+    note(text);
   }
 }
 
@@ -309,6 +321,15 @@ void Improvement::give_back(Joined& joined) {
   user_mesh_ = MeshAccess::make(std::move(data));
 }
 
+/// The mesh is none the worse for a trace that cannot be written.
+void finish(TraceRecorder& trace, Result& result) {
+  try {
+    trace.finish();
+  } catch (const Error& error) {
+    result.trace_trouble = error.what();
+  }
+}
+
 }  // namespace
 
 Pass to_pass(const StepRecord& record) {
@@ -331,14 +352,9 @@ void check(const Options& options, const Division& division) {
     throw OptionError("pieces",
                       fmt::format("pieces: {} is outside 1 to {}", division.pieces, kMostPieces));
   }
-  if (!options.trace.empty()) {
-    throw OptionError("trace", "trace: a run in pieces cannot be recorded");
-  }
+  check_trace_piece(options, division.pieces, division.divisions, division.zone_rounds);
   if (!options.surface.empty() && options.surface != "fixed") {
     throw OptionError("surface", "surface: it must stay fixed in a run in pieces");
-  }
-  if (options.check_operators) {
-    throw OptionError("check_operators", "check_operators: not for a run in pieces");
   }
 }
 
@@ -356,14 +372,23 @@ std::size_t pieces_for(std::size_t tets, std::uint64_t memory) {
 }
 
 Result improve(Mesh& mesh, const Options& options, const Division& division,
-               const std::filesystem::path& scratch, face::Portrait* portrait) {
+               const std::filesystem::path& scratch, face::Portrait* portrait,
+               std::unique_ptr<TraceRecorder>* trace) {
   check(options, division);
   if (division.pieces <= 1) return tetmend::improve(mesh, options);
   return face::on_threads(options.threads, [&] {
     MemoryShelf memory;
     FolderShelf folder(scratch);
     Shelf& shelf = scratch.empty() ? static_cast<Shelf&>(memory) : folder;
-    return Improvement(mesh, options, division, shelf, portrait).run();
+    Improvement improvement(mesh, options, division, shelf, portrait);
+    Result result = improvement.run();
+    std::unique_ptr<TraceRecorder> made = improvement.take_trace(result.trace_trouble);
+    if (trace != nullptr) {
+      *trace = std::move(made);
+    } else if (made) {
+      finish(*made, result);
+    }
+    return result;
   });
 }
 

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include <tetmend/improve.h>
 
 #include "face/portrait.h"
 #include "pieces/piece_run.h"
+#include "trace/recorder.h"
 
 namespace tetmend::pieces {
 
@@ -18,10 +20,12 @@ namespace tetmend::pieces {
 /// of pieces, not on threads or on where the pieces lie. One piece: the same as improve().
 /// @param portrait null, or empty; filled for a picture of the run
 /// @param scratch folder in which pieces lie that are not worked on; empty: they stay in memory
+/// @param trace null, or takes the trace, which is not finished then: see face/recorded.h
 /// @throws Error as improve(); for a mesh of second order, and OptionError for an option that pieces
-/// cannot have (a trace, check_operators).
+/// cannot have (a surface that moves).
 Result improve(Mesh& mesh, const Options& options, const Division& division,
-               const std::filesystem::path& scratch = {}, face::Portrait* portrait = nullptr);
+               const std::filesystem::path& scratch = {}, face::Portrait* portrait = nullptr,
+               std::unique_ptr<TraceRecorder>* trace = nullptr);
 
 /// For reports.
 Pass to_pass(const StepRecord& record);

@@ -208,8 +208,6 @@ void check_for_files(const Options& options) {
   refuse(!options.surface.empty() && options.surface != "fixed", "surface", "surface");
   refuse(options.keep_size, "keep_size", "keep-size");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
-  refuse(!options.trace.empty(), "trace", "trace");
-  refuse(options.check_operators, "check_operators", "check-operators");
 }
 
 void check_before(const Figures& before, const Options& options,

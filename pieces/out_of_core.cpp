@@ -17,6 +17,7 @@
 #include "face/watcher.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
+#include "pieces/piece_trace.h"
 #include "pieces/run_folder.h"
 #include "pieces/slices.h"
 
@@ -48,7 +49,8 @@ class FileRun {
         ranks_(ranks),
         plan_(options),
         watcher_(options),
-        checkpoint_(files.checkpoint) {
+        checkpoint_(files.checkpoint),
+        trace_(options, plan_, files.input) {
     if (files.scratch.empty()) {
       shelf_ = std::make_unique<MemoryShelf>();
     } else {
@@ -85,6 +87,7 @@ class FileRun {
   face::Plan plan_;
   face::Watcher watcher_;
   RunFolder checkpoint_;
+  PieceTrace trace_;
   std::unique_ptr<Shelf> shelf_;
   std::optional<DividedMesh> mesh_;
   std::optional<PieceRun> steps_;
@@ -101,6 +104,8 @@ Result FileRun::run() {
   const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
   TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
   task.fault = files_.fault;
+  task.trace = &trace_;
+  task.check_operators = options_.check_operators;
   task.watch = [&](Run& run) {
     run.set_listener(&watcher_);
     run.set_cancel_flag(options_.cancel);
@@ -116,12 +121,15 @@ Result FileRun::run() {
       if (!read()) return improve_whole();
     }
     steps_.emplace(*mesh_, division_, task);
+    trace_.locate(*mesh_);
     measure_before();
   }
   work();
   measure_after();
   if (files_.costs != nullptr) note_costs();
   write();
+  if (!trace_.note().empty()) result_.notes.push_back(trace_.note());
+  result_.trace_trouble = trace_.finish_all(ranks_);
   watcher_.rethrow();
   return std::move(result_);
 }
@@ -162,6 +170,7 @@ bool FileRun::read() {
     files_.tell_lost(input.lost_in(files_.output));
   }
   if (!is_divided(input.tets())) return false;
+  check(options_, division_);
   vertices_ = input.vertices();
   holds_more_ = input.holds_more();
   mesh_.emplace(*shelf_, ranks_, vertices_, files_.first_id);
@@ -216,6 +225,8 @@ bool FileRun::go_on() {
   if (!found.run.records.empty()) now_ = found.run.records.back().after.indicators;
   mesh_.emplace(*shelf_, ranks_, found.mesh);
   mesh_->take_from(FolderShelf(checkpoint_.pieces_of(found.run)));
+  if (trace_.is_wanted() && trace_.round() <= found.run.records.size()) trace_.skip(ranks_);
+  trace_.locate(*mesh_);
   return true;
 }
 
@@ -246,7 +257,10 @@ void FileRun::work() {
   steps_->set_listener([&](const StepRecord& record) {
     now_ = record.after.indicators;
     result_.passes.push_back(to_pass(record));
-    if (!files_.checkpoint.empty() && !steps_->stopped()) save();
+    if (files_.checkpoint.empty() || steps_->stopped()) return;
+    save();
+    // What is in the folder is not worked on again.
+    if (trace_.round() <= steps_->records().size()) trace_.finish();
   });
   steps_->run();
   if (steps_->stopped()) {

@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "contract/inspector.h"
 #include "pieces/bytes.h"
+#include "pieces/piece_trace.h"
 
 namespace tetmend::pieces {
 
@@ -141,6 +145,10 @@ void PieceRun::run() {
     const auto start = std::chrono::steady_clock::now();
     std::optional<StepRecord> record = begin_step();
     if (!record) break;
+    if (options_.trace != nullptr) {
+      options_.trace->begin_round(
+          mesh_, {round(), record->is_zones, rings_of(*record), options_.standard});
+    }
     std::vector<PartOutcome> mine;
     for (const std::size_t part : mesh_.own()) {
       mine.push_back(work_on_part(part, *record));
@@ -206,7 +214,11 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
     result.piece = own_part(gathered, parting, number);
   } else {
     const auto start = std::chrono::steady_clock::now();
-    result = work_on(gathered, parting, number, options_, limits_of(part, record));
+    try {
+      result = work_on(gathered, parting, number, options_, limits_of(part, record));
+    } catch (const contract::Breach& breach) {
+      throw Error(fmt::format("round {}, piece {}: {}", round(), part, breach.what()));
+    }
     times_.push_back({static_cast<std::uint32_t>(state_.records.size()), number,
                       gathered.tets.size(), seconds_since(start)});
   }
@@ -254,12 +266,16 @@ void PieceRun::end_step(StepRecord record, std::vector<PartOutcome> outcomes) {
   state_.records.push_back(std::move(record));
 }
 
+unsigned PieceRun::rings_of(const StepRecord& record) const {
+  return !record.is_zones && record.number > 1 ? division_.rings : 0;
+}
+
 /// Each has an equal share of what the mesh may grow by, and zones have one of the bad tets that were
 /// removed: see ZoneMap::share(). Whoever would need more stays as it was.
 TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const {
   TaskLimits limits;
   limits.is_zone = record.is_zones;
-  if (!record.is_zones && record.number > 1) limits.rings = division_.rings;
+  limits.rings = rings_of(record);
   if (state_.limits.most_tets != std::numeric_limits<std::uint64_t>::max()) {
     limits.most_new_tets = state_.limits.most_tets > state_.limits.tets
                                ? (state_.limits.most_tets - state_.limits.tets) / record.pieces
@@ -271,6 +287,12 @@ TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const
     const std::size_t gained = state_.limits.n_bad > now ? state_.limits.n_bad - now : 0;
     const Parting& parting = mesh_.state().parting;
     limits.spare_bad = parting.zones.share(gained / kShare, part - parting.stretches());
+  }
+  if (options_.trace != nullptr && options_.trace->is_of(round(), part)) {
+    limits.trace = [this, &record](const TetMesh& mesh) {
+      return options_.trace->start(
+          mesh, record.is_zones ? options_.zone_settings : options_.settings, division_.pieces);
+    };
   }
   if (state_.limits.seconds > 0) limits.seconds = std::max(1e-3, seconds_left());
   return limits;

@@ -136,6 +136,9 @@ class PieceRun {
   ZoneMap make_zones(const Standing& last) const;
   std::vector<PartOutcome> share(std::vector<PartOutcome> mine);
   TaskLimits limits_of(std::size_t part, const StepRecord& record) const;
+  unsigned rings_of(const StepRecord& record) const;
+  /// The one that is worked on or comes next, from 1.
+  unsigned round() const { return static_cast<unsigned>(state_.records.size()) + 1; }
   double seconds_left() const;
   bool is_to_stop();
   void agree_on_stop();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contract/inspector.h"
 #include "kernel/boundary_layers.h"
 #include "kernel/compensated_sum.h"
 #include "kernel/integrity.h"
@@ -95,6 +96,29 @@ std::vector<char> near_borders(const Piece& piece, unsigned rings) {
   return near;
 }
 
+/// Tets that stay: protected, shared, or far from where something is left to do.
+class StayingTets {
+ public:
+  /// @param rings  see TaskLimits. What is given must outlive it, the piece and parts by vertex.
+  StayingTets(const Piece& piece, std::span<const std::uint32_t> parts, std::uint32_t number,
+              unsigned rings)
+      : parts_(parts),
+        number_(number),
+        near_(rings > 0 ? near_borders(piece, rings) : std::vector<char>(piece.ids.size(), 1)) {}
+
+  bool operator()(const PieceTet& tet) const {
+    const auto& v = tet.vertices;
+    const auto is_foreign = [&](std::uint32_t w) { return parts_[w] != number_; };
+    return tet.is_protected() || std::any_of(v.begin(), v.end(), is_foreign) ||
+           std::none_of(v.begin(), v.end(), [&](std::uint32_t w) { return near_[w] != 0; });
+  }
+
+ private:
+  std::span<const std::uint32_t> parts_;
+  std::uint32_t number_;
+  std::vector<char> near_;
+};
+
 /// Worse in a figure that is promised never to be; frozen tets count, for they are the same.
 bool is_worse(const MeshStatistics& before, const MeshStatistics& after, const Goal& goal,
               std::size_t spare_bad) {
@@ -105,6 +129,17 @@ bool is_worse(const MeshStatistics& before, const MeshStatistics& after, const G
   }
   return is_spent || after.theta_min < before.theta_min - kRounding ||
          after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding;
+}
+
+/// Of a mesh of that side: makes qualities free of its size.
+double scale_of(double side) {
+  return side > 0 ? std::ldexp(1.0, -std::ilogb(side)) : 1;
+}
+
+std::array<Point, 4> corners_of(const Piece& piece, const PieceTet& tet, double scale) {
+  std::array<Point, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = scale * piece.points[tet.vertices[i]];
+  return corners;
 }
 
 /// A piece while it is worked on.
@@ -161,17 +196,9 @@ bool Task::build() {
   return !report.mirrored && report.reordered_tets == 0;
 }
 
-/// What is protected, shared, or far from where something is left to do.
 void Task::freeze(unsigned rings) {
-  const std::vector<char> near =
-      rings > 0 ? near_borders(gathered_, rings) : std::vector<char>(gathered_.ids.size(), 1);
-  mesh_.freeze([&](TetHandle t) {
-    const PieceTet& tet = gathered_.tets[tet_numbers_[t.index()]];
-    const auto& v = tet.vertices;
-    const auto is_foreign = [&](std::uint32_t w) { return parts_[w] != number_; };
-    return tet.is_protected() || std::any_of(v.begin(), v.end(), is_foreign) ||
-           std::none_of(v.begin(), v.end(), [&](std::uint32_t w) { return near[w] != 0; });
-  });
+  const StayingTets stays(gathered_, parts_, number_, rings);
+  mesh_.freeze([&](TetHandle t) { return stays(gathered_.tets[tet_numbers_[t.index()]]); });
 }
 
 void Task::run_schedule(const TaskLimits& limits) {
@@ -180,6 +207,9 @@ void Task::run_schedule(const TaskLimits& limits) {
     run.set_most_tets(mesh_.tet_count() + limits.most_new_tets);
   }
   if (limits.seconds > 0) run.set_time_limit(limits.seconds);
+  if (limits.trace) run.set_trace(limits.trace(mesh_));
+  contract::Inspector inspector;
+  if (options_.check_operators) run.set_inspector(&inspector);
   if (options_.watch) options_.watch(run);
   try {
     improve(run, options_.schedule, limits.is_zone ? options_.zone_settings : options_.settings);
@@ -308,6 +338,21 @@ Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t numb
   return keep_own(all, parts, number);
 }
 
+std::optional<double> worst_free(const Piece& gathered, const Parting& parting,
+                                 std::uint32_t number, unsigned rings, const Standard& standard) {
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  const StayingTets stays(gathered, parts, number, rings);
+  const double scale = scale_of(parting.side);
+  std::optional<double> worst;
+  for (const PieceTet& tet : gathered.tets) {
+    if (stays(tet)) continue;
+    const std::array<Point, 4> p = corners_of(gathered, tet, scale);
+    const double quality = standard.quality(p[0], p[1], p[2], p[3]);
+    if (!worst || quality < *worst) worst = quality;
+  }
+  return worst;
+}
+
 void Standing::add(const Standing& other) {
   const auto count = [](const QualityIndicators& of) {
     return static_cast<double>(of.n_bad + of.n_needles);
@@ -359,13 +404,12 @@ Standing take_standing(std::string_view& bytes) {
 Standing standing_of(const Piece& piece, const Standard& standard, double side) {
   Standing standing;
   standing.tets = piece.tets.size();
-  const double scale = side > 0 ? std::ldexp(1.0, -std::ilogb(side)) : 1;
+  const double scale = scale_of(side);
   CompensatedSum bad;
   QualityIndicators& indicators = standing.indicators;
   for (const PieceTet& tet : piece.tets) {
     if (tet.is_protected()) continue;
-    std::array<Point, 4> p;
-    for (std::size_t i = 0; i < 4; ++i) p[i] = scale * piece.points[tet.vertices[i]];
+    const std::array<Point, 4> p = corners_of(piece, tet, scale);
     const auto quality_by = [&](const Standard& by) {
       return static_cast<Quality>(by.quality(p[0], p[1], p[2], p[3]));
     };

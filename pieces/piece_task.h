@@ -4,6 +4,9 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
 
 #include "kernel/statistics.h"
 #include "pieces/parting.h"
@@ -13,6 +16,8 @@
 #include "schedule/schedule.h"
 
 namespace tetmend::pieces {
+
+class PieceTrace;
 
 /// The same for all pieces.
 struct TaskOptions {
@@ -25,6 +30,8 @@ struct TaskOptions {
   /// Called before and after the schedule, so that it can be watched and stopped.
   std::function<void(Run&)> watch = {};
   std::function<void()> unwatch = {};
+  PieceTrace* trace = nullptr;   ///< null: nobody wants one
+  bool check_operators = false;  ///< Options::check_operators
   /// Changes a piece before it is stored, as a fault would: for tests of what notices that.
   std::function<void(std::size_t number, Piece& piece)> fault = {};
 };
@@ -38,6 +45,8 @@ struct TaskLimits {
   /// A zone may end with so many more bad tets, if the worst is better.
   std::size_t spare_bad = 0;
   double seconds = 0;  ///< 0: no limit
+  /// Null, or gives what records the run on the mesh of the piece; null: nothing does.
+  std::function<TraceSink*(const TetMesh&)> trace = {};
 };
 
 /// What became of a piece. New vertices have the ids kNewVertex, kNewVertex + 1, ...
@@ -58,12 +67,17 @@ struct TaskResult {
 ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings& settings);
 
 /// Works on the piece of that number. `gathered` holds all tets with a vertex in its part.
-/// @throws Error for a mesh of broken topology, or a mistake in the script
+/// @throws Error for a mesh of broken topology, or a mistake in the script; contract::Breach as
+/// contract/inspector.h
 TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,
                    const TaskOptions& options, const TaskLimits& limits);
 
 /// The same without any work: what is its own.
 Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t number);
+
+/// The quality of the worst tet that work_on() may change; nothing where there is none.
+std::optional<double> worst_free(const Piece& gathered, const Parting& parting,
+                                 std::uint32_t number, unsigned rings, const Standard& standard);
 
 /// How the own tets of pieces are by now. Order-free but for the rounding of the mean.
 struct Standing {

@@ -31,7 +31,7 @@ TAKES = {
     "--for": "<preset>", "--variant": "<variant>", "--format": "<format>", "--plugin": ".so", "--trace": ".trace",
     "--trace-operator": "<operator>", "--report": ".json", "improve --report": ".json .html", "--render": ".png", "--script": ".lua", "--layers": "<layers>", "--surface": "<surface>", "--feature-angle": "",
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
-    "--conserve": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
+    "--conserve": "", "--trace-piece": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
     "--min-dihedral": "", "--max-dihedral": "", "--list": "", "--tree": "", "--dot": "", "--at": "", "--extract": "",
     "--pieces": "", "--memory": "", "--scratch": "file", "--checkpoint": "file", "STEP": "<step>", "FOLDER": "file", "MORE": "mesh", "--share": "",
     "--history": "<subject>", "--figure": "<drawing>", "--call": "", "--look": "", "--size": "", "--view": "", "--video": ".mp4", "--frames": "", "--title": "", "--background": "<background>", "--scale": "",

@@ -90,7 +90,11 @@ struct Options {
   bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
 
   std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then
-  std::string trace_around = {};     ///< "TET", "TET,RADIUS" or "X,Y,Z,RADIUS"; empty: everywhere
+  /// Of a run in pieces, which piece is recorded: "ROUND" or "ROUND:PIECE". Rounds count from 1,
+  /// divisions first, then zones; pieces from 0. Empty: of round 1 the piece around the middle of
+  /// `trace_around`, or the one with the worst tet.
+  std::string trace_piece = {};
+  std::string trace_around = {};  ///< "TET", "TET,RADIUS" or "X,Y,Z,RADIUS"; empty: everywhere
   std::vector<std::string> trace_operator = {};  ///< attempts of these alone; empty: of all
   int trace_depth = -1;           ///< attempts with at most that many around them; negative: any
   std::uint64_t trace_limit = 0;  ///< bytes at which the trace ends; 0: none

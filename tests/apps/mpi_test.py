@@ -90,6 +90,49 @@ def any_number_of_ranks(folder, expected):
     check(whole.read_bytes() == (folder / "alone.meshb").read_bytes(), "one piece is not the run of improve")
 
 
+def traces(folder):
+    """Of one piece: the bytes of `tetmend improve`, and what cannot be is an error that loses nothing."""
+    trace = folder / "run.trace"
+
+    def made():
+        content = trace.read_bytes() if trace.exists() else None
+        trace.unlink(missing_ok=True)
+        return content
+
+    for piece in ([], ["--trace-piece", "2:3"], ["--trace-around", "17"]):
+        options = ["--trace", trace, *piece, "-q"]
+        done = run(PROGRAM, "improve", *improve(folder, *options))
+        mesh, expected = taken(folder), made()
+        check(done.returncode == 0 and expected is not None, "a trace of a piece", piece, done.stderr)
+        done = run(PROGRAM, "improve", *improve(folder, "--memory", "1G", *options))
+        check(made() == expected and taken(folder) == mesh, "another trace out of core", piece, done.stderr)
+        if MPI_PROGRAM == "none":
+            continue
+        for ranks in (1, 3, 8):
+            done = run(*mpi(ranks, *improve(folder, "--threads", 2, *options)))
+            check(done.returncode == 0 and made() == expected and taken(folder) == mesh, "another trace", ranks, piece,
+                  done.stderr)
+    trace.write_bytes(expected)
+    done = run(PROGRAM, "trace", trace)
+    check(done.returncode == 0 and "--pieces = 6, --trace-piece = 1:" in done.stdout, "tetmend trace", done.stdout)
+    made()
+    wrong = [(PROGRAM, "improve", *improve(folder, "--trace", trace, "--trace-piece", "1:6")),
+             (PROGRAM, "improve", MESH, "-o", folder / "out.meshb", "--trace", trace, "--trace-piece", "1:1")]
+    if MPI_PROGRAM != "none":
+        wrong.append(mpi(2, *improve(folder, "--trace", trace, "--trace-piece", "1:6")))
+    for command in wrong:
+        done = run(*command)
+        check(done.returncode == 2 and done.stderr.count("--trace-piece: ") == 1, "a piece that is not there", command,
+              done.returncode, done.stderr)
+        check(taken(folder) is None and made() is None, "something was written", command)
+    late = improve(folder, "--trace", trace, "--trace-piece", "4:900", "-q")
+    for command in [(PROGRAM, "improve", *late)] + ([mpi(2, *late)] if MPI_PROGRAM != "none" else []):
+        done = run(*command)
+        check(done.returncode == 1 and "wrote the mesh, and no trace" in done.stderr, "a zone that is not there", command,
+              done.returncode, done.stderr)
+        check(taken(folder) is not None and made() is None, "a zone that is not there", command)
+
+
 def mistakes(folder):
     done = run(*mpi(3, folder / "none.meshb", "-o", folder / "out.meshb"))
     check(done.returncode == 1 and done.stderr.count("none.meshb") == 1, "a missing mesh", done.returncode, done.stderr)
@@ -198,6 +241,8 @@ def meshes_in_parts(folder):
 
 def tasks(folder, expected):
     work = folder / "work"
+    done = run(PROGRAM, "pieces", "split", work, *improve(folder, "--check-operators"))
+    check(done.returncode == 2 and "options of improve" in done.stderr, "split with a check", done.stderr)
     done = run(PROGRAM, "pieces", "split", work, *improve(folder))
     check(done.returncode == 0 and "division 1: pieces 0 to 5" in done.stdout, "split", done.stdout, done.stderr)
     check(run(PROGRAM, "pieces", "split", work, *improve(folder)).returncode == 1, "split into a folder with a run")
@@ -206,6 +251,12 @@ def tasks(folder, expected):
     check(run(PROGRAM, "pieces", "improve", work, "6").returncode == 1, "a piece that is not there")
     for wrong in (["--share", "2/2"], ["--share", "x"], ["one"], ["--pieces", "3"]):
         check(run(PROGRAM, "pieces", "improve", work, *wrong).returncode == 2, "wrong usage", wrong)
+    done = run(PROGRAM, "pieces", "improve", work, "--trace", folder / "run.trace", "-q")
+    check(done.returncode == 1 and "which must be named" in done.stderr, "a trace of all pieces", done.stderr)
+    done = run(PROGRAM, "pieces", "improve", work, "5", "--trace", folder / "run.trace", "-q")
+    check(done.returncode == 0 and run(PROGRAM, "trace", folder / "run.trace").returncode == 0, "a trace by a task",
+          done.stderr)
+    (folder / "run.trace").unlink(missing_ok=True)
     victim = subprocess.Popen([PROGRAM, "pieces", "improve", str(work), "-q"])
     while not list(work.glob("step-1/outcome-*")) and victim.poll() is None:
         time.sleep(0.002)
@@ -255,6 +306,7 @@ def main() -> int:
         check(done.returncode == 0 and expected is not None, "improve", done.stderr)
         tasks(folder, expected)
         regions_and_arrays(folder)
+        traces(folder)
         if has_mpi:
             any_number_of_ranks(folder, expected)
             mistakes(folder)

@@ -144,7 +144,7 @@ TEST_CASE("options as text are those of C++") {
       {"conserve", "density"},  {"trace", "a.trace"},
       {"trace-around", "7"},    {"trace-operator", "x"},
       {"trace-depth", "0"},     {"trace-limit", "5K"},
-      {"limit", "true"}};
+      {"trace-piece", "2:3"},   {"limit", "true"}};
   for (const auto& [name, value] : all) set_option(options, name, value);
   CHECK(options.schedule == "thorough");
   CHECK(options.script == "smooth{}");
@@ -169,6 +169,7 @@ TEST_CASE("options as text are those of C++") {
   CHECK(options.ignore_interior);
   CHECK(options.conserve == std::vector<std::string>{"density"});
   CHECK(options.trace == "a.trace");
+  CHECK(options.trace_piece == "2:3");
   CHECK(options.trace_around == "7");
   CHECK(options.trace_operator == std::vector<std::string>{"x"});
   CHECK(options.trace_depth == 0);

@@ -216,6 +216,25 @@ TEST_CASE("improve --check-operators ends at the first breach, and no output is 
   CHECK(improve({"sly", "moves_another", {}}).outcome.status == 0);  // nobody looks
 }
 
+TEST_CASE("improve --check-operators in pieces names the piece that has the breach") {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--pieces", "3"}, {"--pieces", "3", "--memory", "1G"}}) {
+    std::vector<std::string> options = {"--check-operators", "--threads", "2"};
+    options.insert(options.end(), more.begin(), more.end());
+    const Ended ended = improve({"sly", "moves_another", options});
+    CAPTURE(ended.outcome.err);
+    CHECK(ended.outcome.status == 1);
+    CHECK(contains(ended.outcome.err, "round 1, piece "));
+    CHECK(contains(ended.outcome.err, ": operator 'moves_another' of " + plugin_file("sly") +
+                                          " breaks the contract at vertex "));
+    CHECK(ended.written == kOld);
+  }
+  const auto plain = improve({"sound", "sound", {"--pieces", "3"}, "0.1"});
+  const auto checked = improve({"sound", "sound", {"--pieces", "3", "--check-operators"}, "0.1"});
+  CHECK(checked.outcome.status == 0);
+  CHECK(plain.written == checked.written);
+}
+
 TEST_CASE(
     "improve --check-operators writes the same mesh as without, for operators that are sound") {
   const auto plain = improve({"sound", "sound", {"--threads", "2"}, "0.1"});

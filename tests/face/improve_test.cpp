@@ -220,6 +220,8 @@ TEST_CASE("a wrong option is named, and the mesh stays as it was") {
       {"trace_around", {.trace_around = "here"}},
       {"trace_around", {.trace_around = "1"}},
       {"trace_operator", {.trace_operator = {"shell_transformation"}}},
+      {"trace_piece", {.trace_piece = "1:0"}},
+      {"trace_piece", {.trace = folder / "no.trace", .trace_piece = "first"}},
       {"trace_depth", {.trace_depth = 0}},
       {"trace_limit", {.trace_limit = 1000000}},
       {"feature_angle", {.feature_angle = 30}}};

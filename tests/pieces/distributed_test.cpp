@@ -103,6 +103,35 @@ TEST_CASE("arrays on ranks become those of a run in pieces, wherever they lay") 
   }
 }
 
+TEST_CASE("ranks without tets, without points, and more ranks than pieces do not show") {
+  const MeshData data = lattice(8);
+  Mesh expected = MeshAccess::make(data);
+  pieces::Division division;
+  division.pieces = kPieces;
+  pieces::improve(expected, {}, division);
+  OneRank alone;
+  const RankArrays all = share_of(data, alone);
+  for (const std::size_t owner : {0, 2, 7}) {  // of tets; the points are elsewhere
+    CAPTURE(owner);
+    std::vector<RankArrays> made(8);
+    on_ranks(8, [&](Ranks& ranks) {
+      RankArrays mine;
+      if (ranks.number() == owner) {
+        mine = all;
+        mine.points.clear();
+      }
+      if (ranks.number() == 5) mine.points = all.points;
+      improve(mine, ranks, {}, {.count = kPieces});
+      made[ranks.number()] = std::move(mine);
+    });
+    const MeshArrays now = joined(made);
+    CHECK(std::equal(now.points.begin(), now.points.end(), expected.points().begin(),
+                     expected.points().end()));
+    CHECK(std::equal(now.tets.begin(), now.tets.end(), expected.tets().begin(),
+                     expected.tets().end()));
+  }
+}
+
 TEST_CASE("progress on one rank stops all, with sound arrays") {
   const MeshData data = lattice(8);
   std::vector<RankArrays> made(3);

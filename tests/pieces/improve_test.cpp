@@ -267,8 +267,6 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
   Mesh mesh = MeshAccess::make(data);
   Division division;
   division.pieces = 2;
-  CHECK_THROWS_AS(pieces::improve(mesh, {.trace = "x.trace"}, division), OptionError);
-  CHECK_THROWS_AS(pieces::improve(mesh, {.check_operators = true}, division), OptionError);
   CHECK_THROWS_AS(pieces::improve(mesh, {.surface = "flat"}, division), OptionError);
   CHECK_THROWS_AS(pieces::improve(mesh, {.script = "smooth{} error('no')"}, division), Error);
   CHECK(equal(MeshAccess::data(mesh), data));

@@ -38,6 +38,7 @@ class Options(TypedDict, total=False):
     conserve: str | Sequence[str]
     ignore_interior: bool
     trace: Text
+    trace_piece: str
     trace_around: str
     trace_operator: str | Sequence[str]
     trace_depth: int
@@ -47,7 +48,7 @@ class Options(TypedDict, total=False):
 
 
 # Without the second, the first would do nothing.
-_NEEDS = {"trace_around": "trace", "trace_operator": "trace", "trace_depth": "trace", "trace_limit": "trace",
+_NEEDS = {"trace_piece": "trace", "trace_around": "trace", "trace_operator": "trace", "trace_depth": "trace", "trace_limit": "trace",
           "feature_angle": "surface"}
 
 
