@@ -3,9 +3,11 @@
 
 import ast
 import concurrent.futures
+import copy
 import doctest
 import importlib
 import json
+import pickle
 import signal
 import subprocess
 import threading
@@ -177,7 +179,7 @@ def changed(array, place, value):
 
 
 @pytest.mark.parametrize(("points", "tets", "more", "message"), [
-    (TET[0], [[0, 1, 2, 4]], {}, "tets[0, 3] is 4, but there are 4 points"),
+    (TET[0], [[0, 1, 2, 4]], {}, "tets[0, 3] is 4, but there are 4 points, numbered from 0"),
     (TET[0], [[0, 1, -2, 3]], {}, "tets[0, 2] is -2, but numbers begin with 0"),
     (TET[0], np.array([[0, 1, 2, 2**40]]), {}, "tets[0, 3] is 1099511627776, but there are 4 points"),
     (TET[0], [[0, 1, 2, 2]], {}, "tets[0]: (0, 1, 2, 2): the same vertex twice, counted from 0"),
@@ -194,7 +196,7 @@ def changed(array, place, value):
     (*TET, {"labels": [1.5]}, "labels has type float64, but integers are wanted"),
     (*TET, {"triangles": [[0, 1, 7]]}, "triangles[0, 2] is 7, but there are 4 points"),
     (*TET, {"edges": [[0, 9]]}, "edges[0, 1] is 9, but there are 4 points"),
-    (*TET, {"required": [0, 4]}, "required[1] is 4, but there are 4 points"),
+    (*TET, {"required": [0, 4]}, "required[1] is 4, but there are 4 points, numbered from 0"),
     (*TET, {"required": [True, False]}, "required has shape (2,), but a mask of 4 points is wanted"),
     (*TET, {"point_data": {"u": [1.0]}}, "point_data['u'] has shape (1,), but there are 4 of them"),
     (*TET, {"cell_data": {"u": ["x"]}}, "cell_data['u'] has type <U1, but real numbers of up to 64 bits are wanted"),
@@ -202,7 +204,7 @@ def changed(array, place, value):
     (*TET, {"point_data": np.ones(4)}, "point_data is of type ndarray, but a dict of arrays is wanted"),
     (*TET, {"cell_data": [("a", [1.0])]}, "cell_data is of type list, but a dict of arrays is wanted"),
     (*TET, {"groups": [tetmend.Group(2, 1, "g", [0])]}, "groups[0].members[0] is 0, but there are 0 triangles"),
-    ([[0, 0, 0]], [[0, 1, 2, 3]], {}, "tets[0, 1] is 1, but there is 1 point"),
+    ([[0, 0, 0]], [[0, 1, 2, 3]], {}, "tets[0, 1] is 1, but there is 1 point, numbered from 0"),
     (*TET, {"groups": [tetmend.Group(4)]}, "groups[0]: dimension 4, expected 0 to 3"),
 ])
 def test_what_is_wrong_with_arrays_is_a_value_error_with_its_place(points, tets, more, message):
@@ -294,8 +296,19 @@ def test_a_mesh_refuses_what_would_not_change_it(materials):
 
 def test_a_result_stands_for_its_mesh(materials, tmp_path):
     result = tetmend.improve(materials)
+    assert tetmend.improve(result).before.n_bad == 0
     assert tetmend.save(tmp_path / "a.mesh", result) == []
     assert tetmend.quality(result).statistics.n_bad == 0 and tetmend.check(materials, result).holds
+
+
+def test_copies_share_a_mesh_and_pickles_are_refused_with_the_way_out(materials):
+    result = tetmend.improve(materials)
+    assert copy.copy(materials) is copy.deepcopy(materials) is materials
+    again = copy.deepcopy(result)
+    assert again.mesh is result.mesh and np.array_equal(again.vertex_map, result.vertex_map)
+    assert again.after == result.after and again.after is not result.after
+    with pytest.raises(TypeError, match=r"a Mesh is not pickled, .* send its arrays"):
+        pickle.dumps(result)
 
 
 def test_constraints_that_constrain_nothing_are_noted():
@@ -321,6 +334,13 @@ def test_options_are_those_of_the_library():
     from tetmend._options import Options
     known = {name.replace("-", "_") for name, _, _ in _core.option_forms()}
     assert known == set(Options.__annotations__) | {"tets"}
+
+
+def test_options_may_be_numbers_and_arrays_of_numpy(materials):
+    plain = tetmend.improve(materials, goal=(25, 155), keep_size=True, threads=2)
+    of_numpy = tetmend.improve(materials, goal=np.array([25, 155]), keep_size=np.True_, threads=np.int64(2))
+    assert of_numpy.goal == (25, 155) and np.array_equal(of_numpy.tets, plain.tets)
+    assert tetmend.improve(materials, goal=np.float32(25), protect=np.array(["label:1"])).figures["protected"]["tets"] > 0
 
 
 def test_options_do_what_they_say(materials):

@@ -69,8 +69,10 @@ template <class Integer>
   }
   std::string things = of;
   if (count == 1) things.pop_back();  // one point
+  // One too many is what numbers from 1 look like.
+  const bool is_next = static_cast<std::uint64_t>(number) == count && count > 0;
   throw Error(text + ", but there " + (count == 1 ? "is " : "are ") + std::to_string(count) + " " +
-              things);
+              things + (is_next ? ", numbered from 0" : ""));
 }
 
 std::string place_of(py::ssize_t i) {

@@ -170,7 +170,7 @@ def _check_function(name: str, given: object) -> None:
         raise TypeError(f"{name} is of type {type(given).__name__}, but a function is wanted")
 
 
-def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, labels: ArrayLike | None = None,
+def improve(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = None, *, labels: ArrayLike | None = None,
             parts: ArrayLike | None = None, triangles: ArrayLike | None = None, triangle_labels: ArrayLike | None = None,
             edges: ArrayLike | None = None, edge_labels: ArrayLike | None = None,
             point_labels: ArrayLike | None = None, required: ArrayLike | None = None,
@@ -182,7 +182,7 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     """Improves a mesh. What goes in stays as it is.
 
     improve(points, tets, ...) takes arrays; help(tetmend.Mesh) has their shapes, and what labels, triangles, required and the
-    others mean. improve(mesh, ...) takes a Mesh. With a Mesh, `tets` is the option of
+    others mean. improve(mesh, ...) takes a Mesh, or that of a Result. With a Mesh, `tets` is the option of
     that name: how far the mesh may grow, "10%" or "500000".
 
     progress      a function, called several times a second with a Progress, by any thread; the run stops if it returns False
@@ -207,7 +207,7 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     ('finished', True)
     >>> improve(points, [(0, 1, 2, 9)])
     Traceback (most recent call last):
-    tetmend._core.Error: tets[0, 3] is 9, but there are 9 points
+    tetmend._core.Error: tets[0, 3] is 9, but there are 9 points, numbered from 0
     """
     given = {"labels": labels, "parts": parts, "triangles": triangles, "triangle_labels": triangle_labels, "edges": edges,
              "edge_labels": edge_labels, "point_labels": point_labels, "required": required, "point_data": point_data,
@@ -215,6 +215,8 @@ def improve(points: ArrayLike | Mesh, tets: ArrayLike | str | None = None, *, la
     _check_function("progress", progress)
     _check_function("note", note)
     settings = to_settings(options)
+    if isinstance(points, Result):
+        points = points.mesh
     if isinstance(points, Mesh):
         present = [name for name, value in given.items() if value is not None]
         if present:

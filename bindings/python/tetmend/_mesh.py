@@ -8,7 +8,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -77,7 +77,7 @@ class Mesh:
     ((4, 3), [[0, 1, 2, 3]], [2.5])
     >>> Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 4]])
     Traceback (most recent call last):
-    tetmend._core.Error: tets[0, 3] is 4, but there are 4 points
+    tetmend._core.Error: tets[0, 3] is 4, but there are 4 points, numbered from 0
 
     Arguments and attributes, for n points and m tets:
 
@@ -131,6 +131,16 @@ class Mesh:
         if not name.startswith("_"):  # a new array of points would change nothing
             raise AttributeError(f"a Mesh does not change, so it takes no {name!r}: make a new one, tetmend.Mesh(points, tets, ...)")
         super().__setattr__(name, value)
+
+    def __copy__(self) -> Mesh:
+        return self  # it does not change
+
+    def __deepcopy__(self, memo: object) -> Mesh:
+        return self
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Mesh is not pickled, for what a file says besides the arrays would be lost: "
+                        "save() it, or send its arrays and make a new one, tetmend.Mesh(points, tets, ...)")
 
     def __repr__(self) -> str:
         return f"<tetmend.Mesh: {self._core.point_count:,} points, {self._core.tet_count:,} tets>"

@@ -10,6 +10,8 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any, TypedDict, Union
 
+import numpy as np
+
 from tetmend import _core
 
 Text = Union[str, "os.PathLike[str]"]
@@ -53,7 +55,7 @@ _NEEDS = {"trace_piece": "trace", "trace_around": "trace", "trace_operator": "tr
 
 
 def _to_text(value: Any) -> str:
-    if isinstance(value, bool):
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (str, os.PathLike)):
         return str(os.fspath(value))
@@ -69,6 +71,8 @@ def _values_of(name: str, value: Any, adds: bool) -> list[str]:
         if not isinstance(value, Mapping):
             raise _core.Error(f"{value!r} is no dict of parameters of the schedule, such as {{'max_rounds': 2}}")
         return [f"{key}={_to_text(one)}" for key, one in dict(value).items()]
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if name == "goal" and isinstance(value, (tuple, list)):
         return [",".join(_to_text(angle) for angle in value)]
     if adds and isinstance(value, (tuple, list)):
