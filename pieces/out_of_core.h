@@ -53,7 +53,8 @@ struct OutOfCore {
 /// written.
 /// @param division  0 pieces: as many as the memory asks for, or one for each 4 million tets; the
 /// number that it was then. With one piece the first rank works alone, as improve() does.
-/// @throws OptionError for an option that needs the whole mesh: keep_size, ignore_interior; Error as improve(), and for inverted tets, or boundary layers that are to be kept.
+/// @throws OptionError for an option that needs the whole mesh: keep_size, ignore_interior; Error as
+/// improve(), and for inverted tets, or boundary layers that are to be kept.
 Result improve_files(const OutOfCore& files, const Options& options, Division& division,
                      Ranks& ranks);
 
