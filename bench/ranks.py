@@ -6,6 +6,7 @@ A lattice (bench/lattice.cpp) is improved in pieces by 1, 2, 4... processes, who
 the same bytes. The seconds of each piece, as one process with one thread needs them, are then played
 again: each simulated process works on its pieces one after another, and all wait for the slowest
 after each division. What else runs on the machine does not enter: seconds are those of the processor.
+With --mesh, what pieces make of the time of that mesh is told as well.
 """
 
 import argparse
@@ -24,6 +25,8 @@ import report
 
 PROGRAM = 40e6  # bytes that a process may take besides its share
 MOST_TRAFFIC = 35.0  # bytes a tet and division, wanted
+MOST_PRICE = 1.8  # of pieces, in times of a run without, wanted
+MOST_OF_TWO = 0.62  # of the time of one process, wanted
 MEMORY, MOST_MEMORY = "200M", 240e6  # of a run out of core: what it is told, what it may take
 PROCESSES = (1, 4, 16, 64, 256, 1024)  # that are simulated
 MOST_BALLS = 10_000  # zones are made around so many tets at most, however large the mesh is
@@ -261,7 +264,54 @@ ASSUMED = (
 )
 
 
-def page(made: documents.Stamp, runs: dict[int, dict], whole: dict, on_disk: dict) -> str:
+SECONDS = (
+    "`{name}`, {tets:,} tets, {pieces} pieces, one thread; seconds of the processor, with reading, "
+    "dividing, checking and writing. {kept}"
+)
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A mesh whose time is looked at: reports of runs without pieces and by one process."""
+
+    name: str
+    pieces: int
+    whole: dict
+    alone: dict
+
+
+def share_of_two(timed: Timed) -> float:
+    """Of the time in which one process improves all pieces, what two take that wait for each other."""
+    steps = [step for step in steps_of(timed.alone) if step.seconds]
+    slower = sum(max((loads_of_zones if step.is_zones else loads_of_ranges)(step.seconds, 2))
+                 for step in steps)
+    return slower / sum(sum(step.seconds) for step in steps)
+
+
+def time_kept(timed: Timed) -> str:
+    price = timed.alone["processor_seconds"] / timed.whole["processor_seconds"]
+    return (f"Pieces take {price:.1f} times as long as the run without, where {MOST_PRICE} are wanted; "
+            f"two processes, played again, take {share_of_two(timed):.2f} of the time that one takes for "
+            f"improving, where {MOST_OF_TWO} are wanted.")
+
+
+def seconds_table(timed: Timed) -> documents.Table:
+    table = [["run", "seconds", "bad tets", "smallest angle", "largest angle", "tets"]]
+    for name, told in (("without pieces", timed.whole), ("in pieces", timed.alone)):
+        after = told["after"]
+        table.append([name, f"{told['processor_seconds']:.1f}", f"{after['n_bad']:,}",
+                      f"{after['theta_min']:.1f}", f"{after['theta_max']:.1f}", f"{after['tets']:,}"])
+    return table
+
+
+def timed_parts(timed: Timed) -> list[str]:
+    return ["## Time", SECONDS.format(name=timed.name, tets=timed.whole["before"]["tets"],
+                                      pieces=timed.pieces, kept=time_kept(timed)),
+            documents.markdown_table(seconds_table(timed))]
+
+
+def page(made: documents.Stamp, runs: dict[int, dict], whole: dict, on_disk: dict,
+         timed: Timed | None = None) -> str:
     """@param runs  what each run in pieces reported, by the number of processes; 1 is among them"""
     alone, most = runs[1], runs[max(runs)]
     steps = steps_of(alone)
@@ -272,7 +322,7 @@ def page(made: documents.Stamp, runs: dict[int, dict], whole: dict, on_disk: dic
     assumed = ASSUMED.format(cluster, 100 * cluster.efficiency, cluster.network / 1e9,
                              cluster.files / 1e9, MOST_BALLS)
     parts = ["## Memory and traffic", measured, documents.markdown_table(traffic_table(runs, whole)),
-             kept_or_missed(runs, whole), out_of_core(on_disk),
+             kept_or_missed(runs, whole), out_of_core(on_disk), *(timed_parts(timed) if timed else []),
              "## Pieces", STEPS.format(100 * alone["processor_share"]),
              documents.markdown_table(steps_table(steps)),
              "## Played on more processes", assumed,
@@ -299,8 +349,19 @@ def told_by(command: list, told: Path, **environment: str) -> dict:
     used, start = processor_seconds(), time.monotonic()
     subprocess.run([*map(str, command), "--quiet", "--report", str(told)], check=True,
                    env=dict(os.environ, **environment))
-    share = (processor_seconds() - used) / (time.monotonic() - start)
-    return dict(json.loads(told.read_text()), processor_share=min(share, 1.0))
+    used = processor_seconds() - used
+    share = used / (time.monotonic() - start)
+    return dict(json.loads(told.read_text()), processor_share=min(share, 1.0), processor_seconds=used)
+
+
+def peak_of(command: list) -> int:
+    """Bytes that a run takes which reports nothing: pictures of bad tets would count, too."""
+    with subprocess.Popen([*map(str, command), "--quiet"]) as run:
+        _, status, used = os.wait4(run.pid, 0)
+        run.returncode = os.waitstatus_to_exitcode(status)
+    if run.returncode != 0:
+        raise SystemExit(f"ranks: {command[0]} failed")
+    return used.ru_maxrss * 1024
 
 
 def measure(size: float, pieces: int, counts: list[int]) -> tuple[dict[int, dict], dict, dict]:
@@ -309,7 +370,8 @@ def measure(size: float, pieces: int, counts: list[int]) -> tuple[dict[int, dict
     folder.mkdir(parents=True, exist_ok=True)
     mesh, improved, told = (folder / name for name in ("lattice.meshb", "out.meshb", "report.json"))
     subprocess.run([compare.BUILD / "bench" / "lattice", f"{size:.0f}", mesh], check=True)
-    whole = told_by([compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved], told)
+    alone = [compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved]
+    whole = dict(told_by(alone, told), peak_memory_bytes=peak_of(alone))
     on_disk = told_by([compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved, "--memory",
                        MEMORY], told)
     runs, contents = {}, set()
@@ -329,6 +391,18 @@ def measure(size: float, pieces: int, counts: list[int]) -> tuple[dict[int, dict
     return runs, whole, on_disk
 
 
+def measure_time(mesh: Path, pieces: int) -> Timed:
+    folder = compare.WORK / "ranks"
+    folder.mkdir(parents=True, exist_ok=True)
+    improved, told = folder / "out.meshb", folder / "report.json"
+    name, mesh = mesh.name.split(".")[0], compare.plain(mesh)
+    whole = told_by([compare.BUILD / "bin" / "tetmend", "improve", mesh, "-o", improved], told)
+    alone = told_by(["mpirun", "-n", 1, compare.BUILD / "bin" / "tetmend-mpi", "improve", mesh, "-o",
+                     improved, "--pieces", pieces, "--threads", 1], told, **RANKS_MAY_SHARE_CORES)
+    improved.unlink()
+    return Timed(name, pieces, whole, alone)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(prog="script/bench --ranks", description=__doc__)
     parser.add_argument("--size", type=float, default=1e7, metavar="N",
@@ -336,18 +410,26 @@ def main() -> None:
     parser.add_argument("--pieces", type=int, default=32, metavar="P", help="(default: 32)")
     parser.add_argument("--processes", default="1,2,4,8", metavar="N,N,...",
                         help="numbers of processes, 1 among them (default: 1,2,4,8)")
+    parser.add_argument("--mesh", metavar="MESH", help="its time is looked at: a name or a file")
+    parser.add_argument("--mesh-pieces", type=int, default=16, metavar="P",
+                        help="into which that is divided (default: 16)")
     documents.add_option(parser)
     options = parser.parse_args()
     counts = [int(word) for word in options.processes.split(",")]
     if 1 not in counts:
         parser.error("--processes: 1 must be among them")
     runs, whole, on_disk = measure(options.size, options.pieces, counts)
+    timed = measure_time(compare.named_mesh(options.mesh), options.mesh_pieces) if options.mesh else None
     print(report.text_table(traffic_table(runs, whole)))
     print(kept_or_missed(runs, whole))
     print(out_of_core(on_disk))
     print(report.text_table(steps_table(steps_of(runs[1]))))
+    if timed:
+        print(time_kept(timed))
+        print(report.text_table(seconds_table(timed)))
     if options.write:
-        documents.write(options.write, page(documents.stamp("script/bench --ranks"), runs, whole, on_disk))
+        documents.write(options.write,
+                        page(documents.stamp("script/bench --ranks"), runs, whole, on_disk, timed))
 
 
 if __name__ == "__main__":

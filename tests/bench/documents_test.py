@@ -175,6 +175,7 @@ class Tables(unittest.TestCase):
             passes = [{"name": name, "n_bad": n_bad}
                       for name, n_bad in (("division", 20), ("division", 10), ("zones", 5))]
             return {"before": {"tets": 400, "n_bad": 90}, "passes": passes, "processor_share": 1.0,
+                    "processor_seconds": 12.0, "after": {"n_bad": 5, "tets": 390, "theta_min": 20.0, "theta_max": 150.0},
                     "seconds": {"building": 0.1, "measuring": 1.2, "improving": 9.0, "total": 11.0},
                     "ranks": {"count": count, "peak_memory_bytes": [50_000_000] * count,
                               "bytes_a_tet_and_division": 20.0, "divisions": divisions,
@@ -197,6 +198,12 @@ class Tables(unittest.TestCase):
         # Seconds are those of the processor, of which a run may have had a part.
         [half, *_] = ranks.steps_of({**runs[1], "processor_share": 0.5})
         self.assertEqual(half.seconds, [0.5, 1.5, 1.0, 1.0])
+        # Of two processes all wait for the slower one: 4 of 8, 1 of 2, 0.2 of 0.3.
+        timed = ranks.Timed("cube", 4, {**whole, "processor_seconds": 6.0}, told(1))
+        self.assertAlmostEqual(ranks.share_of_two(timed), 5.2 / 10.3)
+        self.assertIn("Pieces take 2.0 times as long", ranks.time_kept(timed))
+        _, seconds, *_ = tables(ranks.page(MADE, runs, whole, on_disk, timed))
+        self.assertEqual([row[1] for row in seconds[1:]], ["6.0", "12.0"])
         # The measured run itself, on one core without a network, is what was measured.
         known = ranks.Measured(ranks.steps_of(runs[1]), ranks.checking_of(runs[1]), 0.0)
         same = ranks.play(known, 400, 4, 1, ranks.Cluster(cores=1))
