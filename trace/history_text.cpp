@@ -132,8 +132,12 @@ class Teller {
       ++verdicts[call(each.call).verdict_text()];
     }
     if (history_.subject.size() == 4) {
-      say("Passes wanted to get rid of it {} time{}.", history_.visits.size(),
-          history_.visits.size() == 1 ? "" : "s");
+      const auto visits = history_.visits.size();
+      if (visits == 0) {
+        say("No pass wanted to get rid of it.");
+      } else {
+        say("Passes wanted to get rid of it {} time{}.", visits, visits == 1 ? "" : "s");
+      }
     }
     if (lasting + trials == 0) {
       say("No call aimed at it or a part of it{}.",
@@ -152,9 +156,11 @@ class Teller {
 
   /// What came nearest, and why that was not enough.
   void answer() {
-    if (history_.removed || history_.subject.size() < 4) return;
+    if (history_.removed || history_.subject.size() < 2) return;
+    const bool is_tet = history_.subject.size() == 4;
     const PartHistory* nearest = nullptr;
     for (const PartHistory& part : history_.parts) {
+      if (!is_tet && part.part != history_.subject) continue;
       if (part.nearest == kNoCall || call(part.nearest).accepted()) continue;
       if (nearest == nullptr || missing(part) < missing(*nearest)) nearest = &part;
     }
@@ -166,6 +172,11 @@ class Teller {
       say("Nothing that could be built was found; the last answer, of {}: {}.",
           call_in_words(nearest->nearest), file_.reason(call(nearest->nearest)));
     }
+    if (is_tet) surface();
+  }
+
+  /// How much of the tet stays.
+  void surface() {
     const auto on_surface =
         std::count_if(history_.parts.begin(), history_.parts.end(),
                       [](const PartHistory& p) { return p.part.size() == 1 && p.on_surface; });

@@ -175,8 +175,51 @@ TEST_CASE("the worst tet, an edge and a vertex are asked for by numbers of the t
   CHECK(of_edge.subject == HistorySubject{worst[0], worst[2]});
   CHECK(!of_edge.removed);
   for (const HistoryCall& each : of_edge.calls) CHECK(file.calls()[each.call].target_size <= 2);
+  CHECK(history_paragraph(file, of_edge).find("4 vertices") == std::string::npos);
   const auto vertex = fmt::format("vertex:{}", worst[1].index());
   CHECK(history_of(file, replay, find_subject(file, replay, vertex)).parts.size() == 1);
+}
+
+TEST_CASE("of an edge or a face, too, the call that came nearest is named; of a vertex none is") {
+  const Recorded run;
+  const TraceFile file(run.path);
+  Replay replay(file);
+  unsigned named = 0;
+  const HistorySubject tet = find_subject(file, replay, "tet:worst");
+  for (const PartHistory& part : history_of(file, replay, tet).parts) {
+    const HistorySubject subject = find_subject(file, replay, as_question(part.part));
+    const History history = history_of(file, replay, subject);
+    const std::string text = history_paragraph(file, history);
+    CAPTURE(text);
+    const bool tells = text.find("Nearest came") != std::string::npos ||
+                       text.find("the last answer") != std::string::npos;
+    if (part.part.size() == 1) CHECK_FALSE(tells);
+    const std::uint32_t nearest = history.parts.front().nearest;  // of the subject itself
+    if (subject.size() != 2 || nearest == kNoCall || file.calls()[nearest].accepted()) continue;
+    ++named;
+    CHECK(text.find(fmt::format("call {} ", nearest)) != std::string::npos);
+  }
+  CHECK(named > 0);
+}
+
+TEST_CASE("a tet that no pass turned to is told so") {
+  const Recorded run;
+  const TraceFile file(run.path);
+  Replay replay(file);
+  replay.seek(file.event_count());
+  std::uint32_t best = 0;
+  for (std::uint32_t i = 0; i < replay.mesh().tet_slots(); ++i) {
+    if (replay.mesh().is_deleted(TetHandle(i))) continue;
+    if (replay.mesh().is_deleted(TetHandle(best)) ||
+        replay.mesh().quality(TetHandle(i)) > replay.mesh().quality(TetHandle(best))) {
+      best = i;
+    }
+  }
+  const HistorySubject subject = find_subject(file, replay, fmt::format("tet:{}", best));
+  const History history = history_of(file, replay, subject);
+  REQUIRE(history.visits.empty());
+  CHECK(history_paragraph(file, history).find("No pass wanted to get rid of it.") !=
+        std::string::npos);
 }
 
 TEST_CASE("a refused call whose worst tet was better is told with what else counted") {
