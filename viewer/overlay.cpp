@@ -2,6 +2,7 @@
 #include "viewer/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -51,7 +52,8 @@ class OverlayDrawer {
     drawing_.height = document.window.height;
   }
 
-  /// Numbers that would cover others are left out; those with a role come first.
+  /// Numbers that would cover others are left out; those with a role come first, and at other sides
+  /// of their vertices if need be.
   void names() {
     for (const NamedVertex& name : document_.names()) name_at(name);
   }
@@ -188,7 +190,29 @@ class OverlayDrawer {
     drawing_.add(std::move(stroke));
   }
 
-  /// The role, if there is one, then the number, above and to the right of a dot at the vertex.
+  /// Where a text of that width does not cover another: at the upper right of a place, with `sides`
+  /// also at the lower right, the upper left and the lower left.
+  std::optional<figure::Box> free_box(const Place& at, double width, bool sides) const {
+    const double text = look_.text_size;
+    const double left = at.x - 0.35 * text - width;
+    const double right = at.x + 0.35 * text;
+    const double above = at.y - 0.6 * text;
+    const double below = at.y + 0.6 * text;
+    const std::array<Place, 4> corners = {
+        {{right, above}, {right, below}, {left, above}, {left, below}}};
+    for (const Place& corner : corners) {
+      const figure::Box box = {corner.x, corner.x + width, corner.y - 0.6 * text,
+                               corner.y + 0.6 * text};
+      const bool is_taken =
+          std::any_of(taken_.begin(), taken_.end(),
+                      [&](const figure::Box& other) { return box.overlaps(other); });
+      if (!is_taken) return box;
+      if (!sides) break;
+    }
+    return std::nullopt;
+  }
+
+  /// The role, if there is one, then the number, beside a dot at the vertex.
   void name_at(const NamedVertex& name) {
     const auto at = pixel_of(name.vertex);
     if (!at || at->x < left_ || at->x > right_ || at->y < top_ || at->y > bottom_) return;
@@ -196,16 +220,13 @@ class OverlayDrawer {
     const std::string number = fmt::format("{}", name.vertex.index());
     const std::string role = name.role.empty() ? "" : name.role + " ";
     const double role_width = look_.text_width(role, text);
-    const double left = at->x + 0.35 * text;
-    const double middle = at->y - 0.6 * text;
-    const figure::Box box = {left, left + role_width + look_.text_width(number, text),
-                             middle - 0.6 * text, middle + 0.6 * text};
-    for (const figure::Box& other : taken_) {
-      if (box.overlaps(other)) return;
-    }
-    taken_.push_back(box);
+    const auto box = free_box(*at, role_width + look_.text_width(number, text), !role.empty());
+    if (!box) return;
+    taken_.push_back(*box);
+    const double left = box->left;
+    const double middle = (box->top + box->bottom) / 2;
     drawing_.add(figure::Dot{*at, 0.16 * text, ink_});
-    drawing_.rectangle({box.left - 2, box.top}, box.right - box.left + 4, box.bottom - box.top,
+    drawing_.rectangle({left - 2, box->top}, box->right - left + 4, box->bottom - box->top,
                        figure::faint(ground_, 0.75));
     const bool is_end = name.role == "a" || name.role == "b" || name.role == "v";
     Text role_text = figure::centred({left, middle}, role, text);

@@ -116,6 +116,23 @@ TEST_CASE("numbers stand at the vertices that are seen, and at no hidden one") {
   }
 }
 
+TEST_CASE("names of a shell find another side of their vertices where one covers the next") {
+  TestSession s(test::shell_mesh({.degree = 5}));
+  s.run("select_edge", {0, 1});
+  s.document.view.camera.orthographic = true;
+  s.run("from_top");  // along the edge: a and b are at the same pixel
+  const figure::Drawing drawing = draw_overlay(s.document, {.text_size = 8});
+  const auto words = words_of(drawing);
+  for (const char* role : {"a ", "b ", "p1 ", "p2 ", "p3 ", "p4 ", "p5 "}) CHECK(has(words, role));
+  std::vector<figure::Box> boxes;
+  for (const figure::Shape& shape : drawing.shapes) {
+    if (const auto* text = std::get_if<figure::Text>(&shape)) boxes.push_back(box_of(*text));
+  }
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes[i].overlaps(boxes[j]));
+  }
+}
+
 TEST_CASE("the shell of a selected edge has its names, and what is pointed at is drawn over it") {
   TestSession s(test::shell_mesh({.degree = 5}));
   s.run("select_edge", {0, 1});
