@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kGestures
      {"right click",
       "go to what the mouse is on, in the picture or a panel, or ask for its history"},
      {"drag over the histogram", "filter; click there: filter off"},
-     {"drop a file", "open it; a .json file is a view"}}};
+     {"drop a file", "open it; a .json file is a view or a lesson"}}};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "kernel/error.h"
 
@@ -78,6 +79,8 @@ void Controller::drop(const std::filesystem::path& file) {
     if (!in || !(text << in.rdbuf())) {
       throw Error(fmt::format("{}: cannot read the view", file.string()));
     }
+    const auto json = nlohmann::json::parse(text.str(), nullptr, false);
+    if (json.is_object() && json.contains("steps")) return session_.document.open(file);
     apply_json_text(session_.document.view, text.str());
   });
 }

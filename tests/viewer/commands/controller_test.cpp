@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/viewer/session.h"
@@ -77,6 +78,29 @@ TEST_CASE("a mesh or a view that is dropped is taken") {
   CHECK(s.document.view.scene.peel == 4);
   controller.drop(folder / "missing.json");
   CHECK(s.document.message.is_error);
+}
+
+TEST_CASE("a lesson is opened by its JSON file, too, typed or dropped") {
+  const std::filesystem::path lesson = TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.json";
+  TestSession s(test::one_tet());
+  Controller(s.session).drop(lesson);
+  CHECK_FALSE(s.document.message.is_error);
+  REQUIRE(s.document.debugger() != nullptr);
+  CHECK(s.document.debugger()->lesson());
+  CHECK(s.document.teaching);
+  TestSession typed(test::one_tet());
+  typed.run("open", {lesson.string()});
+  CHECK(typed.document.debugger() != nullptr);
+
+  const test::TempFolder folder;
+  std::ofstream(folder / "view.json") << R"({"peel": 4})";
+  CHECK_THROWS_WITH_AS(typed.run("open", {(folder / "view.json").string()}),
+                       doctest::Contains("view.json: is no lesson"), Error);
+  std::ofstream(folder / "a.json")
+      << R"({"title": "", "mesh": "b.mesh", "trace": "b.trace", "steps": [{"at": 0, "text": ""}]})";
+  CHECK_THROWS_WITH_AS(typed.run("open", {(folder / "a.json").string()}),
+                       doctest::Contains("expected 'a.trace', not 'b.trace'"), Error);
+  CHECK(typed.document.debugger() != nullptr);
 }
 
 TEST_CASE("ten thousand random events leave a document that can be drawn") {
