@@ -167,8 +167,8 @@ void list_panels(Session& session, Side side) {
 }
 
 /// Takes the lower part of an area for the algorithm. It stays where it is, whatever is above.
-Area dock_algorithm(Area& area, float share) {
-  const float wanted = algorithm_height();
+Area dock_algorithm(const Session& session, Area& area, float share) {
+  const float wanted = algorithm_height(session);
   const float height = std::min(wanted, share * area.height);
   area.height -= height;
   return {area.x, area.y + area.height, area.width, height};
@@ -177,7 +177,7 @@ Area dock_algorithm(Area& area, float share) {
 void teach(Session& session, const Layout& layout) {
   constexpr float kMostOfColumn = 0.56F;
   Area above = layout.right;
-  const Area code = dock_algorithm(above, kMostOfColumn);
+  const Area code = dock_algorithm(session, above, kMostOfColumn);
   if (begin("##teaching", above)) {
     draw_stack(session);
     draw_ring(session);
@@ -361,7 +361,7 @@ void Interface::panels_around(Session& session, const Layout& layout) {
   Area right = layout.right;
   const bool has_trace = session.document.debugger() != nullptr;
   if (has_trace && !right.is_empty()) {
-    if (begin("##algorithm", dock_algorithm(right, kMostOfColumn))) {
+    if (begin("##algorithm", dock_algorithm(session, right, kMostOfColumn))) {
       draw_algorithm_panel(session);
       ImGui::End();
     }

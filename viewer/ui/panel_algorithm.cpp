@@ -76,8 +76,15 @@ bool is_new_place(std::uint64_t position) {
 
 }  // namespace
 
-float algorithm_height() {
+float algorithm_height(const Session& session) {
   constexpr float kMostLines = 16;
+  const Debugger& debugger = *session.document.debugger();
+  const auto& stack = debugger.stack();
+  const bool has_code =
+      !stack.empty() || pass_place(debugger.file(), stack, debugger.position()).code != nullptr;
+  if (!has_code) {
+    return ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
+  }
   return kMostLines * (ImGui::GetTextLineHeight() + kGap) +
          (kCallerLines + 1) * ImGui::GetTextLineHeightWithSpacing() +
          2 * ImGui::GetStyle().WindowPadding.y;

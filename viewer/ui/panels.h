@@ -38,7 +38,7 @@ void draw_step_panel(Session& session);
 /// The algorithm that the call at hand follows, with its line in sight. Fills the current window.
 void draw_algorithm_panel(Session& session);
 /// What it would like to have, in pixels.
-float algorithm_height();
+float algorithm_height(const Session& session);
 void draw_shell_panel(Session& session);
 void draw_lesson_panel(Session& session);
 void draw_history_panel(Session& session);
