@@ -33,8 +33,9 @@ class Excursion {
 
 /// Where the call and those in it edit, and what it does itself.
 struct Edits {
-  std::vector<std::uint64_t> all;  // positions after them, undoes included
-  std::vector<std::uint64_t> own;  // without undoes
+  std::vector<std::uint64_t> all;      // positions after them, undoes included
+  std::vector<std::uint64_t> own;      // without undoes
+  std::vector<std::uint64_t> lasting;  // that are not undone in the call
   bool last_is_undo = false;
 };
 
@@ -50,6 +51,11 @@ Edits edits_of(const TraceFile& file, const Call& call) {
     if (!changes_mesh(event.kind)) continue;
     edits.all.push_back(cursor.position());
     edits.last_is_undo = event.kind == EventKind::undo;
+    if (!edits.last_is_undo) {
+      edits.lasting.push_back(cursor.position());
+    } else if (!edits.lasting.empty()) {
+      edits.lasting.pop_back();
+    }
     if (depth == 1 && !edits.last_is_undo) edits.own.push_back(cursor.position());
   }
   return edits;
@@ -79,7 +85,11 @@ class Study {
     draw_shell();
     take_before(edits);
     if (!edits.all.empty()) take_after(edits);
-    if (!edits.own.empty()) find_covering(edits.own.front());
+    if (!edits.own.empty()) {
+      find_covering(edits.own.front());
+    } else if (call_.accepted() && !edits.lasting.empty()) {
+      follow_recursion(edits.lasting);
+    }
     return std::move(study_);
   }
 
@@ -187,6 +197,23 @@ class Study {
     study_.first_edit = position;
   }
 
+  /// A recursion has others change its shell. What its shell transformation does at first can be
+  /// drawn into its polygon, nothing that comes later.
+  void follow_recursion(const std::vector<std::uint64_t>& edits) {
+    study_.outdated = edits.front();
+    if (call_.algorithm != Algorithm::recursion) return;
+    const std::uint64_t first = edits.front();
+    for (std::uint32_t c = study_.call + 1; c < call_.subtree_end;
+         c = file_.calls()[c].subtree_end) {
+      const Call& step = file_.calls()[c];
+      if (first <= step.events.begin || first > step.events.end) continue;
+      if (step.algorithm != Algorithm::shell_transformation || !step.accepted()) return;
+      find_covering(first);
+      if (!study_.covering) return;
+      study_.outdated = edits.size() > 1 ? edits[1] : std::numeric_limits<std::uint64_t>::max();
+    }
+  }
+
   /// All faces between the two vertices that the call took together.
   void grow_sandwich(const Cavity& cavity) {
     std::vector<std::array<VertexHandle, 3>> triangles;
@@ -233,21 +260,31 @@ std::string explain_search(const ShellPicture& s) {
 
 PolygonStage stage_of(const CallStudy& study, std::uint64_t position, bool refused) {
   const bool has_full = !study.picture->full.triangles.empty();
-  if (study.covering && position >= study.first_edit) return PolygonStage::made;
+  if (position >= study.outdated) return PolygonStage::earlier;
+  if (shows_covering(study, position)) return PolygonStage::made;
   return refused && !study.covering && has_full ? PolygonStage::best_triangulation
                                                 : PolygonStage::before;
 }
 
+bool shows_covering(const CallStudy& study, std::uint64_t position) {
+  return study.covering && position >= study.first_edit && position < study.outdated;
+}
+
 std::string caption_of(const CallStudy& study, PolygonStage stage) {
   const ShellPicture& shell = *study.picture;
+  const bool is_last = study.outdated == std::numeric_limits<std::uint64_t>::max();
+  const char* verb = study.undone ? "tried" : is_last ? "made" : "made at first";
   switch (stage) {
     case PolygonStage::made:
       return fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}",
-                         study.undone ? "tried" : "made", shell.ring.size(),
-                         study.covering->core.size(), shell.floor, study.covering->worst);
+                         verb, shell.ring.size(), study.covering->core.size(), shell.floor,
+                         study.covering->worst);
     case PolygonStage::best_triangulation:
       return fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
                          shell.floor);
+    case PolygonStage::earlier:
+      return fmt::format("before the call: degree {}, worst {:.4f}; the shell is another now",
+                         shell.ring.size(), shell.floor);
     case PolygonStage::before:
       break;
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,9 +31,12 @@ struct CallStudy {
   bool undone = false;  ///< `after` was tried, and was not good enough
   /// Of an edge that has a closed shell, or of faces between two vertices.
   std::optional<ShellPicture> picture;
-  /// The covering that the call itself made or tried, and the position right after that.
+  /// The covering that the call itself made or tried, and the position right after that. Of a
+  /// recursion that of its shell transformation, if nothing was changed before.
   std::optional<FlatCovering> covering;
   std::uint64_t first_edit = 0;
+  /// Right after something in the call changed the shell, and `covering` does not show that.
+  std::uint64_t outdated = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// Leaves the replay where it was. Precondition: there is such a call.
@@ -40,12 +45,15 @@ CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call);
 
 /// What the drawing of a polygon shows.
 enum class PolygonStage {
-  before,             ///< the old tets, and the chords that the search may use
-  made,               ///< the covering that the call made or tried
-  best_triangulation  ///< after a refusal without a candidate: dashed, with the chords
+  before,              ///< the old tets, and the chords that the search may use
+  made,                ///< the covering that the call made or tried
+  best_triangulation,  ///< after a refusal without a candidate: dashed, with the chords
+  earlier              ///< the old tets, though the shell is another by now
 };
 /// Precondition of both: the study has a picture. `refused`: the call has ended, and not well.
 PolygonStage stage_of(const CallStudy& study, std::uint64_t position, bool refused);
+/// The covering is what is there. Needs no picture.
+bool shows_covering(const CallStudy& study, std::uint64_t position);
 std::string caption_of(const CallStudy& study, PolygonStage stage);
 
 /// Why the call ended as it did, in sentences with the numbers of its shell.

@@ -384,16 +384,16 @@ class Recording {
     Json ring = Json::object();
     if (study.covering) {
       ring["covering"] = to_json(*study.covering);
-      ring["first_edit"] = study.first_edit;
     }
     Json stages = Json::array();
-    constexpr std::array<std::string_view, 3> kStages = {"before", "made", "full"};
+    constexpr std::array<std::string_view, 4> kStages = {"before", "made", "full", "earlier"};
     const auto add = [&](std::uint64_t from, bool refused) {
       const PolygonStage stage = stage_of(study, from, refused);
       stages.push_back({from, kStages[static_cast<std::size_t>(stage)], caption_of(study, stage)});
     };
     add(call.events.begin + 1, false);
     if (study.covering) add(study.first_edit, false);
+    if (study.outdated < call.events.end) add(study.outdated, false);
     add(call.events.end, !call.accepted());
     ring["stages"] = stages;
     return ring;

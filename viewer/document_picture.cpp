@@ -202,8 +202,7 @@ void Document::mark_call() {
   if (near_.empty() && caller_edge_) {  // the target is gone, and nothing was done
     near_ = shell_of_caller();
   }
-  const bool is_made = study->covering && debugger_->position() >= study->first_edit;
-  if (!is_made) return;
+  if (!shows_covering(*study, debugger_->position())) return;
   const char* tense = study->undone ? "tried" : "made";
   mark(highlight_covering(*study, ball_.centre), kChordColour,
        fmt::format("triangles of the pockets, {}", tense));

@@ -251,6 +251,9 @@ LinkedDrawing draw_polygon(const CallStudy& study, PolygonStage stage, const Rin
       drawer.covering(shell.before, false);
       drawer.chords();
       break;
+    case PolygonStage::earlier:
+      drawer.covering(shell.before, false);
+      break;
   }
   return drawer.finish();
 }

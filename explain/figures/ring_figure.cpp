@@ -58,9 +58,11 @@ Drawing draw_ring(const TraceFile& file, const CallStudy& study) {
   }
   const ShellPicture& shell = *study.picture;
   const bool refused = !file.calls()[study.call].accepted();
-  const PolygonStage last = stage_of(study, file.event_count(), refused);
+  const PolygonStage last = study.covering ? PolygonStage::made
+                                           : stage_of(study, file.event_count(), refused);
   std::vector<PolygonStage> stages = {PolygonStage::before};
-  if (last != PolygonStage::before) stages.push_back(last);
+  const bool has_another = last != PolygonStage::before && last != PolygonStage::earlier;
+  if (has_another) stages.push_back(last);
   // Wide enough that the numbers of the slices have room.
   const double side = std::max(190.0, 13.5 * static_cast<double>(shell.ring.size()));
   constexpr double kBetween = 20;

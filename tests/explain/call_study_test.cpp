@@ -91,6 +91,31 @@ TEST_CASE("the covering of a shell transformation is what the mesh has afterward
   CHECK(partial > 0);
 }
 
+TEST_CASE("a recursion shows what its shell transformation made, until the shell is another") {
+  const TraceFile file(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace");
+  Replay replay(file);
+  const Call& inner = file.calls()[2];  // of edge 1 5, with nothing but its shell transformation
+  REQUIRE(inner.algorithm == Algorithm::recursion);
+  const CallStudy made = study_call(file, replay, 2);
+  REQUIRE(made.covering);
+  CHECK(made.first_edit == study_call(file, replay, 3).first_edit);
+  CHECK(stage_of(made, made.first_edit - 1, false) == PolygonStage::before);
+  REQUIRE(stage_of(made, inner.events.end, false) == PolygonStage::made);
+  const std::string caption = caption_of(made, PolygonStage::made);
+  CHECK(caption.substr(0, caption.find(',')) == "made: degree 3 -> 0");
+  CHECK_FALSE(made.covering->triangles.empty());
+
+  const CallStudy outer = study_call(file, replay, 0);  // takes that one in its midst
+  REQUIRE(outer.covering);
+  CHECK(outer.outdated == made.first_edit);
+  CHECK(shows_covering(outer, outer.outdated - 1));
+  CHECK(caption_of(outer, PolygonStage::made).rfind("made at first: degree 5 -> 4", 0) == 0);
+  const PolygonStage last = stage_of(outer, file.calls()[0].events.end, false);
+  REQUIRE(last == PolygonStage::earlier);
+  CHECK_FALSE(shows_covering(outer, outer.outdated));
+  CHECK(caption_of(outer, last).rfind("before the call: degree 5", 0) == 0);
+}
+
 TEST_CASE("what a step of a recursion made respects the locks and uses pockets of its picture") {
   Studied s;
   std::size_t locked = 0;

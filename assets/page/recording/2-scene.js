@@ -54,7 +54,7 @@ function shellOfCaller(call) {
 function ringLines(shell, position, line) {
   const m = shell.ring.length;
   shell.ring.forEach((vertex, i) => line(vertex, shell.ring[(i + 1) % m], "skirt", 2.5));
-  if (!shell.covering || position < shell.first_edit) return;
+  if (stageOfRing({shell}, position).name !== "made") return;
   for (const [i, k, j] of shell.covering.triangles) {
     for (const [from, to] of [[i, k], [k, j], [j, i]]) line(shell.ring[from], shell.ring[to], "chord", 3);
   }

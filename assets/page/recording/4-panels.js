@@ -116,7 +116,7 @@ function showRing(call, position, cell) {
     drawing.covering(shell.full, true);
   } else {
     drawing.covering(shell.before, false);
-    drawing.chords();
+    if (name === "before") drawing.chords();
   }
   if (cell) drawing.cell(cell);
   drawing.finish();
