@@ -29,7 +29,7 @@ void convert_pieces(const std::filesystem::path& input, const std::filesystem::p
   pieces::DividedMesh slices(shelf, ranks, mesh.vertices());
   const std::uint64_t vertices = mesh.vertices();
   const std::uint64_t tets = mesh.tets();
-  const bool holds_more = mesh.holds_more();
+  const bool holds_more = mesh.holds_more(output);
   mesh.add_to(slices, ranks.count());
   pieces::write_pieces(output, slices,
                        {.vertices = vertices,

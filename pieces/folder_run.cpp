@@ -100,7 +100,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       std::error_code several_files;
       saved.input_size = std::filesystem::file_size(files.input, several_files);
       saved.vertices = mesh_file.vertices();
-      saved.holds_more = mesh_file.holds_more();
+      saved.holds_more = mesh_file.holds_more(files.output);
       mesh_file.check_conserve(options.conserve);
       if (files.tell_lost) files.tell_lost(mesh_file.lost_in(files.output));
       FolderShelf slices(run_folder.make_step(0));

@@ -35,26 +35,6 @@ bool read_value(std::ifstream& in, Value& value) {
   return static_cast<bool>(in);
 }
 
-/// Rows of a section, some at a time.
-class Rows {
- public:
-  explicit Rows(const std::filesystem::path& file) : in_(file, std::ios::binary), file_(file) {}
-
-  const char* read(std::uint64_t begin, std::size_t size) {
-    buffer_.resize(size);
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(begin));
-    in_.read(buffer_.data(), static_cast<std::streamsize>(size));
-    if (!in_) throw Error(fmt::format("{}: the file ends too early", file_.string()));
-    return buffer_.data();
-  }
-
- private:
-  std::ifstream in_;
-  std::filesystem::path file_;
-  std::vector<char> buffer_;
-};
-
 template <class Integer>
 Integer load(const char* at) {
   Integer value;
@@ -62,49 +42,15 @@ Integer load(const char* at) {
   return value;
 }
 
-/// Numbers of vertices in the file, for those that a slice has.
-template <class Element>
-struct FileElement {
-  Element element;
-  std::array<VertexId, std::tuple_size_v<decltype(Element::vertices)>> vertices{};
-};
-
-template <std::size_t N>
-bool has_repeated(std::array<VertexId, N> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  return std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end();
-}
-
-template <class Element>
-void note_ids(const std::vector<FileElement<Element>>& elements, std::vector<VertexId>& ids) {
-  for (const auto& each : elements)
-    ids.insert(ids.end(), each.vertices.begin(), each.vertices.end());
-}
-
-template <class Element>
-void take(const std::vector<FileElement<Element>>& from, const std::vector<VertexId>& ids,
-          std::vector<Element>& to) {
-  to.reserve(from.size());
-  for (const auto& each : from) {
-    Element element = each.element;
-    for (std::size_t i = 0; i < each.vertices.size(); ++i) {
-      const auto found = std::lower_bound(ids.begin(), ids.end(), each.vertices[i]);
-      element.vertices[i] = static_cast<std::uint32_t>(found - ids.begin());
-    }
-    to.push_back(element);
-  }
-}
-
 }  // namespace
 
-std::optional<MeditSlices> MeditSlices::open(const std::filesystem::path& file) {
-  if (file.extension() != ".meshb") return std::nullopt;
-  MeditSlices slices;
-  slices.file_ = file;
-  if (!slices.list_sections()) return std::nullopt;
-  slices.counts_ = {slices.vertices_.rows, slices.tets_.rows, slices.triangles_.rows,
-                    slices.edges_.rows, slices.required_.rows};
-  if (slices.counts_.tets == 0) return std::nullopt;
+std::unique_ptr<FileSlices> MeditSlices::open(const std::filesystem::path& file) {
+  auto slices = std::make_unique<MeditSlices>();
+  slices->file_ = file;
+  if (!slices->list_sections()) return nullptr;
+  slices->counts_ = {slices->vertices_.rows, slices->tets_.rows, slices->triangles_.rows,
+                     slices->edges_.rows, slices->required_.rows};
+  if (slices->counts_.tets == 0) return nullptr;
   return slices;
 }
 
@@ -156,37 +102,24 @@ bool MeditSlices::list_sections() {
   return true;
 }
 
-void MeditSlices::add_to(DividedMesh& mesh, std::size_t tets_of_slice) const {
-  const std::uint64_t ranks = mesh.ranks().count();
-  const std::uint64_t rank = mesh.ranks().number();
-  const std::uint64_t slices = std::max(1 + counts_.tets / tets_of_slice, ranks);
-  for (std::uint64_t i = slices * rank / ranks; i < slices * (rank + 1) / ranks; ++i) {
-    mesh.add_slice(i, version_ == 4 ? read_slice<std::int64_t>(i, slices)
-                                    : read_slice<std::int32_t>(i, slices));
-  }
-}
-
 namespace {
 
-/// Reads one of several slices of a file.
+/// Reads rows of a file.
 template <class Integer>
-class SliceReader {
+class RowReader {
  public:
-  SliceReader(const std::filesystem::path& file, std::uint64_t vertices, std::uint64_t slice,
-              std::uint64_t slices)
-      : rows_(file), file_(file), vertices_(vertices), slice_(slice), slices_(slices) {}
+  RowReader(const std::filesystem::path& file, std::uint64_t vertices)
+      : rows_(file), file_(file), vertices_(vertices) {}
 
-  /// Of the file's elements, those of the slice. Returns the number of the first.
+  /// Of the elements of a section, those of the range.
   template <class Element>
-  std::uint64_t read_elements(std::uint64_t section, std::uint64_t count,
-                              std::vector<FileElement<Element>>& elements) {
-    const std::uint64_t begin = count * slice_ / slices_;
-    const std::uint64_t end = count * (slice_ + 1) / slices_;
-    if (begin == end) return begin;
+  void read_elements(std::uint64_t section, const FileRange& range,
+                     std::vector<FileElement<Element>>& elements) {
+    if (range.size() == 0) return;
     constexpr std::size_t kVertices = std::tuple_size_v<decltype(Element::vertices)>;
     constexpr std::size_t kRow = (kVertices + 1) * sizeof(Integer);
-    const char* at = rows_.read(section + begin * kRow, (end - begin) * kRow);
-    elements.resize(end - begin);
+    const char* at = rows_.read(section + range.begin * kRow, range.size() * kRow);
+    elements.resize(range.size());
     for (auto& element : elements) {
       for (VertexId& v : element.vertices) v = number(std::exchange(at, at + sizeof(Integer)));
       if (has_repeated(element.vertices)) {
@@ -195,17 +128,14 @@ class SliceReader {
       element.element.label = static_cast<Label>(load<Integer>(at));
       at += sizeof(Integer);
     }
-    return begin;
   }
-
-  std::uint64_t own_begin() const { return vertices_ * slice_ / slices_; }
-  std::uint64_t own_end() const { return vertices_ * (slice_ + 1) / slices_; }
 
   /// Points and labels of all ids of the slice.
   void read_vertices(std::uint64_t section, Piece& slice) {
     constexpr std::size_t kAtOnce = 4096;  // rows between the first and the last that are read
     constexpr std::size_t kRow = 24 + sizeof(Integer);
     std::vector<Label> labels;
+    slice.marks.assign(slice.ids.size(), 0);
     for (std::size_t k = 0; k < slice.ids.size();) {
       std::size_t end = k + 1;
       while (end < slice.ids.size() && slice.ids[end] < slice.ids[k] + kAtOnce) ++end;
@@ -220,8 +150,6 @@ class SliceReader {
         }
         slice.points.push_back(p);
         labels.push_back(static_cast<Label>(load<Integer>(here + 24)));
-        const bool is_own = slice.ids[n] >= own_begin() && slice.ids[n] < own_end();
-        slice.marks.push_back(is_own ? kOwn : 0);
       }
       k = end;
     }
@@ -252,40 +180,35 @@ class SliceReader {
     return static_cast<VertexId>(value - 1);
   }
 
-  Rows rows_;
+  FileBytes rows_;
   const std::filesystem::path& file_;
-  std::uint64_t vertices_, slice_, slices_;
+  std::uint64_t vertices_;
 };
 
 }  // namespace
 
 template <class Integer>
-Piece MeditSlices::read_slice(std::uint64_t i, std::uint64_t slices) const {
-  SliceReader<Integer> reader(file_, vertices_.rows, i, slices);
-  std::vector<FileElement<PieceTet>> tets;
-  std::vector<FileElement<MeshData::Triangle>> named_triangles;
-  std::vector<FileElement<MeshData::Edge>> named_edges;
-  std::uint64_t first = reader.read_elements(tets_.begin, tets_.rows, tets);
-  for (auto& tet : tets) {
-    tet.element.origin =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(first++, PieceTet::kNone));
-  }
-  reader.read_elements(triangles_.begin, triangles_.rows, named_triangles);
-  reader.read_elements(edges_.begin, edges_.rows, named_edges);
+void MeditSlices::read_elements_of(const Share& of, FileElements& elements) const {
+  RowReader<Integer> reader(file_, vertices_.rows);
+  reader.read_elements(tets_.begin, of.tets, elements.tets);
+  reader.read_elements(triangles_.begin, of.triangles, elements.triangles);
+  reader.read_elements(edges_.begin, of.edges, elements.edges);
+}
 
-  Piece slice;
-  note_ids(tets, slice.ids);
-  note_ids(named_triangles, slice.ids);
-  note_ids(named_edges, slice.ids);
-  for (VertexId v = reader.own_begin(); v < reader.own_end(); ++v) slice.ids.push_back(v);
-  std::sort(slice.ids.begin(), slice.ids.end());
-  slice.ids.erase(std::unique(slice.ids.begin(), slice.ids.end()), slice.ids.end());
-  take(tets, slice.ids, slice.tets);
-  take(named_triangles, slice.ids, slice.triangles);
-  take(named_edges, slice.ids, slice.edges);
+void MeditSlices::read_elements(const Share& of, FileElements& elements) const {
+  version_ == 4 ? read_elements_of<std::int64_t>(of, elements)
+                : read_elements_of<std::int32_t>(of, elements);
+}
+
+template <class Integer>
+void MeditSlices::read_vertices_of(Piece& slice) const {
+  RowReader<Integer> reader(file_, vertices_.rows);
   reader.read_vertices(vertices_.begin, slice);
   reader.read_required(required_.begin, required_.rows, slice);
-  return slice;
+}
+
+void MeditSlices::read_vertices(Piece& slice) const {
+  version_ == 4 ? read_vertices_of<std::int64_t>(slice) : read_vertices_of<std::int32_t>(slice);
 }
 
 namespace {

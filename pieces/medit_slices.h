@@ -3,32 +3,22 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 
-#include "pieces/divided_mesh.h"
+#include "pieces/file_slices.h"
 
 namespace tetmend::pieces {
 
-/// What a file has.
-struct FileCounts {
-  std::uint64_t vertices = 0;
-  std::uint64_t tets = 0;
-  std::uint64_t triangles = 0;
-  std::uint64_t edges = 0;
-  std::uint64_t required_vertices = 0;
-};
-
 /// A file of version 2 to 4, in this machine's byte order, with vertices, edges, triangles, tets and
 /// required vertices alone. Others are read as a whole, see read_mesh().
-class MeditSlices {
+class MeditSlices final : public FileSlices {
  public:
-  /// Nothing for any other file, also one that cannot be read: read_mesh() tells why.
-  static std::optional<MeditSlices> open(const std::filesystem::path& file);
+  /// Null for any other file, also one that cannot be read: read_mesh() tells why.
+  static std::unique_ptr<FileSlices> open(const std::filesystem::path& file);
 
-  const FileCounts& counts() const { return counts_; }
-  /// All ranks: each adds its share, about so many tets at a time. Without end_slices().
-  /// @throws Error when the file ends too early, or has a number out of range.
-  void add_to(DividedMesh& mesh, std::size_t tets_of_slice) const;
+ protected:
+  void read_elements(const Share& of, FileElements& elements) const override;
+  void read_vertices(Piece& slice) const override;
 
  private:
   struct Section {
@@ -39,11 +29,12 @@ class MeditSlices {
   bool list_sections();
   std::uint64_t integer_size() const { return version_ == 4 ? 8 : 4; }
   template <class Integer>
-  Piece read_slice(std::uint64_t i, std::uint64_t slices) const;
+  void read_elements_of(const Share& of, FileElements& elements) const;
+  template <class Integer>
+  void read_vertices_of(Piece& slice) const;
 
   std::filesystem::path file_;
   int version_ = 0;
-  FileCounts counts_;
   Section vertices_, edges_, triangles_, tets_, required_;
 };
 

@@ -12,9 +12,12 @@
 
 #include "face/carry.h"
 #include "face/regions.h"
+#include "kernel/formats/medit_marks.h"
+#include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "pieces/bytes.h"
+#include "pieces/medit_slices.h"
 #include "pieces/partitioned_files.h"
 #include "pieces/slices.h"
 
@@ -41,7 +44,7 @@ std::vector<std::string> gather_notes(const std::vector<std::string>& mine, Rank
 
 InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const ArrayFiles* files,
                      const std::string& label_array)
-    : files_(files), slices_(MeditSlices::open(file)) {
+    : files_(files) {
   if (files != nullptr && files->is_one(file)) {
     arrays_ = files->read(file, label_array);
     const ArrayCounts counts = count_all(*arrays_, ranks);
@@ -51,10 +54,13 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
     data_.notes = gather_notes(arrays_->notes, ranks);
     return;
   }
+  slices_ = open_slices(file, label_array, ranks);
   if (slices_) {
     tets_ = slices_->counts().tets;
     vertices_ = slices_->counts().vertices;
     required_vertices_ = slices_->counts().required_vertices;
+    data_ = slices_->digest();
+    holds_more_ = face::holds_more(data_);
     return;
   }
   is_elsewhere_ = !ranks.is_first();
@@ -95,6 +101,21 @@ std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output)
     lost.emplace_back("required vertices are not written");
   }
   return lost;
+}
+
+bool InputMesh::holds_more(const std::filesystem::path& output) const {
+  if (!slices_ || output.extension() != ".meshb") return holds_more_;
+  // Of all that slices may hold besides, MEDIT's format has a place for marks and vectors alone.
+  const auto is_medits = [](std::string_view name) {
+    return formats::is_medit_vectors(name) ||
+           std::any_of(formats::kMeditMarks.begin(), formats::kMeditMarks.end(),
+                       [&](const formats::MeditMark& mark) { return mark.section == name; });
+  };
+  const auto any = [&](const auto& named) {
+    return std::any_of(named.begin(), named.end(),
+                       [&](const auto& each) { return is_medits(each.name); });
+  };
+  return any(data_.groups) || any(data_.point_data);
 }
 
 void InputMesh::check_conserve(const std::vector<std::string>& names) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,15 +12,14 @@
 #include <tetmend/improve.h>
 
 #include "pieces/divided_mesh.h"
-#include "pieces/medit_slices.h"
+#include "pieces/file_slices.h"
 #include "pieces/piece_run.h"
 #include "pieces/rank_share.h"
 
 namespace tetmend::pieces {
 
-/// A mesh that is to be divided. `.meshb` is read slice by slice; of other formats, and where a file
-/// holds more than labels and constraints, the first rank has the arrays of the whole mesh, until they
-/// are in pieces.
+/// A mesh that is to be divided. What open_slices() knows is read slice by slice; of others the first
+/// rank has the arrays of the whole mesh, until they are in pieces.
 class InputMesh {
  public:
   /// All ranks. @throws Error as read_mesh(), and for a mesh of second order.
@@ -29,8 +29,8 @@ class InputMesh {
 
   std::uint64_t tets() const { return tets_; }
   std::uint64_t vertices() const { return vertices_; }
-  /// There is more than labels and constraints.
-  bool holds_more() const { return holds_more_; }
+  /// There is more than labels and constraints, and that file may have a place for it.
+  bool holds_more(const std::filesystem::path& output) const;
   /// First rank: what of the file will not be in that one, a sentence each.
   std::vector<std::string> lost_in(const std::filesystem::path& output) const;
   /// All ranks: @throws OptionError, where the arrays are, unless each name is that of one of the tets
@@ -42,7 +42,7 @@ class InputMesh {
   void read_whole(const std::filesystem::path& file, const std::string& label_array);
 
   const ArrayFiles* files_ = nullptr;
-  std::optional<MeditSlices> slices_;
+  std::unique_ptr<FileSlices> slices_;
   std::optional<RankShare> arrays_;
   MeshData data_;
   std::uint64_t tets_ = 0;

@@ -172,7 +172,7 @@ bool FileRun::read() {
   if (!is_divided(input.tets())) return false;
   check(options_, division_);
   vertices_ = input.vertices();
-  holds_more_ = input.holds_more();
+  holds_more_ = input.holds_more(files_.output);
   mesh_.emplace(*shelf_, ranks_, vertices_, files_.first_id);
   add_protected(input, options_, *mesh_, division_.pieces);
   return true;

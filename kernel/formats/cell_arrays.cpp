@@ -54,25 +54,29 @@ bool has_fractions(const DataArray& array) {
   return false;
 }
 
-/// True for an array of few different integers: many would be numbers of cells, not of regions.
 bool looks_like_labels(const DataArray& array) {
-  constexpr std::size_t kMostRegions = 1000;
-  const std::size_t most = std::min(kMostRegions, array.size() / 2 + 1);
   std::set<double> values;
   for (std::size_t i = 0; i < array.size(); ++i) {
     values.insert(real_value(array, i));
-    if (values.size() > most) return false;
+    if (!is_few_labels(values.size(), array.size())) return false;
+  }
+  return true;
+}
+
+bool is_constant(const DataArray& array) {
+  for (std::size_t k = 1; k < array.size(); ++k) {
+    if (real_value(array, k) != real_value(array, 0)) return false;
   }
   return true;
 }
 
 /// Among arrays of one number for each cell.
-std::optional<std::size_t> find_known_name(const std::vector<DataArray>& arrays) {
+std::optional<std::size_t> find_known_name(const std::vector<ArrayFacts>& arrays) {
   std::optional<std::size_t> best;
   std::size_t best_rank = kLabelNames.size();
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     const std::size_t rank = rank_of(arrays[i].name);
-    if (rank >= best_rank || arrays[i].components != 1 || has_fractions(arrays[i])) continue;
+    if (rank >= best_rank || arrays[i].components != 1 || arrays[i].has_fractions()) continue;
     best = i;
     best_rank = rank;
   }
@@ -80,41 +84,37 @@ std::optional<std::size_t> find_known_name(const std::vector<DataArray>& arrays)
 }
 
 /// Arrays whose name says nothing, but whose numbers could be labels: integers before others.
-std::vector<std::size_t> find_candidates(const std::vector<DataArray>& arrays) {
+std::vector<std::size_t> find_candidates(const std::vector<ArrayFacts>& arrays) {
   std::vector<std::size_t> found;
   for (const bool integers : {true, false}) {
     for (std::size_t i = 0; i < arrays.size(); ++i) {
-      if (arrays[i].components != 1 || is_integral(arrays[i]) != integers) continue;
-      if (!has_fractions(arrays[i]) && looks_like_labels(arrays[i])) found.push_back(i);
+      if (arrays[i].components != 1 || arrays[i].is_integral != integers) continue;
+      if (!arrays[i].has_fractions() && arrays[i].looks_like_labels()) found.push_back(i);
     }
   }
   return found;
 }
 
 /// The array of labels, if only one can be meant; else which might be is noted.
-std::optional<std::size_t> guess_labels(const std::vector<DataArray>& arrays, MeshData& mesh) {
+std::optional<std::size_t> guess_labels(const std::vector<ArrayFacts>& arrays,
+                                        std::vector<std::string>& notes) {
   std::vector<std::size_t> candidates = find_candidates(arrays);
-  const auto is_number = [&](std::size_t i) { return is_integral(arrays[i]); };
+  const auto is_number = [&](std::size_t i) { return arrays[i].is_integral; };
   const auto integers = std::count_if(candidates.begin(), candidates.end(), is_number);
   if (integers == 1) return candidates.front();
   // One value for all tells nothing apart.
-  std::erase_if(candidates, [&](std::size_t i) {
-    for (std::size_t k = 1; k < arrays[i].size(); ++k) {
-      if (real_value(arrays[i], k) != real_value(arrays[i], 0)) return false;
-    }
-    return true;
-  });
+  std::erase_if(candidates, [&](std::size_t i) { return arrays[i].is_constant(); });
   if (candidates.empty()) return std::nullopt;
   std::vector<std::string> names;
   for (const std::size_t i : candidates) names.push_back(fmt::format("'{}'", arrays[i].name));
-  mesh.notes.push_back(fmt::format(
+  notes.push_back(fmt::format(
       "no array has the name of labels, so regions are not told apart: {} might hold them; "
       "--label-array NAME says which, 'none' that none does",
       fmt::join(names, ", ")));
   return std::nullopt;
 }
 
-std::size_t find_wanted(const std::vector<DataArray>& arrays, const std::string& name) {
+std::size_t find_wanted(const std::vector<ArrayFacts>& arrays, const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     if (arrays[i].name == name && arrays[i].components == 1) return i;
@@ -123,6 +123,15 @@ std::size_t find_wanted(const std::vector<DataArray>& arrays, const std::string&
   throw Error(fmt::format("no array of one number for each cell has the name '{}': there {} {}",
                           name, names.empty() ? "are" : "is",
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+ArrayFacts facts_of(const DataArray& array) {
+  return {array.name,
+          array.components,
+          is_integral(array),
+          [&array] { return has_fractions(array); },
+          [&array] { return looks_like_labels(array); },
+          [&array] { return is_constant(array); }};
 }
 
 std::vector<Label> to_labels(const std::vector<DataArray>& arrays, std::size_t which,
@@ -177,17 +186,33 @@ const DataArray* find_like(const std::vector<DataArray>& arrays, const DataArray
 
 }  // namespace
 
+bool is_few_labels(std::size_t different, std::size_t size) {
+  return different <= std::min(kMostLabels, size / 2 + 1);
+}
+
+std::optional<std::size_t> choose_label_array(const std::vector<ArrayFacts>& arrays,
+                                              const std::string& wanted,
+                                              std::vector<std::string>& notes) {
+  if (!wanted.empty()) {
+    const auto is_wanted = [&](const ArrayFacts& array) { return array.name == wanted; };
+    if (wanted == "none" && std::none_of(arrays.begin(), arrays.end(), is_wanted)) {
+      return std::nullopt;
+    }
+    return find_wanted(arrays, wanted);
+  }
+  const std::optional<std::size_t> known = find_known_name(arrays);
+  return known ? known : guess_labels(arrays, notes);
+}
+
+bool is_point_label_array(std::string_view name) {
+  return name == "CellEntityIds" || name == "medit:ref";
+}
+
 void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const CellNumbers& numbers,
                        const LabelChoice& choice) {
-  std::optional<std::size_t> which;
-  if (!choice.wanted.empty()) {
-    const auto is_wanted = [&](const DataArray& array) { return array.name == choice.wanted; };
-    const bool is_there = std::any_of(arrays.begin(), arrays.end(), is_wanted);
-    if (choice.wanted != "none" || is_there) which = find_wanted(arrays, choice.wanted);
-  } else {
-    which = find_known_name(arrays);
-    if (!which) which = guess_labels(arrays, mesh);
-  }
+  std::vector<ArrayFacts> facts;
+  for (const DataArray& array : arrays) facts.push_back(facts_of(array));
+  const std::optional<std::size_t> which = choose_label_array(facts, choice.wanted, mesh.notes);
   if (which) {
     const std::vector<Label> labels = to_labels(arrays, *which, choice.fail);
     set_labels(mesh.tets, numbers.tets, labels);
@@ -214,8 +239,9 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
 
 void adopt_point_arrays(MeshData& mesh, std::vector<DataArray> arrays, const ArrayFailure& fail) {
   for (std::size_t i = 0; i < arrays.size(); ++i) {
-    const bool is_ours = arrays[i].name == "CellEntityIds" || arrays[i].name == "medit:ref";
-    if (!is_ours || arrays[i].components != 1 || !is_integral(arrays[i])) continue;
+    if (!is_point_label_array(arrays[i].name) || arrays[i].components != 1 ||
+        !is_integral(arrays[i]))
+      continue;
     mesh.point_labels = to_labels(arrays, i, fail);
     drop_zero_point_labels(mesh);
     arrays.erase(arrays.begin() + static_cast<std::ptrdiff_t>(i));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,30 @@ struct CellNumbers {
   std::vector<std::uint32_t> tets, triangles, edges;
   std::vector<std::vector<std::uint32_t>> others;  ///< for each of MeshData::other_elements
 };
+
+/// What decides whether an array of cells holds labels. The questions are asked if need be.
+struct ArrayFacts {
+  std::string name;
+  std::size_t components = 1;
+  bool is_integral = false;
+  std::function<bool()> has_fractions;      ///< also NaN
+  std::function<bool()> looks_like_labels;  ///< see is_few_labels()
+  std::function<bool()> is_constant;
+};
+
+/// True for an array with so many different numbers of `size`: more would be numbers of cells, not of
+/// regions.
+bool is_few_labels(std::size_t different, std::size_t size);
+/// More than these need not be counted for that.
+inline constexpr std::size_t kMostLabels = 1000;
+
+/// Which array holds labels; nothing: none. @param wanted its name, see LabelChoice
+/// @throws Error for a wanted array that is not there
+std::optional<std::size_t> choose_label_array(const std::vector<ArrayFacts>& arrays,
+                                              const std::string& wanted,
+                                              std::vector<std::string>& notes);
+/// Whether an array of points of that name has their labels, if it is of integers.
+bool is_point_label_array(std::string_view name);
 
 /// @throws Error, about value `i` of array `array`
 using ArrayFailure = std::function<void(std::size_t array, std::size_t i, std::string_view reason)>;

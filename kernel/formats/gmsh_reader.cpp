@@ -20,6 +20,7 @@
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/gmsh_draft.h"
 #include "kernel/formats/gmsh_element_reader.h"
+#include "kernel/formats/gmsh_layout.h"
 #include "kernel/formats/gmsh_nodes.h"
 #include "kernel/formats/gmsh_source.h"
 #include "kernel/formats/gmsh_views.h"
@@ -401,6 +402,11 @@ MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question) {
 
 MeshData read_gmsh_part(const std::filesystem::path& file) {
   const InputFile input(file);
+  return Reader(input, nullptr, true).read();
+}
+
+MeshData read_gmsh_head(const std::string& bytes) {
+  const InputFile input({}, bytes);
   return Reader(input, nullptr, true).read();
 }
 

@@ -45,6 +45,12 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   if (is_gzip({bytes_.get(), size_})) unpack();
 }
 
+InputFile::InputFile(std::string name, std::string_view bytes)
+    : name_(std::move(name)), bytes_(new char[bytes.size() + 1]), size_(bytes.size()) {
+  std::copy(bytes.begin(), bytes.end(), bytes_.get());
+  bytes_[size_] = '\0';
+}
+
 void InputFile::copy_standard_input() {
   name_ = "standard input";
   static const std::string kContent = read_standard_input(name_);  // it cannot be read again

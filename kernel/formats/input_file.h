@@ -19,6 +19,8 @@ class InputFile {
   /// @throws Error when the file is missing, a directory or unreadable, with the reason of the
   /// operating system.
   explicit InputFile(const std::filesystem::path& path);
+  /// Bytes that are there already.
+  InputFile(std::string name, std::string_view bytes);
 
   const std::string& name() const { return name_; }
   const char* begin() const { return bytes_.get(); }

@@ -34,42 +34,11 @@
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_cells.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/formats/vtu_numbers.h"
 #include "kernel/from_chars.h"
 
 namespace tetmend::formats {
 namespace {
-
-struct NumberType {
-  std::string_view name;
-  std::size_t size;
-  enum class Kind { signed_integer, unsigned_integer, real } kind;
-};
-
-constexpr std::array<NumberType, 10> kTypes = {{{"Int8", 1, NumberType::Kind::signed_integer},
-                                                {"UInt8", 1, NumberType::Kind::unsigned_integer},
-                                                {"Int16", 2, NumberType::Kind::signed_integer},
-                                                {"UInt16", 2, NumberType::Kind::unsigned_integer},
-                                                {"Int32", 4, NumberType::Kind::signed_integer},
-                                                {"UInt32", 4, NumberType::Kind::unsigned_integer},
-                                                {"Int64", 8, NumberType::Kind::signed_integer},
-                                                {"UInt64", 8, NumberType::Kind::unsigned_integer},
-                                                {"Float32", 4, NumberType::Kind::real},
-                                                {"Float64", 8, NumberType::Kind::real}}};
-
-/// Above 2^63 it becomes negative, which is refused where a number of that size makes no sense.
-std::int64_t load_integer(const NumberType& type, const char* at, bool swap) {
-  const bool is_signed = type.kind == NumberType::Kind::signed_integer;
-  switch (type.size) {
-    case 1:
-      return is_signed ? load<std::int8_t>(at, false) : load<std::uint8_t>(at, false);
-    case 2:
-      return is_signed ? load<std::int16_t>(at, swap) : load<std::uint16_t>(at, swap);
-    case 4:
-      return is_signed ? load<std::int32_t>(at, swap) : std::int64_t{load<std::uint32_t>(at, swap)};
-    default:
-      return load<std::int64_t>(at, swap);
-  }
-}
 
 class Reader {
  public:
@@ -103,7 +72,7 @@ class Reader {
   }
 
  private:
-  using Kind = NumberType::Kind;
+  using Kind = VtuType::Kind;
 
   // ---- The XML ---------------------------------------------------------------------------------
 
@@ -348,16 +317,13 @@ class Reader {
 
   // ---- Values ----------------------------------------------------------------------------------
 
-  static const NumberType* find_type(const pugi::xml_node& node) {
-    const std::string_view name = node.attribute("type").as_string();
-    const auto* found = std::find_if(kTypes.begin(), kTypes.end(),
-                                     [&](const NumberType& type) { return type.name == name; });
-    return found == kTypes.end() ? nullptr : found;
+  static const VtuType* find_type(const pugi::xml_node& node) {
+    return find_vtu_type(node.attribute("type").as_string());
   }
 
   DataArray::Values read_values(const pugi::xml_node& node, std::size_t rows,
                                 std::size_t components) const {
-    const NumberType* type = find_type(node);
+    const VtuType* type = find_type(node);
     if (type == nullptr) {
       fail(node, fmt::format("the type {} cannot be read: expected Int8 to UInt64, Float32 or "
                              "Float64",
@@ -379,7 +345,7 @@ class Reader {
     const std::string bytes = format == "binary"
                                   ? unpacked(node, base64_source(node), size * type->size)
                                   : appended(node, size * type->size);
-    return decoded(bytes, *type, size);
+    return decode_vtu(bytes, *type, size, swap_);
   }
 
   template <class Value>
@@ -409,42 +375,17 @@ class Reader {
     return values;
   }
 
-  DataArray::Values parse(const pugi::xml_node& node, const NumberType& type,
-                          std::size_t size) const {
+  DataArray::Values parse(const pugi::xml_node& node, const VtuType& type, std::size_t size) const {
     if (type.kind == Kind::real) {
       if (type.size == 4) return parse_as<float>(node, size);
       return parse_as<double>(node, size);
     }
-    if (is_narrow(type)) return parse_as<std::int32_t>(node, size);
+    if (type.is_narrow()) return parse_as<std::int32_t>(node, size);
     if (type.kind == Kind::unsigned_integer && type.size == 8) {
       const std::vector<std::uint64_t> values = parse_as<std::uint64_t>(node, size);
       return std::vector<std::int64_t>(values.begin(), values.end());  // see has_wrapped()
     }
     return parse_as<std::int64_t>(node, size);
-  }
-
-  static bool is_narrow(const NumberType& type) {
-    return type.size < 4 || (type.size == 4 && type.kind == Kind::signed_integer);
-  }
-
-  DataArray::Values decoded(const std::string& bytes, const NumberType& type,
-                            std::size_t size) const {
-    const auto load_all = [&]<class Value>(std::vector<Value> values) {
-      const char* at = bytes.data();
-      for (Value& value : values) {
-        if constexpr (std::is_integral_v<Value>) {
-          value = static_cast<Value>(load_integer(type, at, swap_));
-        } else {
-          value = load<Value>(at, swap_);
-        }
-        at += type.size;
-      }
-      return values;
-    };
-    if (type.kind == Kind::real && type.size == 4) return load_all(std::vector<float>(size));
-    if (type.kind == Kind::real) return load_all(std::vector<double>(size));
-    if (is_narrow(type)) return load_all(std::vector<std::int32_t>(size));
-    return load_all(std::vector<std::int64_t>(size));
   }
 
   /// Bytes of an array, wherever they come from: next(n) gives the next n, or fewer at the end.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/file_slices.h"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "pieces/gmsh_slices.h"
+#include "pieces/medit_slices.h"
+#include "pieces/vtu_slices.h"
+
+namespace tetmend::pieces {
+
+void fail_changed(const std::filesystem::path& file) {
+  throw Error(fmt::format("{}: has changed while it was read", file.string()));
+}
+
+void FileSlices::add_to(DividedMesh& mesh, std::size_t tets_of_slice) const {
+  const std::uint64_t ranks = mesh.ranks().count();
+  const std::uint64_t rank = mesh.ranks().number();
+  const std::uint64_t slices = std::max(1 + counts_.tets / tets_of_slice, ranks);
+  for (std::uint64_t i = slices * rank / ranks; i < slices * (rank + 1) / ranks; ++i) {
+    mesh.add_slice(i, read_slice(i, slices));
+  }
+}
+
+namespace {
+
+template <class Element>
+void note_ids(const std::vector<FileElement<Element>>& elements, std::vector<VertexId>& ids) {
+  for (const auto& each : elements)
+    ids.insert(ids.end(), each.vertices.begin(), each.vertices.end());
+}
+
+template <class Element>
+void take_elements(const std::vector<FileElement<Element>>& from, const std::vector<VertexId>& ids,
+                   std::vector<Element>& to) {
+  to.reserve(from.size());
+  for (const auto& each : from) {
+    Element element = each.element;
+    for (std::size_t i = 0; i < each.vertices.size(); ++i) {
+      const auto found = std::lower_bound(ids.begin(), ids.end(), each.vertices[i]);
+      element.vertices[i] = static_cast<std::uint32_t>(found - ids.begin());
+    }
+    to.push_back(element);
+  }
+}
+
+}  // namespace
+
+Piece FileSlices::read_slice(std::uint64_t i, std::uint64_t slices) const {
+  const Share of = {FileRange::of_slice(counts_.vertices, i, slices),
+                    FileRange::of_slice(counts_.tets, i, slices),
+                    FileRange::of_slice(counts_.triangles, i, slices),
+                    FileRange::of_slice(counts_.edges, i, slices)};
+  FileElements elements;
+  read_elements(of, elements);
+  std::uint64_t number = of.tets.begin;
+  for (auto& tet : elements.tets) {
+    tet.element.origin =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(number++, PieceTet::kNone));
+  }
+  Piece slice;
+  note_ids(elements.tets, slice.ids);
+  note_ids(elements.triangles, slice.ids);
+  note_ids(elements.edges, slice.ids);
+  for (VertexId v = of.vertices.begin; v < of.vertices.end; ++v) slice.ids.push_back(v);
+  std::sort(slice.ids.begin(), slice.ids.end());
+  slice.ids.erase(std::unique(slice.ids.begin(), slice.ids.end()), slice.ids.end());
+  take_elements(elements.tets, slice.ids, slice.tets);
+  take_elements(elements.triangles, slice.ids, slice.triangles);
+  take_elements(elements.edges, slice.ids, slice.edges);
+  elements = {};
+  read_vertices(slice);
+  for (std::size_t v = 0; v < slice.ids.size(); ++v) {
+    if (of.vertices.has(slice.ids[v])) {
+      slice.marks[v] = static_cast<std::uint8_t>(slice.marks[v] | kOwn);
+    }
+  }
+  return slice;
+}
+
+std::unique_ptr<FileSlices> open_slices(const std::filesystem::path& file,
+                                        const std::string& label_array, Ranks& ranks) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return nullptr;
+  if (file.extension() == ".meshb") return MeditSlices::open(file);
+  if (file.extension() == ".msh" && label_array.empty()) return GmshSlices::open(file, ranks);
+  if (file.extension() == ".vtu") return VtuSlices::open(file, label_array, ranks);
+  return nullptr;
+}
+
+}  // namespace tetmend::pieces

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Files that are read slice by slice: no process ever has all of one in memory.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/formats/file_bytes.h"
+#include "pieces/divided_mesh.h"
+
+namespace tetmend::pieces {
+
+using formats::FileBytes;
+
+/// What a file has.
+struct FileCounts {
+  std::uint64_t vertices = 0;
+  std::uint64_t tets = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t edges = 0;
+  std::uint64_t required_vertices = 0;
+};
+
+/// Some things of a file, by their numbers there.
+struct FileRange {
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+
+  std::uint64_t size() const { return end - begin; }
+  bool has(std::uint64_t i) const { return i >= begin && i < end; }
+  /// Of `count` things those of slice `i`.
+  static FileRange of_slice(std::uint64_t count, std::uint64_t i, std::uint64_t slices) {
+    return {count * i / slices, count * (i + 1) / slices};
+  }
+};
+
+/// An element whose vertices have their numbers in the file.
+template <class Element>
+struct FileElement {
+  Element element;
+  std::array<VertexId, std::tuple_size_v<decltype(Element::vertices)>> vertices{};
+};
+
+template <std::size_t N>
+bool has_repeated(std::array<VertexId, N> vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  return std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end();
+}
+
+/// Those of a slice.
+struct FileElements {
+  std::vector<FileElement<PieceTet>> tets;
+  std::vector<FileElement<MeshData::Triangle>> triangles;
+  std::vector<FileElement<MeshData::Edge>> edges;
+};
+
+/// @throws Error: a file is not any more what it was when it was opened
+[[noreturn]] void fail_changed(const std::filesystem::path& file);
+
+class FileSlices {
+ public:
+  virtual ~FileSlices() = default;
+
+  const FileCounts& counts() const { return counts_; }
+  /// All ranks: each adds its share, about so many tets at a time. Without end_slices().
+  /// @throws Error when the file has changed, or has a number out of range
+  void add_to(DividedMesh& mesh, std::size_t tets_of_slice) const;
+  /// What read_mesh() would say of it, but for vertices and elements: of these only some that have
+  /// the labels and parts that there are.
+  virtual MeshData digest() const { return {}; }
+
+ protected:
+  /// The elements of a slice, in their order. `of` has its range of each kind, and of vertices.
+  struct Share {
+    FileRange vertices, tets, triangles, edges;
+  };
+  virtual void read_elements(const Share& of, FileElements& elements) const = 0;
+  /// Gives points, labels and marks to a piece that has ids, ascending; but for kOwn.
+  virtual void read_vertices(Piece& slice) const = 0;
+
+  FileCounts counts_;
+
+ private:
+  Piece read_slice(std::uint64_t i, std::uint64_t slices) const;
+};
+
+/// Opens a file of a format that can be read so: `.meshb`, `.msh`, `.vtu`. All ranks.
+/// @param label_array as for read_mesh()
+/// @returns null for any other file, and for one that only read_mesh() understands or complains of
+std::unique_ptr<FileSlices> open_slices(const std::filesystem::path& file,
+                                        const std::string& label_array, Ranks& ranks);
+
+}  // namespace tetmend::pieces

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// VTK's format `.vtu`, in all its encodings, read slice by slice.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "kernel/formats/vtu_layout.h"
+#include "pieces/file_slices.h"
+
+namespace tetmend::pieces {
+
+/// A file of one piece, with tets, triangles, lines and vertices for cells. Labels are those that
+/// read_vtu() finds; other arrays are looked at, and not kept.
+class VtuSlices final : public FileSlices {
+ public:
+  /// All ranks: each looks at some of the file, to see whether all of it can be read.
+  /// @returns null for another file, or a damaged one: read_mesh() tells what is wrong
+  static std::unique_ptr<FileSlices> open(const std::filesystem::path& file,
+                                          const std::string& label_array, Ranks& ranks);
+
+  MeshData digest() const override;
+
+ protected:
+  void read_elements(const Share& of, FileElements& elements) const override;
+  void read_vertices(Piece& slice) const override;
+
+ private:
+  enum Kind : std::size_t { tets, triangles, edges, points };
+
+  /// Of some cells that follow each other.
+  struct CellChunk {
+    std::uint64_t first = 0;
+    std::uint64_t count = 0;
+    std::array<std::uint64_t, 4> of_kind{};  ///< how many there are
+  };
+  /// What is found out about an array.
+  struct ArrayKnowledge {
+    std::uint64_t has_fractions = 0;
+    std::uint64_t is_no_label = 0;  ///< it has a number that is none
+    std::uint64_t is_beyond = 0;    ///< an unsigned number above 2^63
+    std::uint64_t others_than_0 = 0;
+    std::vector<double> values;  ///< different ones, as far as they are few
+  };
+  class Cells;
+
+  bool share_outline(Ranks& ranks);
+  formats::VtuRows rows_of(const formats::VtuColumn& column, std::uint64_t rows) const {
+    return {file_, outline_, layout_, column, rows};
+  }
+  bool look_at_points(const Ranks& ranks) const;
+  bool look_at_cells(Ranks& ranks);
+  std::vector<ArrayKnowledge> look_at_arrays(const std::vector<formats::VtuColumn>& columns,
+                                             std::uint64_t rows, Ranks& ranks, bool& is_good) const;
+  bool choose_labels(const std::string& label_array, Ranks& ranks);
+  bool collect_labels(Ranks& ranks);
+
+  std::filesystem::path file_;
+  formats::VtuOutline outline_;
+  formats::VtuLayout layout_;
+  std::uint64_t corners_ = 0;  // of all cells
+  std::vector<CellChunk> chunks_;
+  std::optional<std::size_t> cell_labels_;   // which of the arrays
+  std::optional<std::size_t> point_labels_;  // likewise; none where all are 0
+  std::uint64_t labelled_points_ = 0;
+  std::array<std::set<Label>, 4> labels_;  // that each kind has
+  std::vector<std::string> notes_;
+};
+
+}  // namespace tetmend::pieces
