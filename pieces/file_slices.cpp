@@ -26,30 +26,6 @@ void FileSlices::add_to(DividedMesh& mesh, std::size_t tets_of_slice) const {
   }
 }
 
-namespace {
-
-template <class Element>
-void note_ids(const std::vector<FileElement<Element>>& elements, std::vector<VertexId>& ids) {
-  for (const auto& each : elements)
-    ids.insert(ids.end(), each.vertices.begin(), each.vertices.end());
-}
-
-template <class Element>
-void take_elements(const std::vector<FileElement<Element>>& from, const std::vector<VertexId>& ids,
-                   std::vector<Element>& to) {
-  to.reserve(from.size());
-  for (const auto& each : from) {
-    Element element = each.element;
-    for (std::size_t i = 0; i < each.vertices.size(); ++i) {
-      const auto found = std::lower_bound(ids.begin(), ids.end(), each.vertices[i]);
-      element.vertices[i] = static_cast<std::uint32_t>(found - ids.begin());
-    }
-    to.push_back(element);
-  }
-}
-
-}  // namespace
-
 Piece FileSlices::read_slice(std::uint64_t i, std::uint64_t slices) const {
   const Share of = {FileRange::of_slice(counts_.vertices, i, slices),
                     FileRange::of_slice(counts_.tets, i, slices),

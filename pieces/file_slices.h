@@ -53,6 +53,28 @@ bool has_repeated(std::array<VertexId, N> vertices) {
   return std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end();
 }
 
+/// Adds the numbers of their vertices to `ids`.
+template <class Element>
+void note_ids(const std::vector<FileElement<Element>>& elements, std::vector<VertexId>& ids) {
+  for (const auto& each : elements)
+    ids.insert(ids.end(), each.vertices.begin(), each.vertices.end());
+}
+
+/// Names vertices by their places among `ids`, which ascend.
+template <class Element>
+void take_elements(const std::vector<FileElement<Element>>& from, const std::vector<VertexId>& ids,
+                   std::vector<Element>& to) {
+  to.reserve(from.size());
+  for (const auto& each : from) {
+    Element element = each.element;
+    for (std::size_t i = 0; i < each.vertices.size(); ++i) {
+      const auto found = std::lower_bound(ids.begin(), ids.end(), each.vertices[i]);
+      element.vertices[i] = static_cast<std::uint32_t>(found - ids.begin());
+    }
+    to.push_back(element);
+  }
+}
+
 /// Those of a slice.
 struct FileElements {
   std::vector<FileElement<PieceTet>> tets;
@@ -74,6 +96,8 @@ class FileSlices {
   /// What read_mesh() would say of it, but for vertices and elements: of these only some that have
   /// the labels and parts that there are.
   virtual MeshData digest() const { return {}; }
+  /// There are triangles that the file does not name: walls between parts of one label.
+  virtual bool has_walls() const { return false; }
 
  protected:
   /// The elements of a slice, in their order. `of` has its range of each kind, and of vertices.

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include <fast_float/fast_float.h>
 
+#include "face/carry.h"
 #include "kernel/error.h"
 #include "kernel/formats/byte_reader.h"
 #include "pieces/bytes.h"
@@ -145,10 +147,11 @@ std::unique_ptr<FileSlices> GmshSlices::open(const std::filesystem::path& file, 
        {GmshLayout::nodes, GmshLayout::edges, GmshLayout::triangles, GmshLayout::tets}) {
     if (!slices->look_at(kind, ranks)) return nullptr;
   }
+  slices->share_walls(ranks);
   const auto& counts = slices->layout_.counts;
   slices->counts_ = {counts[GmshLayout::nodes], counts[GmshLayout::tets],
-                     counts[GmshLayout::triangles], counts[GmshLayout::edges], 0};
-  if (slices->is_finer_than_labels(GmshLayout::tets)) return nullptr;
+                     counts[GmshLayout::triangles] + slices->walls_.size(),
+                     counts[GmshLayout::edges], 0};
   return slices;
 }
 
@@ -231,6 +234,98 @@ bool GmshSlices::is_finer_than_labels(GmshLayout::Kind kind) const {
   return false;
 }
 
+/// The first rank looks for them.
+void GmshSlices::share_walls(Ranks& ranks) {
+  if (!is_finer_than_labels(GmshLayout::tets)) return;
+  std::string bytes;
+  if (ranks.is_first()) put(find_walls(), bytes);
+  const std::vector<std::string> all = ranks.gather(bytes);
+  std::string_view rest = all.front();
+  take(rest, walls_);
+}
+
+template <class Act>
+void GmshSlices::for_rows(GmshLayout::Kind kind, const std::vector<std::size_t>& chunks,
+                          const Act& act) const {
+  const std::size_t width = width_of(kind);
+  const NumberOrder& nodes = orders_[GmshLayout::nodes];
+  ChunkReader reader(file_, layout_);
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t i : chunks) {
+    const GmshChunk& chunk = layout_.chunks[kind][i];
+    if (!reader.integers(chunk, width, numbers)) fail_changed(file_);
+    for (std::size_t at = 0; at < numbers.size(); at += width) {
+      if (!is_sound(numbers.data() + at + 1, width - 1, nodes)) fail_changed(file_);
+      for (std::size_t k = 1; k < width; ++k) {
+        numbers[at + k] = static_cast<std::int64_t>(nodes.place(numbers[at + k]));
+      }
+      act(numbers.data() + at, layout_.blocks[chunk.block]);
+    }
+  }
+}
+
+/// Those of tets of more than one entity. Takes three bits for each vertex.
+std::vector<bool> GmshSlices::vertices_of_several_parts() const {
+  std::map<Label, std::vector<std::size_t>> chunks_of_part;
+  const std::vector<GmshChunk>& chunks = layout_.chunks[GmshLayout::tets];
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    chunks_of_part[layout_.blocks[chunks[i].block].part].push_back(i);
+  }
+  std::vector<bool> several(layout_.counts[GmshLayout::nodes]);
+  std::vector<bool> before(several.size());  // of parts that are done
+  for (const auto& [part, of_part] : chunks_of_part) {
+    std::vector<bool> now(several.size());
+    for_rows(GmshLayout::tets, of_part, [&](const std::int64_t* row, const auto&) {
+      for (int k = 1; k <= 4; ++k) {
+        const auto v = static_cast<std::size_t>(row[k]);
+        now[v] = true;
+        if (before[v]) several[v] = true;
+      }
+    });
+    for (std::size_t v = 0; v < now.size(); ++v) before[v] = before[v] || now[v];
+  }
+  return several;
+}
+
+/// Faces between tets of one label and two entities that no triangle names, as
+/// face::walls_between_parts() finds them: among the tets with three vertices of several entities.
+std::vector<std::array<VertexId, 3>> GmshSlices::find_walls() const {
+  const std::vector<bool> several = vertices_of_several_parts();
+  std::vector<FileElement<MeshData::Tet>> tets;
+  std::vector<FileElement<MeshData::Triangle>> triangles;
+  MeshData near;
+  const auto collect = [&](GmshLayout::Kind kind, auto& to, std::vector<Label>& parts) {
+    std::vector<std::size_t> chunks(layout_.chunks[kind].size());
+    std::iota(chunks.begin(), chunks.end(), std::size_t{0});
+    for_rows(kind, chunks, [&](const std::int64_t* row, const formats::GmshBlock& block) {
+      const std::int64_t* const end = row + width_of(kind);
+      if (std::count_if(row + 1, end,
+                        [&](std::int64_t v) { return several[static_cast<std::size_t>(v)]; }) < 3) {
+        return;
+      }
+      auto& made = to.emplace_back();
+      std::copy(row + 1, end, made.vertices.begin());
+      made.element.label = block.label;
+      parts.push_back(block.part);
+    });
+  };
+  collect(GmshLayout::tets, tets, near.tet_parts);
+  collect(GmshLayout::triangles, triangles, near.triangle_parts);
+  std::vector<VertexId> ids;
+  note_ids(tets, ids);
+  note_ids(triangles, ids);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  take_elements(tets, ids, near.tets);
+  take_elements(triangles, ids, near.triangles);
+  std::vector<std::array<VertexId, 3>> walls;
+  for (const MeshData::Triangle& wall : face::walls_between_parts(near)) {
+    auto& made = walls.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) made[k] = ids[wall.vertices[k]];
+  }
+  return walls;
+}
+
 template <class Element>
 void GmshSlices::read_kind(GmshLayout::Kind kind, const FileRange& range,
                            std::vector<FileElement<Element>>& elements) const {
@@ -266,7 +361,13 @@ void GmshSlices::read_kind(GmshLayout::Kind kind, const FileRange& range,
 
 void GmshSlices::read_elements(const Share& of, FileElements& elements) const {
   read_kind(GmshLayout::tets, of.tets, elements.tets);
-  read_kind(GmshLayout::triangles, of.triangles, elements.triangles);
+  const std::uint64_t named = layout_.counts[GmshLayout::triangles];
+  read_kind(GmshLayout::triangles,
+            {std::min(of.triangles.begin, named), std::min(of.triangles.end, named)},
+            elements.triangles);
+  for (std::uint64_t i = std::max(of.triangles.begin, named); i < of.triangles.end; ++i) {
+    elements.triangles.push_back({{}, walls_[i - named]});
+  }
   read_kind(GmshLayout::edges, of.edges, elements.edges);
 }
 

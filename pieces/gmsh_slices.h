@@ -23,6 +23,7 @@ class GmshSlices final : public FileSlices {
   static std::unique_ptr<FileSlices> open(const std::filesystem::path& file, Ranks& ranks);
 
   MeshData digest() const override;
+  bool has_walls() const override { return !walls_.empty(); }
 
  protected:
   void read_elements(const Share& of, FileElements& elements) const override;
@@ -32,6 +33,13 @@ class GmshSlices final : public FileSlices {
   bool share_layout(Ranks& ranks);
   bool look_at(formats::GmshLayout::Kind kind, Ranks& ranks);
   bool is_finer_than_labels(formats::GmshLayout::Kind kind) const;
+  void share_walls(Ranks& ranks);
+  std::vector<bool> vertices_of_several_parts() const;
+  std::vector<std::array<VertexId, 3>> find_walls() const;
+  /// Calls act(row, block) for each row of some chunks, where a row is its number and its vertices.
+  template <class Act>
+  void for_rows(formats::GmshLayout::Kind kind, const std::vector<std::size_t>& chunks,
+                const Act& act) const;
   template <class Element>
   void read_kind(formats::GmshLayout::Kind kind, const FileRange& range,
                  std::vector<FileElement<Element>>& elements) const;
@@ -40,6 +48,7 @@ class GmshSlices final : public FileSlices {
   formats::GmshLayout layout_;
   std::array<std::vector<NumberFacts>, 4> facts_;  // by kind and chunk
   std::array<NumberOrder, 4> orders_;              // by kind
+  std::vector<std::array<VertexId, 3>> walls_;     // behind the triangles of the file
 };
 
 }  // namespace tetmend::pieces

@@ -104,7 +104,8 @@ std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output)
 }
 
 bool InputMesh::holds_more(const std::filesystem::path& output) const {
-  if (!slices_ || output.extension() != ".meshb") return holds_more_;
+  const bool is_one_of_ours = slices_ && !slices_->has_walls();  // walls are not written
+  if (!is_one_of_ours || output.extension() != ".meshb") return holds_more_;
   // Of all that slices may hold besides, MEDIT's format has a place for marks and vectors alone.
   const auto is_medits = [](std::string_view name) {
     return formats::is_medit_vectors(name) ||

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <tetmend/io.h>
 
+#include "face/carry.h"
 #include "kernel/formats/base64.h"
 #include "kernel/formats/compression.h"
 #include "pieces/bytes.h"
@@ -48,7 +49,9 @@ pieces::Joined joined_by(const std::function<void(pieces::DividedMesh&)>& add, s
 }
 
 pieces::Joined in_memory(const std::filesystem::path& file) {
-  const MeshData data = read_mesh(file);
+  MeshData data = read_mesh(file);
+  const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
   pieces::OneRank one;
   return joined_by([&](auto& mesh) { pieces::add_slices(data, {}, mesh); }, data.points.size(),
                    one);
@@ -98,6 +101,19 @@ MeshData shipped(const std::string& name) {
   MeshData data = read_mesh(asset(name));
   data.required_vertices.clear();
   return data;
+}
+
+/// Parts that are finer than labels; one face between them is named.
+void split_into_parts(MeshData& data) {
+  for (const MeshData::Tet& tet : data.tets) {
+    data.tet_parts.push_back(data.points[tet.vertices[0]].x() < 3 ? 1
+                             : tet.vertices[1] % 40 == 0          ? 3
+                                                                  : 2);
+  }
+  data.triangle_parts.assign(data.triangles.size(), 4);
+  const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  data.triangles.push_back(walls[walls.size() / 2]);
+  data.triangle_parts.push_back(5);
 }
 
 /// What the reader that has all of the file says of it.
@@ -180,6 +196,10 @@ TEST_CASE("a Gmsh file that is read slice by slice has the pieces of its arrays"
     MeshData data = lattice(7);  // with an edge, a triangle, and two labels
     data.required_vertices.clear();
     write(file, data, variant);
+    check_slices(file);
+    split_into_parts(data);  // a wall between two tets of one label is a triangle
+    write(file, data, variant);
+    CHECK(face::walls_between_parts(read_mesh(file)).size() > 50);
     check_slices(file);
   }
 }
@@ -388,8 +408,11 @@ TEST_CASE("files that are read by slices are improved as with all of them in mem
   data.required_vertices.clear();
   write(folder.path() / "in.vtu", data);
   write(folder.path() / "in.msh", data);
+  split_into_parts(data);
+  write(folder.path() / "parts.msh", data);
   for (const std::string ending : {".msh", ".vtu", ".meshb"}) {
     check_improved(folder.path() / "in.msh", ending);
+    check_improved(folder.path() / "parts.msh", ending);
     check_improved(folder.path() / "in.vtu", ending);
   }
 }
