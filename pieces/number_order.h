@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the numbers that a file gives to its vertices or elements to their places in the order of these.
+// From the numbers that a file gives to its vertices or elements to their places in that order.
 #pragma once
 
 #include <cstdint>

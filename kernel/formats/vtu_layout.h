@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where things stand in a VTU file that is too large to be held in memory, and its arrays some rows at
-// a time.
+// Where things stand in a VTU file that is too large to be held in memory, and its arrays, some
+// rows at a time.
 #pragma once
 
 #include <array>
