@@ -90,6 +90,7 @@ class Workshop:
         (self.tools / "python3").symlink_to(DEBIAN_PYTHON)
         (self.work / "build").mkdir()
         (self.work / "build/release").symlink_to(build)
+        (self.work / "assets").symlink_to(source / "assets")
         self.environment = dict(os.environ, PATH=f"{self.tools}:{os.environ['PATH']}", HOME=str(folder),
                                 OMP_NUM_THREADS="1", WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
         self.environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -212,6 +213,8 @@ class Trial:
     def __init__(self, page: Path, source: Path, build: Path, folder: Path) -> None:
         self.page, self.source = page, source
         self.shop = Workshop(folder, source, build)
+        if page.name == "start.md":  # whoever begins has the source and nothing else
+            self.shop.makers = {}
         self.counts = {"ok": 0, "FAIL": 0, "looked up": 0, "elsewhere": 0, "passed over": 0}
         self.printed: str | None = None  # by the last command that ran
         self.not_made: dict[str, str] = {}  # files of commands that were passed over, with what is not installed
