@@ -298,7 +298,19 @@ TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const
   return limits;
 }
 
+/// Of a round that nobody has worked on.
+void PieceRun::store_unchanged() {
+  for (const std::size_t part : mesh_.own()) {
+    mesh_.store(part, own_part(mesh_.gathered(part), mesh_.state().parting,
+                               static_cast<std::uint32_t>(part)));
+    mesh_.remove_gathered(part);
+  }
+  mesh_.number_added(std::vector<std::uint64_t>(mesh_.parts(), 0));
+  state_.is_divided = false;
+}
+
 Figures PieceRun::measure_after(Shelf* next) {
+  if (state_.is_divided) store_unchanged();  // the run was stopped before its first round
   mesh_.divide(division_.pieces, division_.divisions, {}, next);
   std::vector<PartFigures> mine;
   for (const std::size_t part : mesh_.own()) {

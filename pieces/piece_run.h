@@ -142,6 +142,7 @@ class PieceRun {
   double seconds_left() const;
   bool is_to_stop();
   void agree_on_stop();
+  void store_unchanged();
 
   DividedMesh& mesh_;
   const Division& division_;
