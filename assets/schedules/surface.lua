@@ -66,11 +66,40 @@ local openings = {"surface_contraction", "surface_edge_removal", "edge_removal",
                   {"edge_split", order = "angle", most_edges = 2}, "edge_contraction",
                   "surface_smoothing", "smoothing"}
 
-local function costly_round()
+local function costly_round(on)
   begin_round()
-  for _, opening in ipairs(openings) do apply(open_by(opening), {on = worst}) end
-  apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = worst})
-  apply(refill, {on = worst})
+  for _, opening in ipairs(openings) do apply(open_by(opening), {on = on}) end
+  apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = on})
+  apply(refill, {on = on})
+  local_reconnection{on = on, reflex_only = false}
+  smooth{on = on, desperate = 0.7, steps = 30}
+end
+
+-- The same, mended by what takes little time.
+local function open_lightly(operator)
+  return sequence{operator, "surface_edge_removal", "smoothing", "surface_smoothing",
+                  "recursive_shell_transformation", "smoothing", "joint_smoothing", desperate = 0.7}
+end
+
+-- Those first that take the least time for a success.
+local quick_openings = {"surface_smoothing", "smoothing",
+                        {"surface_split", order = "longest", most_edges = 2, relax = false},
+                        {"edge_removal", most_edges = 2},
+                        {"edge_split", order = "angle", most_edges = 2}}
+local fails_lightly = {}
+
+-- Where many are left: lightly all of them, so that fewer are close together; then the worst.
+local function thinning_round()
+  begin_round()
+  apply({"cavity_insertion", desperate = 0, tries = 2})
+  for i, opening in ipairs(quick_openings) do
+    if not fails_lightly[i] then
+      local accepted, tried = apply(open_lightly(opening))
+      fails_lightly[i] = accepted < 0.05 * tried
+    end
+  end
+  begin_round()
+  for _, opening in ipairs(quick_openings) do apply(open_by(opening), {on = worst}) end
   local_reconnection{on = worst, reflex_only = false}
   smooth{on = worst, desperate = 0.7, steps = 30}
 end
@@ -90,12 +119,12 @@ judge_by{price = full_price}
 local can_move = plain_rounds() > 0
 
 -- Where many are left, but few of all tets, the worst rise at a price, as long as a round removes a
--- fifth of the bad ones. It takes up to a second for each that it fails at.
+-- fifth of the bad ones.
 for _ = 1, max_rounds do
   local n_bad = quality().n_bad
   if not can_move or n_bad <= few or n_bad > 0.002 * quality().tets then break end
   judge_by{price = half_price, measure = "sine"}
-  costly_round()
+  thinning_round()
   judge_by{price = half_price}
   plain_rounds()
   if quality().n_bad > 0.8 * n_bad then break end
@@ -109,7 +138,8 @@ while can_move and rounds < max_rounds and failed < max_failed
   local is_stuck = failed > 0
   judge_by{price = is_stuck and full_price or 0, measure = "sine"}
   aim(is_stuck and 1.05 or 1)
-  costly_round()
+  -- Beyond the goal, much is bad that has nothing to do with them.
+  costly_round{below = 1, worst = is_stuck and math.min(few, math.max(50, 4 * before.n_bad)) or few}
   aim(1)
   judge_by{price = half_price}
   plain_rounds()
