@@ -16,7 +16,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct CheckPluginOptions {
   std::filesystem::path plugin;
   std::vector<std::filesystem::path> meshes;
   double attempt_limit = 10;
@@ -25,7 +25,7 @@ struct Options {
 /// An attempt is given up after so many times the limit.
 constexpr double kPatience = 6;
 
-std::vector<contract::Ground> load_grounds(const Options& options) {
+std::vector<contract::Ground> load_grounds(const CheckPluginOptions& options) {
   std::vector<contract::Ground> grounds = contract::grounds();
   for (const std::filesystem::path& file : options.meshes) {
     grounds.push_back({file.string(), read_tet_mesh(file)});
@@ -56,7 +56,7 @@ bool check_operator(const Registry& registry, std::string_view name,
   return kept;
 }
 
-int run_check_plugin(const Options& options) {
+int run_check_plugin(const CheckPluginOptions& options) {
   for (const std::filesystem::path& file : options.meshes) check_mesh_extension(file);
   Registry registry = Registry::builtin();
   const Plugin plugin = load_plugin(options.plugin, registry);
@@ -77,7 +77,7 @@ int run_check_plugin(const Options& options) {
 }  // namespace
 
 void add_check_plugin(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckPluginOptions>();
   CLI::App* command =
       app.add_subcommand("check-plugin", "Try the operators of a plugin on many meshes");
   command->add_option("FILE", options->plugin, "Shared library of the plugin")

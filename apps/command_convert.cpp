@@ -18,7 +18,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct ConvertOptions {
   std::filesystem::path input;
   std::filesystem::path output;
   CarryOptions carry;
@@ -28,7 +28,7 @@ struct Options {
 };
 
 /// No adjacency is built, so that a mesh of broken topology can be converted too.
-int run_convert(Options& options, Invocation& invocation) {
+int run_convert(ConvertOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   const pieces::ArrayFiles& parts = *invocation.array_files;
   if (options.parts > 0 && !parts.is_in_parts(options.output)) {
@@ -60,7 +60,7 @@ int run_convert(Options& options, Invocation& invocation) {
 }  // namespace
 
 void add_convert(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another file format");
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write")->required()->type_name("");

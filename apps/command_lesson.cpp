@@ -18,7 +18,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct LessonOptions {
   std::string name;
   std::filesystem::path output;
   bool html = false;
@@ -60,7 +60,7 @@ void put(const std::filesystem::path& file, std::string_view text) {
   out.commit();
 }
 
-void write_all(const Options& options, const std::vector<std::filesystem::path>& lessons) {
+void write_all(const LessonOptions& options, const std::vector<std::filesystem::path>& lessons) {
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
   std::vector<explain::PageLink> pages;
@@ -74,7 +74,7 @@ void write_all(const Options& options, const std::vector<std::filesystem::path>&
       explain::write_index("Lessons", "Recorded runs of tetmend, step by step.", pages, program()));
 }
 
-int run_lesson(const Options& options) {
+int run_lesson(const LessonOptions& options) {
   const auto lessons = explain::find_lessons();
   if (lessons.empty()) throw Error("there are no lessons: TETMEND_LESSONS may name their folder");
   if (options.name.empty() && !options.html) {
@@ -111,7 +111,7 @@ int run_lesson(const Options& options) {
 }  // namespace
 
 void add_lesson(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<LessonOptions>();
   CLI::App* command =
       app.add_subcommand("lesson", "Recorded runs with a text that leads through them");
   command->add_option("NAME", options->name, "Only this one")->type_name("");

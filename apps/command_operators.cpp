@@ -88,13 +88,13 @@ const OperatorDescription& find_operator(const std::vector<OperatorDescription>&
   throw UsageError(fmt::format("unknown operator '{}'; valid: {}", name, valid));
 }
 
-struct Options {
+struct OperatorsOptions {
   std::string name;  // empty: all
   std::vector<std::filesystem::path> plugins;
   bool markdown = false;
 };
 
-int run_operators(const Options& options) {
+int run_operators(const OperatorsOptions& options) {
   const std::vector<OperatorDescription> operators =
       tetmend::operators(all_plugins(options.plugins));
   if (options.markdown) {
@@ -117,7 +117,7 @@ int run_operators(const Options& options) {
 }  // namespace
 
 void add_operators(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<OperatorsOptions>();
   CLI::App* command = app.add_subcommand("operators", "List the operators and their parameters");
   command->add_option("NAME", options->name, "Only this operator")->type_name("");
   add_plugin_option(*command, options->plugins);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kAll = "all";
 
-struct Options {
+struct QualityOptions {
   std::filesystem::path file;
   std::vector<std::string> measures;
   bool limit = false;
@@ -49,7 +49,7 @@ std::vector<std::string> list_measures(const std::vector<std::string>& names) {
   return list;
 }
 
-void print_json(const Options& options, const Measurement& measured) {
+void print_json(const QualityOptions& options, const Measurement& measured) {
   nlohmann::json result = tetmend::to_json(measured.statistics);
   result["file"] = shown(options.file);
   result["build"] = to_json(measured.build);
@@ -64,7 +64,7 @@ void print_json(const Options& options, const Measurement& measured) {
   fmt::print("{}\n", result.dump(2));
 }
 
-int run_quality(Options& options, const pieces::ArrayFiles* parts) {
+int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
   name_streams(options.format, options.file, nullptr);
   check_input_format(options.file, parts);
   if (!options.cells.empty()) {
@@ -127,7 +127,7 @@ std::string measure_list() {
 }  // namespace
 
 void add_quality(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<QualityOptions>();
   CLI::App* command = app.add_subcommand("quality", "Print the statistics of a mesh");
   command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
   command->add_flag("--json", options->json, "Print JSON");

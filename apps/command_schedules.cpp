@@ -14,7 +14,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct SchedulesOptions {
   std::string name;
   std::vector<std::filesystem::path> plugins;
   bool source = false;
@@ -22,7 +22,7 @@ struct Options {
   bool markdown = false;
 };
 
-int run_schedules(const Options& options) {
+int run_schedules(const SchedulesOptions& options) {
   tetmend::operators(all_plugins(options.plugins));  // one that cannot be loaded is found here, too
   if (options.markdown) {
     fmt::print("{}", format_reference());
@@ -49,7 +49,7 @@ int run_schedules(const Options& options) {
 }  // namespace
 
 void add_schedules(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SchedulesOptions>();
   CLI::App* command =
       app.add_subcommand("schedules", "List the schedules that 'improve --schedule' knows");
   command->add_option("NAME", options->name, "Only this one, or a .lua file, with its parameters")

@@ -24,7 +24,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct SurfaceOptions {
   std::filesystem::path input;
   std::filesystem::path output;
   bool bad = false;
@@ -74,7 +74,7 @@ MeshData labelled(const TetMesh& mesh, const SurfaceFeatures& features) {
   return data;
 }
 
-int show_features(const Options& options, Invocation& invocation) {
+int show_features(const SurfaceOptions& options, Invocation& invocation) {
   check_input_format(options.input, invocation.array_files);
   if (!options.output.empty()) check_mesh_extension(options.output);
   const NamedFile input = {"IN", options.input};
@@ -107,7 +107,7 @@ int show_features(const Options& options, Invocation& invocation) {
 #ifdef TETMEND_HAS_OPENMESH
 constexpr const char* kPurpose = "Write the boundary of a mesh as triangles";
 
-int run_surface(const Options& options, Invocation& invocation) {
+int run_surface(const SurfaceOptions& options, Invocation& invocation) {
   check_input_format(options.input, invocation.array_files);
   try {
     check_surface_extension(options.output);
@@ -132,12 +132,12 @@ int run_surface(const Options& options, Invocation& invocation) {
 #else
 constexpr const char* kPurpose = "Write the boundary as triangles (not in this build)";
 
-int run_surface(const Options&, Invocation&) {
+int run_surface(const SurfaceOptions&, Invocation&) {
   throw UsageError("surface: tetmend was built without OpenMesh, which this command needs");
 }
 #endif
 
-void add_features(CLI::App& command, Options& options, CLI::Option* bad) {
+void add_features(CLI::App& command, SurfaceOptions& options, CLI::Option* bad) {
   CLI::Option* features = command.add_flag("--features", options.features,
                                            "Count patches, feature lines and corners, and the\n"
                                            "vertices that improve --surface may move. OUT: the\n"
@@ -162,7 +162,7 @@ void add_features(CLI::App& command, Options& options, CLI::Option* bad) {
 }  // namespace
 
 void add_surface(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SurfaceOptions>();
   CLI::App* command = app.add_subcommand("surface", kPurpose);
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command

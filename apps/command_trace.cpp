@@ -33,7 +33,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct TraceOptions {
   std::filesystem::path file;
   std::filesystem::path output;
   std::optional<std::uint32_t> tree;
@@ -56,7 +56,7 @@ void check_call(const TraceFile& file, std::uint32_t call) {
 }
 
 /// To the file that was asked for, or to standard output.
-void put_text(const Options& options, std::string_view text) {
+void put_text(const TraceOptions& options, std::string_view text) {
   if (options.output.empty()) {
     fmt::print("{}", text);
     return;
@@ -66,7 +66,7 @@ void put_text(const Options& options, std::string_view text) {
   out.commit();
 }
 
-void write_slices(const Options& options, const TraceFile& file) {
+void write_slices(const TraceOptions& options, const TraceFile& file) {
   if (options.output.empty()) {
     tetmend::write_slices(file, [](std::string_view text) { fmt::print("{}", text); });
     return;
@@ -93,7 +93,7 @@ std::vector<std::int32_t> cavity_field(const TraceFile& file, Replay& replay) {
   return live;
 }
 
-void write_mesh_at(const Options& options, const TraceFile& file) {
+void write_mesh_at(const TraceOptions& options, const TraceFile& file) {
   if (*options.at > file.event_count()) {
     throw Error(fmt::format("--at {}: the trace has {} events", *options.at, file.event_count()));
   }
@@ -106,7 +106,7 @@ void write_mesh_at(const Options& options, const TraceFile& file) {
   formats::write_vtk_legacy(options.output, MeshView(data), {&field, 1});
 }
 
-std::string history(const Options& options, const TraceFile& file) {
+std::string history(const TraceOptions& options, const TraceFile& file) {
   Replay replay(file, 0);
   const HistorySubject subject = find_subject(file, replay, options.history);
   try {
@@ -131,7 +131,7 @@ std::string name_of(const std::filesystem::path& file) {
 }
 
 /// A folder with all that repeating one call needs.
-void write_extract(const Options& options, const TraceFile& file) {
+void write_extract(const TraceOptions& options, const TraceFile& file) {
   check_call(file, *options.extract);
   Replay replay(file, 0);
   const CallExtract kit = extract_call(file, replay, *options.extract);
@@ -171,7 +171,7 @@ std::uint32_t read_call(const std::string& text) {
 }
 
 /// A call, or the whole trace with the lesson that may lie beside it.
-void write_html(const Options& options, const TraceFile& file) {
+void write_html(const TraceOptions& options, const TraceFile& file) {
   constexpr std::uint64_t kMostEvents = 30000;
   std::optional<Lesson> lesson;
   explain::PageRequest request{.title = name_of(file.header().input),
@@ -204,7 +204,7 @@ void write_html(const Options& options, const TraceFile& file) {
 }
 
 /// The options of --figure, and --call and --look, which are nothing without it.
-void check_figure(const Options& options) {
+void check_figure(const TraceOptions& options) {
   if (options.figure.empty()) {
     if (options.call) throw UsageError("--call is for --figure");
     if (!options.look.empty()) throw UsageError("--look is for --figure shell");
@@ -226,14 +226,14 @@ void check_figure(const Options& options) {
   }
 }
 
-void write_figure(const Options& options, const TraceFile& file) {
+void write_figure(const TraceOptions& options, const TraceFile& file) {
   explain::FigureRequest request{explain::find_figure_kind(options.figure), options.call, {}};
   if (!options.look.empty()) request.look = explain::Look{options.look[0], options.look[1]};
   Replay replay(file, 0);
   figure::write_drawing(options.output, explain::draw_call(file, replay, request));
 }
 
-int run_trace(const Options& options) {
+int run_trace(const TraceOptions& options) {
   check_figure(options);
   if (!options.html_call.empty()) read_call(options.html_call);
   if (options.at) {
@@ -279,7 +279,7 @@ int run_trace(const Options& options) {
   return 0;
 }
 
-void add_figure_options(CLI::App& command, CLI::Option_group& what, Options& options) {
+void add_figure_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
   what.add_option("--figure", options.figure,
                   "A figure for papers, -o x.svg or x.pdf: the ring of a\ncall, its tree, the "
                   "timeline or the isolated shell")
@@ -298,7 +298,7 @@ void add_figure_options(CLI::App& command, CLI::Option_group& what, Options& opt
 }  // namespace
 
 void add_trace(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TraceOptions>();
   CLI::App* command = app.add_subcommand("trace", "Look into a run that was recorded");
   command->add_option("FILE", options->file, "What 'tetmend improve --trace FILE' wrote")
       ->required()

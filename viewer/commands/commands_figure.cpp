@@ -142,7 +142,7 @@ json background(Session& s, const json& a) {
 constexpr std::string_view kFile = "File";
 constexpr std::string_view kView = "View";
 
-constexpr std::array kCommands = {
+constexpr std::array kFigureCommands = {
     Command{"figure", "", kFile, "figure{what = \"ring\", file = \"FILE.svg\", call = CALL}",
             "Write the ring, tree, timeline or shell of a call, or of the one at hand, as .svg or "
             ".pdf; the menu all of them as tetmend-ring.svg, ...",
@@ -167,7 +167,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> figure_commands() {
-  return kCommands;
+  return kFigureCommands;
 }
 
 }  // namespace tetmend::viewer

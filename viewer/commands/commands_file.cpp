@@ -78,7 +78,7 @@ json quit(Session& s, const json&) {
 
 constexpr std::string_view kFile = "File";
 
-constexpr std::array kCommands = {
+constexpr std::array kFileCommands = {
     Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh or a trace", &open},
     Command{"save", "Ctrl+S", kFile, "save(\"FILE\")", "Save the mesh as it is shown", &save},
     Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
@@ -97,7 +97,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> file_commands() {
-  return kCommands;
+  return kFileCommands;
 }
 
 }  // namespace tetmend::viewer

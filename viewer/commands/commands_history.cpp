@@ -123,7 +123,7 @@ json history(Session& s, const json& a) {
   return to_json(debugger.file(), *debugger.history());
 }
 
-constexpr std::array kCommands = {
+constexpr std::array kHistoryCommands = {
     Command{"history", "Shift+H", "Trace", "history{tet = 17, file = \"better.mesh\"}",
             "What the trace knows of the selection, or of a tet, face, edge or vertex: a table of "
             "text, calls, trials, parts",
@@ -133,7 +133,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> history_commands() {
-  return kCommands;
+  return kHistoryCommands;
 }
 
 }  // namespace tetmend::viewer

@@ -113,7 +113,7 @@ json wait(Session& s, const json& a) {
 
 constexpr std::string_view kRun = "Run";
 
-constexpr std::array kCommands = {
+constexpr std::array kLiveCommands = {
     Command{"live_schedule", "", "", "live_schedule(\"NAME\")",
             "Choose a schedule by its name or file, or \"operator NAME\"; the result has its "
             "parameters",
@@ -158,7 +158,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> live_commands() {
-  return kCommands;
+  return kLiveCommands;
 }
 
 }  // namespace tetmend::viewer

@@ -83,7 +83,7 @@ json print(Session& s, const json& a) {
   return nullptr;
 }
 
-constexpr std::array kCommands = {
+constexpr std::array kScriptCommands = {
     Command{"state", "", "", "state()", "Counts, selection and view, as a table", &state},
     Command{"locate", "", "", "locate()", "Pixel of the selection: a table of x and y", &locate},
     Command{"red_pixels", "", "", "red_pixels(X, Y, RADIUS)",
@@ -103,7 +103,7 @@ void Host::print(const std::string& line) {
 }
 
 std::span<const Command> script_commands() {
-  return kCommands;
+  return kScriptCommands;
 }
 
 namespace {

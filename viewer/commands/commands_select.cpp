@@ -125,7 +125,7 @@ json step_worst(Session& s, const json&) {
 
 constexpr std::string_view kSelect = "Select";
 
-constexpr std::array kCommands = {
+constexpr std::array kSelectCommands = {
     Command{"pick", "", "", "pick(X, Y)", "Select what lies under a pixel; the result tells what",
             &pick},
     Command{"pick_kind", "Q", kSelect, "pick_kind(\"edge\")",
@@ -149,7 +149,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> select_commands() {
-  return kCommands;
+  return kSelectCommands;
 }
 
 }  // namespace tetmend::viewer

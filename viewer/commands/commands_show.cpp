@@ -157,7 +157,7 @@ json show_all(Session& s, const json&) {
 
 constexpr std::string_view kShow = "Show";
 
-constexpr std::array kCommands = {
+constexpr std::array kShowCommands = {
     Command{"edges", "E", kShow, "edges()", "Edges on or off", &toggle<&ViewSettings::edges>},
     Command{"bad", "B", kShow, "bad()", "Bad tets in red, seen through the rest",
             &toggle<&SceneSettings::bad>},
@@ -203,7 +203,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> show_commands() {
-  return kCommands;
+  return kShowCommands;
 }
 
 }  // namespace tetmend::viewer

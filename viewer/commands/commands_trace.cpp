@@ -273,7 +273,7 @@ using Kind = Condition::Kind;
 constexpr auto kForward = Direction::forward;
 constexpr auto kBack = Direction::back;
 
-constexpr std::array kCommands = {
+constexpr std::array kTraceCommands = {
     Command{"seek", "", "", "seek(EVENTS)", "Go to the place where so many events have happened",
             &seek},
     Command{"step", "", "", "step(\"over\", \"back\")",
@@ -342,7 +342,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> trace_commands() {
-  return kCommands;
+  return kTraceCommands;
 }
 
 }  // namespace tetmend::viewer

@@ -67,7 +67,7 @@ json redo_view(Session& s, const json&) {
 
 constexpr std::string_view kView = "View";
 
-constexpr std::array kCommands = {
+constexpr std::array kViewCommands = {
     Command{"home", "H", kView, "home()", "Whole mesh from the home direction", &home},
     Command{"fit", "F", kView, "fit()", "Fit the selection, or the whole mesh", &fit},
     Command{"from_right", "1", kView, "from_right()", "Look from +x", &look_along<'+', 'x'>},
@@ -101,7 +101,7 @@ constexpr std::array kCommands = {
 }  // namespace
 
 std::span<const Command> view_commands() {
-  return kCommands;
+  return kViewCommands;
 }
 
 }  // namespace tetmend::viewer
