@@ -118,6 +118,19 @@ hold_worst()
 judge_by{price = full_price}
 local can_move = plain_rounds() > 0
 
+-- Where too many are left for that, what takes little time, by sines alone, inside: a surface that moves
+-- so often loses volume.
+if can_move and quality().n_bad > math.max(few, 0.002 * quality().tets) then
+  begin_round()
+  judge_by{price = full_price, measure = "sine"}
+  apply({"cavity_insertion", desperate = 0, tries = 2})
+  apply(sequence{"smoothing", "recursive_shell_transformation", "smoothing", "joint_smoothing",
+                 desperate = 0.7})
+  local_reconnection{edges = quick}
+  smooth{}
+  judge_by{price = full_price}
+end
+
 -- Where many are left, but few of all tets, the worst rise at a price, as long as a round removes a
 -- fifth of the bad ones.
 for _ = 1, max_rounds do
