@@ -36,7 +36,7 @@ bool CoverTest::covers(const std::array<Point, 3>& points, unsigned corners,
   }
   stack_.assign(1, whole);
   for (unsigned pieces = 0; !stack_.empty(); ++pieces) {
-    if (pieces == kMostPieces) return false;
+    if (pieces == most_pieces_) return false;
     const Piece piece = stack_.back();
     stack_.pop_back();
     if (!certify(piece, targets, nearest) && !divide(piece, targets)) return false;

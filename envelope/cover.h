@@ -34,6 +34,7 @@ class CoverTest {
   /// pieces. With `nearest`, takes the nearest target for each piece, not the first that will do.
   bool covers(const std::array<Point, 3>& points, unsigned corners, std::span<CoverTarget> targets,
               bool nearest = false);
+  void set_most_pieces(unsigned most) { most_pieces_ = most; }
   /// After true: a proven bound of the distance.
   double bound() const { return bound_; }
 
@@ -62,6 +63,7 @@ class CoverTest {
   bool cut(const Piece& piece, const CoverTarget& target, double beyond);
   void halve(const Piece& piece);
 
+  unsigned most_pieces_ = kMostPieces;
   std::vector<Piece> stack_;
   double bound_ = 0;
 };

@@ -34,6 +34,10 @@ inline Point nearest_point(const Element& element, const Point& p) {
   return nearest_point(element.points, element.corners, p);
 }
 
+inline double triangle_area(const std::array<Point, 3>& p) {
+  return (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+}
+
 using Box = Eigen::AlignedBox<double, 3>;
 Box box_of(const std::array<Point, 3>& points);
 /// With all that lies within its tolerance.

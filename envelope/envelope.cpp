@@ -15,7 +15,7 @@
 
 namespace tetmend {
 
-std::unique_ptr<Envelope> Envelope::of(const TetMesh& mesh, const EnvelopeOptions& options) {
+void check(const EnvelopeOptions& options, double flatness) {
   if (!(options.angle > 0 && options.angle <= 180)) {
     throw Error(fmt::format("feature angle {}: it lies above 0, and at most at 180 degrees",
                             options.angle));
@@ -26,14 +26,19 @@ std::unique_ptr<Envelope> Envelope::of(const TetMesh& mesh, const EnvelopeOption
   if (options.share > 0 && options.length > 0) {
     throw Error("surface tolerance: a share of edges or a length, not both");
   }
-  const SurfaceFeatures features =
-      find_features(mesh, {options.angle, options.is_flat(), options.kept});
-  if (options.length > 0 && options.length < 10 * flatness(mesh)) {
+  if (options.length > 0 && options.length < 10 * flatness) {
     throw Error(
         fmt::format("surface tolerance {}: rounding alone may be as large", options.length));
   }
-  auto reference = std::make_shared<Reference>(mesh, features, options);
-  PresentSurface present(mesh, features);
+}
+
+std::unique_ptr<Envelope> Envelope::of(const TetMesh& mesh, const EnvelopeOptions& options) {
+  check(options, flatness(mesh));
+  const SurfaceFeatures features =
+      find_features(mesh, {options.angle, options.is_flat(), options.kept});
+  auto reference =
+      std::make_shared<Reference>(points_by_slot(mesh), flatness(mesh), features, options);
+  PresentSurface present(points_by_slot(mesh), features);
   std::unique_ptr<Envelope> result(new Envelope(std::move(reference), std::move(present)));
   if (!options.is_flat()) result->certify_input(features);
   return result;
@@ -129,13 +134,17 @@ Point Envelope::direction(VertexHandle v, const Point&) const {
 
 bool Envelope::is_flat_edit(const Journal& journal) const {
   for (const SurfaceExchange::Face& face : journal.edit.after()) {
-    const auto& patch = reference_->patches[face.patch];
-    if (patch.normal.isZero() || certified_sense(face.points, patch.normal) <= 0) return false;
-    for (const Point& p : face.points) {
-      if (!(std::abs(patch.normal.dot(p - patch.origin)) <= 2 * reference_->flatness)) return false;
-    }
+    if (!lies_flat(face.points, face.patch)) return false;
   }
   return keeps_lines_straight(journal);
+}
+
+bool Envelope::lies_flat(const std::array<Point, 3>& points, std::uint32_t number) const {
+  const auto& patch = reference_->patches[number];
+  if (patch.normal.isZero() || certified_sense(points, patch.normal) <= 0) return false;
+  return std::all_of(points.begin(), points.end(), [&](const Point& p) {
+    return std::abs(patch.normal.dot(p - patch.origin)) <= 2 * reference_->flatness;
+  });
 }
 
 bool Envelope::keeps_lines_straight(const Journal& journal) const {

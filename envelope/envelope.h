@@ -32,12 +32,16 @@ struct TETMEND_API EnvelopeOptions {
   bool is_flat() const { return share == 0 && length == 0; }
 };
 
+/// @throws Error for an angle, a share or a length that is none.
+TETMEND_API void check(const EnvelopeOptions& options, double flatness);
+
 /// What is proven of the present surface.
 struct TETMEND_API SurfaceBound {
-  double distance = 0;      ///< no point of either surface is farther from the other, by patch
-  double share = 0;         ///< the largest share of a tolerance that was used
-  std::size_t faces = 0;    ///< of the present surface
-  std::size_t touched = 0;  ///< of them those that are no triangles of the reference
+  double distance = 0;       ///< no point of either surface is farther from the other, by patch
+  double share = 0;          ///< the largest share of a tolerance that was used
+  std::size_t faces = 0;     ///< of the present surface
+  std::size_t touched = 0;   ///< of them those that are no triangles of the reference
+  std::size_t unproven = 0;  ///< faces, feature edges and elements without a proof that was found
 };
 
 /// Keeps the surface of a mesh near the one that it had when the envelope was made, the *reference*.
@@ -58,6 +62,14 @@ class TETMEND_API Envelope final : public SurfaceGuard {
  public:
   /// Of the mesh as it is. @throws Error for an angle, a share or a length that is none.
   static std::unique_ptr<Envelope> of(const TetMesh& mesh, const EnvelopeOptions& options);
+  /// Of a present surface, or a part of one, that is near the reference already. An element that
+  /// the part proves alone keeps that proof. Others are covered by what lies outside, too: of them
+  /// no face or edge that may take part goes, unless what comes proves the element alone.
+  /// @param points by vertex slot
+  /// @param present faces, edges and places; a vertex that has faces elsewhere is a corner
+  static std::unique_ptr<Envelope> of_part(std::shared_ptr<const Reference> reference,
+                                           std::span<const Point> points,
+                                           const SurfaceFeatures& present);
 
   Envelope(const Envelope&) = default;
   Envelope& operator=(const Envelope&) = delete;
@@ -85,6 +97,12 @@ class TETMEND_API Envelope final : public SurfaceGuard {
   /// Proves anew how near both surfaces are. Precondition: no edit is under way. Cost: some
   /// microseconds for each face that was touched; not for several threads at once.
   SurfaceBound proven_bound() const;
+  /// The same from nothing but the surfaces, with pieces as many as it takes. With tolerance 0: each
+  /// face lies in its patch, turned the right way, and patches have the areas that they had.
+  /// Precondition: this is the whole surface.
+  SurfaceBound prove() const;
+  /// Its faces, feature edges and places, by vertex slot.
+  SurfaceFeatures present() const;
   /// Largest distance of a point of either surface from the other, at (side + 1) (side + 2) / 2
   /// points of each triangle that was touched or is gone: for reports, a lower bound. Cost: a
   /// nearest triangle for each point, in parallel.
@@ -106,12 +124,18 @@ class TETMEND_API Envelope final : public SurfaceGuard {
   Envelope(std::shared_ptr<const Reference> reference, PresentSurface present)
       : reference_(std::move(reference)), present_(std::move(present)) {}
   void certify_input(const SurfaceFeatures& features);
+  void certify_part(const SurfaceFeatures& present);
+  void add_certifiers(Journal& journal, std::uint32_t element, const std::vector<PresentKey>& near);
+  bool lies_flat(const std::array<Point, 3>& points, std::uint32_t patch) const;
+  std::size_t count_unproven_patches() const;
+  SurfaceBound bound(Journal& journal) const;
   bool is_flat_edit(const Journal& journal) const;
   bool keeps_lines_straight(const Journal& journal) const;
   bool is_near_edit(Journal& journal) const;
   bool lies_near(Journal& journal, const std::array<Point, 3>& points, unsigned corners,
                  std::uint32_t sheet, bool nearest = false) const;
-  double bound_of(Journal& journal, std::uint32_t element) const;
+  bool offer_present(Journal& journal, std::uint32_t element,
+                     const std::vector<PresentKey>& keys) const;
   bool certify_elements(Journal& journal) const;
   bool certify(Journal& journal, std::uint32_t element) const;
   bool bends_too_much(const Journal& journal) const;

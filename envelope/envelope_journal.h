@@ -45,6 +45,8 @@ class Envelope::Journal final : public SurfaceJournal {
 
   // Working memory.
   CoverTest cover;
+  double widening = 1;  ///< of tolerances, within what they were narrowed by
+  double widened(double tolerance) const { return widening * tolerance; }
   std::vector<std::uint32_t> elements;
   std::vector<CoverTarget> targets;
   std::vector<PresentKey> keys;

@@ -58,7 +58,8 @@ bool Envelope::lies_near(Journal& journal, const std::array<Point, 3>& points, u
   for (const std::uint32_t i : journal.elements) {
     const Element& element = reference_->elements[i];
     if (!may_certify(element.normal, normal, corners)) continue;
-    journal.targets.push_back({element.points, element.corners, element.tolerance, element.normal});
+    journal.targets.push_back(
+        {element.points, element.corners, journal.widened(element.tolerance), element.normal});
   }
   return journal.cover.covers(points, corners, journal.targets, nearest);
 }
@@ -205,11 +206,14 @@ double Envelope::bending(const SurfaceExchange& edit,
   return sum;
 }
 
-/// What its certifiers prove of one element.
-double Envelope::bound_of(Journal& journal, std::uint32_t number) const {
+/// Those of the keys that may certify an element. True: they do, together.
+bool Envelope::offer_present(Journal& journal, std::uint32_t number,
+                             const std::vector<PresentKey>& keys) const {
   const Element& element = reference_->elements[number];
   journal.targets.clear();
-  for (PresentKey v : covers_[number]) {
+  journal.keys.clear();
+  for (const PresentKey& key : keys) {
+    PresentKey v = key;
     if (element.corners == 2) {
       v[2] = v[1];
     } else if (present_.patch_of_oriented(v) == kNone) {
@@ -217,17 +221,26 @@ double Envelope::bound_of(Journal& journal, std::uint32_t number) const {
     }
     const std::array<Point, 3> points = {present_.point(v[0]), present_.point(v[1]),
                                          present_.point(v[2])};
+    const Point normal = normal_of(points, element.corners, 0);
+    if (!may_certify(element.normal, normal, element.corners)) continue;
+    journal.keys.push_back(key);
     journal.targets.push_back(
-        {points, element.corners, element.tolerance, normal_of(points, element.corners, 0)});
+        {points, element.corners, journal.widened(element.tolerance), normal});
   }
-  const bool proven = journal.cover.covers(element.points, element.corners, journal.targets, true);
-  return proven ? journal.cover.bound() : element.tolerance;  // other pieces, too many of them
+  return journal.cover.covers(element.points, element.corners, journal.targets, true);
 }
 
 SurfaceBound Envelope::proven_bound() const {
   Journal journal;
+  return bound(journal);
+}
+
+SurfaceBound Envelope::bound(Journal& journal) const {
   SurfaceBound bound;
-  const auto note = [&](double distance, double tolerance) {
+  const auto note = [&](bool is_proven, double tolerance) {
+    // Not proven: other pieces, too many of them.
+    const double distance = is_proven ? journal.cover.bound() : tolerance;
+    bound.unproven += is_proven ? 0 : 1;
     bound.distance = std::max(bound.distance, distance);
     if (distance > 0) bound.share = std::max(bound.share, distance / tolerance);
   };
@@ -243,24 +256,21 @@ SurfaceBound Envelope::proven_bound() const {
       ++bound.touched;
       if (reference_->is_flat()) {
         bound.distance = 3 * reference_->flatness;
+        bound.unproven += lies_flat(points, corner.patch) ? 0 : 1;
         continue;
       }
-      const double tolerance = reference_->tolerance(corner.patch);
-      const bool proven = lies_near(journal, points, 3, corner.patch, true);
-      note(proven ? journal.cover.bound() : tolerance, tolerance);
+      note(lies_near(journal, points, 3, corner.patch, true), reference_->tolerance(corner.patch));
     }
     if (reference_->is_flat()) continue;
     for (const auto& spoke : present_.find(v)->spokes) {
       if (spoke.end < v) continue;
       const std::uint32_t sheet = reference_->sheet_of_line(spoke.line);
       const auto points = segment(present_.point(v), present_.point(spoke.end));
-      const double tolerance = reference_->tolerance(sheet);
-      note(lies_near(journal, points, 2, sheet, true) ? journal.cover.bound() : tolerance,
-           tolerance);
+      note(lies_near(journal, points, 2, sheet, true), reference_->tolerance(sheet));
     }
   }
   for (std::uint32_t e = 0; e < covers_.size(); ++e) {
-    note(bound_of(journal, e), reference_->elements[e].tolerance);
+    note(offer_present(journal, e, covers_[e]), reference_->elements[e].tolerance);
   }
   return bound;
 }

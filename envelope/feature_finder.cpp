@@ -3,87 +3,38 @@
 #include "envelope/feature_finder.h"
 
 #include <algorithm>
-#include <numeric>
-
-#include "kernel/mesh_view.h"
+#include <tuple>
 
 namespace tetmend {
 
+void FeatureFinder::note_vertices() {
+  found_.places.assign(points_.size(), SurfacePlace::inside);
+  for (const auto& face : found_.faces) {
+    for (const VertexHandle v : face.vertices) found_.places[v.index()] = SurfacePlace::smooth;
+  }
+}
+
+void FeatureFinder::sort_named_edges() {
+  std::sort(walls_.begin(), walls_.end());
+  for (Named& edge : named_) edge.vertices = ends_of(edge.vertices[0], edge.vertices[1]);
+  std::sort(named_.begin(), named_.end(), [](const Named& a, const Named& b) {
+    return std::tie(a.vertices, a.label) < std::tie(b.vertices, b.label);
+  });
+  for (std::size_t i = 1; i < named_.size(); ++i) {  // named twice: which one counts is open
+    if (named_[i].vertices == named_[i - 1].vertices) {
+      for (const VertexHandle v : named_[i].vertices) keep(v);
+    }
+  }
+}
+
 namespace {
 
-std::array<VertexHandle, 3> sorted(std::array<VertexHandle, 3> v) {
-  std::sort(v.begin(), v.end());
-  return v;
+bool same_kind(const SurfaceInput::Kind& a, const SurfaceInput::Kind& b) {
+  return std::tie(a.sides, a.label, a.named, a.interior) ==
+         std::tie(b.sides, b.label, b.named, b.interior);
 }
 
 }  // namespace
-
-void FeatureFinder::add_face(HalfFace f, const SurfaceTriangle& triangle) {
-  Kind kind{{mesh_.label(f.tet()), 0}, triangle.label, triangle.named, triangle.interior};
-  if (triangle.interior) kind.sides[1] = mesh_.label(mesh_.twin(f).tet());
-  found_.faces.push_back({mesh_.vertices(f), 0});
-  kinds_.push_back(kind);
-  for (const VertexHandle v : mesh_.vertices(f)) {
-    found_.places[v.index()] = SurfacePlace::smooth;
-  }
-}
-
-void FeatureFinder::collect_faces() {
-  const auto triangles = mesh_.surface_triangles();
-  std::vector<std::pair<std::array<VertexHandle, 3>, std::uint32_t>> inner;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (triangles[i].loose) {
-      for (const VertexHandle v : triangles[i].vertices) keep(v);
-    } else if (triangles[i].interior) {
-      inner.emplace_back(sorted(triangles[i].vertices), i);
-    }
-  }
-  std::sort(inner.begin(), inner.end());
-  for (std::uint32_t i = 0; i < mesh_.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh_.is_deleted(t)) continue;
-    for (unsigned k = 0; k < 4; ++k) {
-      const HalfFace f(t, k);
-      const HalfFace twin = mesh_.twin(f);
-      if (twin.is_outside()) {
-        add_face(f, triangles[twin.surface_triangle()]);
-        continue;
-      }
-      if (!mesh_.is_constrained(f)) continue;
-      const auto v = sorted(mesh_.vertices(f));
-      if (mesh_.label(t) == mesh_.label(twin.tet())) {
-        for (unsigned e = 0; e < 3; ++e) {
-          keep(v[e]);
-          walls_.push_back(ends_of(v[e], v[(e + 1) % 3]));
-        }
-      } else if (mesh_.label(t) < mesh_.label(twin.tet())) {
-        const auto at =
-            std::lower_bound(inner.begin(), inner.end(), std::pair(v, std::uint32_t{0}));
-        add_face(f, triangles[at->second]);
-      }
-    }
-  }
-  std::sort(walls_.begin(), walls_.end());
-}
-
-void FeatureFinder::collect_named_edges() {
-  const MeshView view(mesh_);
-  const auto slots = view.vertex_slots();
-  const auto vertex = [&](std::uint32_t i) { return VertexHandle(slots.empty() ? i : slots[i]); };
-  for (const MeshData::Edge& edge : view.edges()) {
-    named_.push_back({ends_of(vertex(edge.vertices[0]), vertex(edge.vertices[1])), edge.label});
-  }
-  for (const std::uint32_t i : view.required_vertices()) keep(vertex(i));
-  kept_.insert(kept_.end(), options_.kept.begin(), options_.kept.end());
-  std::sort(named_.begin(), named_.end(), [](const Named& a, const Named& b) {
-    return std::tie(a.ends, a.label) < std::tie(b.ends, b.label);
-  });
-  for (std::size_t i = 1; i < named_.size(); ++i) {  // named twice: which one counts is open
-    if (named_[i].ends == named_[i - 1].ends) {
-      for (const VertexHandle v : named_[i].ends) keep(v);
-    }
-  }
-}
 
 void FeatureFinder::sort_sides() {
   for (std::uint32_t i = 0; i < found_.faces.size(); ++i) {
@@ -108,11 +59,12 @@ bool FeatureFinder::is_smooth(std::size_t begin, std::size_t end) const {
   if (end - begin != 2) return false;
   const Side& a = sides_[begin];
   const Side& b = sides_[begin + 1];
-  if (a.up == b.up || kinds_[a.face].key() != kinds_[b.face].key()) return false;
+  if (a.up == b.up || !same_kind(kinds_[a.face], kinds_[b.face])) return false;
   if (std::binary_search(walls_.begin(), walls_.end(), a.ends)) return false;
-  const auto at = std::lower_bound(named_.begin(), named_.end(), a.ends,
-                                   [](const Named& x, const Ends& ends) { return x.ends < ends; });
-  if (at != named_.end() && at->ends == a.ends) return false;
+  const auto at =
+      std::lower_bound(named_.begin(), named_.end(), a.ends,
+                       [](const Named& x, const Ends& ends) { return x.vertices < ends; });
+  if (at != named_.end() && at->vertices == a.ends) return false;
   return normal(a.face).dot(normal(b.face)) >= least_cosine_;
 }
 
@@ -166,7 +118,7 @@ void FeatureFinder::split_by_planes() {
   triangles.reserve(found_.faces.size());
   for (const auto& face : found_.faces) {
     const auto& v = face.vertices;
-    triangles.push_back({mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2])});
+    triangles.push_back({point(v[0]), point(v[1]), point(v[2])});
   }
   const Planes planes = find_planes(triangles, neighbours_, flatness_);
   std::vector<std::uint32_t> first(planes.planes.size(), 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How the features of a surface are found. Only for the sources that do it.
 //
-//   collect faces -> sides, sorted by edge -> which edges are smooth -> patches -> feature edges ->
-//   corners -> lines
+//   faces -> sides, sorted by edge -> which edges are smooth -> patches -> feature edges -> corners ->
+//   lines
 #pragma once
 
 #include <array>
@@ -21,19 +21,26 @@
 
 namespace tetmend {
 
-/// Finds the features of one mesh.
+/// Finds the features of one surface.
 class FeatureFinder {
  public:
-  FeatureFinder(const TetMesh& mesh, const FeatureOptions& options)
-      : mesh_(mesh),
+  FeatureFinder(SurfaceInput surface, std::span<const Point> points, double flatness,
+                const FeatureOptions& options)
+      : points_(points),
         options_(options),
         least_cosine_(std::cos(options.angle * std::numbers::pi / 180)),
-        flatness_(flatness(mesh)) {}
+        flatness_(flatness),
+        kinds_(std::move(surface.kinds)),
+        kept_(std::move(surface.kept)),
+        named_(std::move(surface.named)),
+        walls_(std::move(surface.walls)) {
+    found_.faces = std::move(surface.faces);
+    kept_.insert(kept_.end(), options.kept.begin(), options.kept.end());
+  }
 
   SurfaceFeatures find() {
-    found_.places.assign(mesh_.vertex_slots(), SurfacePlace::inside);
-    collect_faces();
-    collect_named_edges();
+    note_vertices();
+    sort_named_edges();
     sort_sides();
     join_faces();
     if (options_.flat) {
@@ -49,21 +56,12 @@ class FeatureFinder {
 
  private:
   using Ends = std::array<VertexHandle, 2>;
-  struct Kind {  // faces of different kinds are never of one patch
-    std::array<Label, 2> sides;
-    Label label;
-    bool named;
-    bool interior;
-    auto key() const { return std::tie(sides, label, named, interior); }
-  };
+  using Kind = SurfaceInput::Kind;
+  using Named = SurfaceInput::NamedEdge;
   struct Side {
     Ends ends;
     std::uint32_t face;
     bool up;  // the face runs from the lower end to the higher
-  };
-  struct Named {
-    Ends ends;
-    Label label;
   };
   struct FeatureEdge {
     Ends ends;
@@ -73,17 +71,16 @@ class FeatureFinder {
   };
 
   static Ends ends_of(VertexHandle a, VertexHandle b) { return a < b ? Ends{a, b} : Ends{b, a}; }
-  void collect_faces();
-  void add_face(HalfFace f, const SurfaceTriangle& triangle);
+  const Point& point(VertexHandle v) const { return points_[v.index()]; }
   void keep(VertexHandle v) { kept_.push_back(v); }
-  void collect_named_edges();
+  void note_vertices();
+  void sort_named_edges();
   void sort_sides();
   void join_faces();
   bool is_smooth(std::size_t begin, std::size_t end) const;
   Point normal(std::uint32_t face) const {
     const auto& v = found_.faces[face].vertices;
-    const Point n =
-        (mesh_.point(v[1]) - mesh_.point(v[0])).cross(mesh_.point(v[2]) - mesh_.point(v[0]));
+    const Point n = (point(v[1]) - point(v[0])).cross(point(v[2]) - point(v[0]));
     const double length = n.norm();
     return length > 0 ? Point(n / length) : Point::Zero();
   }
@@ -105,7 +102,7 @@ class FeatureFinder {
     return {edges_of_.data() + begin, first_edge_[v.index() + 1] - begin};
   }
 
-  const TetMesh& mesh_;
+  const std::span<const Point> points_;
   const FeatureOptions& options_;
   double least_cosine_;
   double flatness_;

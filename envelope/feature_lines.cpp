@@ -12,18 +12,18 @@ void FeatureFinder::collect_edges() {
   auto named = named_.begin();
   for (std::size_t g = 0; g + 1 < group_.size(); ++g) {
     const Ends& ends = sides_[group_[g]].ends;
-    for (; named != named_.end() && named->ends < ends; ++named) {  // not on the surface
-      for (const VertexHandle v : named->ends) keep(v);
+    for (; named != named_.end() && named->vertices < ends; ++named) {  // not on the surface
+      for (const VertexHandle v : named->vertices) keep(v);
     }
-    const bool is_named = named != named_.end() && named->ends == ends;
+    const bool is_named = named != named_.end() && named->vertices == ends;
     const Label label = is_named ? named->label : 0;
-    while (named != named_.end() && named->ends == ends) ++named;
+    while (named != named_.end() && named->vertices == ends) ++named;
     if (!smooth_[g]) edges_.push_back({ends, group_[g], group_[g + 1], label, is_named});
   }
   for (; named != named_.end(); ++named) {
-    for (const VertexHandle v : named->ends) keep(v);
+    for (const VertexHandle v : named->vertices) keep(v);
   }
-  first_edge_.assign(mesh_.vertex_slots() + 1, 0);
+  first_edge_.assign(points_.size() + 1, 0);
   for (const FeatureEdge& edge : edges_) {
     for (const VertexHandle v : edge.ends) ++first_edge_[v.index() + 1];
   }
@@ -39,7 +39,7 @@ void FeatureFinder::collect_edges() {
 bool FeatureFinder::bends(std::uint32_t e, std::uint32_t f, VertexHandle v) const {
   const auto away = [&](std::uint32_t edge) {
     const Ends& ends = edges_[edge].ends;
-    return (mesh_.point(ends[0] == v ? ends[1] : ends[0]) - mesh_.point(v)).normalized();
+    return (point(ends[0] == v ? ends[1] : ends[0]) - point(v)).normalized();
   };
   return !(-away(e).dot(away(f)) >= least_cosine_);
 }
@@ -60,14 +60,12 @@ bool FeatureFinder::same_sides(const FeatureEdge& a, const FeatureEdge& b,
 }
 
 void FeatureFinder::find_corners() {
-  for (std::uint32_t i = 0; i < mesh_.vertex_slots(); ++i) {
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
     const VertexHandle v(i);
     SurfacePlace& place = found_.places[i];
     if (place == SurfacePlace::inside) continue;
     const auto edges = edges_at(v);
-    if (mesh_.is_frozen(v)) {
-      place = SurfacePlace::corner;
-    } else if (!edges.empty()) {
+    if (!edges.empty()) {
       place = SurfacePlace::ridge;
       if (edges.size() != 2 || edges_[edges[0]].named != edges_[edges[1]].named ||
           edges_[edges[0]].label != edges_[edges[1]].label || bends(edges[0], edges[1], v) ||
@@ -103,7 +101,7 @@ std::vector<std::uint32_t> FeatureFinder::count_fans() const {
       parent[root(corner(pair[0].face, v))] = root(corner(pair[1].face, v));
     }
   }
-  std::vector<std::uint32_t> fans(mesh_.vertex_slots(), 0);
+  std::vector<std::uint32_t> fans(points_.size(), 0);
   for (std::uint32_t c = 0; c < parent.size(); ++c) {
     fans[found_.faces[c / 3].vertices[c % 3].index()] += root(c) == c;
   }
@@ -113,7 +111,7 @@ std::vector<std::uint32_t> FeatureFinder::count_fans() const {
 /// Sheets that touch at a vertex give it more fans than its feature edges explain: one without
 /// them, else one for each two sides of feature edges.
 void FeatureFinder::mark_pinched() {
-  std::vector<std::uint32_t> sides(mesh_.vertex_slots(), 0);
+  std::vector<std::uint32_t> sides(points_.size(), 0);
   for (const FeatureEdge& edge : edges_) {
     for (const VertexHandle v : edge.ends) sides[v.index()] += edge.last_side - edge.first_side;
   }
@@ -128,7 +126,7 @@ void FeatureFinder::mark_pinched() {
 
 void FeatureFinder::make_lines() {
   std::vector<char> done(edges_.size(), 0);
-  for (std::uint32_t i = 0; i < mesh_.vertex_slots(); ++i) {
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
     const VertexHandle v(i);
     if (found_.places[i] != SurfacePlace::corner) continue;
     for (const std::uint32_t e : edges_at(v)) {
@@ -168,13 +166,13 @@ void FeatureFinder::walk(VertexHandle from, std::uint32_t edge, std::vector<char
 /// How far the chain goes straight on: forwards all the time, with all vertices on one line.
 std::size_t FeatureFinder::straight_end(const std::vector<VertexHandle>& chain,
                                         std::size_t begin) const {
-  const Point& origin = mesh_.point(chain[begin]);
+  const Point& origin = point(chain[begin]);
   std::size_t end = begin + 1;
   for (; end + 1 < chain.size(); ++end) {
-    const Point along = (mesh_.point(chain[end + 1]) - origin).normalized();
+    const Point along = (point(chain[end + 1]) - origin).normalized();
     double last = 0;
     for (std::size_t i = begin + 1; i <= end + 1; ++i) {
-      const Point d = mesh_.point(chain[i]) - origin;
+      const Point d = point(chain[i]) - origin;
       const double t = d.dot(along);
       if (!(t > last) || (d - t * along).norm() > flatness_ / 2) return end;
       last = t;
@@ -187,8 +185,8 @@ void FeatureFinder::add_line(const std::vector<VertexHandle>& chain, std::uint32
   const auto line = static_cast<std::uint32_t>(found_.lines.size());
   SurfaceFeatures::Line data{edges_[edge].label, edges_[edge].named};
   if (options_.flat) {
-    data.origin = mesh_.point(chain.front());
-    data.direction = (mesh_.point(chain.back()) - data.origin).normalized();
+    data.origin = point(chain.front());
+    data.direction = (point(chain.back()) - data.origin).normalized();
   }
   found_.lines.push_back(data);
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <tetmend/api.h>
@@ -66,12 +67,45 @@ struct TETMEND_API SurfaceFeatures {
   std::vector<SurfacePlace> places;  ///< by vertex slot
 };
 
+/// What the features of a surface follow from, besides the points.
+struct TETMEND_API SurfaceInput {
+  struct Kind {  ///< faces of different kinds are never of one patch
+    std::array<Label, 2> sides{};
+    Label label = 0;
+    bool named = false;
+    bool interior = false;
+  };
+  struct NamedEdge {
+    std::array<VertexHandle, 2> vertices;
+    Label label = 0;
+  };
+
+  std::vector<SurfaceFeatures::Face> faces;
+  std::vector<Kind> kinds;       ///< of each face
+  std::vector<NamedEdge> named;  ///< by the file, also those that are not on the surface
+  std::vector<std::array<VertexHandle, 2>> walls;  ///< edges of faces named inside a region
+  /// Vertices that stay: required or frozen ones, those of walls and of triangles that are no face.
+  std::vector<VertexHandle> kept;
+};
+
+/// Of a mesh; with deleted vertex slots and frozen tets, as it is. Cost: linear, but for sorting the
+/// faces between labels.
+TETMEND_API SurfaceInput read_surface(const TetMesh& mesh);
+
+/// The points of all vertex slots, as they lie in the mesh; of a deleted vertex anything.
+TETMEND_API std::span<const Point> points_by_slot(const TetMesh& mesh);
+
 /// How far the points of a flat patch or a straight line may lie from it: 1e-13 of the diagonal of
 /// the mesh, or what rounding of its coordinates makes.
 TETMEND_API double flatness(const TetMesh& mesh);
+/// Of a mesh with that box.
+TETMEND_API double flatness(const Point& low, const Point& high);
 
 /// Finds them. Precondition: none; folded and non-manifold surfaces have more corners. Cost: sorting
 /// the edges of the surface.
 TETMEND_API SurfaceFeatures find_features(const TetMesh& mesh, const FeatureOptions& options);
+/// @param points by vertex
+TETMEND_API SurfaceFeatures find_features(SurfaceInput surface, std::span<const Point> points,
+                                          double flatness, const FeatureOptions& options);
 
 }  // namespace tetmend

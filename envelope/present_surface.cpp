@@ -15,13 +15,13 @@ PresentKey key_of(VertexHandle a, VertexHandle b) {
   return a < b ? PresentKey{a, b, {}} : PresentKey{b, a, {}};
 }
 
-PresentSurface::PresentSurface(const TetMesh& mesh, const SurfaceFeatures& features)
-    : vertices_(mesh.vertex_slots()), points_(mesh.vertex_slots(), Point::Zero()) {
+PresentSurface::PresentSurface(std::span<const Point> points, const SurfaceFeatures& features)
+    : vertices_(points.size()), points_(points.size(), Point::Zero()) {
   for (std::uint32_t i = 0; i < vertices_.size(); ++i) {
     if (features.places[i] == SurfacePlace::inside) continue;
     vertices_[i] = std::make_unique<SurfaceVertex>();
     vertices_[i]->place = features.places[i];
-    points_[i] = mesh.point(VertexHandle(i));
+    points_[i] = points[i];
   }
   for (const auto& face : features.faces) {
     for (unsigned k = 0; k < 3; ++k) {

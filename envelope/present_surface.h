@@ -49,7 +49,8 @@ struct SurfaceVertex {
 /// they read of foreign vertices is their points alone, which nobody moves then.
 class PresentSurface {
  public:
-  PresentSurface(const TetMesh& mesh, const SurfaceFeatures& features);
+  /// @param points by vertex slot
+  PresentSurface(std::span<const Point> points, const SurfaceFeatures& features);
   PresentSurface(const PresentSurface& other);
   PresentSurface(PresentSurface&&) noexcept = default;
   PresentSurface& operator=(const PresentSurface&) = delete;

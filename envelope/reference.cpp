@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "envelope/envelope.h"
+#include "kernel/compensated_sum.h"
 
 namespace tetmend {
 
@@ -57,10 +58,6 @@ Point shortest_way(const Element& a, const Element& b) {
   return best;
 }
 
-}  // namespace
-
-namespace {
-
 /// The way from a to b leads outward from a and inward to b. Not so through the mesh, or along the
 /// surface round a sharp ridge.
 bool face_each_other(const Element& a, const Element& b, const Point& way, double touching) {
@@ -71,26 +68,38 @@ bool face_each_other(const Element& a, const Element& b, const Point& way, doubl
          (way.dot(a.normal) >= -kSlack * gap && way.dot(b.normal) <= kSlack * gap);
 }
 
+std::vector<double> patch_areas(std::span<const TriangleSet::Corners> corners,
+                                const SurfaceFeatures& features) {
+  std::vector<CompensatedSum> sums(features.patches.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    sums[features.faces[i].patch].add(triangle_area(corners[i]));
+  }
+  std::vector<double> areas;
+  for (const CompensatedSum& sum : sums) areas.push_back(sum.value());
+  return areas;
+}
+
 }  // namespace
 
-Reference::Reference(const TetMesh& mesh, const SurfaceFeatures& features,
+Reference::Reference(std::span<const Point> points, double flat, const SurfaceFeatures& features,
                      const EnvelopeOptions& options)
     : patches(features.patches),
       lines(features.lines),
       share(options.share),
       length(options.length),
-      flatness(tetmend::flatness(mesh)) {
+      flatness(flat) {
   std::vector<TriangleSet::Corners> corners;
   corners.reserve(features.faces.size());
   for (const auto& face : features.faces) {
     const auto& v = face.vertices;
-    corners.push_back({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])});
+    corners.push_back({points[v[0].index()], points[v[1].index()], points[v[2].index()]});
   }
+  areas = patch_areas(corners, features);
   triangles = TriangleSet(std::move(corners));
   if (options.is_flat()) return;
-  add_faces(mesh, features, options);
+  add_faces(points, features, options);
   hold_close_parts(features);
-  add_segments(mesh, features);
+  add_segments(points, features);
   tolerances.assign(patches.size() + lines.size(), 0);
   std::vector<std::uint32_t> sheet_of;
   for (Element& element : elements) {
@@ -105,14 +114,14 @@ Reference::Reference(const TetMesh& mesh, const SurfaceFeatures& features,
   tree = ElementTree(elements, sheet_of, tolerances.size());
 }
 
-void Reference::add_faces(const TetMesh& mesh, const SurfaceFeatures& features,
+void Reference::add_faces(std::span<const Point> points, const SurfaceFeatures& features,
                           const EnvelopeOptions& options) {
   faces = features.faces.size();
   const double most = 0.01 * flatness / 1e-13;  // 1 % of the diagonal
   for (const auto& face : features.faces) {
     const auto& v = face.vertices;
     Element element;
-    element.points = {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])};
+    element.points = {points[v[0].index()], points[v[1].index()], points[v[2].index()]};
     element.sheet = face.patch;
     const double asked =
         options.length > 0 ? options.length : std::min(options.share * mean_edge(element), most);
@@ -123,7 +132,7 @@ void Reference::add_faces(const TetMesh& mesh, const SurfaceFeatures& features,
   }
 }
 
-void Reference::add_segments(const TetMesh& mesh, const SurfaceFeatures& features) {
+void Reference::add_segments(std::span<const Point> points, const SurfaceFeatures& features) {
   std::map<std::pair<VertexHandle, VertexHandle>, double> at_edge;
   for (const auto& edge : features.edges) {
     at_edge[std::minmax(edge.vertices[0], edge.vertices[1])] =
@@ -139,7 +148,7 @@ void Reference::add_segments(const TetMesh& mesh, const SurfaceFeatures& feature
   for (const auto& edge : features.edges) {
     const auto& v = edge.vertices;
     Element element;
-    element.points = {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[1])};
+    element.points = {points[v[0].index()], points[v[1].index()], points[v[1].index()]};
     element.corners = 2;
     element.sheet = sheet_of_line(edge.line);
     element.tolerance = at_edge.at(std::minmax(v[0], v[1]));

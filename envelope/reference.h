@@ -5,12 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "envelope/element.h"
 #include "envelope/features.h"
 #include "envelope/triangle_set.h"
-#include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
@@ -23,7 +23,10 @@ class Reference {
  public:
   /// Elements are numbered like faces and edges of `features`. Where parts of the boundary face each
   /// other across a gap outside, the tolerance is less than half of the gap.
-  Reference(const TetMesh& mesh, const SurfaceFeatures& features, const EnvelopeOptions& options);
+  /// @param points by vertex
+  /// @param flat see flatness()
+  Reference(std::span<const Point> points, double flat, const SurfaceFeatures& features,
+            const EnvelopeOptions& options);
 
   bool is_flat() const { return elements.empty(); }
   std::uint32_t sheet_of_line(std::uint32_t line) const {
@@ -40,13 +43,14 @@ class Reference {
   std::vector<Element> elements;
   std::size_t faces = 0;  ///< so many of the elements are triangles
   std::vector<double> tolerances;
+  std::vector<double> areas;  ///< by patch
   ElementTree tree;
 
  private:
-  void add_faces(const TetMesh& mesh, const SurfaceFeatures& features,
+  void add_faces(std::span<const Point> points, const SurfaceFeatures& features,
                  const EnvelopeOptions& options);
   void hold_close_parts(const SurfaceFeatures& features);
-  void add_segments(const TetMesh& mesh, const SurfaceFeatures& features);
+  void add_segments(std::span<const Point> points, const SurfaceFeatures& features);
 };
 
 }  // namespace tetmend

@@ -52,10 +52,8 @@ std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
                       "surface: the nodes on the edges of a mesh of second order hold its surface: "
                       "it must stay fixed");
   }
-  EnvelopeOptions options;
-  options.share = share_;
+  EnvelopeOptions options = envelope_options();
   options.length = mesh.scale().to_work(length_);
-  options.angle = feature_angle_;
   options.kept = kept_vertices(mesh, find_kept_points(input));
   return Envelope::of(mesh, options);
 }

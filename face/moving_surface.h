@@ -8,6 +8,7 @@
 
 #include <tetmend/improve.h>
 
+#include "envelope/envelope.h"
 #include "kernel/surface_guard.h"
 #include "kernel/tet_mesh.h"
 
@@ -23,6 +24,10 @@ class SurfaceTolerance {
   bool is_fixed() const { return is_fixed_; }
   /// Nothing but what changes no shape.
   bool is_flat() const { return !is_fixed_ && share_ == 0 && length_ == 0; }
+  /// The same for an envelope; a length as the file has it. Precondition: not fixed.
+  EnvelopeOptions envelope_options() const {
+    return {.share = share_, .length = length_, .angle = feature_angle_};
+  }
   /// What decides about changes of the surface of a mesh that was just built of `input`. Points that
   /// the file pairs with others or marks stay (kept_points.h). Precondition: not fixed; frozen tets are marked.
   /// @throws OptionError for a mesh whose surface must not move: one of second order

@@ -31,24 +31,22 @@ double weight(const Point& p, const Point& a, const Point& b, double area) {
   return area > 0 ? (a - p).cross(b - p).norm() / area : 1;
 }
 
-/// Of the corners that carry p, a point of the triangle; 0 if they have several.
-Label common_label(const MeshData& data, const Corners& v, const Point& p) {
+}  // namespace
+
+Label common_label(const std::array<Point, 3>& at, const std::array<Label, 3>& labels,
+                   const Point& p) {
   constexpr double kNone = 1e-9;
-  const std::array<Point, 3> at = {data.points[v[0]], data.points[v[1]], data.points[v[2]]};
   const double area = (at[1] - at[0]).cross(at[2] - at[0]).norm();
   bool any = false;
   Label label = 0;
   for (unsigned k = 0; k < 3; ++k) {
     if (weight(p, at[(k + 1) % 3], at[(k + 2) % 3], area) <= kNone) continue;
-    const Label own = data.point_labels[v[k]];
-    if (any && own != label) return 0;
-    label = own;
+    if (any && labels[k] != label) return 0;
+    label = labels[k];
     any = true;
   }
   return label;
 }
-
-}  // namespace
 
 void label_surface_points(const MeshData& before, std::span<const std::uint32_t> vertex_map,
                           MeshData& now) {
@@ -74,7 +72,10 @@ void label_surface_points(const MeshData& before, std::span<const std::uint32_t>
   const ElementTree tree(elements, std::vector<std::uint32_t>(faces.size(), 0), 1);
   for (const std::uint32_t v : points) {
     const ElementTree::Nearest nearest = tree.nearest(elements, 0, now.points[v]);
-    now.point_labels[v] = common_label(before, faces[nearest.element], nearest.point);
+    const Corners& face = faces[nearest.element];
+    std::array<Label, 3> labels{};
+    for (unsigned k = 0; k < 3; ++k) labels[k] = before.point_labels[face[k]];
+    now.point_labels[v] = common_label(elements[nearest.element].points, labels, nearest.point);
   }
 }
 

@@ -2,6 +2,7 @@
 // Labels of points that are new on a surface that has changed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -16,5 +17,9 @@ namespace tetmend::face {
 /// Cost: n log n in the number of faces; nothing if no point has a label.
 void label_surface_points(const MeshData& before, std::span<const std::uint32_t> vertex_map,
                           MeshData& now);
+
+/// Of a point of a triangle: what the corners that carry it have in common; 0 if they differ.
+Label common_label(const std::array<Point, 3>& corners, const std::array<Label, 3>& labels,
+                   const Point& p);
 
 }  // namespace tetmend::face

@@ -35,6 +35,8 @@ class Messages {
     share_out(piece.tets, &Share::tets);
     share_out(piece.triangles, &Share::triangles);
     share_out(piece.edges, &Share::edges);
+    share_out(piece.surface, &Share::surface);
+    share_out(piece.lines, &Share::lines);
     for (std::uint32_t v = 0; v < parts_.size(); ++v) {
       if (is_own(piece.marks[v])) shares_[parts_[v]].vertices.push_back(v);
     }
@@ -44,7 +46,7 @@ class Messages {
   std::string message(std::size_t part) {
     Share& share = shares_[part];
     if (share.tets.empty() && share.vertices.empty() && share.triangles.empty() &&
-        share.edges.empty()) {
+        share.edges.empty() && share.surface.empty() && share.lines.empty()) {
       return {};
     }
     Extract what;
@@ -53,9 +55,13 @@ class Messages {
     mark(piece_.tets, share.tets, what.wanted);
     mark(piece_.triangles, share.triangles, what.wanted);
     mark(piece_.edges, share.edges, what.wanted);
+    mark(piece_.surface, share.surface, what.wanted);
+    mark(piece_.lines, share.lines, what.wanted);
     what.tets = std::move(share.tets);
     what.triangles = std::move(share.triangles);
     what.edges = std::move(share.edges);
+    what.surface = std::move(share.surface);
+    what.lines = std::move(share.lines);
     std::string bytes;
     append(extract(piece_, what), bytes);
     return bytes;
@@ -63,7 +69,7 @@ class Messages {
 
  private:
   struct Share {
-    std::vector<std::uint32_t> vertices, tets, triangles, edges;
+    std::vector<std::uint32_t> vertices, tets, triangles, edges, surface, lines;
   };
 
   template <class Element>
@@ -100,6 +106,7 @@ void append(const DivisionState& state, std::string& bytes) {
   put_point(state.low);
   put_point(state.high);
   put(state.first_id, bytes);
+  put(state.in_file, bytes);
   put(state.next_id, bytes);
   put(state.stored, bytes);
   put(state.first_added, bytes);
@@ -125,6 +132,7 @@ DivisionState take_state(std::string_view& bytes) {
   take_point(state.low);
   take_point(state.high);
   take(bytes, state.first_id);
+  take(bytes, state.in_file);
   take(bytes, state.next_id);
   take(bytes, state.stored);
   take(bytes, state.first_added);

@@ -22,6 +22,7 @@ struct DivisionState {
   Point low = Point::Zero();   ///< of the box around the mesh
   Point high = Point::Zero();  ///< likewise
   VertexId first_id = 0;       ///< of the first vertex of the file
+  VertexId in_file = 0;        ///< how many the file has
   VertexId next_id = 0;        ///< of the next vertex that is added
   std::uint64_t stored = 0;    ///< number of stored pieces; 0: they are gathered
   /// By stored piece: the id of the first vertex that it has added.
@@ -50,6 +51,7 @@ class DividedMesh {
   DividedMesh(Shelf& shelf, Ranks& ranks, VertexId vertices, VertexId first_id = 0)
       : shelf_(&shelf), ranks_(ranks) {
     state_.first_id = first_id;
+    state_.in_file = vertices;
     state_.next_id = first_id + vertices;
   }
   /// Of pieces that are there: each rank has a range of them, see own().
@@ -57,6 +59,8 @@ class DividedMesh {
 
   const DivisionState& state() const { return state_; }
   Ranks& ranks() const { return ranks_; }
+  /// Ids from that on are of vertices that were added.
+  VertexId first_added() const { return state_.first_id + state_.in_file; }
   /// The pieces of this rank, ascending: the stored ones, or where there are none the gathered ones.
   const std::vector<std::size_t>& own() const { return own_; }
 

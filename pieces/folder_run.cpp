@@ -109,6 +109,10 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       add_protected(mesh_file, options, mesh, division.pieces);
       PieceRun steps(mesh, saved.division, tools.task());
       saved.before = steps.measure_before(&first);
+      if (!tools.plan().surface.is_fixed()) {
+        run_folder.save_surface(
+            steps.hold_surface(tools.plan().surface.envelope_options(), &first));
+      }
       check_before(saved.before, options, files.input);
       const MeshStatistics& before = saved.before.statistics;
       saved.run.limits = {before.tets, before.n_bad,
@@ -197,6 +201,7 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
       tools.record(trace);
     }
     PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
+    hold_surface(tools.plan().surface, steps);
     const std::optional<StepRecord> record = steps.begin_step();
     std::size_t finished = 0;
     for (const std::size_t part : pieces) {
@@ -247,6 +252,11 @@ std::optional<Result> FolderRun::join(const Options& options) {
   });
 }
 
+void FolderRun::hold_surface(const face::SurfaceTolerance& surface, PieceRun& steps) const {
+  if (surface.is_fixed()) return;
+  steps.hold_surface(surface.envelope_options(), folder_.load_surface());
+}
+
 Result FolderRun::finish(const Options& options) {
   Tools tools(options);
   OneRank ranks;
@@ -258,19 +268,24 @@ Result FolderRun::finish(const Options& options) {
   Result result;
   result.goal = options.goal;
   for (const StepRecord& record : saved_.run.records) result.passes.push_back(to_pass(record));
-  check_after(saved_.before, steps.measure_after(&to), result);
+  hold_surface(tools.plan().surface, steps);
+  const Figures after = steps.measure_after(&to);
+  result.surface_change = steps.surface_change();
+  check_after(saved_.before, after, kept_by(tools.plan().surface), result);
   const std::filesystem::path output = saved_.output;
   WriteDetails details = {.vertices = saved_.vertices,
                           .array_files = array_files_,
                           .variant = saved_.variant,
                           .source = saved_.holds_more ? saved_.input : "",
                           .label_array = saved_.label_array,
-                          .conserve = options.conserve};
+                          .conserve = options.conserve,
+                          .surface_moves = !tools.plan().surface.is_fixed()};
   if (result.worse().empty()) {
     result.carried = write_pieces(output, mesh, details);
   } else {
     result.notes.push_back(why_as_it_was(result));
     result.after = result.before;
+    if (steps.surface() != nullptr) result.surface_change = steps.surface()->unchanged();
     FolderShelf again(folder_.make_step(last + 1));
     DividedMesh slices(again, ranks, saved_.vertices);
     details.parts = saved_.division.pieces;

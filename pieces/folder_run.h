@@ -60,6 +60,7 @@ class FolderRun {
  private:
   void open();
   void check_trace(const std::vector<std::size_t>& pieces) const;
+  void hold_surface(const face::SurfaceTolerance& surface, PieceRun& steps) const;
   Options options_of_run(const Options& options) const;
   Result finish(const Options& options);
   FolderShelf shelf() const;

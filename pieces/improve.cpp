@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "envelope/kept_points.h"
 #include "face/advice.h"
 #include "face/arena.h"
 #include "face/carry.h"
@@ -18,6 +19,7 @@
 #include "face/plan.h"
 #include "face/recorded.h"
 #include "face/regions.h"
+#include "face/surface_marks.h"
 #include "face/watcher.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
@@ -110,6 +112,8 @@ class Improvement {
   PieceTrace trace_;
   std::vector<std::uint32_t> tet_numbers_;  // in the input, by slot
   std::shared_ptr<const SizeField> size_field_;
+  std::optional<SurfaceChange> unchanged_surface_;
+  face::SurfaceMarks marks_;  // where the surface may move
   std::uint64_t surface_before_ = 0;
   Result result_;
 };
@@ -117,6 +121,7 @@ class Improvement {
 TetMesh Improvement::build() {
   MeshData data = input_;
   const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  face::put_marks(marks_, data);
   data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
   TetMesh mesh =
       face::build_located(file_, data,
@@ -135,6 +140,11 @@ void Improvement::prepare() {
   plan_.trace.locate(input_);
   face::find_regions(input_, options_);
   face::check_conserve(input_, options_.conserve);
+  std::vector<char> is_kept;
+  if (!plan_.surface.is_fixed()) {
+    marks_ = face::mark_surface(input_);
+    is_kept = find_kept_points(input_);
+  }
   TetMesh mesh = build();
   const face::ProtectedPart part = face::protect(mesh, options_);
   result_.protected_tets = part.tets;
@@ -150,7 +160,7 @@ void Improvement::prepare() {
   const MeshData data = source(mesh);
   mesh = {};
   tet_numbers_ = {};
-  add_slices(data, is_protected, divided_);
+  add_slices(data, is_protected, divided_, is_kept);
   divided_.end_slices();
 }
 
@@ -214,6 +224,10 @@ void Improvement::work() {
     now = record.after.indicators;
     result_.passes.push_back(to_pass(record));
   });
+  if (!plan_.surface.is_fixed()) {
+    run.hold_surface(plan_.surface.envelope_options());
+    unchanged_surface_ = run.surface()->unchanged();
+  }
   run.run();
   if (run.stopped()) {
     result_.ending = run.out_of_time() ? Ending::time_limit : Ending::cancelled;
@@ -221,9 +235,12 @@ void Improvement::work() {
   if (!trace_.note().empty()) note(trace_.note());
   watcher_.begin(Stage::measuring);
   const Figures figures = run.measure_after();
-  const bool fits = figures.surface == surface_before_ &&
-                    figures.statistics.boundary_triangles == result_.before.boundary_triangles &&
-                    figures.not_positive <= result_.not_positive_before;
+  result_.surface_change = run.surface_change();
+  const bool is_kept = !plan_.surface.is_fixed() ||
+                       (figures.surface == surface_before_ &&
+                        figures.statistics.boundary_triangles == result_.before.boundary_triangles);
+  const bool fits =
+      is_kept && figures.misfits == 0 && figures.not_positive <= result_.not_positive_before;
   if (!fits) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
 }
 
@@ -245,6 +262,7 @@ void Improvement::finish() {
     result_.after = result_.before;
     result_.rulers_after = result_.rulers_before;
     result_.touched_tets = 0;
+    result_.surface_change = unchanged_surface_;
     if (portrait_ != nullptr) {
       portrait_->bad_after = portrait_->bad_before;
       portrait_->are_reasons_known = false;
@@ -304,19 +322,23 @@ void Improvement::map(const Joined& joined) {
 /// A broken promise would be a bug. Nobody is to work on with such a mesh.
 void Improvement::check_promises() const {
   constexpr double kMostVolumeChange = 1e-9;
+  const bool keeps_surface =
+      !plan_.surface.is_fixed() ||
+      (result_.surface_fingerprint == surface_before_ &&
+       result_.after.boundary_triangles == result_.before.boundary_triangles);
+  const bool keeps_volume = (!plan_.surface.is_fixed() && !plan_.surface.is_flat()) ||
+                            result_.not_positive_before > 0 ||
+                            result_.volume_change() <= kMostVolumeChange;
   const bool is_kept =
-      result_.surface_fingerprint == surface_before_ &&
-      result_.after.boundary_triangles == result_.before.boundary_triangles &&
-      result_.not_positive_after <= result_.not_positive_before &&
-      (result_.not_positive_before > 0 || result_.volume_change() <= kMostVolumeChange);
+      keeps_surface && keeps_volume && result_.not_positive_after <= result_.not_positive_before;
   if (!is_kept) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
 }
 
 void Improvement::give_back(Joined& joined) {
   MeshData data = std::move(joined.data);
   if (face::holds_more(input_)) {
-    result_.carried =
-        face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data);
+    result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve,
+                                  data, plan_.surface.is_fixed() ? nullptr : &marks_);
   }
   user_mesh_ = MeshAccess::make(std::move(data));
 }
@@ -353,9 +375,6 @@ void check(const Options& options, const Division& division) {
                       fmt::format("pieces: {} is outside 1 to {}", division.pieces, kMostPieces));
   }
   check_trace_piece(options, division.pieces, division.divisions, division.zone_rounds);
-  if (!options.surface.empty() && options.surface != "fixed") {
-    throw OptionError("surface", "surface: it must stay fixed in a run in pieces");
-  }
 }
 
 std::size_t usual_pieces(std::size_t tets) {

@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "envelope/kept_points.h"
 #include "face/carry.h"
 #include "face/regions.h"
+#include "face/surface_marks.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
@@ -129,12 +131,21 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
     arrays_.reset();
     return;
   }
+  if (slices_ && surface_moves_ && holds_more_) {
+    throw OptionError("surface",
+                      "surface: where a file has arrays or groups, it needs the whole mesh in memory");
+  }
   if (slices_) {
     slices_->add_to(mesh, std::min<std::size_t>(kTetsOfSlice, 1 + tets_ / pieces));
   } else if (mesh.ranks().is_first()) {
     const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data_);
+    std::vector<char> is_kept;
+    if (surface_moves_) {
+      face::put_marks(face::mark_surface(data_), data_);
+      is_kept = find_kept_points(data_);
+    }
     data_.triangles.insert(data_.triangles.end(), walls.begin(), walls.end());
-    add_slices(data_, {}, mesh);
+    add_slices(data_, {}, mesh, is_kept);
     data_ = {};
   }
   mesh.end_slices();
@@ -168,6 +179,7 @@ face::Regions::Seen gather_seen(const face::Regions::Seen& mine, Ranks& ranks) {
 
 void add_protected(InputMesh& input, const Options& options, DividedMesh& mesh,
                    std::size_t pieces) {
+  if (!options.surface.empty() && options.surface != "fixed") input.set_surface_moves();
   const face::Regions regions(options);
   if (!regions.are_there()) return input.add_to(mesh, pieces);
   face::Regions::Seen seen;
@@ -193,7 +205,10 @@ std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const D
   if (!details.source.empty()) {
     const MeshData before = read_mesh(details.source, details.label_array);
     const Maps maps = maps_of(joined, before.points.size(), before.tets.size());
-    carried = face::carry(before, maps.vertices, maps.tets, details.conserve, joined.data);
+    const face::SurfaceMarks marks =
+        details.surface_moves ? face::mark_surface(before) : face::SurfaceMarks();
+    carried = face::carry(before, maps.vertices, maps.tets, details.conserve, joined.data,
+                          details.surface_moves ? &marks : nullptr);
   }
   MeshView view(joined.data);
   view.set_variant(details.variant);
@@ -227,7 +242,6 @@ void check_for_files(const Options& options) {
     if (!given) return;
     throw OptionError(name, fmt::format("{}: needs the whole mesh in memory", option));
   };
-  refuse(!options.surface.empty() && options.surface != "fixed", "surface", "surface");
   refuse(options.keep_size, "keep_size", "keep-size");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
 }
@@ -247,7 +261,11 @@ void check_before(const Figures& before, const Options& options,
   }
 }
 
-void check_after(const Figures& before, const Figures& after, Result& result) {
+Kept kept_by(const face::SurfaceTolerance& surface) {
+  return surface.is_fixed() ? Kept::all : surface.is_flat() ? Kept::shape : Kept::nearness;
+}
+
+void check_after(const Figures& before, const Figures& after, Kept kept, Result& result) {
   result.before = before.statistics;
   result.not_positive_before = before.not_positive;
   result.protected_tets = before.protected_tets;
@@ -256,10 +274,12 @@ void check_after(const Figures& before, const Figures& after, Result& result) {
   result.surface_fingerprint = after.surface;
   result.not_positive_after = after.not_positive;
   constexpr double kMostVolumeChange = 1e-9;
-  const bool fits = after.surface == before.surface &&
-                    result.after.boundary_triangles == result.before.boundary_triangles &&
+  const bool keeps_surface =
+      kept != Kept::all || (after.surface == before.surface &&
+                            result.after.boundary_triangles == result.before.boundary_triangles);
+  const bool fits = keeps_surface && after.misfits == 0 &&
                     result.not_positive_after <= result.not_positive_before &&
-                    result.volume_change() <= kMostVolumeChange;
+                    (kept == Kept::nearness || result.volume_change() <= kMostVolumeChange);
   if (!fits) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
 }
 
@@ -289,6 +309,8 @@ OptionTexts texts_of(const Options& options) {
   }
   add("goal", fmt::format("{},{}", options.goal.min_angle, options.goal.max_angle));
   add("measure", options.measure);
+  add("surface", options.surface);
+  if (!options.surface.empty()) add("feature-angle", fmt::format("{}", options.feature_angle));
   add("layers", options.layers == Layers::keep ? "keep" : "improve");
   add("tets", options.tets);
   for (const std::string& region : options.protect) add("protect", region);

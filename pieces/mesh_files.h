@@ -11,6 +11,7 @@
 
 #include <tetmend/improve.h>
 
+#include "face/moving_surface.h"
 #include "pieces/divided_mesh.h"
 #include "pieces/file_slices.h"
 #include "pieces/piece_run.h"
@@ -37,6 +38,9 @@ class InputMesh {
   void check_conserve(const std::vector<std::string>& names) const;
   /// All ranks: adds all of it, in slices for so many pieces, with end_slices(). Once.
   void add_to(DividedMesh& mesh, std::size_t pieces);
+  /// Before add_to(): the surface may move. So triangles and edges have marks for labels where these
+  /// do not tell all, see SurfaceMarks, and points that are to stay are marked.
+  void set_surface_moves() { surface_moves_ = true; }
 
  private:
   void read_whole(const std::filesystem::path& file, const std::string& label_array);
@@ -49,6 +53,7 @@ class InputMesh {
   std::uint64_t vertices_ = 0;
   std::uint64_t required_vertices_ = 0;
   bool holds_more_ = false;
+  bool surface_moves_ = false;
   bool is_elsewhere_ = false;  // the first rank has it
 };
 
@@ -68,6 +73,7 @@ struct WriteDetails {
   std::filesystem::path source = {};
   std::string label_array = {};            ///< of `source`
   std::vector<std::string> conserve = {};  ///< see Options
+  bool surface_moves = false;
 };
 
 /// All ranks: the first writes the stored pieces, others help.
@@ -80,8 +86,12 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
 void check_for_files(const Options& options);
 /// @throws Error for inverted tets, and for boundary layers that are to be kept: pieces cannot tell.
 void check_before(const Figures& before, const Options& options, const std::filesystem::path& file);
+/// How much of a surface a run must keep.
+enum class Kept { all, shape, nearness };
+Kept kept_by(const face::SurfaceTolerance& surface);
+
 /// Puts the figures into the result. @throws Error when the pieces do not fit.
-void check_after(const Figures& before, const Figures& after, Result& result);
+void check_after(const Figures& before, const Figures& after, Kept kept, Result& result);
 /// What a run says when the mesh would have become worse, and stays.
 std::string why_as_it_was(const Result& result);
 

@@ -65,6 +65,7 @@ class FileRun {
   Mesh gather_whole();
   bool read();
   void measure_before();
+  void hold_surface();
   bool go_on();
   SavedRun saved() const;
   void save() const;
@@ -96,6 +97,7 @@ class FileRun {
   bool is_told_ = false;
   QualityIndicators now_;
   Figures before_;
+  std::optional<SurfaceChange> unchanged_surface_;
   Result result_;
 };
 
@@ -115,6 +117,10 @@ Result FileRun::run() {
   watcher_.begin(Stage::building);
   if (go_on()) {
     steps_.emplace(*mesh_, division_, task, checkpoint_.load().run);
+    if (!plan_.surface.is_fixed()) {
+      steps_->hold_surface(plan_.surface.envelope_options(), checkpoint_.load_surface());
+      unchanged_surface_ = steps_->surface()->unchanged();
+    }
   } else {
     {
       const Stopwatch watch(result_.building);
@@ -123,6 +129,7 @@ Result FileRun::run() {
     steps_.emplace(*mesh_, division_, task);
     trace_.locate(*mesh_);
     measure_before();
+    hold_surface();
   }
   work();
   measure_after();
@@ -186,6 +193,13 @@ void FileRun::measure_before() {
   result_.before = before_.statistics;
   steps_->set_limits({before_.statistics.tets, before_.statistics.n_bad,
                       plan_.growth.most(before_.statistics.tets).value_or(RunLimits().most_tets)});
+}
+
+void FileRun::hold_surface() {
+  if (plan_.surface.is_fixed()) return;
+  const std::string held = steps_->hold_surface(plan_.surface.envelope_options());
+  unchanged_surface_ = steps_->surface()->unchanged();
+  if (!files_.checkpoint.empty() && ranks_.is_first()) checkpoint_.save_surface(held);
 }
 
 /// What a checkpoint must be of to be gone on from.
@@ -271,7 +285,9 @@ void FileRun::work() {
 void FileRun::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  check_after(before_, steps_->measure_after(), result_);
+  const Figures after = steps_->measure_after();
+  result_.surface_change = steps_->surface_change();
+  check_after(before_, after, kept_by(plan_.surface), result_);
 }
 
 void FileRun::note_costs() const {
@@ -303,6 +319,7 @@ void FileRun::write() {
     result_.notes.push_back(why_as_it_was(result_));
     watcher_.noted(result_.notes.back());
     result_.after = result_.before;
+    result_.surface_change = unchanged_surface_;
     if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too
     parts = division_.pieces;
@@ -314,7 +331,8 @@ void FileRun::write() {
                                   .variant = files_.variant,
                                   .source = holds_more_ ? files_.input : std::filesystem::path(),
                                   .label_array = files_.label_array,
-                                  .conserve = options_.conserve});
+                                  .conserve = options_.conserve,
+                                  .surface_moves = !plan_.surface.is_fixed()});
   if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.remove();
 }
 

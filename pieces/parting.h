@@ -2,7 +2,9 @@
 // Which part of space belongs to which piece.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -61,5 +63,15 @@ struct Parting {
   /// Part of each point.
   std::vector<std::uint32_t> parts_of(std::span<const Point> points) const;
 };
+
+/// Whether an element belongs to the part: that of its vertices with the lowest number. `parts` is by
+/// vertex.
+template <std::size_t N>
+bool is_own(const std::array<std::uint32_t, N>& vertices, std::span<const std::uint32_t> parts,
+            std::uint32_t number) {
+  std::uint32_t least = parts[vertices[0]];
+  for (const std::uint32_t v : vertices) least = std::min(least, parts[v]);
+  return least == number;
+}
 
 }  // namespace tetmend::pieces

@@ -71,12 +71,26 @@ void take_vertices(const Piece& part, std::span<const std::uint32_t> places, Pie
     known[at] = 1;
     whole.points[at] = part.points[i];
     whole.marks[at] =
-        static_cast<std::uint8_t>(whole.marks[at] | (part.marks[i] & (kRequired | kBorder)));
+        static_cast<std::uint8_t>(whole.marks[at] | (part.marks[i] & (kLasting | kBorder)));
     if (!whole.labels.empty()) whole.labels[at] = part.label(i);
   }
 }
 
 }  // namespace
+
+MeshData to_data(const Piece& piece) {
+  MeshData data;
+  data.points = piece.points;
+  data.point_labels = piece.labels;
+  data.tets.reserve(piece.tets.size());
+  for (const PieceTet& tet : piece.tets) data.tets.push_back({tet.vertices, tet.label});
+  data.triangles = piece.triangles;
+  data.edges = piece.edges;
+  for (std::uint32_t v = 0; v < piece.marks.size(); ++v) {
+    if ((piece.marks[v] & kRequired) != 0) data.required_vertices.push_back(v);
+  }
+  return data;
+}
 
 void append(const Piece& piece, std::string& bytes) {
   put(piece.ids, bytes);
@@ -86,6 +100,8 @@ void append(const Piece& piece, std::string& bytes) {
   put(piece.tets, bytes);
   put(piece.triangles, bytes);
   put(piece.edges, bytes);
+  put(piece.surface, bytes);
+  put(piece.lines, bytes);
 }
 
 Piece take_piece(std::string_view& bytes) {
@@ -97,12 +113,15 @@ Piece take_piece(std::string_view& bytes) {
   take(bytes, piece.tets);
   take(bytes, piece.triangles);
   take(bytes, piece.edges);
+  take(bytes, piece.surface);
+  take(bytes, piece.lines);
   const std::size_t count = piece.ids.size();
   const bool fits = piece.points.size() == count && piece.marks.size() == count &&
                     (piece.labels.empty() || piece.labels.size() == count);
   if (!fits || !std::is_sorted(piece.ids.begin(), piece.ids.end()) ||
       !names_vertices_of(piece.tets, count) || !names_vertices_of(piece.triangles, count) ||
-      !names_vertices_of(piece.edges, count)) {
+      !names_vertices_of(piece.edges, count) || !names_vertices_of(piece.surface, count) ||
+      !names_vertices_of(piece.lines, count)) {
     throw Error("a piece contradicts itself");
   }
   return piece;
@@ -172,6 +191,8 @@ Piece extract(const Piece& from, const Extract& what) {
   append_chosen(from.tets, what.tets, numbers, piece.tets);
   append_chosen(from.triangles, what.triangles, numbers, piece.triangles);
   append_chosen(from.edges, what.edges, numbers, piece.edges);
+  append_chosen(from.surface, what.surface, numbers, piece.surface);
+  append_chosen(from.lines, what.lines, numbers, piece.lines);
   return piece;
 }
 
@@ -199,6 +220,8 @@ Piece merge(std::vector<Piece> parts) {
     append_renumbered(part.tets, places, whole.tets);
     append_renumbered(part.triangles, places, whole.triangles);
     append_renumbered(part.edges, places, whole.edges);
+    append_renumbered(part.surface, places, whole.surface);
+    append_renumbered(part.lines, places, whole.lines);
     part = {};
   }
   return whole;

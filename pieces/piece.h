@@ -21,6 +21,9 @@ using VertexId = std::uint64_t;
 inline constexpr std::uint8_t kRequired = 1;  ///< must neither move nor vanish
 inline constexpr std::uint8_t kOwn = 2;       ///< of this piece, not of a neighbour
 inline constexpr std::uint8_t kBorder = 4;    ///< of a tet that was shared in the last division
+/// Of a surface that may move a corner. In slices: a vertex that is to be one.
+inline constexpr std::uint8_t kCorner = 8;
+inline constexpr std::uint8_t kLasting = kRequired | kCorner;  ///< marks that a vertex never loses
 
 struct PieceTet {
   std::array<std::uint32_t, 4> vertices{};  ///< in the piece
@@ -44,9 +47,16 @@ struct Piece {
   std::vector<PieceTet> tets;
   std::vector<MeshData::Triangle> triangles;
   std::vector<MeshData::Edge> edges;
+  /// Where the surface may move, and has been divided by patches: all of its faces, as SurfaceFace has
+  /// them, with their patch for a label; and its feature edges, with their line.
+  std::vector<MeshData::Triangle> surface;
+  std::vector<MeshData::Edge> lines;
 
   Label label(std::size_t v) const { return labels.empty() ? 0 : labels[v]; }
 };
+
+/// Its arrays as those of a mesh, but for surface and lines.
+MeshData to_data(const Piece& piece);
 
 /// Appends the piece to `bytes`: 30 bytes a tet.
 void append(const Piece& piece, std::string& bytes);
@@ -62,15 +72,14 @@ Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t en
 /// The ids alone, of all vertices.
 std::vector<VertexId> read_ids(const ReadBytes& read);
 
-/// The vertices of `wanted` (a mark for each) and these tets, triangles and edges of a piece, with
-/// numbers of their own.
+/// The vertices of `wanted` (a mark for each) and these elements of a piece, with numbers of their own.
 struct Extract {
   std::vector<char> wanted;
-  std::vector<std::uint32_t> tets, triangles, edges;
+  std::vector<std::uint32_t> tets, triangles, edges, surface, lines;
 };
 Piece extract(const Piece& from, const Extract& what);
 
-/// One piece of parts that share vertices. Tets, triangles and edges come in the order of the parts.
+/// One piece of parts that share vertices. Elements come in the order of the parts.
 /// @throws Error when a vertex lies at two places: the parts are not of one mesh.
 Piece merge(std::vector<Piece> parts);
 

@@ -38,6 +38,29 @@ Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks) {
   return all;
 }
 
+/// Of all ranks, in the order of the parts.
+std::vector<SurfaceShare> share_surface(std::vector<std::pair<std::uint64_t, SurfaceShare>> mine,
+                                        Ranks& ranks) {
+  std::string bytes;
+  for (const auto& [part, share] : mine) {
+    put(part, bytes);
+    append(share, bytes);
+  }
+  std::vector<std::pair<std::uint64_t, SurfaceShare>> all;
+  mine = {};
+  for (const std::string& from : ranks.gather(bytes)) {
+    for (std::string_view rest = from; !rest.empty();) {
+      std::uint64_t part = 0;
+      take(rest, part);
+      all.emplace_back(part, take_share(rest));
+    }
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<SurfaceShare> shares;
+  for (auto& [part, share] : all) shares.push_back(std::move(share));
+  return shares;
+}
+
 }  // namespace
 
 bool is_better(const Standing& now, const Standing& before) {
@@ -128,9 +151,44 @@ void PieceRun::agree_on_stop() {
   out_of_time_ = votes[1] > 0;
 }
 
-Figures PieceRun::measure_before(Shelf* next) {
-  mesh_.divide(division_.pieces, 0, {}, next);
+void PieceRun::divide_first(Shelf* next) {
+  if (!state_.is_divided) mesh_.divide(division_.pieces, 0, {}, next);
   state_.is_divided = true;
+}
+
+std::string PieceRun::hold_surface(const EnvelopeOptions& options, Shelf* next) {
+  divide_first(next);
+  std::vector<std::pair<std::uint64_t, SurfaceShare>> mine;
+  const DivisionState& state = mesh_.state();
+  for (const std::size_t part : mesh_.own()) {
+    mine.emplace_back(part, share_of_input(mesh_.gathered(part), state.parting,
+                                           static_cast<std::uint32_t>(part)));
+  }
+  const std::vector<SurfaceShare> shares = share_surface(std::move(mine), mesh_.ranks());
+  surface_ = std::make_unique<HeldSurface>(shares, options, state.low, state.high);
+  std::string saved;
+  for (const SurfaceShare& share : shares) append(share, saved);
+  return saved;
+}
+
+void PieceRun::hold_surface(const EnvelopeOptions& options, std::string_view saved) {
+  std::vector<SurfaceShare> shares;
+  while (!saved.empty()) shares.push_back(take_share(saved));
+  const DivisionState& state = mesh_.state();
+  surface_ = std::make_unique<HeldSurface>(shares, options, state.low, state.high);
+}
+
+/// Until the first step is done, pieces have no patches: what they belong to is looked up.
+Piece PieceRun::gathered(std::size_t part) const {
+  Piece piece = mesh_.gathered(part);
+  if (surface_ && state_.records.empty()) {
+    surface_->label(piece, mesh_.state().parting, static_cast<std::uint32_t>(part));
+  }
+  return piece;
+}
+
+Figures PieceRun::measure_before(Shelf* next) {
+  divide_first(next);
   std::vector<PartFigures> mine;
   for (const std::size_t part : mesh_.own()) {
     mine.push_back({part, measure_own(mesh_.gathered(part), mesh_.state().parting,
@@ -206,7 +264,7 @@ bool PieceRun::is_active(std::size_t part, const StepRecord& record) const {
 }
 
 PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
-  const Piece gathered = mesh_.gathered(part);
+  const Piece gathered = this->gathered(part);
   const Parting& parting = mesh_.state().parting;
   const auto number = static_cast<std::uint32_t>(part);
   TaskResult result;
@@ -215,7 +273,8 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
   } else {
     const auto start = std::chrono::steady_clock::now();
     try {
-      result = work_on(gathered, parting, number, options_, limits_of(part, record));
+      result =
+          work_on(gathered, parting, number, options_, limits_of(part, record), surface_.get());
     } catch (const contract::Breach& breach) {
       throw Error(fmt::format("round {}, piece {}: {}", round(), part, breach.what()));
     }
@@ -313,13 +372,21 @@ Figures PieceRun::measure_after(Shelf* next) {
   if (state_.is_divided) store_unchanged();  // the run was stopped before its first round
   mesh_.divide(division_.pieces, division_.divisions, {}, next);
   std::vector<PartFigures> mine;
+  std::vector<std::pair<std::uint64_t, SurfaceShare>> shares;
   for (const std::size_t part : mesh_.own()) {
-    const Piece gathered = mesh_.gathered(part);
+    Piece gathered = this->gathered(part);
+    if (surface_) surface_->label_points(gathered, mesh_.first_added());
     const auto number = static_cast<std::uint32_t>(part);
     const Parting& parting = mesh_.state().parting;
-    mine.push_back({part, measure_own(gathered, parting, number, options_.standard)});
-    mesh_.store(part, own_part(gathered, parting, number));
+    mine.push_back(
+        {part, measure_own(gathered, parting, number, options_.standard, surface_.get())});
+    const Piece own = own_part(gathered, parting, number);
+    if (surface_) shares.emplace_back(part, share_of(own));
+    mesh_.store(part, own);
     mesh_.remove_gathered(part);
+  }
+  if (surface_) {
+    surface_change_ = surface_->measure(share_surface(std::move(shares), mesh_.ranks()));
   }
   mesh_.number_added(std::vector<std::uint64_t>(mesh_.parts(), 0));
   return sum(mine, mesh_.ranks());

@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "pieces/divided_mesh.h"
+#include "pieces/held_surface.h"
 #include "pieces/piece_task.h"
 
 namespace tetmend::pieces {
@@ -105,12 +107,25 @@ class PieceRun {
     listener_ = std::move(listener);
   }
 
+  /// From now on the surface may move. The first division is made for that; called before the first
+  /// step, and before or after measure_before().
+  /// @throws Error as HeldSurface
+  /// @returns what another program needs for the same, see the next
+  std::string hold_surface(const EnvelopeOptions& options, Shelf* next = nullptr);
+  /// Likewise in a run that goes on.
+  void hold_surface(const EnvelopeOptions& options, std::string_view saved);
+  /// What the surface is held to; null: it is fixed.
+  const HeldSurface* surface() const { return surface_.get(); }
+  /// After measure_after(), where the surface may move.
+  const std::optional<SurfaceChange>& surface_change() const { return surface_change_; }
+
   /// Figures of the mesh as it is, before the run; the first division is made for that.
   /// @param next  see DividedMesh::divide(); here and below
   Figures measure_before(Shelf* next = nullptr);
   /// Works. Precondition: slices were added.
   void run();
   /// Divides once more and checks that all pieces fit: see measure_own(). Everything is stored again.
+  /// Where the surface may move, proves anew how near it is.
   /// @throws Error when they do not.
   Figures measure_after(Shelf* next = nullptr);
 
@@ -133,6 +148,8 @@ class PieceRun {
   bool out_of_time() const { return out_of_time_; }
 
  private:
+  void divide_first(Shelf* next);
+  Piece gathered(std::size_t part) const;
   ZoneMap make_zones(const Standing& last) const;
   std::vector<PartOutcome> share(std::vector<PartOutcome> mine);
   TaskLimits limits_of(std::size_t part, const StepRecord& record) const;
@@ -152,6 +169,8 @@ class PieceRun {
   std::function<bool()> stop_;
   std::function<void(const StepRecord&)> listener_;
   std::vector<PartTime> times_;
+  std::unique_ptr<const HeldSurface> surface_;
+  std::optional<SurfaceChange> surface_change_;
   bool stopped_ = false;
   bool out_of_time_ = false;
 };

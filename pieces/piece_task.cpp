@@ -22,28 +22,6 @@ namespace tetmend::pieces {
 
 namespace {
 
-MeshData to_data(const Piece& piece) {
-  MeshData data;
-  data.points = piece.points;
-  data.point_labels = piece.labels;
-  data.tets.reserve(piece.tets.size());
-  for (const PieceTet& tet : piece.tets) data.tets.push_back({tet.vertices, tet.label});
-  data.triangles = piece.triangles;
-  data.edges = piece.edges;
-  for (std::uint32_t v = 0; v < piece.marks.size(); ++v) {
-    if ((piece.marks[v] & kRequired) != 0) data.required_vertices.push_back(v);
-  }
-  return data;
-}
-
-template <std::size_t N>
-bool is_own(const std::array<std::uint32_t, N>& vertices, std::span<const std::uint32_t> parts,
-            std::uint32_t number) {
-  std::uint32_t least = parts[vertices[0]];
-  for (const std::uint32_t v : vertices) least = std::min(least, parts[v]);
-  return least == number;
-}
-
 /// Leaves out what is not its own. `parts` is by vertex.
 Piece keep_own(const Piece& all, std::span<const std::uint32_t> parts, std::uint32_t number) {
   Extract what;
@@ -58,6 +36,8 @@ Piece keep_own(const Piece& all, std::span<const std::uint32_t> parts, std::uint
   choose(all.tets, what.tets);
   choose(all.triangles, what.triangles);
   choose(all.edges, what.edges);
+  choose(all.surface, what.surface);
+  choose(all.lines, what.lines);
   for (std::size_t v = 0; v < parts.size(); ++v) {
     if (parts[v] == number) what.wanted[v] = 1;
   }
@@ -67,8 +47,8 @@ Piece keep_own(const Piece& all, std::span<const std::uint32_t> parts, std::uint
 /// Which vertices are its own, and which are of tets that several pieces share.
 void mark(Piece& piece, std::span<const std::uint32_t> parts, std::uint32_t number) {
   for (std::size_t v = 0; v < parts.size(); ++v) {
-    const unsigned required = piece.marks[v] & unsigned{kRequired};
-    piece.marks[v] = static_cast<std::uint8_t>(required | (parts[v] == number ? kOwn : 0U));
+    const unsigned lasting = piece.marks[v] & unsigned{kLasting};
+    piece.marks[v] = static_cast<std::uint8_t>(lasting | (parts[v] == number ? kOwn : 0U));
   }
   for (const PieceTet& tet : piece.tets) {
     const auto& t = tet.vertices;
@@ -146,11 +126,12 @@ std::array<Point, 4> corners_of(const Piece& piece, const PieceTet& tet, double 
 class Task {
  public:
   Task(const Piece& gathered, const Parting& parting, std::uint32_t number,
-       const TaskOptions& options)
+       const TaskOptions& options, const HeldSurface* surface)
       : gathered_(gathered),
         parts_(parting.parts_of(gathered.points)),
         number_(number),
-        options_(options) {}
+        options_(options),
+        surface_(surface) {}
 
   TaskResult run(const TaskLimits& limits);
 
@@ -161,11 +142,13 @@ class Task {
   void take_back();
   void take_vertices(const MeshView& view, Piece& all, std::vector<std::uint32_t>& parts);
   void take_tets(std::span<const std::uint32_t> numbers, Piece& all);
+  void take_surface(std::span<const std::uint32_t> numbers, Piece& all) const;
 
   const Piece& gathered_;
   const std::vector<std::uint32_t> parts_;
   const std::uint32_t number_;
   const TaskOptions& options_;
+  const HeldSurface* const surface_;  // null: fixed
   TetMesh mesh_;
   std::vector<std::uint32_t> tet_numbers_;
   TaskResult result_;
@@ -177,6 +160,7 @@ TaskResult Task::run(const TaskLimits& limits) {
     freeze(limits.rings);
     mesh_.set_bounds(Bounds::of(mesh_));
     mesh_.set_size_field(options_.size_field);
+    if (surface_ != nullptr) mesh_.set_surface_guard(surface_->guard(mesh_, gathered_));
     const Goal& goal = options_.standard.goal();
     const MeshStatistics before = compute_statistics(mesh_, goal);
     run_schedule(limits);
@@ -213,6 +197,11 @@ void Task::run_schedule(const TaskLimits& limits) {
   if (options_.watch) options_.watch(run);
   try {
     improve(run, options_.schedule, limits.is_zone ? options_.zone_settings : options_.settings);
+    // Where the fixed surface holds bad tets, it moves.
+    if (mesh_.surface_guard() != nullptr && !run.cancelled()) {
+      run.set_standard(options_.standard);
+      if (run.indicators().n_bad > 0) improve(run, Schedule::builtin("surface"), {});
+    }
   } catch (...) {
     if (options_.unwatch) options_.unwatch();
     throw;
@@ -228,6 +217,7 @@ void Task::run_schedule(const TaskLimits& limits) {
 }
 
 void Task::take_back() {
+  mesh_.renew_surface();
   const MeshView view(mesh_);
   Piece all;
   std::vector<std::uint32_t> parts;
@@ -238,6 +228,7 @@ void Task::take_back() {
   take_tets(numbers, all);
   all.triangles.assign(view.triangles().begin(), view.triangles().end());
   all.edges.assign(view.edges().begin(), view.edges().end());
+  take_surface(numbers, all);
   mesh_ = {};
   mark(all, parts, number_);
   result_.piece = keep_own(all, parts, number_);
@@ -251,11 +242,46 @@ void Task::take_vertices(const MeshView& view, Piece& all, std::vector<std::uint
     const bool is_new = origin == TetMesh::kNotFromFile;
     all.ids.push_back(is_new ? TaskResult::kNewVertex + result_.added++ : gathered_.ids[origin]);
     all.points.push_back(view.point(i));
-    all.marks.push_back(0);
+    const unsigned mark = is_new ? 0U : gathered_.marks[origin] & unsigned{kCorner};
+    all.marks.push_back(static_cast<std::uint8_t>(mark));
     if (view.has_point_labels()) all.labels.push_back(view.point_label(i));
     parts.push_back(is_new ? number_ : parts_[origin]);
   }
-  for (const std::uint32_t v : view.required_vertices()) all.marks[v] = kRequired;
+  for (const std::uint32_t v : view.required_vertices()) {
+    all.marks[v] = static_cast<std::uint8_t>(all.marks[v] | kRequired);
+  }
+}
+
+/// Patches and lines as the guard knows them by now. Where there is none, nothing has moved.
+void Task::take_surface(std::span<const std::uint32_t> numbers, Piece& all) const {
+  if (surface_ == nullptr) return;
+  if (const auto* const guard = dynamic_cast<const Envelope*>(mesh_.surface_guard())) {
+    const SurfaceFeatures now = guard->present();
+    for (const auto& face : now.faces) {
+      auto& to = all.surface.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) to.vertices[k] = numbers[face.vertices[k].index()];
+      to.label = static_cast<Label>(face.patch);
+    }
+    for (const auto& edge : now.edges) {
+      auto& to = all.lines.emplace_back();
+      for (std::size_t k = 0; k < 2; ++k) to.vertices[k] = numbers[edge.vertices[k].index()];
+      to.label = static_cast<Label>(edge.line);
+    }
+    return;
+  }
+  std::vector<std::uint32_t> by_origin(gathered_.ids.size(), 0);
+  for (std::uint32_t slot = 0; slot < mesh_.vertex_slots(); ++slot) {
+    const std::uint32_t origin = mesh_.origin(VertexHandle(slot));
+    if (origin != TetMesh::kNotFromFile) by_origin[origin] = numbers[slot];
+  }
+  const auto renumber = [&](auto elements) {
+    for (auto& element : elements) {
+      for (std::uint32_t& v : element.vertices) v = by_origin[v];
+    }
+    return elements;
+  };
+  all.surface = renumber(gathered_.surface);
+  all.lines = renumber(gathered_.lines);
 }
 
 void Task::take_tets(std::span<const std::uint32_t> numbers, Piece& all) {
@@ -327,8 +353,9 @@ ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings&
 }
 
 TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                   const TaskOptions& options, const TaskLimits& limits) {
-  return Task(gathered, parting, number, options).run(limits);
+                   const TaskOptions& options, const TaskLimits& limits,
+                   const HeldSurface* surface) {
+  return Task(gathered, parting, number, options, surface).run(limits);
 }
 
 Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t number) {
@@ -440,6 +467,7 @@ void Figures::add(const Figures& other) {
   layer_tets += other.layer_tets;
   protected_tets += other.protected_tets;
   protected_bad_tets += other.protected_bad_tets;
+  misfits += other.misfits;
 }
 
 namespace {
@@ -460,7 +488,7 @@ void count_protected(const Piece& own, std::span<const std::uint32_t> numbers,
 }  // namespace
 
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard) {
+                    const Standard& standard, const HeldSurface* surface) {
   Figures figures;
   const Piece own = own_part(gathered, parting, number);
   const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
@@ -476,6 +504,9 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
       return is_own(vertices, parts, number);
     };
     figures.surface = surface_fingerprint(mesh, is_own_face);
+    if (surface != nullptr) {
+      figures.misfits = surface->count_misfits(mesh, gathered, parting, number);
+    }
     figures.layer_tets = find_boundary_layers(mesh).tets.size();
     for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
       for (unsigned f = 0; f < 4; ++f) {

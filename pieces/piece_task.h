@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "kernel/statistics.h"
+#include "pieces/held_surface.h"
 #include "pieces/parting.h"
 #include "pieces/piece.h"
 #include "pieces/zones.h"
@@ -67,10 +68,12 @@ struct TaskResult {
 ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings& settings);
 
 /// Works on the piece of that number. `gathered` holds all tets with a vertex in its part.
+/// @param surface null: it is fixed
 /// @throws Error for a mesh of broken topology, or a mistake in the script; contract::Breach as
 /// contract/inspector.h
 TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                   const TaskOptions& options, const TaskLimits& limits);
+                   const TaskOptions& options, const TaskLimits& limits,
+                   const HeldSurface* surface = nullptr);
 
 /// The same without any work: what is its own.
 Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t number);
@@ -105,13 +108,15 @@ struct Figures {
   std::size_t layer_tets = 0;
   std::size_t protected_tets = 0;      ///< by the user
   std::size_t protected_bad_tets = 0;  ///< of them
+  std::size_t misfits = 0;             ///< see HeldSurface::count_misfits()
 
   void add(const Figures& other);
 };
 
 /// Builds all of a piece, which fails where a face has more than two tets, and measures what is its
 /// own. A face is that of the piece with the lowest part of its vertices: all its tets are there.
+/// @param surface null: it is fixed
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard);
+                    const Standard& standard, const HeldSurface* surface = nullptr);
 
 }  // namespace tetmend::pieces

@@ -10,17 +10,19 @@
 
 #include "kernel/formats/output_file.h"
 #include "pieces/bytes.h"
+#include "pieces/shelf.h"
 
 namespace tetmend::pieces {
 
 namespace {
 
 constexpr const char* kName = "run";
+constexpr const char* kSurface = "surface";
 constexpr std::string_view kStep = "step-";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 3\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 4\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {
@@ -101,6 +103,18 @@ void RunFolder::save(const SavedRun& run) const {
   remove_steps_but(run.is_finished ? std::numeric_limits<std::size_t>::max() : step_of(run.run));
 }
 
+void RunFolder::save_surface(const std::string& bytes) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  FolderShelf(folder_, FolderShelf::Lasts::beyond_a_crash).put(kSurface, bytes);
+}
+
+std::string RunFolder::load_surface() const {
+  std::string bytes = FolderShelf(folder_).read(kSurface);
+  if (bytes.empty()) throw Error(fmt::format("there is no {}", (folder_ / kSurface).string()));
+  return bytes;
+}
+
 std::filesystem::path RunFolder::step(std::size_t number) const {
   return folder_ / fmt::format("{}{}", kStep, number);
 }
@@ -131,6 +145,7 @@ void RunFolder::remove() const {
   remove_steps_but(std::numeric_limits<std::size_t>::max());
   std::error_code ignored;
   std::filesystem::remove(folder_ / kName, ignored);
+  std::filesystem::remove(folder_ / kSurface, ignored);
   std::filesystem::remove(folder_, ignored);  // fails where a user has put something
 }
 

@@ -3,6 +3,7 @@
 // crash, with more processes or fewer, or by programs that each work on one piece.
 //
 //   FOLDER/run         what is known between two steps; takes its name when all its pieces are there
+//   FOLDER/surface     of a surface that may move, as the input has it
 //   FOLDER/step-3/...  the pieces: gathered ones for the third step, stored ones after it
 #pragma once
 
@@ -42,6 +43,10 @@ class RunFolder {
   SavedRun load() const;
   /// From now on this is the state, and the pieces of other steps go.
   void save(const SavedRun& run) const;
+  /// Of a surface that may move, see PieceRun::hold_surface(): before the first state, and for good.
+  void save_surface(const std::string& bytes) const;
+  /// @throws Error when it is not there
+  std::string load_surface() const;
   /// The folder with the pieces of a state.
   std::filesystem::path pieces_of(const RunState& run) const { return step(step_of(run)); }
   static std::size_t step_of(const RunState& run) {

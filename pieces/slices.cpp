@@ -49,7 +49,8 @@ void take_tets(const MeshData& data, std::span<const char> is_protected, const R
 
 }  // namespace
 
-void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to) {
+void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to,
+                std::span<const char> is_kept) {
   const std::size_t slices = 1 + data.tets.size() / kTetsOfSlice;
   std::vector<char> required(data.points.size(), 0);
   for (const std::uint32_t v : data.required_vertices) required[v] = 1;
@@ -73,8 +74,9 @@ void add_slices(const MeshData& data, std::span<const char> is_protected, Divide
       slice.points.push_back(data.points[v]);
       if (!data.point_labels.empty()) slice.labels.push_back(data.point_labels[v]);
       const unsigned is_own = v >= own.begin && v < own.end ? kOwn : 0U;
+      const unsigned is_corner = !is_kept.empty() && is_kept[v] != 0 ? kCorner : 0U;
       slice.marks.push_back(
-          static_cast<std::uint8_t>(is_own | (required[v] != 0 ? kRequired : 0U)));
+          static_cast<std::uint8_t>(is_own | is_corner | (required[v] != 0 ? kRequired : 0U)));
     }
     renumber(slice.tets, numbers);
     renumber(slice.triangles, numbers);

@@ -15,8 +15,10 @@ namespace tetmend::pieces {
 inline constexpr std::size_t kTetsOfSlice = 500'000;
 
 /// Adds a mesh, on one rank, to one that has nothing yet; end_slices() is left to the caller.
-/// `is_protected` has a mark for each tet, or none.
-void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to);
+/// `is_protected` has a mark for each tet, or none; `is_kept` one for each point of a surface that may
+/// move, see find_kept_points().
+void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to,
+                std::span<const char> is_kept = {});
 
 /// All of a mesh again, and where its parts come from.
 struct Joined {

@@ -12,6 +12,9 @@ namespace tetmend::petsc {
 Result improve(DM from, DM* better, const Options& options, const Pieces& pieces,
                const Labels& labels) {
   if (from == nullptr || better == nullptr) throw Error("DM: there is none");
+  if (!options.surface.empty() && options.surface != "fixed") {
+    throw OptionError("surface", "surface: that of a DMPlex must stay fixed");
+  }
   MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(from));
   mpi::MpiRanks ranks(comm);
   PlexArrays arrays = read_plex(from, labels, ranks);

@@ -20,6 +20,11 @@ namespace tetmend::test {
 class SurfaceModel {
  public:
   using Face = std::array<VertexHandle, 3>;
+  /// The same face, from its least vertex on.
+  static Face rotated(Face f) {
+    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+    return f;
+  }
 
   SurfaceModel(const TetMesh& mesh, const EnvelopeOptions& options)
       : guard_(Envelope::of(mesh, options)), journal_(guard_->make_journal()) {
@@ -29,6 +34,15 @@ class SurfaceModel {
       points_.push_back(mesh.point(VertexHandle(i)));
     }
     for (const auto& face : features.faces) faces_.insert(rotated(face.vertices));
+    reference_ = triangles();
+  }
+
+  /// Of a part, or a whole, that has moved already. Faces of `fixed` are never changed.
+  SurfaceModel(std::unique_ptr<Envelope> guard, std::vector<Point> points,
+               const std::vector<Face>& faces, const std::vector<Face>& fixed)
+      : guard_(std::move(guard)), journal_(guard_->make_journal()), points_(std::move(points)) {
+    for (const Face& face : faces) faces_.insert(rotated(face));
+    for (const Face& face : fixed) fixed_.insert(rotated(face));
     reference_ = triangles();
   }
 
@@ -139,10 +153,6 @@ class SurfaceModel {
   }
 
  private:
-  static Face rotated(Face f) {
-    std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
-    return f;
-  }
   VertexHandle beside(VertexHandle a, VertexHandle b) const {
     for (const Face& f : faces_) {
       for (unsigned k = 0; k < 3; ++k) {
@@ -157,12 +167,16 @@ class SurfaceModel {
     return result;
   }
   bool ask(const std::vector<SurfaceFace>& before, const std::vector<SurfaceFace>& after) {
+    for (const SurfaceFace& face : before) {
+      if (fixed_.contains(rotated(face.vertices))) return false;
+    }
     return guard_->replace(before, after, *journal_);
   }
 
   std::unique_ptr<Envelope> guard_;
   std::unique_ptr<SurfaceJournal> journal_;
   std::set<Face> faces_;
+  std::set<Face> fixed_;
   std::vector<Point> points_;
   std::vector<Triangle> reference_;
 };

@@ -267,7 +267,6 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
   Mesh mesh = MeshAccess::make(data);
   Division division;
   division.pieces = 2;
-  CHECK_THROWS_AS(pieces::improve(mesh, {.surface = "flat"}, division), OptionError);
   CHECK_THROWS_AS(pieces::improve(mesh, {.script = "smooth{} error('no')"}, division), Error);
   CHECK(equal(MeshAccess::data(mesh), data));
   const Folder folder;
@@ -279,5 +278,4 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
         "ignore-interior: needs the whole mesh in memory");
   CHECK(improve_files(files, 2, {.keep_size = true}) ==
         "keep-size: needs the whole mesh in memory");
-  CHECK(improve_files(files, 2, {.surface = "1%"}) == "surface: needs the whole mesh in memory");
 }
