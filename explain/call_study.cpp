@@ -276,9 +276,8 @@ std::string caption_of(const CallStudy& study, PolygonStage stage) {
   const char* verb = study.undone ? "tried" : is_last ? "made" : "made at first";
   switch (stage) {
     case PolygonStage::made:
-      return fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}",
-                         verb, shell.ring.size(), study.covering->core.size(), shell.floor,
-                         study.covering->worst);
+      return fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}", verb, shell.ring.size(),
+                         study.covering->core.size(), shell.floor, study.covering->worst);
     case PolygonStage::best_triangulation:
       return fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
                          shell.floor);

@@ -132,8 +132,8 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
     return;
   }
   if (slices_ && surface_moves_ && holds_more_) {
-    throw OptionError("surface",
-                      "surface: where a file has arrays or groups, it needs the whole mesh in memory");
+    throw OptionError(
+        "surface", "surface: where a file has arrays or groups, it needs the whole mesh in memory");
   }
   if (slices_) {
     slices_->add_to(mesh, std::min<std::size_t>(kTetsOfSlice, 1 + tets_ / pieces));

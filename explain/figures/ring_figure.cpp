@@ -58,8 +58,8 @@ Drawing draw_ring(const TraceFile& file, const CallStudy& study) {
   }
   const ShellPicture& shell = *study.picture;
   const bool refused = !file.calls()[study.call].accepted();
-  const PolygonStage last = study.covering ? PolygonStage::made
-                                           : stage_of(study, file.event_count(), refused);
+  const PolygonStage last =
+      study.covering ? PolygonStage::made : stage_of(study, file.event_count(), refused);
   std::vector<PolygonStage> stages = {PolygonStage::before};
   const bool has_another = last != PolygonStage::before && last != PolygonStage::earlier;
   if (has_another) stages.push_back(last);

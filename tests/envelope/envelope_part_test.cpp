@@ -59,13 +59,15 @@ struct Joined {
   void add(const SurfaceModel& model, std::size_t before, const std::vector<Face>& fixed,
            bool with_fixed) {
     const std::size_t shift = points.empty() ? 0 : points.size() - before;
-    if (points.empty()) points.assign(model.points().begin(), model.points().begin() +
-                                          static_cast<std::ptrdiff_t>(before));
+    if (points.empty())
+      points.assign(model.points().begin(),
+                    model.points().begin() + static_cast<std::ptrdiff_t>(before));
     const SurfaceFeatures now = model.guard().present();
     const auto number = [&](VertexHandle v) {
       return v.index() < before ? v : VertexHandle(v.index() + static_cast<std::uint32_t>(shift));
     };
-    for (std::size_t v = before; v < model.points().size(); ++v) points.push_back(model.points()[v]);
+    for (std::size_t v = before; v < model.points().size(); ++v)
+      points.push_back(model.points()[v]);
     std::vector<Face> frozen;
     for (const Face& face : fixed) frozen.push_back(SurfaceModel::rotated(face));
     for (auto face : now.faces) {
