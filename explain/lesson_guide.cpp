@@ -13,15 +13,22 @@ namespace tetmend::explain {
 
 namespace {
 
+std::optional<std::filesystem::path> lessons_above(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (std::filesystem::path up = folder;; up = up.parent_path()) {
+    std::filesystem::path lessons = up / "assets/lessons";
+    if (std::filesystem::is_directory(lessons, ignored)) return lessons;
+    if (up == up.parent_path()) return std::nullopt;
+  }
+}
+
 std::filesystem::path lessons_folder() {
   if (const char* folder = std::getenv("TETMEND_LESSONS")) return folder;  // NOLINT: one thread
   std::error_code ignored;
-  for (std::filesystem::path up = std::filesystem::current_path(ignored);; up = up.parent_path()) {
-    const std::filesystem::path folder = up / "assets/lessons";
-    if (std::filesystem::is_directory(folder, ignored)) return folder;
-    if (up == up.parent_path()) break;
-  }
-  return platform::program_file().parent_path().parent_path() / "share/tetmend/lessons";
+  const std::filesystem::path programs = platform::program_file().parent_path();
+  if (const auto found = lessons_above(std::filesystem::current_path(ignored))) return *found;
+  if (const auto found = lessons_above(programs)) return *found;  // where it was built
+  return programs.parent_path() / "share/tetmend/lessons";
 }
 
 }  // namespace
@@ -37,6 +44,17 @@ std::optional<Lesson> lesson_of(const std::filesystem::path& trace, std::uint64_
                             event_count));
   }
   return lesson;
+}
+
+std::filesystem::path trace_of_lesson(const std::filesystem::path& lesson) {
+  std::filesystem::path trace = read_lesson(lesson).trace;
+  std::filesystem::path beside = lesson;
+  if (trace.lexically_normal() != beside.replace_extension(".trace").lexically_normal()) {
+    throw Error(fmt::format("{}: the trace of a lesson has its name: expected '{}', not '{}'",
+                            lesson.string(), beside.filename().string(),
+                            trace.filename().string()));
+  }
+  return trace;
 }
 
 std::optional<std::size_t> step_at(const Lesson& lesson, std::uint64_t position) {

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "explain/lesson_guide.h"
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/grouped.h"
-#include "trace/lesson.h"
 #include "viewer/debugger/call_highlight.h"
 #include "viewer/debugger/recorded_allowance.h"
 #include "viewer/debugger/tets_drawing.h"
@@ -75,17 +75,6 @@ void refuse_what_is_no_mesh(const std::filesystem::path& file) {
                   : fmt::format("{}: this is no trace: it does not begin as one", file.string()));
 }
 
-/// The trace that a lesson leads through.
-std::filesystem::path trace_of_lesson(const std::filesystem::path& file) {
-  const std::filesystem::path trace = read_lesson(file).trace;
-  std::filesystem::path beside = file;
-  if (trace.lexically_normal() != beside.replace_extension(".trace").lexically_normal()) {
-    throw Error(fmt::format("{}: the trace of a lesson has its name: expected '{}', not '{}'",
-                            file.string(), beside.filename().string(), trace.filename().string()));
-  }
-  return trace;
-}
-
 /// What was put right in a mesh, or is wrong with it.
 std::vector<std::string> notes_of(const BuildReport& report) {
   std::vector<std::string> notes;
@@ -112,7 +101,7 @@ void Document::resize(const Canvas& size) {
 
 void Document::open(const std::filesystem::path& file) {
   if (is_trace(file)) return open_trace(file);
-  if (file.extension() == ".json") return open_trace(trace_of_lesson(file));
+  if (file.extension() == ".json") return open_trace(explain::trace_of_lesson(file));
   refuse_what_is_no_mesh(file);
   MeshData data = read_mesh(file);
   const std::string beside = named_beside(data);

@@ -317,6 +317,9 @@ class Pages(unittest.TestCase):
                     with self.subTest(page=name, width=width):
                         self.walk(window, WORK / "lessons" / f"{name}.html")
                         self.assertEqual(window.run("return document.documentElement.dataset.theme"), "dark" if dark else "light")
+                window.open((LECTURES / "index.html").as_uri())
+                brightness = window.run("return getComputedStyle(document.body).backgroundColor.match(/[0-9]+/g).map(Number).reduce((a, b) => a + b)")
+                self.assertEqual(brightness < 300, dark, "paper of the index")
             finally:
                 window.close()
 
