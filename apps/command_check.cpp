@@ -26,7 +26,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct CheckOptions {
+struct Options {
   std::filesystem::path file;
   std::filesystem::path improved;
   CheckOptions wanted;
@@ -60,7 +60,7 @@ nlohmann::json to_json(const Fact::Number& number) {
   return nullptr;
 }
 
-void print(const CheckOptions& options, const std::vector<Fact>& facts, bool holds) {
+void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
   if (!options.json) {
     for (const Fact& fact : facts) fmt::print("{}  {}\n", fact.holds ? "ok  " : "FAIL", fact.text);
     return;
@@ -80,7 +80,7 @@ void print(const CheckOptions& options, const std::vector<Fact>& facts, bool hol
 }
 
 /// Of parts, groups are not kept: they cannot be compared.
-Mesh load_to_check(const CheckOptions& options, const std::filesystem::path& file,
+Mesh load_to_check(const Options& options, const std::filesystem::path& file,
                    const pieces::ArrayFiles* parts) {
   Mesh mesh = load_whole(file, options.wanted.threads, parts);
   if (!parts->is_one(file)) return mesh;
@@ -90,7 +90,7 @@ Mesh load_to_check(const CheckOptions& options, const std::filesystem::path& fil
   return mesh;
 }
 
-int run_check(CheckOptions& options, const pieces::ArrayFiles* parts) {
+int run_check(Options& options, const pieces::ArrayFiles* parts) {
   name_streams(options.format, options.file, nullptr);
   check_input_format(options.file, parts);
   if (!options.improved.empty()) check_input_format(options.improved, parts);
@@ -133,7 +133,7 @@ std::string preset_help() {
 }  // namespace
 
 void add_check(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<CheckOptions>();
+  const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Prove what a mesh, or a result, promises");
   command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
   command->add_option("OUT", options->improved, "What became of it: compared with FILE")

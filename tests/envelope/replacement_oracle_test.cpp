@@ -301,7 +301,7 @@ TEST_CASE("random edits: what is taken leaves patches, lines, corners and topolo
     const double degrees = angle;  // a macro captures it
     const TetMesh mesh(data);
     const SurfaceFeatures features = find_features(mesh, {degrees, false, {}});
-    const PresentSurface present(mesh, features);
+    const PresentSurface present(points_by_slot(mesh), features);
     Whole whole;
     for (const auto& face : features.faces) whole.faces[rotated(face.vertices)] = face.patch;
     for (const auto& edge : features.edges) {

@@ -31,9 +31,9 @@ TEST_CASE("random solids: whole runs keep the surface within the tolerance, both
     CAPTURE(solid.name);
     CAPTURE(surface);
     Mesh mesh = MeshAccess::make(solid.data);
-    const Surfaces before = surfaces(solid.data);
+    const Surfaces before = surfaces_of(solid.data);
     const Result result = improve(mesh, {.surface = surface});
-    CHECK(complaint(before, surfaces(MeshAccess::data(mesh)), surface) == "");
+    CHECK(complaint(before, surfaces_of(MeshAccess::data(mesh)), surface) == "");
     REQUIRE(result.surface_change);
     const SurfaceChange& change = *result.surface_change;
     CHECK(change.sampled <= change.proven);

@@ -97,7 +97,7 @@ TEST_CASE("random solids in pieces: the surface keeps within the tolerance, both
     CAPTURE(surface);
     Mesh mesh = MeshAccess::make(solid.data);
     const Result result = pieces::improve(mesh, {.surface = surface}, in_pieces(2 + i % 3));
-    CHECK(complaint(surfaces(solid.data), surfaces(MeshAccess::data(mesh)), surface) == "");
+    CHECK(complaint(surfaces_of(solid.data), surfaces_of(MeshAccess::data(mesh)), surface) == "");
     CHECK(result.worse().empty());
     REQUIRE(result.surface_change);
     const SurfaceChange& change = *result.surface_change;

@@ -19,7 +19,7 @@ namespace tetmend::test {
 /// By the labels of both sides, the smaller first; outside is the smallest number.
 using Surfaces = std::map<std::pair<Label, Label>, std::vector<Triangle>>;
 
-inline Surfaces surfaces(const MeshData& data) {
+inline Surfaces surfaces_of(const MeshData& data) {
   constexpr Label kOutside = std::numeric_limits<Label>::min();
   Surfaces all;
   for_face_pairs(sorted_tet_faces(data), [&](const TetFace& face, const TetFace* other) {

@@ -79,8 +79,8 @@ void Controller::drop(const std::filesystem::path& file) {
     if (!in || !(text << in.rdbuf())) {
       throw Error(fmt::format("{}: cannot read the view", file.string()));
     }
-    const auto json = nlohmann::json::parse(text.str(), nullptr, false);
-    if (json.is_object() && json.contains("steps")) return session_.document.open(file);
+    const auto content = nlohmann::json::parse(text.str(), nullptr, false);
+    if (content.is_object() && content.contains("steps")) return session_.document.open(file);
     apply_json_text(session_.document.view, text.str());
   });
 }
