@@ -13,7 +13,7 @@ import documents  # noqa: E402
 
 LAYERS = "platform kernel trace search envelope ops contract schedule face pieces explain report apps".split()
 NEEDED = {"kernel": 90, "ops": 90, "schedule": 90, "trace": 90}
-NEEDED_SHORT = {"kernel": 52, "ops": 60, "schedule": 57, "trace": 61}  # some points less than they had
+NEEDED_SHORT = {"kernel": 50, "ops": 60, "schedule": 57, "trace": 61}  # some points less than they had
 
 
 def lines_by_file(export: dict, source: Path) -> dict[Path, tuple[int, int]]:
