@@ -277,9 +277,10 @@ TEST_CASE("questions that name nothing are refused with a reason") {
   CHECK(refusal(file, "tet:0@" + run.after.string()).find("has no tet 0") != std::string::npos);
   CHECK(refusal(file, "tet:1@/nowhere.mesh").find("/nowhere.mesh") != std::string::npos);
   const TempFolder other;
-  write_mesh(other / "far.mesh",
-             MeshData{.points = {{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1, 0}, {1e9, 0, 1}},
-                      .tets = {{{0, 1, 2, 3}, 0}}});
+  MeshData far;
+  far.points = {{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1, 0}, {1e9, 0, 1}};
+  far.tets = {{{0, 1, 2, 3}, 0}};
+  write_mesh(other / "far.mesh", far);
   CHECK(
       refusal(file, "tet:1@" + (other / "far.mesh").string()).find("no vertices at these places") !=
       std::string::npos);

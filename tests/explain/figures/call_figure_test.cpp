@@ -148,7 +148,7 @@ TEST_CASE("a shell has a, b and p_1 to p_m with their vertices, from every side"
     ++shells;
     CAPTURE(k);
     const Drawing drawing = bench.draw(FigureKind::shell, k);
-    for (const std::string& name : {"a", "b", "p"}) CHECK(has_text(drawing, name));
+    for (const char* name : {"a", "b", "p"}) CHECK(has_text(drawing, name));
     for (std::size_t i = 0; i < study.picture->ring.size(); ++i) {
       CHECK(has_text(drawing, fmt::format("{}", i + 1)));
       CHECK(has_text(drawing, fmt::format("{}", study.picture->ring[i].index())));
