@@ -197,10 +197,13 @@ void Task::run_schedule(const TaskLimits& limits) {
   if (options_.watch) options_.watch(run);
   try {
     improve(run, options_.schedule, limits.is_zone ? options_.zone_settings : options_.settings);
-    // Where the fixed surface holds bad tets, it moves.
+    // Where the fixed surface holds bad tets, it moves. What is stuck at a border is for another
+    // division or a zone: costly rounds would only refine around it.
     if (mesh_.surface_guard() != nullptr && !run.cancelled()) {
       run.set_standard(options_.standard);
-      if (run.indicators().n_bad > 0) improve(run, Schedule::builtin("surface"), {});
+      ScheduleSettings settings;
+      if (!limits.is_zone) settings.emplace_back("max_rounds", "0");
+      if (run.indicators().n_bad > 0) improve(run, Schedule::builtin("surface"), settings);
     }
   } catch (...) {
     if (options_.unwatch) options_.unwatch();
