@@ -199,7 +199,9 @@ TEST_CASE("a piece that no run can have is a wrong option, before anything is wo
       {"4:4", "piece 4 is not worked on in round 4: its zones count from 5"},
       {"1:", "'1:' is not of the form ROUND or ROUND:PIECE"},
       {"worst", "'worst' is not of the form ROUND or ROUND:PIECE"}};
-  for (const auto& [piece, reason] : wrong) {
+  for (const auto& each : wrong) {
+    const auto& piece = each.first;
+    const auto& reason = each.second;
     CAPTURE(piece);
     const Options options = {.trace = bench.trace, .trace_piece = piece};
     const auto in_core = [&] {
