@@ -41,6 +41,7 @@ html_static_path = ["style.css", "search.js"]
 html_favicon = "icon.svg"
 html_css_files = ["style.css"]
 html_js_files = ["search.js"]
+html_search_scorer = str(Path(__file__).parent / "scorer.js")
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False

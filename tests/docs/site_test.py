@@ -320,6 +320,21 @@ class Shown(unittest.TestCase):
             self.assertTrue(any(f"/{name}" in address for address in found), f"{word} of {name}: {found}")
             self.assertEqual(window.complaints(), [])
 
+    # Of a word: a page that must be among the first four.
+    WANTED = {"gmsh": "howto/gmsh", "schedule": "choosing", "paraview": "howto/paraview", "quality": "howto/gmsh", "labels": "howto/paraview",
+              "goal": "choosing", "improve": "start", "boundary layers": "layers"}
+
+    def test_a_search_lists_what_shows_how_before_the_references(self) -> None:
+        window = self.open_window(DESK)
+        for word, page in self.WANTED.items():
+            found = [address.partition(f"{SITE}/")[2].partition(".html")[0]
+                     for address in self.results(window, f"file://{SITE}", word.replace(" ", "+"))]
+            self.assertIn(page, found[:4], word)
+            references = [place for place, name in enumerate(found) if name.startswith("cpp/") or name.endswith("-reference")]
+            self.assertGreater(min(references, default=9), 2, f"{word}: {found[:8]}")
+        for name, page in {"tetmend_set_group": "c-reference", "Result.vertex_map": "python-reference"}.items():
+            self.assertIn(f"/{page}.html", self.results(window, f"file://{SITE}", name)[0])
+
     def test_from_a_server_a_search_shows_where_the_word_stands(self) -> None:
         word, name = self.rare_words()[0]
         window = self.open_window(DESK)
