@@ -62,6 +62,16 @@ void get_map(const std::vector<std::uint32_t>& map, std::int32_t* numbers, std::
   });
 }
 
+/// As the library has it, but an unknown name is also told what only files in C need.
+void set_other_option(Options& options, std::string_view name, std::string_view value) {
+  try {
+    set_option(options, name, value);
+  } catch (const OptionError& error) {
+    if (!error.option().empty()) throw;
+    throw OptionError("", std::string(error.what()) + ", label-array, variant");
+  }
+}
+
 bool tell(const tetmend_mesh& handle, const Progress& progress) {
   const std::string phase(progress.phase);
   const tetmend_progress made = {static_cast<tetmend_stage>(progress.stage), phase.c_str(),
@@ -113,7 +123,7 @@ tetmend_status tetmend_set(tetmend_mesh* mesh, const char* name, const char* val
     } else if (word == "variant") {
       handle.variant = value;
     } else {
-      set_option(handle.options, word, value);
+      set_other_option(handle.options, word, value);
     }
   });
 }
@@ -155,6 +165,9 @@ tetmend_status tetmend_save(tetmend_mesh* mesh, const char* file) {
   return guarded(mesh, [&](tetmend_mesh& handle) {
     need(file, "file");
     const Mesh& settled = settle(handle);
+    if (settled.point_count() == 0) {
+      throw WrongCall("the mesh is empty: tetmend_load() or tetmend_set_points() comes first");
+    }
     std::vector<std::string> notes = not_saved(file, settled);
     save(file, settled, handle.options.threads, handle.variant);
     handle.notes = std::move(notes);

@@ -82,7 +82,8 @@ TETMEND_API tetmend_status tetmend_set_first_number(tetmend_mesh* mesh, int numb
 
 /** Reads a mesh; the format follows from the extension. The older mesh goes, unless this fails. */
 TETMEND_API tetmend_status tetmend_load(tetmend_mesh* mesh, const char* file);
-/** Writes the mesh. The file appears when it is complete; a failure leaves an older one as it was. */
+/** Writes the mesh. The file appears when it is complete; a failure leaves an older one as it was.
+ * TETMEND_WRONG_CALL for a mesh without points, as a new handle has it. */
 TETMEND_API tetmend_status tetmend_save(tetmend_mesh* mesh, const char* file);
 
 /* ---- Arrays in ---- */

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
@@ -149,6 +150,9 @@ class Reader {
   };
 
   void read_header() {
+    if (looks_like_medit_binary({text_.position(), text_.bytes_left()})) {
+      text_.fail("this looks like a binary MEDIT file: its name should end in .meshb");
+    }
     const std::string_view first = text_.word();
     if (first != "MeshVersionFormatted") {
       text_.fail(first.empty() ? "the file is empty: expected MeshVersionFormatted"

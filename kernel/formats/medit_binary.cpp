@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,8 @@
 
 namespace tetmend::formats {
 namespace {
+
+constexpr std::int32_t kNewestVersion = 4;
 
 enum Keyword : std::int32_t {
   dimension = 3,
@@ -63,6 +66,10 @@ class Reader {
   void read_header() {
     if (bytes_.size() == 0)
       bytes_.fail_at(std::size_t{0}, "the file is empty: expected the cookie 1");
+    if (std::string_view(bytes_.here(), bytes_.size()).starts_with("MeshVersionFormatted")) {
+      bytes_.fail_at(std::size_t{0},
+                     "this looks like a MEDIT file in text: its name should end in .mesh");
+    }
     const auto cookie = bytes_.number<std::int32_t>("the cookie 1");
     if (cookie != 1 && cookie != byte_swapped(std::int32_t{1})) {
       bytes_.fail_at(
@@ -71,9 +78,10 @@ class Reader {
     }
     bytes_.set_swap(cookie != 1);
     version_ = bytes_.number<std::int32_t>("the version of the format");
-    if (version_ < 1 || version_ > 4) {
+    if (version_ < 1 || version_ > kNewestVersion) {
       bytes_.fail_at(bytes_.position() - sizeof version_,
-                     fmt::format("version {} of the format is unknown: expected 1 to 4", version_));
+                     fmt::format("version {} of the format is unknown: expected 1 to {}", version_,
+                                 kNewestVersion));
     }
   }
 
@@ -513,6 +521,14 @@ class Writer {
 };
 
 }  // namespace
+
+bool looks_like_medit_binary(std::string_view bytes) {
+  if (bytes.size() < 2 * sizeof(std::int32_t)) return false;
+  const auto cookie = load<std::int32_t>(bytes.data(), false);
+  if (cookie != 1 && cookie != byte_swapped(std::int32_t{1})) return false;
+  const auto version = load<std::int32_t>(bytes.data() + sizeof cookie, cookie != 1);
+  return version >= 1 && version <= kNewestVersion;
+}
 
 MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);

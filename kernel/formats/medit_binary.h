@@ -3,12 +3,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
+
+/// True of the first bytes of a binary MEDIT file, whatever its name: the cookie and a version, in
+/// either byte order.
+bool looks_like_medit_binary(std::string_view bytes);
 
 /// Versions 1 to 4 (4- or 8-byte coordinates, file positions and integers) in both byte orders;
 /// keeps the same sections as `read_medit_ascii`. @throws Error

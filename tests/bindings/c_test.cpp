@@ -4,6 +4,7 @@
 #include <cfenv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -190,6 +191,10 @@ TEST_CASE("in C: a mesh of broken topology, a missing file and an empty mesh are
   const Handle empty = create();
   CHECK(tetmend_improve(empty.get()) == TETMEND_WRONG_INPUT);
   CHECK(error_of(empty) == "the mesh has no tetrahedra");
+  const TempFolder folder;
+  CHECK(tetmend_save(empty.get(), (folder / "a.mesh").c_str()) == TETMEND_WRONG_CALL);
+  CHECK(error_of(empty).starts_with("the mesh is empty"));
+  CHECK(!std::filesystem::exists(folder / "a.mesh"));
   CHECK(tetmend_load(empty.get(), asset("sheet.mesh").c_str()) == TETMEND_OK);
   CHECK(tetmend_set_tets(empty.get(), kTets.data(), 2, nullptr) == TETMEND_WRONG_CALL);
   CHECK(error_of(empty).starts_with("the mesh is from a file"));
@@ -387,6 +392,7 @@ TEST_CASE("in C: options are told apart, added to, and reset") {
   const Handle mesh = two_tets_in();
   CHECK(tetmend_set(mesh.get(), "time_limit", "5") == TETMEND_WRONG_OPTION);
   CHECK(error_of(mesh).starts_with("there is no option 'time_limit': expected schedule, "));
+  CHECK(error_of(mesh).ends_with(", label-array, variant"));
   CHECK(tetmend_set(mesh.get(), "time-limit", "five") == TETMEND_WRONG_OPTION);
   CHECK(error_of(mesh).starts_with("time-limit: 'five' is not a number"));
   CHECK(tetmend_set(mesh.get(), "protect", "label:7") == TETMEND_OK);

@@ -110,6 +110,29 @@ TEST_CASE("a binary MEDIT file of versions 1 to 4 in either byte order is read")
   }
 }
 
+TEST_CASE("a MEDIT file whose name ends as that of the other kind is told so") {
+  const TempFolder folder;
+  const auto refused = [&](const std::string& name, const std::string& content) {
+    write_text(folder / name, content);
+    return error_of_reading(folder / name);
+  };
+  for (const int version : {1, 2, 3, 4}) {
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+      CAPTURE(version);
+      const std::string told = refused("a.mesh", Meshb(version, order).end());
+      CHECK(told.ends_with(
+          "a.mesh:1: this looks like a binary MEDIT file: its name should end in .meshb"));
+    }
+  }
+  CHECK(
+      refused("a.meshb", "MeshVersionFormatted 2\nDimension 3\n")
+          .ends_with("byte 0: this looks like a MEDIT file in text: its name should end in .mesh"));
+  const std::string other_version("\1\0\0\0\5\0\0\0", 8);
+  CHECK(refused("a.mesh", other_version).find("is not the beginning") != std::string::npos);
+  CHECK(refused("a.mesh", other_version.substr(0, 7)).find("is not the beginning") !=
+        std::string::npos);
+}
+
 TEST_CASE("a binary MEDIT file without an end keyword is read") {
   const TempFolder folder;
   write_text(folder / "a.meshb", tetrahedron(2).str());
@@ -150,7 +173,8 @@ TEST_CASE("a bad binary MEDIT file is refused with byte and reason") {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<BadFile> files = {
-      {"text", "MeshVersionFormatted 2\n", "0: ", "is not that of a binary MEDIT file"},
+      {"text", "MeshVersionFormatted 2\n", "0: ", "looks like a MEDIT file in text"},
+      {"other text", "solid cube\n", "0: ", "is not that of a binary MEDIT file"},
       {"three bytes", std::string("\x01\0\0", 3),
        "0: ", "the file ends where the cookie 1 is expected"},
       {"only cookie", good.substr(0, 4), "4: ", "the file ends where the version"},
