@@ -41,6 +41,7 @@ struct TraceOptions {
   std::optional<std::uint64_t> at;
   std::optional<std::uint32_t> extract;
   std::string history;
+  bool all = false;  // the calls of a history
   bool slices = false;
   bool html = false;
   std::string html_call;  // a number; empty: of the whole trace
@@ -110,7 +111,9 @@ std::string history(const TraceOptions& options, const TraceFile& file) {
   Replay replay(file, 0);
   const HistorySubject subject = find_subject(file, replay, options.history);
   try {
-    return history_text(file, history_of(file, replay, subject));
+    constexpr std::size_t kMostCalls = 20;
+    const History found = history_of(file, replay, subject);
+    return options.all ? history_text(file, found) : history_text(file, found, kMostCalls);
   } catch (const Error& error) {
     throw Error(fmt::format("--history {}: {}", options.history, error.what()));
   }
@@ -235,6 +238,7 @@ void write_figure(const TraceOptions& options, const TraceFile& file) {
 
 int run_trace(const TraceOptions& options) {
   check_figure(options);
+  if (options.all && options.history.empty()) throw UsageError("--all is for --history");
   if (!options.html_call.empty()) read_call(options.html_call);
   if (options.at) {
     if (options.output.empty()) throw UsageError("--at needs -o, a file for the mesh");
@@ -325,6 +329,7 @@ void add_trace(CLI::App& app, Invocation& invocation) {
                    "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
       ->type_name("WHAT");
   what->require_option(0, 1);
+  command->add_flag("--all", options->all, "Of a history, every call instead of the 20 nearest");
   add_figure_options(*command, *what, *options);
   command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
 events are counted from 0; vertices are named by their handle numbers. Of

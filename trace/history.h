@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,7 +73,9 @@ HistorySubject find_subject(const TraceFile& file, Replay& replay, std::string_v
 
 /// A paragraph that answers why it is there or gone.
 std::string history_paragraph(const TraceFile& file, const History& history);
-/// The same, then a line for each part and each call.
-std::string history_text(const TraceFile& file, const History& history);
+/// A line for each part and each call, then the paragraph, which is what a terminal shows last.
+/// `most_calls`: of more calls, those that came nearest, and a line that counts the others.
+std::string history_text(const TraceFile& file, const History& history,
+                         std::size_t most_calls = std::numeric_limits<std::size_t>::max());
 
 }  // namespace tetmend

@@ -43,11 +43,12 @@ class Teller {
     answer();
     return text_;
   }
-  std::string tell() {
-    paragraph();
-    text_ += "\n\n";
+  std::string tell(std::size_t most_calls) {
     table();
-    calls();
+    calls(most_calls);
+    text_ += '\n';
+    paragraph();
+    text_ += '\n';
     return std::move(text_);
   }
 
@@ -233,11 +234,33 @@ class Teller {
     }
   }
 
-  void calls() {
+  /// In their order. The refused ones from which least was missing come before accepted ones, and
+  /// those in trials last.
+  std::vector<HistoryCall> nearest_calls(std::size_t most) const {
+    std::vector<HistoryCall> chosen = history_.calls;
+    if (chosen.size() <= most) return chosen;
+    const auto distance = [&](const HistoryCall& each) {
+      const Call& c = call(each.call);
+      if (each.in_trial) return std::numeric_limits<double>::infinity();
+      if (c.accepted()) return 1e20;
+      return has_figures(c) ? double{c.worst_before} - double{c.worst_after} : 1e30;
+    };
+    std::sort(chosen.begin(), chosen.end(), [&](const auto& one, const auto& other) {
+      const double near = distance(one), far = distance(other);
+      return near != far ? near < far : one.call > other.call;
+    });
+    chosen.resize(most);
+    std::sort(chosen.begin(), chosen.end(),
+              [](const auto& one, const auto& other) { return one.call < other.call; });
+    return chosen;
+  }
+
+  void calls(std::size_t most) {
     if (history_.calls.empty()) return;
+    const std::vector<HistoryCall> chosen = nearest_calls(most);
     text_ +=
         fmt::format("\n{:>9}  {:<32} {:<28} {:<16}\n", "call", "operator", "target", "verdict");
-    for (const HistoryCall& each : history_.calls) {
+    for (const HistoryCall& each : chosen) {
       const Call& c = call(each.call);
       const auto target = c.target();
       text_ += fmt::format("{:>9}  {:<32} {:<28} {:<16}", each.call, file_.name(c.operator_name),
@@ -245,6 +268,10 @@ class Teller {
       if (has_figures(c)) text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
       if (each.in_trial) text_ += "  in a trial that was undone";
       text_ += '\n';
+    }
+    if (const std::size_t others = history_.calls.size() - chosen.size(); others > 0) {
+      text_ += fmt::format(
+          "{:>9}  more, in trials or farther from being accepted; --all lists them\n", others);
     }
   }
 
@@ -259,8 +286,8 @@ std::string history_paragraph(const TraceFile& file, const History& history) {
   return Teller(file, history).paragraph();
 }
 
-std::string history_text(const TraceFile& file, const History& history) {
-  return Teller(file, history).tell();
+std::string history_text(const TraceFile& file, const History& history, std::size_t most_calls) {
+  return Teller(file, history).tell(most_calls);
 }
 
 }  // namespace tetmend

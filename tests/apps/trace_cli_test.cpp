@@ -153,14 +153,20 @@ TEST_CASE("the history of a tet is told by its number in the file that the run w
   REQUIRE(bench.record().status == 0);
   const Outcome told = bench.look({"--history", "tet:1@" + bench.out});
   REQUIRE(told.status == 0);
-  REQUIRE(told.out.starts_with("Tet "));
-  // Its vertices, as the answer names them.
-  std::istringstream words(told.out.substr(4));
+  // The answer is what a terminal shows last; its vertices, as it names them.
+  const std::size_t answer = told.out.rfind("\n\nTet ");
+  REQUIRE(answer != std::string::npos);
+  REQUIRE(told.out.find('\n', answer + 2) == told.out.size() - 1);
+  CHECK(told.out.starts_with("part "));
+  std::istringstream words(told.out.substr(answer + 6));
   std::string a, b, c, d;
   words >> a >> b >> c >> d;
   const std::string by_vertices = "tet:" + a + "," + b + "," + c + "," + d;
   CHECK(bench.look({"--history", by_vertices}).out == told.out);
   CHECK(bench.look({"--history", "tet:worst"}).status == 0);
+  const Outcome alone = bench.look({"--all"});
+  CHECK(alone.status == 2);
+  CHECK(contains(alone.err, "--all is for --history"));
   const Outcome wrong = bench.look({"--history", "tet:1@"});
   CHECK(wrong.status == 1);
   CHECK(contains(wrong.err, "'tet:1@' names nothing in a trace: expected tet:N"));

@@ -285,3 +285,34 @@ TEST_CASE("questions that name nothing are refused with a reason") {
       refusal(file, "tet:1@" + (other / "far.mesh").string()).find("no vertices at these places") !=
       std::string::npos);
 }
+
+TEST_CASE("a history that is cut short has the calls that came nearest, and counts the others") {
+  const Recorded run("folded_sheet.mesh");
+  const TraceFile file(run.path);
+  Replay replay(file, 0);
+  const History history = history_of(file, replay, find_subject(file, replay, "tet:worst"));
+  REQUIRE(history.calls.size() > 8);
+  constexpr std::size_t kMost = 5;
+  const std::string whole = history_text(file, history);
+  const std::string cut = history_text(file, history, kMost);
+  const std::string answer = history_paragraph(file, history) + "\n";
+  CHECK(whole.ends_with("\n\n" + answer));
+  CHECK(cut.ends_with("\n\n" + answer));
+  CHECK(whole.find("more, in trials") == std::string::npos);
+  CHECK(cut.find(fmt::format("{:>9}  more, in trials", history.calls.size() - kMost)) !=
+        std::string::npos);
+  const auto has_row = [&](const std::string& text, std::uint32_t call) {
+    return text.find(fmt::format("\n{:>9}  {}", call,
+                                 file.name(file.calls()[call].operator_name))) != std::string::npos;
+  };
+  std::size_t rows = 0;
+  for (const HistoryCall& each : history.calls) {
+    CHECK(has_row(whole, each.call));
+    rows += has_row(cut, each.call) ? 1 : 0;
+  }
+  CHECK(rows == kMost);
+  // The one that the answer names as the nearest is among them.
+  const std::size_t at = answer.find("Nearest came call ");
+  REQUIRE(at != std::string::npos);
+  CHECK(has_row(cut, static_cast<std::uint32_t>(std::stoul(answer.substr(at + 18)))));
+}
