@@ -2,9 +2,14 @@
 """Meshes in other programs: Gmsh, meshio, VTK, PyVista, ParaView. What is not installed is skipped."""
 
 import importlib
+import os
+import re
 import runpy
+import shutil
+import subprocess
 import sys
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -440,6 +445,51 @@ def test_the_paraview_macro_does_the_same_in_a_programmable_filter():
     programmable.SetExecuteMethod(lambda: macro["execute"](programmable))
     programmable.Update()
     assert check_grid(programmable.GetUnstructuredGridOutput(), points, side).n_bad < 20
+
+
+IN_PARAVIEW = """
+import sys
+from paraview import simple
+mesh, macro = sys.argv[1:]
+source = simple.XMLUnstructuredGridReader(FileName=[mesh])
+simple.SetActiveSource(source)
+simple.Show(source)
+exec(compile(open(macro).read(), macro, "exec"), {"__name__": "__vtkconsole__"})  # as ParaView runs a macro
+better = simple.FindSource("tetmend")
+better.UpdatePipeline()
+for one in (source, better):
+    about = one.GetDataInformation()
+    print("cells", about.GetNumberOfCells(), "points", about.GetNumberOfPoints(), "data", [array.GetName() for array in one.CellData])
+"""
+
+
+def test_the_macro_runs_in_paraview_itself(tmp_path, command_line):
+    pvbatch, server = shutil.which("pvbatch"), shutil.which("Xvfb")
+    if not pvbatch or not server:
+        pytest.skip("pvbatch or Xvfb is not installed")
+    mesh = tmp_path / "sheet.vtu"
+    command_line("convert", SOURCE / "assets/meshes/sheet.mesh", mesh)
+    command_line("improve", mesh, "-o", tmp_path / "better.vtu", "--schedule", "shell", "--goal", "30,150", "--quiet")
+    script = tmp_path / "in_paraview.py"
+    script.write_text(IN_PARAVIEW)
+    ours, theirs = os.pipe()
+    display = subprocess.Popen([server, "-displayfd", str(theirs), "-screen", "0", "800x600x24", "-noreset"], pass_fds=[theirs], stderr=subprocess.DEVNULL)
+    try:
+        os.close(theirs)
+        with os.fdopen(ours) as pipe:
+            number = pipe.readline().strip()
+        package = str(Path(tetmend._core.__file__).parent.parent)  # of a build, the rest is linked from the source
+        done = subprocess.run([pvbatch, script, mesh, SOURCE / "bindings/python/paraview/tetmend_improve.py"], capture_output=True, text=True,
+                              timeout=300, env={**os.environ, "DISPLAY": f":{number}", "PYTHONPATH": package})
+    finally:
+        display.terminate()
+        display.wait()
+    assert done.returncode == 0, done.stderr
+    before, after = re.findall(r"cells (\d+) points (\d+) data (.*)", done.stdout)
+    assert before[2] == after[2]
+    given, made = tetmend.load(mesh), tetmend.load(tmp_path / "better.vtu")
+    assert int(before[1]) == len(given.points) and int(after[1]) == len(made.points) != len(given.points)
+    assert int(after[0]) - len(made.tets) == int(before[0]) - len(given.tets)
 
 
 # --- PyVista
