@@ -450,16 +450,16 @@ def test_the_paraview_macro_does_the_same_in_a_programmable_filter():
 IN_PARAVIEW = """
 import sys
 from paraview import simple
-mesh, macro = sys.argv[1:]
-source = simple.XMLUnstructuredGridReader(FileName=[mesh])
-simple.SetActiveSource(source)
-simple.Show(source)
-exec(compile(open(macro).read(), macro, "exec"), {"__name__": "__vtkconsole__"})  # as ParaView runs a macro
-better = simple.FindSource("tetmend")
-better.UpdatePipeline()
-for one in (source, better):
-    about = one.GetDataInformation()
-    print("cells", about.GetNumberOfCells(), "points", about.GetNumberOfPoints(), "data", [array.GetName() for array in one.CellData])
+read = simple.XMLUnstructuredGridReader(FileName=[sys.argv[1]])
+simple.SetActiveSource(read)
+simple.Show(read)
+with open(sys.argv[2]) as file:
+    exec(compile(file.read(), sys.argv[2], "exec"), {"__name__": "__vtkconsole__"})  # as ParaView runs a macro
+made = simple.FindSource("tetmend")
+made.UpdatePipeline()
+for proxy in (read, made):
+    about = proxy.GetDataInformation()
+    print("cells", about.GetNumberOfCells(), "points", about.GetNumberOfPoints(), "data", [array.GetName() for array in proxy.CellData])
 """
 
 
