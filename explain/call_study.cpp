@@ -33,9 +33,8 @@ class Excursion {
 
 /// Where the call and those in it edit, and what it does itself.
 struct Edits {
-  std::vector<std::uint64_t> all;      // positions after them, undoes included
-  std::vector<std::uint64_t> own;      // without undoes
-  std::vector<std::uint64_t> lasting;  // that are not undone in the call
+  std::vector<std::uint64_t> all;  // positions after them, undoes included
+  std::vector<std::uint64_t> own;  // without undoes
   bool last_is_undo = false;
 };
 
@@ -51,11 +50,6 @@ Edits edits_of(const TraceFile& file, const Call& call) {
     if (!changes_mesh(event.kind)) continue;
     edits.all.push_back(cursor.position());
     edits.last_is_undo = event.kind == EventKind::undo;
-    if (!edits.last_is_undo) {
-      edits.lasting.push_back(cursor.position());
-    } else if (!edits.lasting.empty()) {
-      edits.lasting.pop_back();
-    }
     if (depth == 1 && !edits.last_is_undo) edits.own.push_back(cursor.position());
   }
   return edits;
@@ -87,8 +81,8 @@ class Study {
     if (!edits.all.empty()) take_after(edits);
     if (!edits.own.empty()) {
       find_covering(edits.own.front());
-    } else if (call_.accepted() && !edits.lasting.empty()) {
-      follow_recursion(edits.lasting);
+    } else if (study_.picture && !sandwich_a_.is_valid()) {
+      follow_steps(edits.all);
     }
     return std::move(study_);
   }
@@ -183,7 +177,14 @@ class Study {
     const Cavity cavity = replay_.cavity();
     if (cavity.created.empty() || !cavity.vertices.empty()) return;
     if (sandwich_a_.is_valid()) grow_sandwich(cavity);
-    ShellPicture& picture = *study_.picture;
+    study_.covering = covering_at(*study_.picture);
+    if (study_.covering) study_.first_edit = position;
+  }
+
+  /// What the edit that the replay has just made makes of a polygon, as far as that can be drawn.
+  std::optional<FlatCovering> covering_at(const ShellPicture& picture) {
+    const Cavity cavity = replay_.cavity();
+    if (cavity.created.empty() || !cavity.vertices.empty()) return std::nullopt;
     std::vector<TetVertices> tets;
     for (const CavityTet& tet : cavity.created) tets.push_back(tet.vertices);
     for (const TetHandle t : replay_.tets_around(std::array{picture.a, picture.b})) {
@@ -192,25 +193,84 @@ class Study {
       tets.push_back(mesh().vertices(t));  // stays as it is
     }
     FlatCovering covering = covering_of(mesh(), picture, tets);
-    if (covering.triangles.empty() && covering.core.empty()) return;
-    study_.covering = std::move(covering);
-    study_.first_edit = position;
+    if (covering.triangles.empty() && covering.core.empty()) return std::nullopt;
+    return covering;
   }
 
-  /// A recursion has others change its shell. What its shell transformation does at first can be
-  /// drawn into its polygon, nothing that comes later.
-  void follow_recursion(const std::vector<std::uint64_t>& edits) {
-    study_.outdated = edits.front();
-    if (call_.algorithm != Algorithm::recursion) return;
-    const std::uint64_t first = edits.front();
+  /// A recursion has others change its shell: looks at it after each call in it that did, and
+  /// after what the recursion itself undid.
+  void follow_steps(const std::vector<std::uint64_t>& edits) {
+    shell_now_ = study_.picture;
+    replay_.seek(call_.events.begin);
+    tets_before_ = tets_now_ = vertices_of(around_);
+    auto edit = edits.begin();
     for (std::uint32_t c = study_.call + 1; c < call_.subtree_end;
          c = file_.calls()[c].subtree_end) {
       const Call& step = file_.calls()[c];
-      if (first <= step.events.begin || first > step.events.end) continue;
-      if (step.algorithm != Algorithm::shell_transformation || !step.accepted()) return;
-      find_covering(first);
-      if (!study_.covering) return;
-      study_.outdated = edits.size() > 1 ? edits[1] : std::numeric_limits<std::uint64_t>::max();
+      for (; edit != edits.end() && *edit <= step.events.begin; ++edit) look_after(*edit, nullptr);
+      const auto behind =
+          std::find_if(edit, edits.end(), [&](std::uint64_t at) { return at > step.events.end; });
+      if (behind != edit) look_after(*(behind - 1), &step);
+      edit = behind;
+    }
+    for (; edit != edits.end(); ++edit) look_after(*edit, nullptr);
+  }
+
+  void look_after(std::uint64_t position, const Call* step) {
+    replay_.seek(position);
+    const std::array<VertexHandle, 2> ends = {study_.picture->a, study_.picture->b};
+    const std::vector<TetHandle> tets = replay_.tets_around(ends);
+    std::vector<TetVertices> vertices = vertices_of(tets);
+    if (vertices == tets_now_) return;
+    const bool is_of_edge =
+        step != nullptr && step->accepted() && step->target().size() == 2 && is_target_of(*step);
+    std::optional<FlatCovering> covering;
+    if (is_of_edge && shell_now_) covering = covering_at(*shell_now_);
+    if (covering && study_.later.empty() && !study_.covering) {
+      study_.covering = std::move(covering);
+      study_.first_edit = position;
+    } else {
+      study_.outdated = std::min(study_.outdated, position);
+      LaterShell& later = study_.later.emplace_back();
+      later.from = position;
+      later.stage = covering ? PolygonStage::made : PolygonStage::now;
+      if (covering) later.picture = shell_now_;
+      later.covering = std::move(covering);
+    }
+    tets_now_ = std::move(vertices);
+    shell_now_ = shell_at(tets);
+    const bool is_new = !study_.later.empty() && study_.later.back().from == position;
+    if (is_new && study_.later.back().stage == PolygonStage::now) show_present();
+  }
+
+  bool is_target_of(const Call& step) const {
+    return std::is_permutation(step.target().begin(), step.target().end(), call_.target().begin());
+  }
+
+  std::vector<TetVertices> vertices_of(const std::vector<TetHandle>& tets) const {
+    std::vector<TetVertices> list;
+    for (const TetHandle t : tets) list.push_back(mesh().vertices(t));
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  /// Nothing if it cannot be drawn.
+  std::optional<ShellPicture> shell_at(const std::vector<TetHandle>& tets) const {
+    const auto ends = call_.target();
+    const SlotShell shell = shell_of(mesh(), tets, ends[0], ends[1]);
+    const bool is_drawn = shell.closed && shell.ring.size() >= 3 && shell.ring.size() <= kMostDrawn;
+    if (!is_drawn) return std::nullopt;
+    return picture_of_shell(mesh(), shell, ancestors());
+  }
+
+  void show_present() {
+    LaterShell& later = study_.later.back();
+    if (!shell_now_) {
+      later.stage = PolygonStage::earlier;
+    } else if (tets_now_ == tets_before_) {
+      later.stage = PolygonStage::before;
+    } else {
+      later.picture = shell_now_;
     }
   }
 
@@ -236,6 +296,9 @@ class Study {
   std::vector<TetHandle> around_;  // the target
   std::set<TetHandle> touched_;
   VertexHandle sandwich_a_, sandwich_b_;
+  // The shell of the target while follow_steps() goes on.
+  std::optional<ShellPicture> shell_now_;
+  std::vector<TetVertices> tets_before_, tets_now_;
 };
 
 Quality worst_of(const std::vector<LocalTet>& tets) {
@@ -256,39 +319,64 @@ std::string explain_search(const ShellPicture& s) {
                                        s.full.worst, s.floor));
 }
 
-}  // namespace
-
-PolygonStage stage_of(const CallStudy& study, std::uint64_t position, bool refused) {
-  const bool has_full = !study.picture->full.triangles.empty();
-  if (position >= study.outdated) return PolygonStage::earlier;
-  if (shows_covering(study, position)) return PolygonStage::made;
-  return refused && !study.covering && has_full ? PolygonStage::best_triangulation
-                                                : PolygonStage::before;
+/// What the shell was before the call, behind what it is now.
+std::string as_before(const ShellPicture& old) {
+  return fmt::format("before the call: degree {}, worst {:.4f}", old.ring.size(), old.floor);
 }
 
-bool shows_covering(const CallStudy& study, std::uint64_t position) {
-  return study.covering && position >= study.first_edit && position < study.outdated;
-}
-
-std::string caption_of(const CallStudy& study, PolygonStage stage) {
-  const ShellPicture& shell = *study.picture;
-  const bool is_last = study.outdated == std::numeric_limits<std::uint64_t>::max();
-  const char* verb = study.undone ? "tried" : is_last ? "made" : "made at first";
-  switch (stage) {
-    case PolygonStage::made:
-      return fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}", verb, shell.ring.size(),
-                         study.covering->core.size(), shell.floor, study.covering->worst);
+std::string caption_of(const CallStudy& study, const PolygonView& view) {
+  const ShellPicture& old = *study.picture;
+  const ShellPicture& shell = *view.shell;
+  switch (view.stage) {
+    case PolygonStage::made: {
+      const bool is_later = view.shell != &old;
+      const char* verb = study.undone          ? "tried"
+                         : is_later            ? "made later"
+                         : study.later.empty() ? "made"
+                                               : "made at first";
+      std::string text =
+          fmt::format("{}: degree {} -> {}, worst {:.4f} -> {:.4f}", verb, shell.ring.size(),
+                      view.covering->core.size(), shell.floor, view.covering->worst);
+      return is_later ? text + "; " + as_before(old) : text;
+    }
     case PolygonStage::best_triangulation:
       return fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
                          shell.floor);
     case PolygonStage::earlier:
-      return fmt::format("before the call: degree {}, worst {:.4f}; the shell is another now",
-                         shell.ring.size(), shell.floor);
+      return as_before(old) + "; the shell is gone now";
+    case PolygonStage::now:
+      return fmt::format("now: degree {}, worst {:.4f}; {}", shell.ring.size(), shell.floor,
+                         as_before(old));
     case PolygonStage::before:
       break;
   }
   return fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
                      shell.ring.size(), shell.floor);
+}
+
+}  // namespace
+
+PolygonView polygon_at(const CallStudy& study, std::uint64_t position, bool refused) {
+  const ShellPicture& old = *study.picture;
+  const bool has_full = !old.full.triangles.empty();
+  PolygonView view;
+  view.shell = &old;
+  const LaterShell* later = nullptr;
+  for (const LaterShell& each : study.later) {
+    if (each.from <= position) later = &each;
+  }
+  if (later != nullptr) {
+    view.stage = later->stage;
+    if (later->picture) view.shell = &*later->picture;
+    if (later->covering) view.covering = &*later->covering;
+  } else if (study.covering && position >= study.first_edit) {
+    view.stage = PolygonStage::made;
+    view.covering = &*study.covering;
+  }
+  const bool is_best = refused && view.stage == PolygonStage::before && has_full;
+  if (is_best && !study.covering) view.stage = PolygonStage::best_triangulation;
+  view.caption = caption_of(study, view);
+  return view;
 }
 
 CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call) {

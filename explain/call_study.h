@@ -22,6 +22,23 @@ struct LocalTet {
   Quality quality = 0;
 };
 
+/// What the drawing of a polygon shows.
+enum class PolygonStage {
+  before,              ///< the old tets, and the chords that the search may use
+  made,                ///< the covering that the call made or tried
+  best_triangulation,  ///< after a refusal without a candidate: dashed, with the chords
+  earlier,             ///< the old tets, though the shell is gone or cannot be drawn
+  now                  ///< the shell as steps of the call have left it, with its chords
+};
+
+/// The shell of an edge after a step of the call around it.
+struct LaterShell {
+  std::uint64_t from = 0;  ///< right after that
+  PolygonStage stage = PolygonStage::now;
+  std::optional<ShellPicture> picture;   ///< of `now` as it is, of `made` as it was before the step
+  std::optional<FlatCovering> covering;  ///< of `made`
+};
+
 struct CallStudy {
   std::uint32_t call = kNoCall;
   /// The tets around the target, and those that the call changes, as it found them.
@@ -37,24 +54,23 @@ struct CallStudy {
   std::uint64_t first_edit = 0;
   /// Right after something in the call changed the shell, and `covering` does not show that.
   std::uint64_t outdated = std::numeric_limits<std::uint64_t>::max();
+  /// What is there from then on, one after another; the first is of `outdated`.
+  std::vector<LaterShell> later;
 };
 
 /// Leaves the replay where it was. Precondition: there is such a call.
 /// Cost: replay of the call, there and back.
 CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call);
 
-/// What the drawing of a polygon shows.
-enum class PolygonStage {
-  before,              ///< the old tets, and the chords that the search may use
-  made,                ///< the covering that the call made or tried
-  best_triangulation,  ///< after a refusal without a candidate: dashed, with the chords
-  earlier              ///< the old tets, though the shell is another by now
+/// The polygon of a call at a place in the trace. It is valid as long as the study.
+struct PolygonView {
+  PolygonStage stage = PolygonStage::before;
+  const ShellPicture* shell = nullptr;
+  const FlatCovering* covering = nullptr;  ///< that was made or tried; only of `made`
+  std::string caption;
 };
-/// Precondition of both: the study has a picture. `refused`: the call has ended, and not well.
-PolygonStage stage_of(const CallStudy& study, std::uint64_t position, bool refused);
-/// The covering is what is there. Needs no picture.
-bool shows_covering(const CallStudy& study, std::uint64_t position);
-std::string caption_of(const CallStudy& study, PolygonStage stage);
+/// `refused`: the call has ended, and not well. Precondition: the study has a picture.
+PolygonView polygon_at(const CallStudy& study, std::uint64_t position, bool refused);
 
 /// Why the call ended as it did, in sentences with the numbers of its shell.
 std::string explain_end(const TraceFile& file, const CallStudy& study);

@@ -380,20 +380,23 @@ class Recording {
   }
 
   /// What became of the shell, and what its drawing shows from which position on.
-  static Json ring_at(const Call& call, const CallStudy& study) {
+  Json ring_at(const Call& call, const CallStudy& study) {
     Json ring = Json::object();
-    if (study.covering) {
-      ring["covering"] = to_json(*study.covering);
-    }
     Json stages = Json::array();
-    constexpr std::array<std::string_view, 4> kStages = {"before", "made", "full", "earlier"};
+    constexpr std::array<std::string_view, 5> kStages = {"before", "made", "full", "earlier",
+                                                         "now"};
     const auto add = [&](std::uint64_t from, bool refused) {
-      const PolygonStage stage = stage_of(study, from, refused);
-      stages.push_back({from, kStages[static_cast<std::size_t>(stage)], caption_of(study, stage)});
+      const PolygonView view = polygon_at(study, from, refused);
+      const auto stage = static_cast<std::size_t>(view.stage);
+      Json row = {from, kStages[stage], view.caption, shell_number(*view.shell)};
+      if (view.covering != nullptr) row.push_back(to_json(*view.covering));
+      stages.push_back(std::move(row));
     };
     add(call.events.begin + 1, false);
     if (study.covering) add(study.first_edit, false);
-    if (study.outdated < call.events.end) add(study.outdated, false);
+    for (const LaterShell& later : study.later) {
+      if (later.from < call.events.end) add(later.from, false);
+    }
     add(call.events.end, !call.accepted());
     ring["stages"] = stages;
     return ring;

@@ -129,16 +129,21 @@ void Document::end_alone() {
   camera_before_alone_.reset();
 }
 
-/// Its centre lies in the canvas, and it is neither a dot nor much larger than the canvas.
+/// Most of it lies in the canvas, and it is neither a dot nor much larger than the canvas.
 bool Document::is_seen(const Ball& ball) const {
   constexpr double kLeast = 0.06;  // of the height
   constexpr double kMost = 0.8;
   const auto centre = view.camera.project(ball.centre, canvas);
   const auto top = view.camera.project(ball.centre + ball.radius * view.camera.up(), canvas);
   if (!centre || !top) return false;
-  const bool is_inside =
-      centre->x > 0 && centre->y > 0 && centre->x < canvas.width && centre->y < canvas.height;
-  const double share = glm::distance(*centre, *top) / std::max(canvas.height, 1);
+  const double radius = glm::distance(*centre, *top);
+  const auto is_within = [&](double place, double size) {
+    constexpr double kPart = 0.6;  // of the radius
+    const double margin = std::min(kPart * radius, 0.4 * size);
+    return place > margin && place < size - margin;
+  };
+  const bool is_inside = is_within(centre->x, canvas.width) && is_within(centre->y, canvas.height);
+  const double share = radius / std::max(canvas.height, 1);
   return is_inside && share > kLeast && share < kMost;
 }
 
@@ -202,11 +207,13 @@ void Document::mark_call() {
   if (near_.empty() && caller_edge_) {  // the target is gone, and nothing was done
     near_ = shell_of_caller();
   }
-  if (!shows_covering(*study, debugger_->position())) return;
+  if (!study->picture) return;
+  const PolygonView polygon = debugger_->polygon();
+  if (polygon.covering == nullptr) return;
   const char* tense = study->undone ? "tried" : "made";
-  mark(highlight_covering(*study, ball_.centre), kChordColour,
+  mark(highlight_covering(*study, polygon, ball_.centre), kChordColour,
        fmt::format("triangles of the pockets, {}", tense));
-  if (!study->covering->core.empty()) {
+  if (!polygon.covering->core.empty()) {
     call_legend_.push_back({kCoreColour, "core: there the edge stays"});
   }
 }

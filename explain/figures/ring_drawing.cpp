@@ -236,18 +236,19 @@ Pen chord_pen(double line, bool is_better) {
   return {faint(figure::kChordColour, is_better ? 0.9 : 0.45), 1.5 * line, !is_better};
 }
 
-LinkedDrawing draw_polygon(const CallStudy& study, PolygonStage stage, const RingLook& look) {
-  const ShellPicture& shell = *study.picture;
+LinkedDrawing draw_polygon(const PolygonView& view, const RingLook& look) {
+  const ShellPicture& shell = *view.shell;
   PolygonDrawer drawer(shell, look);
-  switch (stage) {
+  switch (view.stage) {
     case PolygonStage::made:
-      drawer.covering(*study.covering, false);
+      drawer.covering(*view.covering, false);
       break;
     case PolygonStage::best_triangulation:
       drawer.chords();
       drawer.covering(shell.full, true);
       break;
     case PolygonStage::before:
+    case PolygonStage::now:
       drawer.covering(shell.before, false);
       drawer.chords();
       break;

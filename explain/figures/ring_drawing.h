@@ -23,8 +23,7 @@ struct RingLook {
 /// Before the edit it has the old tets, a slice each, and the chords that the search may use,
 /// dashed where their pockets are no better; after it the covering that was made or tried; after a
 /// refusal without a candidate the best complete triangulation, dashed, with the chords.
-/// Precondition: the study has a picture.
-LinkedDrawing draw_polygon(const CallStudy& study, PolygonStage stage, const RingLook& look);
+LinkedDrawing draw_polygon(const PolygonView& view, const RingLook& look);
 
 /// Lines as draw_polygon() draws them, for legends.
 figure::Pen skirt_pen(double line);

@@ -58,11 +58,12 @@ Drawing draw_ring(const TraceFile& file, const CallStudy& study) {
   }
   const ShellPicture& shell = *study.picture;
   const bool refused = !file.calls()[study.call].accepted();
-  const PolygonStage last =
-      study.covering ? PolygonStage::made : stage_of(study, file.event_count(), refused);
-  std::vector<PolygonStage> stages = {PolygonStage::before};
-  const bool has_another = last != PolygonStage::before && last != PolygonStage::earlier;
-  if (has_another) stages.push_back(last);
+  std::vector<PolygonView> stages = {polygon_at(study, 0, false)};
+  if (study.covering) stages.push_back(polygon_at(study, study.first_edit, false));
+  PolygonView last = polygon_at(study, file.event_count(), refused);
+  const bool is_seen = last.stage == PolygonStage::before || last.stage == PolygonStage::earlier ||
+                       (study.covering && last.covering == &*study.covering);
+  if (!is_seen) stages.push_back(std::move(last));
   // Wide enough that the numbers of the slices have room.
   const double side = std::max(190.0, 13.5 * static_cast<double>(shell.ring.size()));
   constexpr double kBetween = 20;
@@ -82,10 +83,10 @@ Drawing draw_ring(const TraceFile& file, const CallStudy& study) {
     look.name_size = kTextSize;
     look.number_size = kNumberSize;
     look.line = kLine;
-    LinkedDrawing panel = draw_polygon(study, stages[i], look);
+    LinkedDrawing panel = draw_polygon(stages[i], look);
     for (figure::Shape& shape : panel.drawing.shapes) drawing.add(std::move(shape));
     bottom = std::max(bottom, add_paragraph(drawing, {left, top + kShare * side}, side,
-                                            capitalised(caption_of(study, stages[i]))));
+                                            capitalised(stages[i].caption)));
   }
   bottom = add_legend(drawing, {kMargin, bottom + 6}, inside,
                       ring_legend(study, !chords_of(shell).empty()));

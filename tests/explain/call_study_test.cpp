@@ -91,7 +91,7 @@ TEST_CASE("the covering of a shell transformation is what the mesh has afterward
   CHECK(partial > 0);
 }
 
-TEST_CASE("a recursion shows what its shell transformation made, until the shell is another") {
+TEST_CASE("the ring of a recursion follows its shell through all steps") {
   const TraceFile file(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace");
   Replay replay(file);
   const Call& inner = file.calls()[2];  // of edge 1 5, with nothing but its shell transformation
@@ -99,21 +99,60 @@ TEST_CASE("a recursion shows what its shell transformation made, until the shell
   const CallStudy made = study_call(file, replay, 2);
   REQUIRE(made.covering);
   CHECK(made.first_edit == study_call(file, replay, 3).first_edit);
-  CHECK(stage_of(made, made.first_edit - 1, false) == PolygonStage::before);
-  REQUIRE(stage_of(made, inner.events.end, false) == PolygonStage::made);
-  const std::string caption = caption_of(made, PolygonStage::made);
-  CHECK(caption.substr(0, caption.find(',')) == "made: degree 3 -> 0");
-  CHECK_FALSE(made.covering->triangles.empty());
+  CHECK(polygon_at(made, made.first_edit - 1, false).stage == PolygonStage::before);
+  const PolygonView view = polygon_at(made, inner.events.end, false);
+  REQUIRE(view.stage == PolygonStage::made);
+  CHECK(view.caption.substr(0, view.caption.find(',')) == "made: degree 3 -> 0");
+  CHECK_FALSE(view.covering->triangles.empty());
 
   const CallStudy outer = study_call(file, replay, 0);  // takes that one in its midst
   REQUIRE(outer.covering);
   CHECK(outer.outdated == made.first_edit);
-  CHECK(shows_covering(outer, outer.outdated - 1));
-  CHECK(caption_of(outer, PolygonStage::made).rfind("made at first: degree 5 -> 4", 0) == 0);
-  const PolygonStage last = stage_of(outer, file.calls()[0].events.end, false);
-  REQUIRE(last == PolygonStage::earlier);
-  CHECK_FALSE(shows_covering(outer, outer.outdated));
-  CHECK(caption_of(outer, last).rfind("before the call: degree 5", 0) == 0);
+  const PolygonView first = polygon_at(outer, outer.outdated - 1, false);
+  CHECK(first.stage == PolygonStage::made);
+  CHECK(first.caption.rfind("made at first: degree 5 -> 4", 0) == 0);
+  const PolygonView then = polygon_at(outer, outer.outdated, false);
+  REQUIRE(then.stage == PolygonStage::now);
+  CHECK(then.caption.rfind("now: degree 3, worst ", 0) == 0);
+  CHECK(then.caption.find("; before the call: degree 5, worst ") != std::string::npos);
+  const PolygonView last = polygon_at(outer, file.calls()[0].events.end, false);
+  REQUIRE(last.stage == PolygonStage::made);
+  CHECK(last.caption.rfind("made later: degree 3 -> 0", 0) == 0);
+  CHECK(last.shell->ring.size() == 3);
+}
+
+TEST_CASE("the ring after a step of a recursion is the shell that the mesh has there") {
+  Studied s;
+  std::size_t present = 0, closed = 0;
+  constexpr std::size_t kEnough = 400;
+  for (std::uint32_t k = 0; k < s.file.calls().size() && present < kEnough; ++k) {
+    if (s.file.calls()[k].algorithm != Algorithm::recursion) continue;
+    const CallStudy study = study_call(s.file, s.replay, k);
+    for (const LaterShell& later : study.later) {
+      s.replay.seek(later.from);
+      const VertexHandle a = study.picture->a, b = study.picture->b;
+      const std::vector<TetHandle> around = s.replay.tets_around(std::array{a, b});
+      const SlotShell shell = shell_of(s.replay.mesh(), around, a, b);
+      const PolygonView view = polygon_at(study, later.from, false);
+      CHECK(view.stage == later.stage);
+      if (later.stage == PolygonStage::now) {
+        ++present;
+        CHECK(view.shell->ring.size() == shell.tets.size());
+        CHECK(std::is_permutation(shell.ring.begin(), shell.ring.end(), view.shell->ring.begin(),
+                                  view.shell->ring.end()));
+      } else if (later.stage == PolygonStage::made) {
+        ++closed;
+        CHECK(shell.tets.size() == view.covering->core.size());
+        CHECK(view.covering->worst >= view.shell->floor);
+      } else if (later.stage == PolygonStage::before) {
+        CHECK(shell.tets.size() == study.picture->ring.size());
+      } else {
+        CHECK_FALSE(shell.closed);
+      }
+    }
+  }
+  CHECK(present > 0);
+  CHECK(closed > 0);
 }
 
 TEST_CASE("what a step of a recursion made respects the locks and uses pockets of its picture") {

@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
@@ -63,11 +64,16 @@ const cutOff = () => {
     const card = document.getElementById("ring-card").getBoundingClientRect();
     if (box.bottom > card.bottom + 1 || box.right > card.right + 1) bad.push(`ring: ${box.bottom} below its card, ${card.bottom}`);
   }
+  if (innerWidth < 500) {  // the page scrolls, and nothing in it
+    for (const box of document.querySelectorAll(".scrolls")) if (isSeen(box) && box.scrollHeight > box.clientHeight + 1) bad.push(`a table scrolls: ${box.scrollHeight} of ${box.clientHeight}`);
+  }
   const stage = document.getElementById("stage").getBoundingClientRect();
-  for (const name of document.querySelectorAll("#names span:not(.quiet)")) {
+  const names = [...document.querySelectorAll("#names span")].filter(isSeen);
+  for (const name of names) {
     const r = name.getBoundingClientRect();
-    if (r.left < stage.left - 1 || r.right > stage.right + 1 || r.top < stage.top - 1 || r.bottom > stage.bottom + 1) bad.push(`name ${name.textContent}`);
-    for (const other of document.querySelectorAll("#names span:not(.quiet)")) {
+    const isOut = r.left < stage.left - 1 || r.right > stage.right + 1 || r.top < stage.top - 1 || r.bottom > stage.bottom + 1;
+    if (isOut && !name.classList.contains("quiet")) bad.push(`name ${name.textContent}`);
+    for (const other of names) {
       if (other === name) break;
       const s = other.getBoundingClientRect();
       const over = Math.min(Math.min(r.right, s.right) - Math.max(r.left, s.left), Math.min(r.bottom, s.bottom) - Math.max(r.top, s.top));
@@ -293,7 +299,7 @@ class Pages(unittest.TestCase):
             numbers = [f"{part['quality']:.3f}" for part in core + covering["triangles"]]
             self.assertEqual(sorted(fact["numbers"]), sorted(numbers), where)
             self.assertEqual(fact["chordsDrawn"], 0, where)
-        elif fact["caption"].startswith("before the call"):
+        elif fact["caption"].startswith("before the call"):  # the shell is gone
             self.assertEqual(fact["chordsDrawn"], 0, where)
         else:
             self.assertEqual(fact["chordsDrawn"], len(shell["chords"]), where)
@@ -374,6 +380,126 @@ class Pages(unittest.TestCase):
         self.desk.open(page.as_uri() + "#step=9.3")
         self.assertEqual(self.desk.run("return [document.body.dataset.position, document.body.dataset.cell]"), ["9", "3"])
         self.quiet(self.desk, "keys")
+
+    def on_page(self, name: str, step: str) -> tuple:
+        """Opened there: what presses a key, and what clicks; both tell the place afterwards."""
+        self.desk.open("about:blank")
+        self.desk.open((WORK / "lessons" / f"{name}.html").as_uri() + f"#step={step}")
+
+        def press(key: str) -> str:
+            return self.desk.run("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true, cancelable: true})); return location.hash.slice(6)", key)
+
+        def click(selector: str) -> str:
+            return self.desk.run("document.querySelector(arguments[0]).click(); return location.hash.slice(6)", selector)
+
+        return press, click
+
+    def test_keys_that_jump_find_what_they_name(self) -> None:
+        press, click = self.on_page("2-two-shells", "0")
+        calls = recording(WORK / "lessons" / "2-two-shells.html")["calls"]
+        accepted = sorted(call["end"] for call in calls.values() if call["outcome"] == "accepted")
+        for ends, forth, back in ((accepted, "j", "J"),):
+            self.assertEqual([int(press(forth)) for _ in ends], ends)
+            self.assertEqual([int(press(back)) for _ in ends[1:]], ends[-2::-1])
+        deepest = max(calls.values(), key=lambda call: call["depth"])
+        self.assertEqual(int(press("d")), deepest["begin"] + 1)
+        for key in ("L", "K", "n", "b"):
+            self.assertNotEqual(press(key), "")
+        self.assertEqual(press("Home"), "0")
+        first = click("#lesson-next")
+        self.assertGreater(int(first), 0)
+        self.assertEqual(click("#lesson-back"), "0")
+        self.assertTrue(self.desk.run("return document.getElementById('lesson-back').disabled"))
+        self.desk.run("const slider = document.getElementById('slider'); slider.value = 7; slider.dispatchEvent(new Event('input', {bubbles: true}))")
+        self.assertEqual(self.desk.run("return location.hash"), "#step=7")
+        press("PageUp"), press("d")
+        crumbs = self.desk.run("return [...document.querySelectorAll('#crumbs button')].length")
+        self.assertGreater(crumbs, 2)
+        self.assertEqual(click("#crumbs button"), "2", "the outermost call")
+        press, click = self.on_page("3-refusals", "0")
+        calls = recording(WORK / "lessons" / "3-refusals.html")["calls"]
+        refused = sorted(call["end"] for call in calls.values() if call["outcome"] not in ("accepted", "unfinished"))
+        self.assertGreater(len(refused), 1)
+        self.assertEqual([int(press("u")) for _ in refused], refused)
+        self.assertEqual([int(press("U")) for _ in refused[1:]], refused[-2::-1])
+        self.quiet(self.desk, "jumps")
+
+    def test_buttons_and_keys_for_looks_change_the_picture(self) -> None:
+        press, click = self.on_page("2-two-shells", "10")
+
+        def look() -> list:
+            return self.desk.run("""drawPicture();
+                const small = Object.assign(document.createElement("canvas"), {width: 48, height: 48}).getContext("2d");
+                small.drawImage(document.getElementById("canvas"), 0, 0, 48, 48);
+                return [...small.getImageData(0, 0, 48, 48).data].join()""")
+
+        def pressed() -> str:
+            return self.desk.run("return document.querySelector('[data-when][aria-pressed=true]').dataset.when")
+
+        looks = [look()]
+
+        def changes(what: str) -> None:
+            looks.append(look())
+            self.assertNotEqual(looks[-1], looks[-2], what)
+
+        self.assertEqual(pressed(), "now")
+        for key, when in (("2", "before"), ("3", "after"), ("1", "now")):
+            press(key)
+            self.assertEqual(pressed(), when)
+            press("1")
+            click(f"[data-when={when}]")
+            self.assertEqual(pressed(), when)
+        press("2")
+        changes("before")
+        press("1")
+        changes("now")
+        press("a")
+        changes("along the edge")
+        press("h")
+        changes("from the side")
+        click("#along")
+        changes("along the edge, by the button")
+        click("#home")
+        changes("from the side, by the button")
+        click("#around")
+        changes("without the tets around")
+        self.desk.run("const apart = document.getElementById('apart'); apart.value = 50; apart.dispatchEvent(new Event('input', {bubbles: true}))")
+        changes("apart")
+        theme = "return document.documentElement.dataset.theme"
+        before = self.desk.run(theme)
+        press("t")
+        self.assertNotEqual(self.desk.run(theme), before)
+        click("#theme")
+        self.assertEqual(self.desk.run(theme), before)
+        size = "return document.documentElement.dataset.size"
+        press("g")
+        self.assertEqual(self.desk.run(size), "large")
+        click("#text-size")
+        self.assertEqual(self.desk.run(size), "")
+        click("#copy-link")
+        self.assertRegex(self.desk.wait_for("return document.getElementById('said').textContent") or "", "link|#step=10")
+        for way in ("click", "press"):
+            click("#show-keys") if way == "click" else press("?")
+            rows = self.desk.run("return document.getElementById('keys').open ? document.querySelectorAll('#key-list tr').length : 0")
+            self.assertGreater(rows, 20, way)
+            click("#keys form button")
+            self.assertFalse(self.desk.run("return document.getElementById('keys').open"))
+        fold = "return document.querySelectorAll('#tree tbody tr').length"
+        rows = self.desk.run(fold)
+        click("#tree button.fold")
+        self.assertLess(self.desk.run(fold), rows)
+        click("#tree button.fold")
+        self.assertEqual(self.desk.run(fold), rows)
+        self.quiet(self.desk, "looks")
+
+    def test_the_space_bar_plays_and_stops(self) -> None:
+        press, _ = self.on_page("1-core", "0")
+        press(" ")
+        self.assertTrue(self.desk.wait_for("return Number(document.body.dataset.position) >= 2"))
+        press(" ")
+        stopped = self.desk.run("return location.hash")
+        time.sleep(1.2)
+        self.assertEqual(self.desk.run("return location.hash"), stopped)
 
     def test_a_page_of_a_true_run_is_small_and_whole(self) -> None:
         trace, page = WORK / "run.trace", WORK / "call.html"

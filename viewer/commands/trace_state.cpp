@@ -40,8 +40,9 @@ json covering_state(const FlatCovering& covering) {
   return {{"triangles", triangles}, {"core", core}, {"worst", covering.worst}};
 }
 
-json shell_state(const CallStudy& study) {
-  const ShellPicture& s = *study.picture;
+/// Of the shell as it is drawn.
+json shell_state(const PolygonView& view) {
+  const ShellPicture& s = *view.shell;
   json ring = json::array();
   for (const VertexHandle v : s.ring) ring.push_back(v.index());
   json result = {{"a", s.a.index()}, {"b", s.b.index()}, {"ring", ring}, {"floor", s.floor}};
@@ -68,7 +69,7 @@ json shell_state(const CallStudy& study) {
     }
   }
   result["tables"] = tables;
-  if (study.covering) result["covering"] = covering_state(*study.covering);
+  if (view.covering != nullptr) result["covering"] = covering_state(*view.covering);
   return result;
 }
 
@@ -125,12 +126,10 @@ json trace_state_of(Document& document) {
   if (removal) result["removal"] = to_text(*removal);
   result["shell_of_caller"] = vertices_of(document.mesh(), document.shell_of_caller());
   result["reason"] = explain_end(debugger.file(), *study);
-  if (study->picture && study->picture->ring.size() >= 3) {
-    const Call& call = debugger.file().calls()[study->call];
-    const bool refused = !call.accepted() && debugger.position() >= call.events.end;
-    result["caption"] = caption_of(*study, stage_of(*study, debugger.position(), refused));
-  }
-  if (study->picture) result["shell"] = shell_state(*study);
+  if (!study->picture) return result;
+  const PolygonView polygon = debugger.polygon();
+  if (polygon.shell->ring.size() >= 3) result["caption"] = polygon.caption;
+  result["shell"] = shell_state(polygon);
   return result;
 }
 

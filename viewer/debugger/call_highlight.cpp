@@ -24,22 +24,23 @@ std::optional<glm::dvec3> corner_of(const std::vector<LocalTet>& tets, VertexHan
 
 }  // namespace
 
-Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin) {
+Highlight highlight_covering(const CallStudy& study, const PolygonView& polygon,
+                             const glm::dvec3& origin) {
   Highlight highlight;
-  if (!study.picture || !study.covering) return highlight;
-  const auto& ring = study.picture->ring;
+  if (polygon.covering == nullptr) return highlight;
+  const auto& ring = polygon.shell->ring;
   const auto line = [&](unsigned i, unsigned j, const Colour& colour, float width) {
     const auto from = corner_of(study.before, ring[i]);
     const auto to = corner_of(study.before, ring[j]);
     if (!from || !to) return;
     highlight.lines.push_back({glm::vec3(*from - origin), glm::vec3(*to - origin), colour, width});
   };
-  for (const FlatCovering::Triangle& t : study.covering->triangles) {
+  for (const FlatCovering::Triangle& t : polygon.covering->triangles) {
     for (unsigned i = 0; i < 3; ++i) {
       line(t.corners[i], t.corners[(i + 1) % 3], kChordColour, 3);
     }
   }
-  for (const FlatCovering::Side& side : study.covering->core) {
+  for (const FlatCovering::Side& side : polygon.covering->core) {
     line(side.from, side.to, kCoreColour, 5);
   }
   return highlight;

@@ -13,9 +13,10 @@
 
 namespace tetmend::viewer {
 
-/// The chords of the covering that the call made or tried, and the sides of its core, as lines on
-/// top of the picture. Empty without a covering.
-Highlight highlight_covering(const CallStudy& study, const glm::dvec3& origin);
+/// The chords of the covering that the polygon of the call shows, and the sides of its core, as
+/// lines on top of the picture. Empty without a covering.
+Highlight highlight_covering(const CallStudy& study, const PolygonView& polygon,
+                             const glm::dvec3& origin);
 
 /// The tets around an edge, as the caller of a recursive call has them now: a ghost.
 Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& origin);

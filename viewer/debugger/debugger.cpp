@@ -98,6 +98,12 @@ const CallStudy* Debugger::study() {
   return &*study_;
 }
 
+PolygonView Debugger::polygon() {
+  const CallStudy& here = *study();
+  const Call& made = file_.calls()[here.call];
+  return polygon_at(here, position(), !made.accepted() && position() >= made.events.end);
+}
+
 HistorySubject Debugger::subject_of(std::string_view text) {
   const std::uint64_t home = position();
   try {

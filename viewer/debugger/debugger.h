@@ -79,6 +79,8 @@ class Debugger {
   const CallFacts& facts(std::uint32_t call) { return facts_.facts(file_, replay_, call); }
   /// Of call(); null outside of all calls. Computed once for each stay in a call.
   const CallStudy* study();
+  /// As it is here. Precondition: the study has a picture.
+  PolygonView polygon();
   /// @throws Error as draw_call()
   figure::Drawing draw(const FigureRequest& request) { return draw_call(file_, replay_, request); }
   /// Whom a question is about, as find_subject() reads it. @throws Error as that.

@@ -2,6 +2,7 @@
 // The shell of the call at hand: its polygon drawn flat, its tets before and after.
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,17 +19,8 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-bool is_refused(const Debugger& debugger) {
-  const Call& call = debugger.file().calls()[debugger.call()];
-  return !call.accepted() && debugger.position() >= call.events.end;
-}
-
-PolygonStage stage_at(const Debugger& debugger, const CallStudy& study) {
-  return stage_of(study, debugger.position(), is_refused(debugger));
-}
-
 /// The polygon as it is at the place in the trace.
-void show_polygon(Document& document, const CallStudy& study, float side) {
+void show_polygon(Document& document, const PolygonView& polygon, float side) {
   const Square square = square_at_cursor(side);
   const double font = ImGui::GetFontSize();
   RingLook look;
@@ -42,8 +34,7 @@ void show_polygon(Document& document, const CallStudy& study, float side) {
   look.patch = colour_of(ImGuiCol_WindowBg);
   look.patch.alpha = 190;
   look.map = &find_colour_map(document.view.scene.map);
-  show_linked("##polygon", draw_polygon(study, stage_at(*document.debugger(), study), look), side,
-              document);
+  show_linked("##polygon", draw_polygon(polygon, look), side, document);
 }
 
 void show_blended(Document& document, std::span<const LinkedDrawing> drawings, float side) {
@@ -180,11 +171,13 @@ void draw_shell_panel(Session& session) {
     return;
   }
   const float width = ImGui::GetContentRegionAvail().x;
-  const bool has_polygon = study->picture && study->picture->ring.size() >= 3;
+  std::optional<PolygonView> polygon;
+  if (study->picture) polygon = document.debugger()->polygon();
+  const bool has_polygon = polygon && polygon->shell->ring.size() >= 3;
   if (has_polygon) {
-    wrapped_text(caption_of(*study, stage_at(*document.debugger(), *study)));
+    wrapped_text(polygon->caption);
     ImGui::BeginGroup();
-    show_polygon(document, *study, kRingShare * width);
+    show_polygon(document, *polygon, kRingShare * width);
     ImGui::Checkbox("blended", &document.view.blended);
     ImGui::EndGroup();
     ImGui::SameLine(0.64F * width);
@@ -193,8 +186,8 @@ void draw_shell_panel(Session& session) {
   show_tets(document, *study, 0.35F * width);
   ImGui::EndGroup();
   if (!has_polygon) return;
-  list_chords(document, *study->picture);
-  show_tables(document, *study->picture);
+  list_chords(document, *polygon->shell);
+  show_tables(document, *polygon->shell);
 }
 
 void draw_ring(Session& session) {
@@ -204,11 +197,12 @@ void draw_ring(Session& session) {
   if (!study->picture || study->picture->ring.size() < 3) {
     return show_tets(document, *study, 0.45F * ImGui::GetContentRegionAvail().y);
   }
-  wrapped_text(caption_of(*study, stage_at(*document.debugger(), *study)));
+  const PolygonView polygon = document.debugger()->polygon();
+  wrapped_text(polygon.caption);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float side = std::max(std::min(room.x, room.y), 6 * ImGui::GetFontSize());
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + (room.x - side) / 2);
-  show_polygon(document, *study, side);
+  show_polygon(document, polygon, side);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -51,10 +51,11 @@ function shellOfCaller(call) {
 }
 
 /** Lines of the polygon of the call: the ring, and what the covering makes of it once it is there. */
-function ringLines(shell, position, line) {
+function ringLines(call, position, line) {
+  const {name, shell} = stageOfRing(call, position);
   const m = shell.ring.length;
   shell.ring.forEach((vertex, i) => line(vertex, shell.ring[(i + 1) % m], "skirt", 2.5));
-  if (stageOfRing({shell}, position).name !== "made") return;
+  if (name !== "made") return;
   for (const [i, k, j] of shell.covering.triangles) {
     for (const [from, to] of [[i, k], [k, j], [j, i]]) line(shell.ring[from], shell.ring[to], "chord", 3);
   }
@@ -101,7 +102,7 @@ function makeScene(step, cell, when, apart, showAround) {
   const named = new Map();
   if (call) {
     const [a, b] = call.shell ? [call.shell.a, call.shell.b] : call.target;
-    if (call.shell) ringLines(call.shell, when === "before" ? call.begin : step.position, line);
+    if (call.shell) ringLines(call, when === "before" ? call.begin : step.position, line);
     if (when === "now") markCaller(scene, call, places);
     for (const [from, to] of ancestorsOf(step)) line(from, to, "ancestor", 4, true);
     if (cell && call.shell) markCell(scene, call.shell, cell, places);

@@ -140,8 +140,18 @@ function spread(boxes, size) {
     }
     for (const box of boxes) box.at = box.at.map((x, axis) => Math.max(Math.min(x, extent[axis] - box.half[axis]), box.half[axis]));
   }
-  const covers = (box, other) => [0, 1].every((axis) => Math.abs(other.at[axis] - box.at[axis]) < box.half[axis] + other.half[axis] - 1);
-  boxes.forEach((box, i) => { box.hidden = boxes.slice(0, i).some((other) => !other.hidden && covers(box, other)); });
+  boxes.forEach((box, i) => { box.hidden = boxes.slice(0, i).some((other) => !other.hidden && overlap(box, other)); });
+}
+
+function overlap(box, other) { return [0, 1].every((axis) => Math.abs(other.at[axis] - box.at[axis]) < box.half[axis] + other.half[axis] - 1); }
+
+/** Quiet names stay where their vertices are. One that another name would cover in part is left out; the nearest ones have the room. */
+function hideCovered(names) {
+  const shown = names.filter((name) => !name.hidden && !name.quiet);
+  for (const name of names.filter((one) => !one.hidden && one.quiet).sort((x, y) => y.depth - x.depth)) {
+    name.hidden = shown.some((other) => overlap(name, other));
+    if (!name.hidden) shown.push(name);
+  }
 }
 
 /** The scene as SVG, with the names. */
@@ -165,9 +175,10 @@ function drawFlat(svg, scene, camera, size) {
     }
   }
   const em = Math.max(size.height / 30, 11);
-  const names = scene.names.map((name) => ({...name, at: camera.project(name.place, size).slice(0, 2), half: [3 + 0.32 * em * name.text.length, 0.6 * em]}));
+  const names = scene.names.map((name) => ({...name, depth: camera.project(name.place, size)[2], at: camera.project(name.place, size).slice(0, 2), half: [3 + 0.32 * em * name.text.length, 0.6 * em]}));
   const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width && y <= size.height;
   spread(names.filter((name) => !name.quiet && isInside(name.at)), size);
+  hideCovered(names);
   for (const name of names) {
     if (name.hidden) continue;
     const [x, y] = name.at;

@@ -11,10 +11,11 @@ function ringPlace(shell, i, radius = 0.74) {
   return [-radius * Math.sin(angle), -radius * Math.cos(angle)];
 }
 
+/** What the ring of a call shows at a position of the trace, and of which shell. */
 function stageOfRing(call, position) {
-  let [, name, caption] = call.shell.stages[0];
-  for (const [from, later, text] of call.shell.stages) if (from <= position) [name, caption] = [later, text];
-  return {name, caption};
+  let [, name, caption, number, covering] = call.shell.stages[0];
+  for (const stage of call.shell.stages) if (stage[0] <= position) [, name, caption, number, covering] = stage;
+  return {name, caption, shell: {...recording.shells[number], covering}};
 }
 
 const qualityFill = (quality) => inCss(colourOfQuality(quality));
@@ -102,10 +103,9 @@ class RingDrawing {
 }
 
 function showRing(call, position, cell) {
-  const shell = call?.shell;
-  byId("ring-card").hidden = !shell;
-  if (!shell) return;
-  const {name, caption} = stageOfRing(call, position);
+  byId("ring-card").hidden = !call?.shell;
+  if (!call?.shell) return;
+  const {name, caption, shell} = stageOfRing(call, position);
   byId("caption").textContent = caption;
   const drawing = new RingDrawing(byId("ring"), shell);
   drawing.outline();
@@ -116,7 +116,7 @@ function showRing(call, position, cell) {
     drawing.covering(shell.full, true);
   } else {
     drawing.covering(shell.before, false);
-    if (name === "before") drawing.chords();
+    if (name !== "earlier") drawing.chords();
   }
   if (cell) drawing.cell(cell);
   drawing.finish();
@@ -124,10 +124,10 @@ function showRing(call, position, cell) {
 
 // --- chords and tables ---
 
-function showChords(call) {
-  const shell = call?.shell;
-  byId("chords-card").hidden = !shell;
-  if (!shell) return;
+function showChords(call, position) {
+  byId("chords-card").hidden = !call?.shell;
+  if (!call?.shell) return;
+  const {shell} = stageOfRing(call, position);
   byId("locks").textContent = shell.locks;
   const body = [];
   const none = !shell.searched ? "too many corners to be searched" : shell.chords.length === 0 ? "no chord has a pocket" : "";

@@ -35,6 +35,7 @@ function drawPicture() {
     return {...name, depth, half, at, hidden: at.includes(null)};
   });
   spread(names.filter((name) => !name.hidden && !name.quiet), size);
+  hideCovered(names);
   byId("names").replaceChildren(...names.sort((x, y) => x.depth - y.depth).map((name) => {
     const span = make("span", {"data-vertex": name.vertex, class: `${name.end ? "end" : ""} ${name.quiet || name.hidden ? "quiet" : ""}`}, name.text);
     span.hidden = name.hidden;
@@ -118,7 +119,7 @@ function show(isSudden = false) {
   showCode(step);
   showRing(call, step.position, cell);
   showTables(call, filling ? place.cell : total, Boolean(filling));
-  showChords(call);
+  showChords(call, step.position);
   const main = document.querySelector("main");
   main.classList.toggle("no-shell", !call?.shell);
   main.classList.toggle("no-tables", Boolean(call?.shell) && byId("tables-card").hidden);

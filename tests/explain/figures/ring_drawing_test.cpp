@@ -19,7 +19,7 @@ constexpr double kHalf = 100;
 LinkedDrawing drawn(const CallStudy& study, std::uint64_t position, bool refused) {
   RingLook look;
   look.half = kHalf;
-  return draw_polygon(study, stage_of(study, position, refused), look);
+  return draw_polygon(polygon_at(study, position, refused), look);
 }
 
 template <class Shape>
@@ -79,7 +79,9 @@ TEST_CASE("the polygon has the old tets before the edit and the new covering aft
     CHECK(all<figure::Area>(before).size() == study.picture->ring.size());
     const auto& made = *study.covering;
     CHECK(all<figure::Area>(after).size() == made.triangles.size() + made.core.size());
-    const auto stage_at = [&](std::uint64_t position) { return stage_of(study, position, false); };
+    const auto stage_at = [&](std::uint64_t position) {
+      return polygon_at(study, position, false).stage;
+    };
     CHECK(stage_at(study.first_edit) == PolygonStage::made);
     CHECK(stage_at(study.first_edit - 1) == PolygonStage::before);
     CHECK(kind_of_event(file, study.first_edit - 1) == EventKind::replace_cavity);

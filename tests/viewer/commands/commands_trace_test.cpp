@@ -143,6 +143,20 @@ TEST_CASE("the camera finds each isolated call, and what is isolated is never no
     CHECK(at->x < s.document.canvas.width);
     CHECK(at->y > 0);
     CHECK(at->y < s.document.canvas.height);
+    // Most of it, not its middle alone.
+    const Canvas canvas = s.document.canvas;
+    std::size_t corners = 0, seen = 0;
+    for (const LocalTet& tet : s.document.debugger()->study()->before) {
+      for (const Point& p : tet.corners) {
+        const auto corner = s.document.view.camera.project(to_glm(p), canvas);
+        ++corners;
+        seen += corner && corner->x > 0 && corner->y > 0 && corner->x < canvas.width &&
+                        corner->y < canvas.height
+                    ? 1
+                    : 0;
+      }
+    }
+    CHECK(10 * seen >= 7 * corners);
   }
 }
 
