@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -80,22 +81,27 @@ class OverlayDrawer {
     }
   }
 
-  /// At the lower left.
+  /// At the lower left, or in the corner where it lies on the fewest vertices of the call; smaller
+  /// in a small picture.
   void legend() {
     const auto& entries = document_.legend();
     if (entries.empty()) return;
-    const double text = look_.text_size;
-    const double line = 1.25 * text;
+    const double full = look_.text_size;
+    const auto count = static_cast<double>(entries.size());
     double widest = 0;
     for (const LegendEntry& entry : entries) {
-      widest = std::max(widest, look_.text_width(entry.text, text));
+      widest = std::max(widest, look_.text_width(entry.text, full));
     }
-    const double height = line * static_cast<double>(entries.size());
-    const double left = left_ + 0.6 * text;
-    double y = bottom_ - height - 0.6 * text;
-    drawing_.rectangle({left - 0.3 * text, y - 0.3 * text}, widest + 2.6 * text,
-                       height + 0.5 * text, figure::faint(ground_, 0.8));
+    const double shrunk = legend_scale(widest + kBeside * full, (kLegendLine * count + 0.5) * full);
+    const double text = shrunk * full;
+    const double line = kLegendLine * text;
+    const double width = shrunk * widest + kBeside * text;
+    const figure::Box box = emptiest_corner(width, line * count + 0.5 * text, 0.3 * text);
+    drawing_.rectangle({box.left, box.top}, width, box.bottom - box.top,
+                       figure::faint(ground_, 0.8));
+    double y = box.top + 0.3 * text;
     for (const LegendEntry& entry : entries) {
+      const double left = box.left + 0.3 * text;
       drawing_.rectangle({left, y + 0.2 * text}, 1.4 * text, 0.8 * text, entry.colour);
       words({left + 1.8 * text, y + line / 2}, entry.text, Anchor::start, text);
       y += line;
@@ -146,6 +152,50 @@ class OverlayDrawer {
   Drawing take() { return std::move(drawing_); }
 
  private:
+  static constexpr double kLegendLine = 1.25;  // in heights of its text
+  static constexpr double kBeside = 2.6;  // the swatches and the gaps beside the text, likewise
+
+  /// How much smaller a legend has to be that would be so large.
+  double legend_scale(double width, double height) const {
+    constexpr double kMostWidth = 0.5, kMostHeight = 0.34;  // of the picture
+    constexpr double kLeast = 0.62;
+    const double room =
+        std::min(kMostWidth * (right_ - left_) / width, kMostHeight * (bottom_ - top_) / height);
+    return std::clamp(room, kLeast, 1.0);
+  }
+
+  /// The lower left one among equals.
+  figure::Box emptiest_corner(double width, double height, double margin) const {
+    const double left = left_ + margin, right = right_ - margin - width;
+    const double top = top_ + margin, bottom = bottom_ - margin - height;
+    const std::array<Place, 4> corners = {
+        {{left, bottom}, {right, bottom}, {left, top}, {right, top}}};
+    figure::Box best{};
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const Place& corner : corners) {
+      const figure::Box box = {corner.x, corner.x + width, corner.y, corner.y + height};
+      const std::size_t covered = covered_by(box);
+      if (covered >= fewest) continue;
+      best = box;
+      fewest = covered;
+    }
+    return best;
+  }
+
+  /// Vertices of the call, and words that stand there already.
+  std::size_t covered_by(const figure::Box& box) const {
+    std::size_t covered = 0;
+    for (const NamedVertex& name : document_.names()) {
+      const auto at = pixel_of(name.vertex);
+      const bool is_inside =
+          at && at->x > box.left && at->x < box.right && at->y > box.top && at->y < box.bottom;
+      covered += is_inside ? 1 : 0;
+    }
+    return covered + static_cast<std::size_t>(std::count_if(
+                         taken_.begin(), taken_.end(),
+                         [&](const figure::Box& other) { return box.overlaps(other); }));
+  }
+
   void words(Place middle, std::string text, Anchor anchor) {
     words(middle, std::move(text), anchor, kTextSize * scale_);
   }

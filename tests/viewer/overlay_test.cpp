@@ -146,3 +146,70 @@ TEST_CASE("the shell of a selected edge has its names, and what is pointed at is
   REQUIRE(line != nullptr);
   CHECK(line->pen.colour == figure::kPointedColour);
 }
+
+TEST_CASE("the legend of a call is small in a small picture, and lies on no vertex of the call") {
+  Document document;
+  document.open(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace");
+  document.show_panels = true;
+  OverlayLook look;
+  look.text_size = 16;
+  look.text_width = [](const std::string& text, double size) {
+    return 0.55 * size * static_cast<double>(text.size());
+  };
+  std::size_t legends = 0, moved = 0;
+  for (const Canvas size : {Canvas{1200, 900}, Canvas{500, 400}, Canvas{400, 320}}) {
+    document.resize(size);
+    for (std::uint64_t position = 1; position <= document.debugger()->end(); ++position) {
+      document.debugger()->seek(position);
+      document.show_trace();
+      document.scene();
+      const bool is_below = size.width == 400;  // the call lies where the legend is as a rule
+      Camera& camera = document.view.camera;
+      const Camera before = camera;
+      if (is_below) {
+        camera.target += 0.2 * camera.height_at_target() * (camera.up() + camera.right());
+      }
+      const auto& entries = document.legend();
+      if (entries.empty()) continue;
+      ++legends;
+      const figure::Drawing drawing = draw_overlay(document, look);
+      figure::Box box{1e9, -1e9, 1e9, -1e9};
+      for (const figure::Shape& shape : drawing.shapes) {
+        const auto* text = std::get_if<figure::Text>(&shape);
+        if (text == nullptr || std::none_of(entries.begin(), entries.end(), [&](const auto& entry) {
+              return entry.text == text->text;
+            })) {
+          continue;
+        }
+        const double width = look.text_width(text->text, text->size);
+        box.left = std::min(box.left, text->at.x - 1.8 * text->size);
+        box.right = std::max(box.right, text->at.x + width);
+        box.top = std::min(box.top, text->at.y - text->size);
+        box.bottom = std::max(box.bottom, text->at.y);
+      }
+      CAPTURE(position);
+      CHECK(box.left >= 0);
+      CHECK(box.top >= 0);
+      CHECK(box.right <= size.width);
+      CHECK(box.bottom <= size.height);
+      CHECK(box.bottom - box.top <= 0.5 * size.height);
+      moved += box.left > 0.3 * size.width || box.bottom < 0.6 * size.height ? 1 : 0;
+      // On none where there is room, and never on more than at its usual place.
+      std::size_t covered = 0, usual = 0;
+      for (const NamedVertex& name : document.names()) {
+        const auto at = document.view.camera.project(to_glm(document.mesh().point(name.vertex)),
+                                                     document.canvas);
+        if (!at) continue;
+        const bool is_across = at->x > box.left && at->x < box.right;
+        covered += is_across && at->y > box.top && at->y < box.bottom ? 1 : 0;
+        usual +=
+            at->x < box.right - box.left && at->y > size.height - (box.bottom - box.top) ? 1 : 0;
+      }
+      if (size.width >= 500) CHECK(covered == 0);
+      CHECK(covered <= usual);
+      camera = before;
+    }
+  }
+  CHECK(legends > 20);
+  CHECK(moved > 0);
+}

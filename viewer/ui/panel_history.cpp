@@ -90,6 +90,22 @@ void show_subject(Session& session, const History& history) {
   });
 }
 
+void list_what_there_was(Session& session, const History& history) {
+  if (history.calls.empty()) return;
+  if (ImGui::TreeNodeEx("calls", ImGuiTreeNodeFlags_DefaultOpen)) {
+    list_calls(session, history, false);
+    ImGui::TreePop();
+  }
+  if (ImGui::TreeNode("calls in trials that were undone")) {
+    list_calls(session, history, true);
+    ImGui::TreePop();
+  }
+  if (history.subject.size() > 1 && ImGui::TreeNode("its parts")) {
+    list_parts(session, history);
+    ImGui::TreePop();
+  }
+}
+
 }  // namespace
 
 void draw_history_panel(Session& session) {
@@ -99,21 +115,12 @@ void draw_history_panel(Session& session) {
     ImGui::TextDisabled("right click on what you want to know of, or Shift+H for the selection");
     return;
   }
-  wrapped_text(history_paragraph(session.document.debugger()->file(), *history));
+  const std::string text = history_paragraph(session.document.debugger()->file(), *history);
+  const CallsInText named = wrapped_text_with_calls(text);
+  if (named.hovered) session.document.hovering = session.document.pointed_call(*named.hovered);
   show_subject(session, *history);
-  if (history->calls.empty()) return;
-  if (ImGui::TreeNodeEx("calls", ImGuiTreeNodeFlags_DefaultOpen)) {
-    list_calls(session, *history, false);
-    ImGui::TreePop();
-  }
-  if (ImGui::TreeNode("calls in trials that were undone")) {
-    list_calls(session, *history, true);
-    ImGui::TreePop();
-  }
-  if (history->subject.size() > 1 && ImGui::TreeNode("its parts")) {
-    list_parts(session, *history);
-    ImGui::TreePop();
-  }
+  list_what_there_was(session, *history);
+  if (named.clicked) run_from_window(find_command("enter"), session, {*named.clicked});
 }
 
 }  // namespace tetmend::viewer::ui

@@ -2,18 +2,33 @@
 #include "viewer/ui/wrapped_text.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <string>
 
 #include <imgui.h>
 
 namespace tetmend::viewer::ui {
 
-void wrapped_text(std::string_view text) {
-  const float width = ImGui::GetContentRegionAvail().x;
+namespace {
+
+constexpr std::string_view kCall = "call ";
+
+/// At the beginning of a text: "call 17".
+std::string_view call_in_front(std::string_view text) {
+  if (!text.starts_with(kCall)) return {};
+  std::size_t end = kCall.size();
+  while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+  return end == kCall.size() ? std::string_view() : text.substr(0, end);
+}
+
+/// With line breaks, none of them inside a number or the name of a call.
+std::string in_lines(std::string_view text, float width) {
   std::string lines;
   std::size_t line = 0;  // where it begins in `lines`
   while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(' '));
+    const std::size_t least = call_in_front(text).size();
+    const std::string_view word = text.substr(0, text.find(' ', least));
     text.remove_prefix(std::min(word.size() + 1, text.size()));
     const std::size_t before = lines.size();
     if (before > line) lines += ' ';
@@ -22,7 +37,57 @@ void wrapped_text(std::string_view text) {
     lines[before] = '\n';
     line = before + 1;
   }
+  return lines;
+}
+
+/// Lies over a word that is drawn already.
+bool show_call_link(const ImVec2& at, std::string_view word) {
+  const char* end = word.data() + word.size();
+  const ImVec2 size = ImGui::CalcTextSize(word.data(), end);
+  ImGui::SetCursorScreenPos(at);
+  const bool is_clicked = ImGui::InvisibleButton("##call", size);
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImU32 colour = ImGui::GetColorU32(ImGuiCol_CheckMark);
+  list->AddRectFilled(
+      at, {at.x + size.x, at.y + size.y},
+      ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_HeaderHovered : ImGuiCol_WindowBg));
+  list->AddText(at, colour, word.data(), end);
+  return is_clicked;
+}
+
+}  // namespace
+
+void wrapped_text(std::string_view text) {
+  ImGui::TextUnformatted(in_lines(text, ImGui::GetContentRegionAvail().x).c_str());
+}
+
+CallsInText wrapped_text_with_calls(std::string_view text) {
+  CallsInText calls;
+  const std::string lines = in_lines(text, ImGui::GetContentRegionAvail().x);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::TextUnformatted(lines.c_str());
+  const ImVec2 below = ImGui::GetCursorScreenPos();
+  float top = corner.y;
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i] == '\n') {
+      line = i + 1;
+      top += ImGui::GetTextLineHeight();
+    }
+    const bool is_word = i == line || lines[i - 1] == ' ' || lines[i - 1] == '\n';
+    const std::string_view name =
+        is_word ? call_in_front(std::string_view(lines).substr(i)) : std::string_view();
+    if (name.empty()) continue;
+    const float left = ImGui::CalcTextSize(lines.c_str() + line, lines.c_str() + i).x;
+    std::uint32_t number = 0;
+    std::from_chars(name.data() + kCall.size(), name.data() + name.size(), number);
+    ImGui::PushID(static_cast<int>(i));
+    if (show_call_link({corner.x + left, top}, name)) calls.clicked = number;
+    if (ImGui::IsItemHovered()) calls.hovered = number;
+    ImGui::PopID();
+  }
+  ImGui::SetCursorScreenPos(below);
+  return calls;
 }
 
 }  // namespace tetmend::viewer::ui

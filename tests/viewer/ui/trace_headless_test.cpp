@@ -218,3 +218,67 @@ TEST_CASE("the whole ring is in sight in small windows, without scrolling") {
     CHECK(extent[1] * whole[0] == doctest::Approx(extent[0] * whole[1]).epsilon(0.02));
   }
 }
+
+namespace {
+
+/// Top and height of the lowest bar that marks a line in the right column; panels above it have
+/// heads of the same colour.
+std::array<int, 2> marked_line(const viewer::Image& image, double column) {
+  const auto is_marked = [&](int y) {
+    int count = 0;
+    for (int x = static_cast<int>(column * image.width); x < image.width; ++x) {
+      const viewer::Colour& c = image.at(x, y);
+      if (std::abs(c.red - 189) < 8 && std::abs(c.green - 215) < 8 && c.blue > 240) ++count;
+    }
+    return count > 0.15 * image.width;
+  };
+  int y = image.height - 1;
+  while (y >= 0 && !is_marked(y)) --y;
+  const int last = y;
+  while (y >= 0 && is_marked(y)) --y;
+  return {y + 1, last - y};
+}
+
+}  // namespace
+
+TEST_CASE("the line of the algorithm is marked, moves with the call, and is always in sight") {
+  const TempFolder folder;
+  const auto picture = [&](const std::string& name) { return (folder / (name + ".png")).string(); };
+  // 5: line 6 of Algorithm 3, 6: line 8; 13: line 5 of Algorithm 4, and a line of its caller.
+  const std::array<std::uint64_t, 3> positions = {5, 6, 13};
+  std::string script = "panels() if state().teaching then teaching() end\n";
+  for (const auto& [name, size] :
+       {std::pair{"large", "1300, 1100"}, std::pair{"small", "800, 600"}}) {
+    script += fmt::format("size({})\n", size);
+    for (const std::uint64_t p : positions) {
+      script += fmt::format("seek({}) screenshot(\"{}\") print(state().trace.call.line)\n", p,
+                            picture(fmt::format("{}{}", name, p)));
+    }
+  }
+  script +=
+      fmt::format("teaching() size(1280, 720) seek(13) screenshot(\"{}\")\n", picture("teach"));
+  const Outcome outcome =
+      run_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace", script);
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out == "6\n8\n5\n6\n8\n5\n");
+  constexpr int kLine = 17;  // a text line and the gap
+  const auto line = [&](const std::string& name, double column) {
+    return marked_line(read_png(picture(name)), column);
+  };
+  const auto at_6 = line("large5", 0.66);
+  const auto at_8 = line("large6", 0.66);
+  CHECK(std::abs(at_8[0] - at_6[0] - 2 * kLine) <= 2);
+  for (const std::uint64_t p : positions) {
+    for (const auto& [name, column] : {std::pair{"large", 0.66}, std::pair{"small", 0.46}}) {
+      CAPTURE(name);
+      CAPTURE(p);
+      const auto [top, height] = line(fmt::format("{}{}", name, p), column);
+      CHECK(top > (std::string(name) == "small" ? 360 : 700));  // below all heads of panels
+      CHECK(std::abs(height - kLine) <= 3);                     // not cut
+    }
+  }
+  const auto [top, height] = line("teach", 0.64);
+  CHECK(top > 300);
+  CHECK(height > kLine + 3);  // the text is larger
+}

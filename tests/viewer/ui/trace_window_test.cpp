@@ -163,3 +163,34 @@ TEST_CASE("a right click goes to what the mouse is on, or asks for its history")
     CHECK(state["selection"]["from"].get<int>() + state["selection"]["to"].get<int>() == 6);
   }
 }
+
+TEST_CASE("a click on a call that a history names goes there") {
+  if (!can_test_window()) return;
+  const TracedBall trace;
+  Viewer viewer(trace.path(), "1300x850");
+  type("mousemove 650 300 key w key shift+h");
+  wait_until_still();
+  const viewer::Image image = take_picture(".");
+  // The first word in the colour of links in the right column, as far as its text goes.
+  const auto is_link = [&](int x, int y) {
+    const viewer::Colour& c = image.at(x, y);
+    return c.red < 110 && c.green > 120 && c.green < 190 && c.blue > 230;
+  };
+  int left = image.width, right = 0, line = -1;
+  for (int y = 215; y < 600 && (line < 0 || y < line + 12); ++y) {
+    for (int x = 858; x < 1270; ++x) {
+      if (!is_link(x, y)) continue;
+      if (line < 0) line = y;
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+  }
+  REQUIRE(line > 0);
+  REQUIRE(right - left > 25);
+  click((left + right) / 2, line + 6);
+  const auto state = viewer.quit();
+  REQUIRE(state["trace"]["call"].is_object());
+  const auto number = state["trace"]["call"]["number"].get<std::uint32_t>();
+  const TraceFile file(trace.path());
+  CHECK(state["trace"]["position"] == file.calls()[number].events.begin + 1);
+}
