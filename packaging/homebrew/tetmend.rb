@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # A formula for Homebrew on Linux: brew install --build-from-source --HEAD ./packaging/homebrew/tetmend.rb, in a clone of the
 # source. It has no url: there is no release yet.
-# What was run: script/recipes, on 2026-11-23, which reads it and gives its options to CMake.
+# What was run: script/recipes, on 2026-11-25, which reads it and gives its options to CMake.
 # Not run: a build with them, script/recipes --build; brew.
 class Tetmend < Formula
   desc "Improves tetrahedral meshes and keeps their surface"

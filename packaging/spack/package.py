@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A package for Spack: put it into packages/tetmend/ of a repository of your own and add the address of a clone as `git`.
 
-What was run: script/recipes, on 2026-11-23, which reads it and gives its options to CMake. Not run: spack. With +mpi there are no files of
+What was run: script/recipes, on 2026-11-25, which reads it and gives its options to CMake. Not run: spack. With +mpi there are no files of
 HDF5: tetmend looks for them under the name of Debian's package, hdf5-openmpi.
 """
 

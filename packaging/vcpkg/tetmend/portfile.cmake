@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # An overlay port: vcpkg install tetmend --overlay-ports=packaging/vcpkg builds this very source. A port of the registry has
 # vcpkg_from_github here, with the address and the hash of a release.
-# What was run: script/recipes, on 2026-11-23, which reads it and gives its options to CMake. Not run: vcpkg.
+# What was run: script/recipes, on 2026-11-25, which reads it and gives its options to CMake. Not run: vcpkg.
 set(VCPKG_BUILD_TYPE release)  # a static libtetmend.a names its libraries as they are called in release builds
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES tools TETMEND_BUILD_PROGRAMS)
