@@ -526,12 +526,13 @@ class Pages(unittest.TestCase):
         self.desk.command("Emulation.setEmulatedMedia", media="print", features=[])
         try:
             seen = self.desk.run("""const svg = document.getElementById("flat").getBoundingClientRect();
-                return [svg.width, svg.height, document.querySelectorAll("#flat polygon").length, document.getElementById("canvas").getClientRects().length]""")
+                return [svg.width, svg.height, document.querySelectorAll("#flat polygon").length, document.getElementById("canvas").getClientRects().length,
+                        [...document.querySelectorAll(".card[hidden]")].filter((card) => card.getClientRects().length > 0).length]""")
         finally:
             self.desk.command("Emulation.setEmulatedMedia", media="", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
         self.assertGreater(min(seen[0], seen[1]), 100)
         self.assertGreaterEqual(seen[2], 20)
-        self.assertEqual(seen[3], 0)
+        self.assertEqual(seen[3:], [0, 0])  # no empty card either
 
     def test_names_of_a_stranger_are_texts(self) -> None:
         folder = WORK / "hostile"
