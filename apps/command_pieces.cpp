@@ -235,7 +235,7 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
   add_trace_options(*command, options->improve.run);
   add_check_option(*command, options->improve.run);
   command->footer(
-      R"(A run has rounds: three divisions of the mesh, then up to three rounds of zones
+      R"(A run has rounds: three divisions of the mesh, then up to four rounds of zones
 around the worst tets. 'split' divides the mesh for the first round. 'improve'
 works on pieces of the round, any number of times at once, on any machine that
 has the folder. 'join' begins the next round when all pieces are finished; in

@@ -45,6 +45,12 @@ class MeshBuilder {
   /// See mesh_patch.h.
   class Patch;
 
+  /// For what is known of a new mesh from before: what TetMesh::changed() says until something
+  /// changes there.
+  static void set_changed(TetMesh& mesh, VertexHandle v, Date date) {
+    mesh.vertex_dates_[v.index()].changed = date;
+  }
+
   /// After an Error: the data as it was.
   MeshData give_back();
   /// The file's number of each tet, by slot.

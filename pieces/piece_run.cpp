@@ -239,7 +239,8 @@ std::optional<StepRecord> PieceRun::begin_step(Shelf* next) {
   record.is_zones = true;
   record.number = round + 1;
   if (!state_.is_divided) {
-    if (round > 0 && !is_better(last, state_.records[step - 2].after)) return std::nullopt;
+    const bool is_next_pair = round > 0 && round % 2 == 0;
+    if (is_next_pair && !is_better(last, state_.records[step - 3].after)) return std::nullopt;
     mesh_.divide(division_.pieces, division_.divisions - 1, make_zones(last), next);
     state_.is_divided = true;
   }
@@ -329,18 +330,34 @@ unsigned PieceRun::rings_of(const StepRecord& record) const {
   return !record.is_zones && record.number > 1 ? division_.rings : 0;
 }
 
+/// Rounds of zones take turns: what one cannot move, the other often can. Those for the worst tets may
+/// cost mild ones, and the others remove these again.
+bool PieceRun::is_for_worst(const StepRecord& record) {
+  return record.is_zones && record.number % 2 == 0;
+}
+
 /// Each has an equal share of what the mesh may grow by, and zones have one of the bad tets that were
 /// removed: see ZoneMap::share(). Whoever would need more stays as it was.
 TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const {
   TaskLimits limits;
   limits.is_zone = record.is_zones;
+  limits.is_for_worst = is_for_worst(record);
   limits.rings = rings_of(record);
+  limits.fresh_rings = division_.fresh_rings;
+  limits.whole = state_.limits.tets;
   if (state_.limits.most_tets != std::numeric_limits<std::uint64_t>::max()) {
     limits.most_new_tets = state_.limits.most_tets > state_.limits.tets
                                ? (state_.limits.most_tets - state_.limits.tets) / record.pieces
                                : 0;
   }
-  if (record.is_zones) {
+  if (record.is_zones) {  // which have the worst tets, so these count
+    const std::span<const Ball> balls = mesh_.state().parting.zones.balls();
+    const std::size_t zone = part - mesh_.state().parting.stretches();
+    limits.whole = balls.size();
+    limits.share = static_cast<std::uint64_t>(std::count_if(
+        balls.begin(), balls.end(), [&](const Ball& ball) { return ball.zone == zone; }));
+  }
+  if (limits.is_for_worst) {
     const std::size_t now = state_.records.back().after.indicators.n_bad;
     constexpr std::size_t kShare = 20;  // of what was gained
     const std::size_t gained = state_.limits.n_bad > now ? state_.limits.n_bad - now : 0;
@@ -350,7 +367,8 @@ TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const
   if (options_.trace != nullptr && options_.trace->is_of(round(), part)) {
     limits.trace = [this, &record](const TetMesh& mesh) {
       return options_.trace->start(
-          mesh, record.is_zones ? options_.zone_settings : options_.settings, division_.pieces);
+          mesh, is_for_worst(record) ? options_.zone_settings : options_.settings,
+          division_.pieces);
     };
   }
   if (state_.limits.seconds > 0) limits.seconds = std::max(1e-3, seconds_left());

@@ -22,8 +22,9 @@ namespace tetmend::pieces {
 /// How a mesh is divided. The result depends on these, on nothing else of a run.
 struct Division {
   static constexpr unsigned kDivisions = 3;
-  static constexpr unsigned kZoneRounds = 3;
-  static constexpr unsigned kRings = 6;
+  static constexpr unsigned kZoneRounds = 4;
+  static constexpr unsigned kRings = 3;
+  static constexpr unsigned kFreshRings = 1;
   static constexpr std::uint64_t kLeastZone = 50'000;
 
   std::size_t pieces = 1;
@@ -31,6 +32,8 @@ struct Division {
   unsigned zone_rounds = kZoneRounds;
   /// How far from the borders of the last division the second and third work, in edges; 0: all over.
   unsigned rings = kRings;
+  /// Within so many edges of them everything is tried anew; farther away, what has changed.
+  unsigned fresh_rings = kFreshRings;
   /// Tets that a zone may have where pieces have fewer: so many need little memory, and a cut costs
   /// quality. Larger zones are cut.
   std::uint64_t least_zone = kLeastZone;
@@ -154,6 +157,7 @@ class PieceRun {
   std::vector<PartOutcome> share(std::vector<PartOutcome> mine);
   TaskLimits limits_of(std::size_t part, const StepRecord& record) const;
   unsigned rings_of(const StepRecord& record) const;
+  static bool is_for_worst(const StepRecord& record);
   /// The one that is worked on or comes next, from 1.
   unsigned round() const { return static_cast<unsigned>(state_.records.size()) + 1; }
   double seconds_left() const;

@@ -13,6 +13,7 @@
 #include "kernel/boundary_layers.h"
 #include "kernel/compensated_sum.h"
 #include "kernel/integrity.h"
+#include "kernel/mesh_builder.h"
 #include "kernel/mesh_view.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
@@ -137,12 +138,15 @@ class Task {
 
  private:
   bool build();
-  void freeze(unsigned rings);
+  void freeze(const TaskLimits& limits);
   void run_schedule(const TaskLimits& limits);
   void take_back();
   void take_vertices(const MeshView& view, Piece& all, std::vector<std::uint32_t>& parts);
   void take_tets(std::span<const std::uint32_t> numbers, Piece& all);
   void take_surface(std::span<const std::uint32_t> numbers, Piece& all) const;
+
+  /// The date of what has changed since the last division.
+  static constexpr Date kFresh = 1;
 
   const Piece& gathered_;
   const std::vector<std::uint32_t> parts_;
@@ -151,13 +155,14 @@ class Task {
   const HeldSurface* const surface_;  // null: fixed
   TetMesh mesh_;
   std::vector<std::uint32_t> tet_numbers_;
+  std::size_t free_tets_ = 0;
   TaskResult result_;
 };
 
 TaskResult Task::run(const TaskLimits& limits) {
   const bool is_sound = build();
   if (is_sound) {
-    freeze(limits.rings);
+    freeze(limits);
     mesh_.set_bounds(Bounds::of(mesh_));
     mesh_.set_size_field(options_.size_field);
     if (surface_ != nullptr) mesh_.set_surface_guard(surface_->guard(mesh_, gathered_));
@@ -180,13 +185,27 @@ bool Task::build() {
   return !report.mirrored && report.reordered_tets == 0;
 }
 
-void Task::freeze(unsigned rings) {
-  const StayingTets stays(gathered_, parts_, number_, rings);
-  mesh_.freeze([&](TetHandle t) { return stays(gathered_.tets[tet_numbers_[t.index()]]); });
+/// Also tells what counts as tried already, by dates.
+void Task::freeze(const TaskLimits& limits) {
+  const StayingTets stays(gathered_, parts_, number_, limits.rings);
+  free_tets_ = mesh_.tet_count() - mesh_.freeze([&](TetHandle t) {
+    return stays(gathered_.tets[tet_numbers_[t.index()]]);
+  });
+  if (limits.rings == 0) return;
+  const std::vector<char> is_fresh = near_borders(gathered_, limits.fresh_rings);
+  for (std::uint32_t slot = 0; slot < mesh_.vertex_slots(); ++slot) {
+    const VertexHandle v(slot);
+    if (is_fresh[mesh_.origin(v)] != 0) MeshBuilder::set_changed(mesh_, v, kFresh);
+  }
 }
 
 void Task::run_schedule(const TaskLimits& limits) {
   Run run(mesh_, options_.registry);
+  if (limits.whole > 0) {
+    const std::uint64_t share = limits.share > 0 ? limits.share : free_tets_;
+    run.set_share(std::min(share, limits.whole), limits.whole);
+  }
+  if (limits.rings > 0) run.set_first_date(kFresh);
   if (limits.most_new_tets != std::numeric_limits<std::size_t>::max()) {
     run.set_most_tets(mesh_.tet_count() + limits.most_new_tets);
   }
@@ -196,7 +215,8 @@ void Task::run_schedule(const TaskLimits& limits) {
   if (options_.check_operators) run.set_inspector(&inspector);
   if (options_.watch) options_.watch(run);
   try {
-    improve(run, options_.schedule, limits.is_zone ? options_.zone_settings : options_.settings);
+    improve(run, options_.schedule,
+            limits.is_for_worst ? options_.zone_settings : options_.settings);
     // Where the fixed surface holds bad tets, it moves. What is stuck at a border is for another
     // division or a zone: costly rounds would only refine around it.
     if (mesh_.surface_guard() != nullptr && !run.cancelled()) {

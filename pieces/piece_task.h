@@ -41,7 +41,14 @@ struct TaskOptions {
 struct TaskLimits {
   /// Only tets near former borders may change: those within so many edges. 0: all may.
   unsigned rings = 0;
+  /// Of them, what is within so many edges is tried; others where something has changed.
+  unsigned fresh_rings = 0;
+  /// Numbers of tets that a schedule names are of the whole mesh. A piece has a share of them: so many
+  /// of its tets, or where `share` is 0, those that may change.
+  std::uint64_t whole = 0;  ///< 0: it has all
+  std::uint64_t share = 0;
   bool is_zone = false;
+  bool is_for_worst = false;  ///< with TaskOptions::zone_settings
   std::size_t most_new_tets = std::numeric_limits<std::size_t>::max();  ///< that it may grow by
   /// A zone may end with so many more bad tets, if the worst is better.
   std::size_t spare_bad = 0;

@@ -92,6 +92,11 @@ void Run::set_block_count(std::size_t blocks) {
   partitions_ = {};
 }
 
+void Run::set_first_date(Date date) {
+  first_date_ = date;
+  worker_.workspace().set_date(date);
+}
+
 Date Run::begin_sweep(std::string_view calendar) {
   Workspace& workspace = worker_.workspace();
   const Date now = workspace.date() + 1;
@@ -101,7 +106,7 @@ Date Run::begin_sweep(std::string_view calendar) {
   }
   last_sweep_.emplace_back(calendar, now);
   held_bytes_ += sizeof(last_sweep_.back()) + calendar.size();
-  return 0;
+  return first_date_;
 }
 
 Partition& Run::partition(PassScope& scope, unsigned shift) {

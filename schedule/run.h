@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -18,6 +19,7 @@
 #include "kernel/statistics.h"
 #include "ops/registry.h"
 #include "schedule/partition.h"
+#include "schedule/selection.h"
 #include "schedule/worker.h"
 
 namespace tetmend {
@@ -78,6 +80,14 @@ class Run {
   QualityIndicators indicators() const;
   /// From now on the mesh grows to at most that many tets, or not at all if it has more.
   void set_most_tets(std::size_t tets) { worker_.workspace().set_most_tets(tets); }
+  /// The mesh is a part of a larger one, with `part` of its `whole` tets: where a schedule names a
+  /// number of tets, that is of the larger one.
+  /// Precondition: part <= whole, 0 < whole < 2^34, part < 2^30.
+  void set_share(std::uint64_t part, std::uint64_t whole) { share_ = {part, whole}; }
+  /// The selection as it is for this mesh.
+  Selection for_share(const Selection& selection) const {
+    return share_.part == share_.whole ? selection : selection.of_part(share_.part, share_.whole);
+  }
   void set_listener(ProgressListener* listener) { listener_ = listener; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
@@ -113,8 +123,10 @@ class Run {
   /// Bytes of all that grows with each pass: records, notes, names of calendars. For who bounds them.
   std::size_t held_bytes() const { return held_bytes_; }
 
-  /// Starts a sweep; returns the date of the sweep before in the same calendar, 0 if there was
-  /// none. Later commits carry the new date.
+  /// What has changed before that date counts as tried. Precondition: no pass was made.
+  void set_first_date(Date date);
+  /// Starts a sweep; returns the date of the sweep before in the same calendar, the first date if
+  /// there was none. Later commits carry the new date.
   Date begin_sweep(std::string_view calendar);
 
   // The rest is for sweeps; see sweep.h.
@@ -156,6 +168,10 @@ class Run {
            (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed));
   }
 
+  struct Share {
+    std::uint64_t part = 1, whole = 1;
+  };
+  Share share_;
   std::size_t most_passes_ = std::numeric_limits<std::size_t>::max();
   std::atomic<bool> stopped_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
@@ -164,6 +180,7 @@ class Run {
   std::atomic<bool> out_of_time_ = false;
   TraceSink* trace_ = nullptr;
   AttemptInspector* inspector_ = nullptr;
+  Date first_date_ = 0;
   std::vector<std::pair<std::string, Date>> last_sweep_;
   std::size_t held_bytes_ = 0;
   bool is_measured_ = false;  // the last record has the indicators of the mesh as it is

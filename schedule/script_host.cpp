@@ -303,7 +303,7 @@ ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const Scr
     const ScriptValue& argument = entry.value;
     const Subject subject = Subject{std::string(word.name)}.of(name);
     if (name == "on") {
-      arguments.on = read_selection(subject, argument);
+      arguments.on = run_->for_share(read_selection(subject, argument));
       continue;
     }
     const bool is_field = std::any_of(word.fields.begin(), word.fields.end(),

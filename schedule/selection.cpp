@@ -9,6 +9,25 @@
 
 namespace tetmend {
 
+namespace {
+
+/// ceil(count * part / whole), in whole numbers.
+std::size_t scaled(std::size_t count, std::uint64_t part, std::uint64_t whole) {
+  const std::uint64_t rest = count % whole * part;
+  return count / whole * part + rest / whole + (rest % whole > 0 ? 1 : 0);
+}
+
+}  // namespace
+
+Selection Selection::of_part(std::uint64_t part, std::uint64_t whole) const {
+  Selection scaled_one = *this;
+  scaled_one.at_least = scaled(at_least, part, whole);
+  if (worst != std::numeric_limits<std::size_t>::max()) {
+    scaled_one.worst = scaled(worst, part, whole);
+  }
+  return scaled_one;
+}
+
 std::string Selection::describe() const {
   std::string text = fmt::format("below {}", below);
   if (at_least > 0) text += fmt::format(" at_least {}", at_least);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ struct Selection {
   /// With a vertex around which something changed at that date or later (TetMesh::changed()).
   Date since = 0;
 
+  /// The same for a part of a mesh that has `part` of its `whole` tets: numbers of tets become less
+  /// in proportion, rounded up. Precondition: part <= whole, 0 < whole < 2^34, part < 2^30.
+  Selection of_part(std::uint64_t part, std::uint64_t whole) const;
   /// Equal for selections that mean the same.
   std::string describe() const;
 };

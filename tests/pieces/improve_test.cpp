@@ -4,6 +4,7 @@
 #include "pieces/improve.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -100,6 +101,44 @@ TEST_CASE("in pieces all promises hold, and maps tell where everything is") {
     CHECK(kept > data.tets.size() / 10);
     CHECK(kept < data.tets.size());
   }
+}
+
+TEST_CASE("a number of tets in a schedule is one of the mesh, and pieces have shares of it") {
+  const MeshData data = lattice(16);
+  Options options;
+  options.script = "apply('multi_face_removal', {on = {below = 100, worst = 400}})";
+  Result whole;
+  improved(data, options, 1, &whole);
+  REQUIRE(whole.passes.size() == 1);
+  CHECK(whole.passes[0].items == 400);
+  for (const std::size_t count : {2, 5}) {
+    CAPTURE(count);
+    Result result;
+    improved(data, options, count, &result);
+    REQUIRE(result.passes.size() >= 3);
+    // Tets between pieces have no share; numbers are rounded up.
+    CHECK(result.passes[0].items <= 400 + count);
+    CHECK(result.passes[0].items > 200);
+    CHECK(result.passes[1].items <= 400 + count);
+  }
+}
+
+TEST_CASE("later divisions try what lies near former borders, not all that may change") {
+  const MeshData data = lattice(20);
+  Options options;
+  options.script = "apply('edge_contraction', {on = {below = 100}})";
+  std::array<std::size_t, 2> items{};
+  for (const bool is_all_fresh : {false, true}) {
+    Mesh mesh = MeshAccess::make(data);
+    Division division;
+    division.pieces = 2;
+    if (is_all_fresh) division.fresh_rings = division.rings;
+    const Result result = pieces::improve(mesh, options, division);
+    CHECK(result.passes[0].items > 5'000);  // vertices
+    items[is_all_fresh ? 1 : 0] = result.passes[1].items;
+  }
+  CHECK(items[0] > 500);
+  CHECK(items[0] < 0.8 * static_cast<double>(items[1]));
 }
 
 TEST_CASE("threads, folders and files do not show in the result") {

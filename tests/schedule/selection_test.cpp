@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
+#include "kernel/mesh_builder.h"
 #include "schedule/queue.h"
 #include "tests/support/zoo.h"
 
@@ -143,6 +144,41 @@ TEST_CASE("descriptions differ where selections differ") {
   for (const Selection& selection : all) texts.insert(selection.describe());
   CHECK(texts.size() == all.size());
   CHECK(Selection().describe() == Selection{.below = kBadThreshold}.describe());
+}
+
+TEST_CASE("a part of a mesh has its share of a number of tets, rounded up") {
+  const Selection all = {.at_least = 100, .worst = 32};
+  const auto part = [&](std::uint64_t of, std::uint64_t whole) { return all.of_part(of, whole); };
+  CHECK(part(1, 3).at_least == 34);
+  CHECK(part(1, 3).worst == 11);
+  CHECK(part(1, 4).at_least == 25);
+  CHECK(part(1, 4).worst == 8);
+  CHECK(part(1, 1'000'000).worst == 1);
+  CHECK(part(0, 7).worst == 0);
+  CHECK(part(7, 7).describe() == all.describe());
+  CHECK(Selection().of_part(1, 3).describe() == Selection().describe());
+  // The product of these does not fit into 64 bits.
+  constexpr std::uint64_t kLarge = 1'000'000'000'000;
+  const std::uint64_t whole = (std::uint64_t{1} << 34) - 1;
+  CHECK(Selection{.worst = kLarge}.of_part(std::uint64_t{1} << 29, whole).worst == 31'250'000'002);
+}
+
+TEST_CASE("where dates begin later, only what has changed since then is tried") {
+  TetMesh mesh = ball();
+  Registry registry;
+  Run run(mesh, registry);
+  run.set_first_date(1);
+  CHECK(run.begin_sweep("a pass") == 1);
+  CHECK(run.begin_sweep("a pass") == 2);
+  PassScope scope(run, "test");
+  CHECK(queue_tets(scope, mesh, {.below = Selection::kAll}, 1).empty());
+  const VertexHandle v(0);
+  MeshBuilder::set_changed(mesh, v, 1);
+  const auto queued = queue_tets(scope, mesh, {.below = Selection::kAll}, 1);
+  CHECK(!queued.empty());
+  for (const QueuedTet& tet : queued) {
+    CHECK(std::find(tet.vertices.begin(), tet.vertices.end(), v) != tet.vertices.end());
+  }
 }
 
 TEST_CASE("vertices of selected tets are queued once, and fixed ones never") {
