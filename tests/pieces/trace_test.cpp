@@ -193,8 +193,8 @@ TEST_CASE("a place or a tet of the file leads to its piece, in memory and from f
 TEST_CASE("a piece that no run can have is a wrong option, before anything is worked on") {
   const Bench bench;
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"0", "there is no round 0: rounds count from 1 to 6"},
-      {"7:0", "there is no round 7: rounds count from 1 to 6"},
+      {"0", "there is no round 0: rounds count from 1 to 7"},
+      {"8:0", "there is no round 8: rounds count from 1 to 7"},
       {"3:5", "there is no piece 5 in round 3: it has pieces 0 to 4"},
       {"4:4", "piece 4 is not worked on in round 4: its zones count from 5"},
       {"1:", "'1:' is not of the form ROUND or ROUND:PIECE"},
