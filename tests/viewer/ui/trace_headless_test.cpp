@@ -270,12 +270,13 @@ TEST_CASE("the line of the algorithm is marked, moves with the call, and is alwa
   const auto at_8 = line("large6", 0.66);
   CHECK(std::abs(at_8[0] - at_6[0] - 2 * kLine) <= 2);
   for (const std::uint64_t p : positions) {
-    for (const auto& [name, column] : {std::pair{"large", 0.66}, std::pair{"small", 0.46}}) {
+    for (const auto& layout : {std::pair{"large", 0.66}, std::pair{"small", 0.46}}) {
+      const std::string name = layout.first;
       CAPTURE(name);
       CAPTURE(p);
-      const auto [top, height] = line(fmt::format("{}{}", name, p), column);
-      CHECK(top > (std::string(name) == "small" ? 360 : 700));  // below all heads of panels
-      CHECK(std::abs(height - kLine) <= 3);                     // not cut
+      const auto [top, height] = line(fmt::format("{}{}", name, p), layout.second);
+      CHECK(top > (name == "small" ? 360 : 700));  // below all heads of panels
+      CHECK(std::abs(height - kLine) <= 3);        // not cut
     }
   }
   const auto [top, height] = line("teach", 0.64);
