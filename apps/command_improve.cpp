@@ -211,6 +211,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   complete(options);
   check_reports(options, invocation);
   check_pieces(options, invocation);
+  if (options.pieces.is_divided() || invocation.ranks != nullptr) reuse_memory();
   if (!is_first) options.quiet = true;
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};

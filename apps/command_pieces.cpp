@@ -63,6 +63,7 @@ void say_round(const pieces::FolderRun& run) {
 }
 
 int split(PiecesOptions& options, Invocation& invocation) {
+  reuse_memory();
   ImproveOptions& improve = options.improve;
   if (options.more.size() != 1)
     throw UsageError("pieces split FOLDER IN: IN, one mesh, is missing");
@@ -125,6 +126,7 @@ std::vector<std::size_t> chosen(const PiecesOptions& options, const pieces::Fold
 }
 
 int improve(PiecesOptions& options, Invocation& invocation) {
+  reuse_memory();
   pieces::FolderRun run(options.folder);
   const std::vector<std::size_t> numbers = chosen(options, run);
   if (run.is_finished())
@@ -153,6 +155,7 @@ int improve(PiecesOptions& options, Invocation& invocation) {
 }
 
 int join(PiecesOptions& options, Invocation& invocation) {
+  reuse_memory();
   ImproveOptions& improve = options.improve;
   pieces::FolderRun run(options.folder, invocation.array_files);
   if (run.is_finished()) {

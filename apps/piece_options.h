@@ -27,4 +27,7 @@ struct PieceOptions {
 void add_parts_option(CLI::App& command, std::size_t& parts);
 void add_piece_options(CLI::App& command, PieceOptions& options);
 
+/// From now on memory is kept that is given back: each piece needs as much as the one before.
+void reuse_memory() noexcept;
+
 }  // namespace tetmend::apps

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pieces/bytes.h"
+#include "pieces/messages.h"
 
 namespace tetmend::pieces {
 
@@ -23,79 +24,25 @@ std::string gathered_name(std::size_t part) {
   return fmt::format("gathered-{}", part);
 }
 
-bool is_own(std::uint8_t marks) {
-  return (marks & kOwn) != 0;
+/// Of what was not sent in a division, while its parts are worked on; kept when they are stored.
+std::string rest_name(std::size_t part) {
+  return fmt::format("rest-{}", part);
 }
 
-/// What each part gets of a piece.
-class Messages {
- public:
-  Messages(const Piece& piece, const Parting& parting)
-      : piece_(piece), parts_(parting.parts_of(piece.points)), shares_(parting.parts()) {
-    share_out(piece.tets, &Share::tets);
-    share_out(piece.triangles, &Share::triangles);
-    share_out(piece.edges, &Share::edges);
-    share_out(piece.surface, &Share::surface);
-    share_out(piece.lines, &Share::lines);
-    for (std::uint32_t v = 0; v < parts_.size(); ++v) {
-      if (is_own(piece.marks[v])) shares_[parts_[v]].vertices.push_back(v);
-    }
-  }
+std::string kept_name(std::size_t part) {
+  return fmt::format("kept-{}", part);
+}
 
-  /// Empty: none.
-  std::string message(std::size_t part) {
-    Share& share = shares_[part];
-    if (share.tets.empty() && share.vertices.empty() && share.triangles.empty() &&
-        share.edges.empty() && share.surface.empty() && share.lines.empty()) {
-      return {};
-    }
-    Extract what;
-    what.wanted.assign(piece_.ids.size(), 0);
-    for (const std::uint32_t v : share.vertices) what.wanted[v] = 1;
-    mark(piece_.tets, share.tets, what.wanted);
-    mark(piece_.triangles, share.triangles, what.wanted);
-    mark(piece_.edges, share.edges, what.wanted);
-    mark(piece_.surface, share.surface, what.wanted);
-    mark(piece_.lines, share.lines, what.wanted);
-    what.tets = std::move(share.tets);
-    what.triangles = std::move(share.triangles);
-    what.edges = std::move(share.edges);
-    what.surface = std::move(share.surface);
-    what.lines = std::move(share.lines);
-    std::string bytes;
-    append(extract(piece_, what), bytes);
-    return bytes;
-  }
-
- private:
-  struct Share {
-    std::vector<std::uint32_t> vertices, tets, triangles, edges, surface, lines;
-  };
-
-  template <class Element>
-  void share_out(const std::vector<Element>& elements, std::vector<std::uint32_t> Share::*list) {
-    for (std::uint32_t i = 0; i < elements.size(); ++i) {
-      const auto& v = elements[i].vertices;
-      for (std::size_t k = 0; k < v.size(); ++k) {
-        const std::uint32_t part = parts_[v[k]];
-        const auto is_same = [&](std::uint32_t w) { return parts_[w] == part; };
-        if (std::any_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(k), is_same)) continue;
-        (shares_[part].*list).push_back(i);
-      }
-    }
-  }
-  template <class Element>
-  static void mark(const std::vector<Element>& elements, const std::vector<std::uint32_t>& chosen,
-                   std::vector<char>& wanted) {
-    for (const std::uint32_t i : chosen) {
-      for (const std::uint32_t v : elements[i].vertices) wanted[v] = 1;
-    }
-  }
-
-  const Piece& piece_;
-  const std::vector<std::uint32_t> parts_;
-  std::vector<Share> shares_;
-};
+/// In the order of their sources, whoever brought them.
+std::vector<Piece> read_messages(const Shelf& shelf, const std::string& name) {
+  std::vector<std::pair<std::uint64_t, Piece>> messages;
+  shelf.visit(name, [&](std::string_view bytes) { take_messages(bytes, messages); });
+  std::sort(messages.begin(), messages.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Piece> pieces;
+  for (auto& message : messages) pieces.push_back(std::move(message.second));
+  return pieces;
+}
 
 }  // namespace
 
@@ -114,6 +61,7 @@ void append(const DivisionState& state, std::string& bytes) {
   put(state.parting.side, bytes);
   put(state.parting.shift, bytes);
   put(state.parting.cuts, bytes);
+  put(state.parting.sends_all, bytes);
   put(std::uint64_t{state.parting.zones.balls().size()}, bytes);
   for (const Ball& ball : state.parting.zones.balls()) {
     put_point(ball.centre);
@@ -140,6 +88,7 @@ DivisionState take_state(std::string_view& bytes) {
   take(bytes, state.parting.side);
   take(bytes, state.parting.shift);
   take(bytes, state.parting.cuts);
+  take(bytes, state.parting.sends_all);
   std::uint64_t count = 0;
   take(bytes, count);
   std::vector<Ball> balls;
@@ -238,19 +187,36 @@ void DividedMesh::end_slices() {
   state_.first_added.assign(state_.stored, state_.next_id);
 }
 
-Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift, ZoneMap zones) const {
+/// Of this rank's part of the mesh, each vertex once.
+void DividedMesh::each_point(const std::function<void(const Point&)>& use) const {
+  const auto use_own = [&](const Piece& vertices) {
+    for (std::size_t v = 0; v < vertices.ids.size(); ++v) {
+      if (is_own(vertices.marks[v])) use(vertices.points[v]);
+    }
+  };
+  for (const std::size_t part : own_) {
+    use_own(stored_vertices(part));
+    shelf_->visit(kept_name(part), [&](std::string_view rest) {
+      while (!rest.empty()) {
+        std::uint64_t source = 0;
+        const std::string_view message = take_message(rest, source);
+        const auto read = [&](auto begin, auto size) {
+          return std::string(message.substr(std::min<std::uint64_t>(begin, message.size()), size));
+        };
+        use_own(read_vertices(read, 0, std::numeric_limits<std::size_t>::max()));
+      }
+    });
+  }
+}
+
+Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift) const {
   const double side = (state_.high - state_.low).maxCoeff();
-  Parting parting{state_.low, side, shift, {0}, std::move(zones)};
+  Parting parting{state_.low, side, shift};
   if (pieces == 1) return parting;
   const HilbertCurve curve = shifted_curve(state_.low, side, shift);
   KeyHistogram histogram;
   const auto count_all = [&] {
-    for (const std::size_t part : own_) {
-      const Piece piece = stored_vertices(part);
-      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
-        if (is_own(piece.marks[v])) histogram.count(curve.key(piece.points[v]));
-      }
-    }
+    each_point([&](const Point& p) { histogram.count(curve.key(p)); });
     ranks_.add(histogram.counts());
   };
   count_all();
@@ -262,15 +228,11 @@ Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift, ZoneMap zo
 
 std::vector<std::int64_t> DividedMesh::count_vertices(const ZoneMap& zones) const {
   std::vector<std::int64_t> counts(zones.balls().size() + 1, 0);
-  for (const std::size_t part : own_) {
-    const Piece piece = stored_vertices(part);
-    std::vector<Point> points;
-    for (std::size_t v = 0; v < piece.ids.size(); ++v) {
-      if (is_own(piece.marks[v])) points.push_back(piece.points[v]);
-    }
-    zones.count(points, std::span(counts).first(zones.balls().size()));
-    counts.back() += static_cast<std::int64_t>(points.size());
-  }
+  const std::span<std::int64_t> by_ball = std::span(counts).first(zones.balls().size());
+  each_point([&](const Point& p) {
+    zones.count({&p, 1}, by_ball);
+    ++counts.back();
+  });
   ranks_.add(counts);
   return counts;
 }
@@ -289,20 +251,43 @@ std::size_t DividedMesh::most_own() const {
   return most;
 }
 
+void DividedMesh::divide(std::size_t pieces, unsigned shift, Shelf* next) {
+  send_all(make_parting(pieces, shift), 0, next);
+}
+
+void DividedMesh::divide_near_borders(unsigned shift, unsigned rings, Shelf* next) {
+  Parting parting = make_parting(state_.parting.stretches(), shift);
+  parting.sends_all = false;
+  send_all(std::move(parting), rings, next);
+}
+
+void DividedMesh::divide_zones(ZoneMap zones, Shelf* next) {
+  Parting parting = state_.parting;
+  parting.zones = std::move(zones);
+  parting.sends_all = false;
+  send_all(std::move(parting), 0, next);
+}
+
 /// All ranks send one piece at a time: so memory holds the messages of few.
-void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones, Shelf* next) {
+void DividedMesh::send_all(Parting parting, unsigned rings, Shelf* next) {
   const auto start = std::chrono::steady_clock::now();
   traffic_.emplace_back();
-  state_.parting = make_parting(pieces, shift, std::move(zones));
+  state_.parting = std::move(parting);
   Shelf& to = next == nullptr ? *shelf_ : *next;
   const std::vector<std::uint32_t> owners = owners_of(state_.parting, ranks_.count());
-  for (std::size_t part = 0; part < parts(); ++part) to.remove(gathered_name(part));
+  for (std::size_t part = 0; part < parts(); ++part) {
+    to.remove(gathered_name(part));
+    to.remove(rest_name(part));
+  }
   const std::size_t rounds = most_own();
   for (std::size_t round = 0; round < rounds; ++round) {
     std::vector<std::string> messages(ranks_.count());
     if (round < own_.size()) {
-      messages = send(own_[round], owners, to);
-      if (next == nullptr) shelf_->remove(stored_name(own_[round]));
+      messages = send(own_[round], rings, owners, to);
+      if (next == nullptr) {
+        shelf_->remove(stored_name(own_[round]));
+        shelf_->remove(kept_name(own_[round]));
+      }
     }
     if (ranks_.count() == 1) continue;
     for (const std::string& from : ranks_.exchange(std::move(messages))) {
@@ -318,71 +303,68 @@ void DividedMesh::divide(std::size_t pieces, unsigned shift, ZoneMap zones, Shel
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+namespace {
+
+/// To another rank.
+struct Address {
+  std::uint64_t target = 0;
+  std::uint64_t is_rest = 0;
+  std::uint64_t size = 0;
+};
+
+}  // namespace
+
 /// What is for this rank goes to the shelf, the rest is returned, by rank.
-std::vector<std::string> DividedMesh::send(std::size_t part,
+std::vector<std::string> DividedMesh::send(std::size_t part, unsigned rings,
                                            const std::vector<std::uint32_t>& owners, Shelf& next) {
   std::vector<std::string> to(ranks_.count());
-  const Piece piece = stored(part);
-  traffic_.back().tets += piece.tets.size();
-  Messages messages(piece, state_.parting);
-  for (std::size_t target = 0; target < parts(); ++target) {
-    const std::string bytes = messages.message(target);
-    if (bytes.empty()) continue;
-    std::string head;
-    put(std::uint64_t{part}, head);
-    put(std::uint64_t{bytes.size()}, head);
+  const auto send_one = [&](std::size_t target, bool is_rest, std::string message) {
+    if (message.empty()) return;
     if (owners[target] == ranks_.number()) {
-      next.append(gathered_name(target), head + bytes);
-      continue;
+      next.append(is_rest ? rest_name(target) : gathered_name(target), std::move(message));
+      return;
     }
     std::string& out = to[owners[target]];
-    put(std::uint64_t{target}, out);
-    out += head;
-    out += bytes;
+    put(Address{target, is_rest ? 1U : 0U, message.size()}, out);
+    out += message;
+  };
+  const std::size_t stretches = state_.parting.stretches();
+  const std::size_t home = part < stretches ? part : (part - stretches) % stretches;
+  std::uint64_t source = std::uint64_t{part} << 32;  // and which piece of that part
+  for (Piece& piece : all_stored(part)) {
+    traffic_.back().tets += piece.tets.size();
+    Messages messages(std::move(piece), state_.parting, rings);
+    for (std::size_t target = 0; target < parts(); ++target) {
+      send_one(target, false, messages.message(source, target));
+    }
+    send_one(home, true, messages.rest(source));
+    ++source;
   }
   return to;
 }
 
 void DividedMesh::keep(std::string_view messages, Shelf& next) {
   while (!messages.empty()) {
-    std::uint64_t target = 0;
-    std::uint64_t source = 0;
-    std::uint64_t size = 0;
-    take(messages, target);
-    const char* begin = messages.data();
-    take(messages, source);
-    take(messages, size);
-    take_front(messages, size);
-    const auto length = static_cast<std::size_t>(messages.data() - begin);
-    next.append(gathered_name(target), std::string_view(begin, length));
+    Address address;
+    take(messages, address);
+    std::string message(take_front(messages, address.size));
+    next.append(address.is_rest != 0 ? rest_name(address.target) : gathered_name(address.target),
+                std::move(message));
   }
 }
 
-/// Messages come in any order; they are taken in that of the pieces that they are of.
 Piece DividedMesh::gathered(std::size_t part) const {
-  std::vector<std::pair<std::uint64_t, Piece>> messages;
-  {
-    const std::string bytes = shelf_->read(gathered_name(part));
-    for (std::string_view rest = bytes; !rest.empty();) {
-      std::uint64_t source = 0;
-      std::uint64_t size = 0;
-      take(rest, source);
-      take(rest, size);
-      std::string_view message = take_front(rest, size);
-      messages.emplace_back(source, take_piece(message));
-    }
-  }
-  std::sort(messages.begin(), messages.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Piece> pieces;
-  for (auto& message : messages) pieces.push_back(std::move(message.second));
-  return merge(std::move(pieces));
+  return merge(read_messages(*shelf_, gathered_name(part)));
+}
+
+std::vector<Piece> DividedMesh::rest(std::size_t part) const {
+  return read_messages(*shelf_, rest_name(part));
 }
 
 void DividedMesh::store(std::size_t part, const Piece& piece) {
   std::string bytes;
   append(piece, bytes);
-  shelf_->put(stored_name(part), bytes);
+  shelf_->put(stored_name(part), std::move(bytes));
 }
 
 void DividedMesh::remove_gathered(std::size_t part) {
@@ -396,6 +378,7 @@ void DividedMesh::number_added(const std::vector<std::uint64_t>& added) {
     state_.next_id += count;
   }
   state_.stored = added.size();
+  for (const std::size_t part : own_) shelf_->rename(rest_name(part), kept_name(part));
 }
 
 /// Vertices that were added to a stored piece get their numbers when it is read.
@@ -407,11 +390,23 @@ void DividedMesh::number(std::size_t part, std::vector<VertexId>& ids) const {
 }
 
 Piece DividedMesh::stored(std::size_t part) const {
-  const std::string bytes = shelf_->read(stored_name(part));
-  std::string_view rest = bytes;
-  Piece piece = take_piece(rest);
+  Piece piece;
+  shelf_->visit(stored_name(part), [&](std::string_view bytes) { piece = take_piece(bytes); });
   number(part, piece.ids);
   return piece;
+}
+
+std::vector<Piece> DividedMesh::all_stored(std::size_t part) const {
+  std::vector<Piece> pieces = read_messages(*shelf_, kept_name(part));
+  pieces.insert(pieces.begin(), stored(part));
+  return pieces;
+}
+
+std::vector<Piece> DividedMesh::all_of(std::size_t part) const {
+  if (state_.stored > 0) return all_stored(part);
+  std::vector<Piece> pieces = rest(part);
+  pieces.insert(pieces.begin(), gathered(part));
+  return pieces;
 }
 
 std::vector<VertexId> DividedMesh::stored_ids(std::size_t part) const {
@@ -429,16 +424,33 @@ Piece DividedMesh::stored_vertices(std::size_t part, std::size_t begin, std::siz
   return piece;
 }
 
-void DividedMesh::copy_stored(Shelf& to) const {
-  for (const std::size_t part : own_) to.put(stored_name(part), shelf_->read(stored_name(part)));
+namespace {
+
+void copy(const Shelf& from, const std::string& name, Shelf& to) {
+  std::string bytes = from.read(name);
+  if (!bytes.empty()) to.put(name, std::move(bytes));
 }
 
-void DividedMesh::take_from(const Shelf& from) {
+}  // namespace
+
+void DividedMesh::copy_stored(Shelf& to) const {
   for (const std::size_t part : own_) {
-    const std::string name = state_.stored > 0 ? stored_name(part) : gathered_name(part);
-    const std::string bytes = from.read(name);
-    if (bytes.empty() && state_.stored > 0) throw Error(fmt::format("there is no {}", name));
-    shelf_->put(name, bytes);
+    copy(*shelf_, stored_name(part), to);
+    copy(*shelf_, kept_name(part), to);
+  }
+}
+
+void DividedMesh::take_from(const FolderShelf& from) {
+  for (const std::size_t part : own_) {
+    if (state_.stored > 0 && !from.has(stored_name(part))) {
+      throw Error(fmt::format("there is no {}", stored_name(part)));
+    }
+    for (const auto& name : {stored_name(part), kept_name(part)}) {
+      if (state_.stored > 0) copy(from, name, *shelf_);
+    }
+    for (const auto& name : {gathered_name(part), rest_name(part)}) {
+      if (state_.stored == 0) copy(from, name, *shelf_);
+    }
   }
 }
 
@@ -458,7 +470,7 @@ void DividedMesh::bring_to_first() {
       std::string_view rest = from;
       std::uint64_t part = 0;
       take(rest, part);
-      shelf_->put(stored_name(part), rest);
+      shelf_->put(stored_name(part), std::string(rest));
     }
   }
   own_those_of(std::vector<std::uint32_t>(state_.stored, 0));

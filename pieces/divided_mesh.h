@@ -71,18 +71,27 @@ class DividedMesh {
   void set_slice_marker(std::function<void(Piece&)> marker) { marker_ = std::move(marker); }
   /// All ranks, when all slices are there.
   void end_slices();
-  /// All ranks: divides the stored pieces by the shifted curve, and zones where there are any.
+  /// All ranks: divides the stored pieces by the shifted curve.
   /// @param next where the gathered pieces go; the stored ones stay where they are then. Null: they go.
-  void divide(std::size_t pieces, unsigned shift, ZoneMap zones = {}, Shelf* next = nullptr);
+  void divide(std::size_t pieces, unsigned shift, Shelf* next = nullptr);
+  /// The same, but what is not so many edges from a border of the last division, or nearer, stays with
+  /// the part that has it: see rest(). Precondition: it has been divided in as many pieces.
+  void divide_near_borders(unsigned shift, unsigned rings, Shelf* next = nullptr);
+  /// Likewise: what is in no zone stays.
+  void divide_zones(ZoneMap zones, Shelf* next = nullptr);
   std::size_t parts() const { return state_.parting.parts(); }
   /// Precondition: it has been divided, and this one was not stored since.
   Piece gathered(std::size_t part) const;
+  /// What has stayed with that part in the last division, in several pieces.
+  std::vector<Piece> rest(std::size_t part) const;
+  /// All that this part has: gathered and the rest, or stored and what it has kept.
+  std::vector<Piece> all_of(std::size_t part) const;
   /// Beside the gathered piece of that number, which stays until it is removed.
   void store(std::size_t part, const Piece& piece);
   void remove_gathered(std::size_t part);
   /// After all are stored: their new vertices get numbers. `added` is by part.
   void number_added(const std::vector<std::uint64_t>& added);
-  /// A stored piece.
+  /// A stored piece; of several where something has stayed, the one that was worked on.
   Piece stored(std::size_t part) const;
   /// The ids of its vertices, ascending.
   std::vector<VertexId> stored_ids(std::size_t part) const;
@@ -93,7 +102,7 @@ class DividedMesh {
   void copy_stored(Shelf& to) const;
   /// Copies the pieces of this rank, stored or gathered, from a shelf that has those of all.
   /// @throws Error when one is not there.
-  void take_from(const Shelf& from);
+  void take_from(const FolderShelf& from);
   /// All ranks: vertices of the whole mesh by the ball of the zones that they lie in; last, how many
   /// there are in all. Precondition: its pieces are stored.
   std::vector<std::int64_t> count_vertices(const ZoneMap& zones) const;
@@ -103,10 +112,13 @@ class DividedMesh {
   const std::vector<Traffic>& traffic() const { return traffic_; }
 
  private:
-  Parting make_parting(std::size_t pieces, unsigned shift, ZoneMap zones) const;
+  void each_point(const std::function<void(const Point&)>& use) const;
+  Parting make_parting(std::size_t pieces, unsigned shift) const;
   std::size_t most_own() const;
-  std::vector<std::string> send(std::size_t part, const std::vector<std::uint32_t>& owners,
-                                Shelf& next);
+  void send_all(Parting parting, unsigned rings, Shelf* next);
+  std::vector<std::string> send(std::size_t part, unsigned rings,
+                                const std::vector<std::uint32_t>& owners, Shelf& next);
+  std::vector<Piece> all_stored(std::size_t part) const;
   void keep(std::string_view messages, Shelf& next);
   void number(std::size_t part, std::vector<VertexId>& ids) const;
   void own_those_of(const std::vector<std::uint32_t>& owners);

@@ -138,7 +138,7 @@ SurfaceShare take_share(std::string_view& bytes) {
 }
 
 SurfaceShare share_of_input(const Piece& gathered, const Parting& parting, std::uint32_t number) {
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   MeshData data = to_data(gathered);
   const TetMesh mesh = TetMesh::build(data, {.report = nullptr});
   const SurfaceInput all = read_surface(mesh);
@@ -276,7 +276,7 @@ void HeldSurface::label_points(Piece& piece, VertexId first_new) const {
 }
 
 void HeldSurface::label(Piece& gathered, const Parting& parting, std::uint32_t number) const {
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   std::vector<std::uint32_t> numbers(ids_.size(), kAbsent);  // in the piece, by vertex
   for (std::uint32_t v = 0; v < gathered.ids.size(); ++v) {
     const std::uint32_t at = find(ids_, gathered.ids[v]);
@@ -333,7 +333,7 @@ std::unique_ptr<Envelope> HeldSurface::guard(const TetMesh& mesh, const Piece& p
 std::size_t HeldSurface::count_misfits(const TetMesh& mesh, const Piece& piece,
                                        const Parting& parting, std::uint32_t number) const {
   using Triple = std::array<std::uint32_t, 3>;
-  const std::vector<std::uint32_t> parts = parting.parts_of(piece.points);
+  const std::vector<std::uint32_t> parts = parting.parts_of(piece);
   const auto rotated = [](Triple v) {
     std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
     return v;

@@ -55,18 +55,29 @@ std::vector<std::uint64_t> KeyHistogram::cuts() const {
   return keys;
 }
 
+std::uint32_t Parting::part_of(const Point& point, const HilbertCurve& curve) const {
+  const int zone = zones.find(point);
+  if (zone >= 0) return static_cast<std::uint32_t>(cuts.size()) + static_cast<std::uint32_t>(zone);
+  const auto after = std::upper_bound(cuts.begin() + 1, cuts.end(), curve.key(point));
+  return static_cast<std::uint32_t>(after - cuts.begin() - 1);
+}
+
 std::vector<std::uint32_t> Parting::parts_of(std::span<const Point> points) const {
   const HilbertCurve curve = shifted_curve(low, side, shift);
   std::vector<std::uint32_t> parts(points.size());
   for_chunks(points.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const int zone = zones.find(points[i]);
-      if (zone >= 0) {
-        parts[i] = static_cast<std::uint32_t>(cuts.size()) + static_cast<std::uint32_t>(zone);
-        continue;
-      }
-      const auto after = std::upper_bound(cuts.begin() + 1, cuts.end(), curve.key(points[i]));
-      parts[i] = static_cast<std::uint32_t>(after - cuts.begin() - 1);
+    for (std::size_t i = begin; i < end; ++i) parts[i] = part_of(points[i], curve);
+  });
+  return parts;
+}
+
+std::vector<std::uint32_t> Parting::parts_of(const Piece& gathered) const {
+  if (sends_all) return parts_of(std::span(gathered.points));
+  const HilbertCurve curve = shifted_curve(low, side, shift);
+  std::vector<std::uint32_t> parts(gathered.points.size(), kNoPart);
+  for_chunks(parts.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if ((gathered.marks[v] & kSent) != 0) parts[v] = part_of(gathered.points[v], curve);
     }
   });
   return parts;

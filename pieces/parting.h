@@ -11,6 +11,7 @@
 
 #include "kernel/hilbert.h"
 #include "kernel/mesh_data.h"
+#include "pieces/piece.h"
 #include "pieces/zones.h"
 
 namespace tetmend::pieces {
@@ -57,11 +58,19 @@ struct Parting {
   unsigned shift = 0;
   std::vector<std::uint64_t> cuts = {0};  ///< key at which each stretch begins
   ZoneMap zones = {};                     ///< their parts follow those of the curve
+  bool sends_all = true;                  ///< or only what is left to work on: see kSent
 
+  /// The part of vertices that were not sent: what lies around them is in no gathered piece.
+  static constexpr std::uint32_t kNoPart = 0xFFFFFFFF;
   std::size_t stretches() const { return cuts.size(); }
   std::size_t parts() const { return cuts.size() + zones.count(); }
   /// Part of each point.
   std::vector<std::uint32_t> parts_of(std::span<const Point> points) const;
+  /// Part of each vertex of a gathered piece.
+  std::vector<std::uint32_t> parts_of(const Piece& gathered) const;
+
+ private:
+  std::uint32_t part_of(const Point& point, const HilbertCurve& curve) const;
 };
 
 /// Whether an element belongs to the part: that of its vertices with the lowest number. `parts` is by

@@ -71,7 +71,7 @@ void take_vertices(const Piece& part, std::span<const std::uint32_t> places, Pie
     known[at] = 1;
     whole.points[at] = part.points[i];
     whole.marks[at] =
-        static_cast<std::uint8_t>(whole.marks[at] | (part.marks[i] & (kLasting | kBorder)));
+        static_cast<std::uint8_t>(whole.marks[at] | (part.marks[i] & (kLasting | kBorder | kSent)));
     if (!whole.labels.empty()) whole.labels[at] = part.label(i);
   }
 }
@@ -92,7 +92,17 @@ MeshData to_data(const Piece& piece) {
   return data;
 }
 
+std::size_t byte_count(const Piece& piece) {
+  const auto bytes = [](const auto& array) {
+    return sizeof(std::uint64_t) + array.size() * sizeof(array[0]);
+  };
+  return bytes(piece.ids) + bytes(piece.points) + bytes(piece.labels) + bytes(piece.marks) +
+         bytes(piece.tets) + bytes(piece.triangles) + bytes(piece.edges) + bytes(piece.surface) +
+         bytes(piece.lines);
+}
+
 void append(const Piece& piece, std::string& bytes) {
+  if (bytes.empty()) bytes.reserve(byte_count(piece));
   put(piece.ids, bytes);
   put(piece.points, bytes);
   put(piece.labels, bytes);
@@ -175,6 +185,22 @@ Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t en
   if (labels.count() > 0) piece.labels = labels.values(begin, end);
   piece.marks = marks.values(begin, end);
   return piece;
+}
+
+std::vector<char> near_marked(const Piece& piece, std::uint8_t marks, unsigned rings) {
+  std::vector<char> near(piece.ids.size(), 0);
+  for (std::size_t v = 0; v < near.size(); ++v) near[v] = (piece.marks[v] & marks) != 0 ? 1 : 0;
+  for (unsigned ring = 0; ring < rings; ++ring) {
+    const std::vector<char> inside = near;
+    for (const PieceTet& tet : piece.tets) {
+      const auto& t = tet.vertices;
+      const bool any =
+          std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return inside[v] != 0; });
+      if (!any) continue;
+      for (const std::uint32_t v : t) near[v] = 1;
+    }
+  }
+  return near;
 }
 
 Piece extract(const Piece& from, const Extract& what) {

@@ -23,7 +23,14 @@ inline constexpr std::uint8_t kOwn = 2;       ///< of this piece, not of a neigh
 inline constexpr std::uint8_t kBorder = 4;    ///< of a tet that was shared in the last division
 /// Of a surface that may move a corner. In slices: a vertex that is to be one.
 inline constexpr std::uint8_t kCorner = 8;
+inline constexpr std::uint8_t kSent = 16;  ///< tets around it were sent to the part that it lies in
+/// Not sent, but of a tet that was: other pieces have it, too.
+inline constexpr std::uint8_t kSeam = 32;
 inline constexpr std::uint8_t kLasting = kRequired | kCorner;  ///< marks that a vertex never loses
+
+inline bool is_own(std::uint8_t marks) {
+  return (marks & kOwn) != 0;
+}
 
 struct PieceTet {
   std::array<std::uint32_t, 4> vertices{};  ///< in the piece
@@ -60,6 +67,8 @@ MeshData to_data(const Piece& piece);
 
 /// Appends the piece to `bytes`: 30 bytes a tet.
 void append(const Piece& piece, std::string& bytes);
+/// So many bytes are appended.
+std::size_t byte_count(const Piece& piece);
 
 /// Takes a piece off the front of `bytes`.
 /// @throws Error when they end too early, or name a vertex that is not there.
@@ -71,6 +80,9 @@ using ReadBytes = std::function<std::string(std::uint64_t begin, std::uint64_t s
 Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t end);
 /// The ids alone, of all vertices.
 std::vector<VertexId> read_ids(const ReadBytes& read);
+
+/// A mark for each vertex that is so many edges from one with one of these marks, or nearer.
+std::vector<char> near_marked(const Piece& piece, std::uint8_t marks, unsigned rings);
 
 /// The vertices of `wanted` (a mark for each) and these elements of a piece, with numbers of their own.
 struct Extract {

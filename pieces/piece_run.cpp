@@ -152,7 +152,7 @@ void PieceRun::agree_on_stop() {
 }
 
 void PieceRun::divide_first(Shelf* next) {
-  if (!state_.is_divided) mesh_.divide(division_.pieces, 0, {}, next);
+  if (!state_.is_divided) mesh_.divide(division_.pieces, 0, next);
   state_.is_divided = true;
 }
 
@@ -228,7 +228,7 @@ std::optional<StepRecord> PieceRun::begin_step(Shelf* next) {
   if (step < division_.divisions) {
     record.number = step + 1;
     record.pieces = division_.pieces;
-    if (!state_.is_divided) mesh_.divide(division_.pieces, step, {}, next);
+    if (!state_.is_divided) divide_for(record, next);
     state_.is_divided = true;
     return record;
   }
@@ -241,11 +241,22 @@ std::optional<StepRecord> PieceRun::begin_step(Shelf* next) {
   if (!state_.is_divided) {
     const bool is_next_pair = round > 0 && round % 2 == 0;
     if (is_next_pair && !is_better(last, state_.records[step - 3].after)) return std::nullopt;
-    mesh_.divide(division_.pieces, division_.divisions - 1, make_zones(last), next);
+    mesh_.divide_zones(make_zones(last), next);
     state_.is_divided = true;
   }
   record.pieces = mesh_.parts() - mesh_.state().parting.stretches();
   return record;
+}
+
+/// A tet may change that has a vertex near a border: its others are one edge further.
+void PieceRun::divide_for(const StepRecord& record, Shelf* next) {
+  const unsigned shift = record.number - 1;
+  const unsigned rings = rings_of(record);
+  if (rings > 0) {
+    mesh_.divide_near_borders(shift, rings + 1, next);
+  } else {
+    mesh_.divide(division_.pieces, shift, next);
+  }
 }
 
 /// Around the worst tets, none larger than a piece. In vertices, for these are read without the rest.
@@ -287,6 +298,9 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
   outcome.added = result.added;
   outcome.stayed = result.went_back;
   outcome.standing = standing_of(result.piece, options_.standard, parting.side);
+  for (const Piece& rest : mesh_.rest(part)) {
+    outcome.standing.add(standing_of(rest, options_.standard, parting.side));
+  }
   for (std::size_t i = 0; i < kVerdictCount; ++i) outcome.verdicts[i] = result.verdicts[i];
   outcome.items = result.items;
   outcome.deferred = result.deferred;
@@ -388,7 +402,7 @@ void PieceRun::store_unchanged() {
 
 Figures PieceRun::measure_after(Shelf* next) {
   if (state_.is_divided) store_unchanged();  // the run was stopped before its first round
-  mesh_.divide(division_.pieces, division_.divisions, {}, next);
+  mesh_.divide(division_.pieces, division_.divisions, next);
   std::vector<PartFigures> mine;
   std::vector<std::pair<std::uint64_t, SurfaceShare>> shares;
   for (const std::size_t part : mesh_.own()) {

@@ -152,6 +152,7 @@ class PieceRun {
 
  private:
   void divide_first(Shelf* next);
+  void divide_for(const StepRecord& record, Shelf* next);
   Piece gathered(std::size_t part) const;
   ZoneMap make_zones(const Standing& last) const;
   std::vector<PartOutcome> share(std::vector<PartOutcome> mine);

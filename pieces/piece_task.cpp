@@ -49,32 +49,22 @@ Piece keep_own(const Piece& all, std::span<const std::uint32_t> parts, std::uint
 void mark(Piece& piece, std::span<const std::uint32_t> parts, std::uint32_t number) {
   for (std::size_t v = 0; v < parts.size(); ++v) {
     const unsigned lasting = piece.marks[v] & unsigned{kLasting};
-    piece.marks[v] = static_cast<std::uint8_t>(lasting | (parts[v] == number ? kOwn : 0U));
+    const unsigned of_part = parts[v] == number ? kOwn : parts[v] == Parting::kNoPart ? kSeam : 0U;
+    piece.marks[v] = static_cast<std::uint8_t>(lasting | of_part);
   }
   for (const PieceTet& tet : piece.tets) {
-    const auto& t = tet.vertices;
-    const auto is_first = [&](std::uint32_t v) { return parts[v] == parts[t[0]]; };
-    if (std::all_of(t.begin(), t.end(), is_first)) continue;
-    for (const std::uint32_t v : t)
+    std::uint32_t part = Parting::kNoPart;
+    bool is_shared = false;
+    for (const std::uint32_t v : tet.vertices) {
+      if (parts[v] == Parting::kNoPart) continue;
+      is_shared = is_shared || (part != Parting::kNoPart && parts[v] != part);
+      part = parts[v];
+    }
+    if (!is_shared) continue;
+    for (const std::uint32_t v : tet.vertices) {
       piece.marks[v] = static_cast<std::uint8_t>(piece.marks[v] | kBorder);
-  }
-}
-
-/// A mark for each vertex that is so many edges from a border of the last division, or nearer.
-std::vector<char> near_borders(const Piece& piece, unsigned rings) {
-  std::vector<char> near(piece.ids.size(), 0);
-  for (std::size_t v = 0; v < near.size(); ++v) near[v] = (piece.marks[v] & kBorder) != 0 ? 1 : 0;
-  for (unsigned ring = 0; ring < rings; ++ring) {
-    const std::vector<char> inside = near;
-    for (const PieceTet& tet : piece.tets) {
-      const auto& t = tet.vertices;
-      const bool any =
-          std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return inside[v] != 0; });
-      if (!any) continue;
-      for (const std::uint32_t v : t) near[v] = 1;
     }
   }
-  return near;
 }
 
 /// Tets that stay: protected, shared, or far from where something is left to do.
@@ -85,7 +75,8 @@ class StayingTets {
               unsigned rings)
       : parts_(parts),
         number_(number),
-        near_(rings > 0 ? near_borders(piece, rings) : std::vector<char>(piece.ids.size(), 1)) {}
+        near_(rings > 0 ? near_marked(piece, kBorder, rings)
+                        : std::vector<char>(piece.ids.size(), 1)) {}
 
   bool operator()(const PieceTet& tet) const {
     const auto& v = tet.vertices;
@@ -129,7 +120,7 @@ class Task {
   Task(const Piece& gathered, const Parting& parting, std::uint32_t number,
        const TaskOptions& options, const HeldSurface* surface)
       : gathered_(gathered),
-        parts_(parting.parts_of(gathered.points)),
+        parts_(parting.parts_of(gathered)),
         number_(number),
         options_(options),
         surface_(surface) {}
@@ -192,7 +183,7 @@ void Task::freeze(const TaskLimits& limits) {
     return stays(gathered_.tets[tet_numbers_[t.index()]]);
   });
   if (limits.rings == 0) return;
-  const std::vector<char> is_fresh = near_borders(gathered_, limits.fresh_rings);
+  const std::vector<char> is_fresh = near_marked(gathered_, kBorder, limits.fresh_rings);
   for (std::uint32_t slot = 0; slot < mesh_.vertex_slots(); ++slot) {
     const VertexHandle v(slot);
     if (is_fresh[mesh_.origin(v)] != 0) MeshBuilder::set_changed(mesh_, v, kFresh);
@@ -382,7 +373,7 @@ TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t 
 }
 
 Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t number) {
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   Piece all = gathered;
   mark(all, parts, number);
   return keep_own(all, parts, number);
@@ -390,7 +381,7 @@ Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t numb
 
 std::optional<double> worst_free(const Piece& gathered, const Parting& parting,
                                  std::uint32_t number, unsigned rings, const Standard& standard) {
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   const StayingTets stays(gathered, parts, number, rings);
   const double scale = scale_of(parting.side);
   std::optional<double> worst;
@@ -514,7 +505,7 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
                     const Standard& standard, const HeldSurface* surface) {
   Figures figures;
   const Piece own = own_part(gathered, parting, number);
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered.points);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   {
     BuildReport report;
     MeshData data = to_data(gathered);

@@ -64,12 +64,11 @@ void PieceTrace::locate(const DividedMesh& mesh, std::optional<std::size_t> part
       }
     }
   };
-  const bool is_divided = mesh.state().stored == 0;
   if (part) {
     look_in(mesh.gathered(*part));
   } else {
     for (const std::size_t own : mesh.own()) {
-      look_in(is_divided ? mesh.gathered(own) : mesh.stored(own));
+      for (const Piece& piece : mesh.all_of(own)) look_in(piece);
     }
   }
   for (const std::string& from : mesh.ranks().gather(mine)) {

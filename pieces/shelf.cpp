@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,12 +25,21 @@ namespace {
 
 }  // namespace
 
-void MemoryShelf::append(const std::string& name, std::string_view bytes) {
-  bytes_[name].emplace_back(bytes);
+void MemoryShelf::append(const std::string& name, std::string bytes) {
+  bytes_[name].push_back(std::move(bytes));
 }
 
-void MemoryShelf::put(const std::string& name, std::string_view bytes) {
-  bytes_[name] = {std::string(bytes)};
+void MemoryShelf::put(const std::string& name, std::string bytes) {
+  std::vector<std::string>& parts = bytes_[name];
+  parts.clear();
+  parts.push_back(std::move(bytes));
+}
+
+void MemoryShelf::visit(const std::string& name,
+                        const std::function<void(std::string_view)>& use) const {
+  const auto found = bytes_.find(name);
+  if (found == bytes_.end()) return;
+  for (const std::string& part : found->second) use(part);
 }
 
 std::string MemoryShelf::read(const std::string& name) const {
@@ -58,7 +68,15 @@ void MemoryShelf::remove(const std::string& name) {
   bytes_.erase(name);
 }
 
-void FolderShelf::append(const std::string& name, std::string_view bytes) {
+void MemoryShelf::rename(const std::string& from, const std::string& to) {
+  auto node = bytes_.extract(from);
+  if (node.empty()) return;
+  bytes_.erase(to);
+  node.key() = to;
+  bytes_.insert(std::move(node));
+}
+
+void FolderShelf::append(const std::string& name, std::string bytes) {
   const std::filesystem::path file = folder_ / name;
   errno = 0;
   std::ofstream out(file, std::ios::binary | std::ios::app);
@@ -67,14 +85,20 @@ void FolderShelf::append(const std::string& name, std::string_view bytes) {
   if (!out) fail("cannot write", file, errno);
 }
 
-void FolderShelf::put(const std::string& name, std::string_view bytes) {
+void FolderShelf::put(const std::string& name, std::string bytes) {
   if (lasts_ == Lasts::until_the_end) {
     remove(name);
-    return append(name, bytes);
+    return append(name, std::move(bytes));
   }
   OutputFile out(folder_ / name);
   out.put(bytes);
   out.commit();
+}
+
+void FolderShelf::visit(const std::string& name,
+                        const std::function<void(std::string_view)>& use) const {
+  const std::string bytes = read(name);
+  if (!bytes.empty()) use(bytes);
 }
 
 bool FolderShelf::has(const std::string& name) const {
@@ -105,6 +129,13 @@ std::string FolderShelf::read(const std::string& name, std::uint64_t begin,
 void FolderShelf::remove(const std::string& name) {
   std::error_code ignored;
   std::filesystem::remove(folder_ / name, ignored);
+}
+
+void FolderShelf::rename(const std::string& from, const std::string& to) {
+  if (!has(from)) return;
+  std::error_code error;
+  std::filesystem::rename(folder_ / from, folder_ / to, error);
+  if (error) fail("cannot rename", folder_ / from, error.value());
 }
 
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -16,24 +17,32 @@ class Shelf {
  public:
   virtual ~Shelf() = default;
   /// Behind what has that name; the name is new otherwise. @throws Error for a full disk.
-  virtual void append(const std::string& name, std::string_view bytes) = 0;
+  virtual void append(const std::string& name, std::string bytes) = 0;
   /// In the place of what has that name.
-  virtual void put(const std::string& name, std::string_view bytes) = 0;
+  virtual void put(const std::string& name, std::string bytes) = 0;
+  /// Calls `use` with all of it, in its order: at once, or with what each append() has brought.
+  virtual void visit(const std::string& name,
+                     const std::function<void(std::string_view)>& use) const = 0;
   /// All of it; empty if there is none of that name. @throws Error for a file that cannot be read.
   virtual std::string read(const std::string& name) const = 0;
   /// Some of it, as far as there is so much.
   virtual std::string read(const std::string& name, std::uint64_t begin,
                            std::uint64_t size) const = 0;
   virtual void remove(const std::string& name) = 0;
+  /// In the place of what has the new name. Does nothing where there is none of the old one.
+  virtual void rename(const std::string& from, const std::string& to) = 0;
 };
 
 class MemoryShelf final : public Shelf {
  public:
-  void append(const std::string& name, std::string_view bytes) override;
-  void put(const std::string& name, std::string_view bytes) override;
+  void append(const std::string& name, std::string bytes) override;
+  void put(const std::string& name, std::string bytes) override;
+  void visit(const std::string& name,
+             const std::function<void(std::string_view)>& use) const override;
   std::string read(const std::string& name) const override;
   std::string read(const std::string& name, std::uint64_t begin, std::uint64_t size) const override;
   void remove(const std::string& name) override;
+  void rename(const std::string& from, const std::string& to) override;
 
  private:
   /// Parts as they came: one string that grows would have room for twice as much.
@@ -50,11 +59,14 @@ class FolderShelf final : public Shelf {
   explicit FolderShelf(std::filesystem::path folder, Lasts lasts = Lasts::until_the_end)
       : folder_(std::move(folder)), lasts_(lasts) {}
 
-  void append(const std::string& name, std::string_view bytes) override;
-  void put(const std::string& name, std::string_view bytes) override;
+  void append(const std::string& name, std::string bytes) override;
+  void put(const std::string& name, std::string bytes) override;
+  void visit(const std::string& name,
+             const std::function<void(std::string_view)>& use) const override;
   std::string read(const std::string& name) const override;
   std::string read(const std::string& name, std::uint64_t begin, std::uint64_t size) const override;
   void remove(const std::string& name) override;
+  void rename(const std::string& from, const std::string& to) override;
   bool has(const std::string& name) const;
 
  private:

@@ -153,7 +153,7 @@ void provide_crash_stack();
 std::size_t peak_memory() noexcept;
 /// Gives the system back what was freed, where it would stay in pieces of the heap.
 void trim_heap() noexcept;
-/// From now on blocks of this size and more go back to the system as soon as they are freed.
+/// From now on blocks of this size go back as soon as they are freed; the heap grows by as much.
 void give_back_blocks_from(int bytes) noexcept;
 
 // ---- shared libraries

@@ -403,6 +403,7 @@ void trim_heap() noexcept {
 void give_back_blocks_from([[maybe_unused]] int bytes) noexcept {
 #ifdef __GLIBC__
   ::mallopt(M_MMAP_THRESHOLD, bytes);
+  ::mallopt(M_TOP_PAD, bytes);
 #endif
 }
 

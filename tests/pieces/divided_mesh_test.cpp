@@ -16,14 +16,54 @@ using namespace tetmend::pieces;
 
 namespace {
 
-/// Divides and stores again without work.
-void divide_idly(DividedMesh& mesh, std::size_t pieces, unsigned shift) {
-  mesh.divide(pieces, shift);
+/// Stores again without work.
+void store_idly(DividedMesh& mesh) {
   for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
     mesh.store(part, own_part(mesh.gathered(part), mesh.state().parting, part));
     mesh.remove_gathered(part);
   }
   mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
+}
+
+void divide_idly(DividedMesh& mesh, std::size_t pieces, unsigned shift) {
+  mesh.divide(pieces, shift);
+  store_idly(mesh);
+}
+
+/// Each gathered piece has all tets around its vertices. Each tet and each vertex is the own of one of
+/// them, or of what has stayed. @returns how many tets were sent
+std::size_t check_division(const MeshData& data, const DividedMesh& mesh) {
+  std::vector<std::size_t> tets_around(data.points.size(), 0);
+  for (const MeshData::Tet& tet : data.tets) {
+    for (const std::uint32_t v : tet.vertices) ++tets_around[v];
+  }
+  std::vector<unsigned> times(data.tets.size(), 0);
+  std::vector<unsigned> times_own(data.points.size(), 0);
+  std::size_t sent = 0;
+  for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
+    const Piece gathered = mesh.gathered(part);
+    std::vector<std::size_t> around_here(gathered.ids.size(), 0);
+    for (const PieceTet& tet : gathered.tets) {
+      for (const std::uint32_t v : tet.vertices) ++around_here[v];
+    }
+    const std::vector<std::uint32_t> parts = mesh.state().parting.parts_of(gathered);
+    for (std::size_t v = 0; v < parts.size(); ++v) {
+      if (parts[v] == part) CHECK(around_here[v] == tets_around[gathered.ids[v]]);
+    }
+    const auto count = [&](const Piece& piece) {
+      for (const PieceTet& tet : piece.tets) ++times[tet.origin];
+      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
+        if (is_own(piece.marks[v])) ++times_own[piece.ids[v]];
+      }
+    };
+    const Piece own = own_part(gathered, mesh.state().parting, part);
+    sent += own.tets.size();
+    count(own);
+    for (const Piece& rest : mesh.rest(part)) count(rest);
+  }
+  CHECK(times == std::vector<unsigned>(times.size(), 1));
+  CHECK(times_own == std::vector<unsigned>(times_own.size(), 1));
+  return sent;
 }
 
 std::multiset<std::array<std::uint32_t, 4>> tets_of(const MeshData& data) {
@@ -78,6 +118,40 @@ TEST_CASE("a gathered piece has all tets around its vertices, and each tet is th
   }
   CHECK(times_own.size() == data.tets.size());
   for (const auto& [tet, times] : times_own) CHECK(times == 1);
+}
+
+TEST_CASE("what is near no border and in no zone stays, and nothing is lost or doubled") {
+  const MeshData data = test::lattice(12);
+  MemoryShelf shelf;
+  OneRank ranks;
+  DividedMesh mesh(shelf, ranks, data.points.size());
+  add_slices(data, {}, mesh);
+  mesh.end_slices();
+  divide_idly(mesh, 4, 0);
+  std::vector<std::size_t> sent;
+  const auto check = [&] {
+    sent.push_back(check_division(data, mesh));
+    store_idly(mesh);
+  };
+  for (const unsigned shift : {1u, 2u}) {
+    mesh.divide_near_borders(shift, 1);
+    check();
+  }
+  for (const double side : {0.3, 0.7, 0.3}) {
+    const WorstTet tet{0, Point(6, side * 12, 6), 0.5};
+    mesh.divide_zones(ZoneMap({&tet, 1}));
+    check();
+  }
+  for (const std::size_t tets : sent) {
+    CHECK(tets > 0);
+    CHECK(tets < data.tets.size());
+  }
+  divide_idly(mesh, 4, 3);
+  const Joined joined = join(mesh, data.points.size());
+  CHECK(joined.data.points == data.points);
+  CHECK(tets_of(joined.data) == tets_of(data));
+  CHECK(joined.data.triangles == data.triangles);
+  CHECK(joined.data.edges == data.edges);
 }
 
 TEST_CASE("into how many slices a file was cut does not show") {
