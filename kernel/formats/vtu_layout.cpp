@@ -105,7 +105,10 @@ class Outliner {
     const std::string_view tag = std::string_view(outline_.xml).substr(first);
     expect(!tag.starts_with("<!"));
     if (tag.ends_with("/>")) return false;
-    if (tag.starts_with("<AppendedData")) begin_appended();
+    if (tag.starts_with("<AppendedData")) {
+      begin_appended();  // `tag` is gone
+      return false;
+    }
     constexpr std::string_view kArray = "<DataArray";
     if (!tag.starts_with(kArray) || is_name(tag[kArray.size()])) return false;
     // A number by which it is found again.
