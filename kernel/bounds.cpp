@@ -105,7 +105,7 @@ Bounds Bounds::of(const TetMesh& mesh) {
     bounds.least_volume_length2_ = worst.volume_length2;
     bounds.least_radius_ratio_ = worst.radius_ratio;
     bounds.most_edge_ratio2_ = std::max(worst.edge_ratio2, kEdgeRatio * kEdgeRatio);
-    bounds.any_ = true;
+    bounds.safe_ = 0;
     return bounds.under(standard);
   };
   // What is safe cannot be worse: with some bad tets that is all the rest, as a rule.
@@ -113,7 +113,7 @@ Bounds Bounds::of(const TetMesh& mesh) {
   if (safe > kBadThreshold) worst.include(worst_shape(mesh, kBadThreshold, safe));
   const Bounds now = bounds_by();
   // A mesh that has bounds keeps them, with its angles of now where these are tighter.
-  if (!mesh.bounds().any_) return now;
+  if (!mesh.bounds().any()) return now;
   Bounds tighter = mesh.bounds();
   tighter.least_sine2_ = std::max(tighter.least_sine2_, now.least_sine2_);
   tighter.least_obtuse_sine2_ = std::max(tighter.least_obtuse_sine2_, now.least_obtuse_sine2_);
@@ -122,8 +122,8 @@ Bounds Bounds::of(const TetMesh& mesh) {
 
 Bounds Bounds::under(const Standard& standard) const {
   Bounds bounds = *this;
-  if (!any_) return bounds;
-  bounds.safe_ = std::numeric_limits<Quality>::infinity();
+  if (!any()) return bounds;
+  bounds.safe_ = std::numeric_limits<double>::infinity();
   if (standard.terms() != Standard::Terms::sine_and_length) return bounds;
   // Mean ratio^3 <= radius ratio [liu_joe].
   const double least_length2 = std::max(least_volume_length2_, least_radius_ratio_);
@@ -131,8 +131,38 @@ Bounds Bounds::under(const Standard& standard) const {
       std::max({standard.acute2() * least_sine2_, standard.obtuse2() * least_obtuse_sine2_,
                 standard.flat2() + standard.length() / 432 * least_length2,
                 1.0});  // no tet of quality 1 has an edge ratio of 10
-  bounds.safe_ = static_cast<Quality>(std::sqrt(safe2) * (1 + 1e-6));
+  bounds.safe_ = std::sqrt(safe2) * (1 + 1e-6);
   return bounds;
+}
+
+Bounds Bounds::of_goal(const Standard& standard) {
+  Bounds bounds;
+  bounds.least_sine2_ = bounds.least_volume_length2_ = bounds.least_radius_ratio_ = 1;
+  bounds.least_obtuse_sine2_ = 1 / standard.obtuse2();
+  bounds.most_edge_ratio2_ = kEdgeRatio * kEdgeRatio;
+  bounds.safe_ = 0;
+  return bounds.under(standard);
+}
+
+void Bounds::widen(const Point& a, const Point& b, const Point& c, const Point& d) {
+  Bounds other;
+  if (volume6(a, b, c, d) > 0) {
+    const Shape shape(a, b, c, d);
+    other.least_sine2_ = shape.sine2;
+    other.least_obtuse_sine2_ = shape.obtuse_sine2;
+    other.least_volume_length2_ = shape.volume_length2;
+    other.least_radius_ratio_ = shape.radius_ratio;
+    other.most_edge_ratio2_ = shape.edge_ratio2;
+  }
+  widen(other);
+}
+
+void Bounds::widen(const Bounds& other) {
+  least_sine2_ = std::min(least_sine2_, other.least_sine2_);
+  least_obtuse_sine2_ = std::min(least_obtuse_sine2_, other.least_obtuse_sine2_);
+  least_volume_length2_ = std::min(least_volume_length2_, other.least_volume_length2_);
+  least_radius_ratio_ = std::min(least_radius_ratio_, other.least_radius_ratio_);
+  most_edge_ratio2_ = std::max(most_edge_ratio2_, other.most_edge_ratio2_);
 }
 
 bool Bounds::admit(const Point& a, const Point& b, const Point& c, const Point& d) const {

@@ -23,23 +23,32 @@ class TETMEND_API Bounds {
   /// radius ratio, no larger ratio of edges of a tet than it has or 10. Bounds that a mesh has stay; its
   /// angles of now make them tighter. Cost: one pass over the tets. Inverted tets bound nothing.
   static Bounds of(const TetMesh& mesh);
+  /// Of no tet yet: what the goal allows, to be widened tet by tet. What comes of it are the bounds of a
+  /// mesh of these tets, in whatever order they came.
+  static Bounds of_goal(const Standard& standard);
+
+  /// From now on they admit the tet, too. One that is not in positive order: all.
+  void widen(const Point& a, const Point& b, const Point& c, const Point& d);
+  /// From now on they admit what the other ones do. Both come from of_goal().
+  void widen(const Bounds& other);
 
   /// The same bounds where tets are judged by another standard.
   Bounds under(const Standard& standard) const;
 
   /// Tets of this quality or more keep the bounds, whatever their shape.
-  Quality safe() const { return safe_; }
+  Quality safe() const { return static_cast<Quality>(safe_); }
   /// Precondition: the tet is in positive order.
   bool admit(const Point& a, const Point& b, const Point& c, const Point& d) const;
 
  private:
+  bool any() const { return safe_ > -std::numeric_limits<double>::infinity(); }
+
   double least_sine2_ = 0;           // of an acute angle
   double least_obtuse_sine2_ = 0;    // of an obtuse one
   double least_volume_length2_ = 0;  // mean ratio = volume-length^(2/3)
   double least_radius_ratio_ = 0;
   double most_edge_ratio2_ = std::numeric_limits<double>::infinity();
-  bool any_ = false;
-  Quality safe_ = -std::numeric_limits<Quality>::infinity();
+  double safe_ = -std::numeric_limits<double>::infinity();  // that: no bounds
 };
 
 }  // namespace tetmend

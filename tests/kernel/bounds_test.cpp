@@ -125,6 +125,36 @@ TEST_CASE("a mesh without bounds, and one with an inverted tet, admit all") {
   CHECK_FALSE(admits(Bounds::of(mesh), wedge(10)));
 }
 
+TEST_CASE("widened tet by tet, or part by part, bounds are those of a mesh of these tets") {
+  const TetMesh mesh = mesh_of(wedge(10));
+  const Bounds expected = Bounds::of(mesh);
+  const Bounds none = Bounds::of_goal(mesh.standard());
+  std::array<Bounds, 2> parts = {none, none};
+  for (std::uint32_t slot = 0; slot < 2; ++slot) {
+    const TetVertices& v = mesh.vertices(TetHandle(slot));
+    parts[slot].widen(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  }
+  CHECK_FALSE(admits(none, wedge(29)));
+  CHECK_FALSE(admits(parts[0], {Point(0, 0, 0), Point(1, 0, 0), Point(0.5, std::sqrt(0.75), 0),
+                                Point(0.5, 0.3, 29)}));
+  Bounds all = parts[1];
+  all.widen(parts[0]);
+  CHECK(all.under(mesh.standard()).safe() == expected.safe());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  unsigned admitted = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    Corners p;
+    for (Point& x : p) x = Point(coordinate(random), coordinate(random), coordinate(random));
+    CHECK(admits(all, p) == admits(expected, p));
+    admitted += admits(all, p) ? 1 : 0;
+  }
+  CHECK(admitted > 1000);
+  CHECK(admitted < 19'000);
+  all.widen(Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1));  // inverted
+  CHECK(admits(all, wedge(0.001)));
+}
+
 TEST_CASE("a tet of the quality that is called safe keeps the bounds") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> coordinate(-1, 1);
