@@ -68,7 +68,7 @@ void append(const DivisionState& state, std::string& bytes) {
     put(ball.radius, bytes);
     put(ball.zone, bytes);
     put(ball.cluster, bytes);
-    put(ball.is_worst, bytes);
+    put(ball.rank, bytes);
   }
 }
 
@@ -98,7 +98,7 @@ DivisionState take_state(std::string_view& bytes) {
     take(bytes, ball.radius);
     take(bytes, ball.zone);
     take(bytes, ball.cluster);
-    take(bytes, ball.is_worst);
+    take(bytes, ball.rank);
   }
   state.parting.zones = ZoneMap(std::move(balls));
   return state;

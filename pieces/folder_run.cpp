@@ -35,8 +35,8 @@ class Tools {
       : options_(options),
         plan_(options),
         watcher_(options),
-        in_zones_(zone_settings(plan_.schedule, options.set)),
-        task_{plan_.registry, plan_.schedule, options_.set, in_zones_, plan_.standard} {
+        settings_(plan_.schedule, options.set),
+        task_{plan_.registry, plan_.schedule, settings_, plan_.standard} {
     task_.check_operators = options.check_operators;
     task_.watch = [this](Run& run) {
       run.set_listener(&watcher_);
@@ -58,7 +58,7 @@ class Tools {
   const Options& options_;
   face::Plan plan_;
   face::Watcher watcher_;
-  ScheduleSettings in_zones_;
+  AimSettings settings_;
   QualityIndicators now_;
   TaskOptions task_;
 };
@@ -117,6 +117,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       const MeshStatistics& before = saved.before.statistics;
       saved.run.limits = {before.tets, before.n_bad,
                           tools.plan().growth.most(before.tets).value_or(RunLimits().most_tets)};
+      saved.run.bounds = steps.state().bounds;
       saved.mesh = mesh.state();
       run_folder.save(saved);
     } catch (...) {

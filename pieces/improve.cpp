@@ -200,8 +200,8 @@ MeshData Improvement::source(const TetMesh& mesh) const {
 void Improvement::work() {
   watcher_.begin(Stage::improving);
   const Stopwatch watch(result_.improving);
-  const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
-  TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
+  const AimSettings settings(plan_.schedule, options_.set);
+  TaskOptions task{plan_.registry, plan_.schedule, settings, plan_.standard};
   task.size_field = size_field_;
   task.trace = &trace_;
   task.check_operators = options_.check_operators;

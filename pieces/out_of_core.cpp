@@ -103,8 +103,8 @@ class FileRun {
 
 Result FileRun::run() {
   result_.goal = options_.goal;
-  const ScheduleSettings in_zones = zone_settings(plan_.schedule, options_.set);
-  TaskOptions task{plan_.registry, plan_.schedule, options_.set, in_zones, plan_.standard};
+  const AimSettings settings(plan_.schedule, options_.set);
+  TaskOptions task{plan_.registry, plan_.schedule, settings, plan_.standard};
   task.fault = files_.fault;
   task.trace = &trace_;
   task.check_operators = options_.check_operators;

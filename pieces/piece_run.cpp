@@ -92,6 +92,8 @@ PartOutcome take_outcome(std::string_view& bytes) {
 void append(const RunState& state, std::string& bytes) {
   put(state.limits, bytes);
   put(state.is_divided, bytes);
+  put(state.bounds.has_value(), bytes);
+  put(state.bounds.value_or(Bounds()), bytes);
   put(std::uint64_t{state.records.size()}, bytes);
   for (const StepRecord& record : state.records) {
     put(record.is_zones, bytes);
@@ -110,6 +112,11 @@ RunState take_run_state(std::string_view& bytes) {
   RunState state;
   take(bytes, state.limits);
   take(bytes, state.is_divided);
+  bool has_bounds = false;
+  Bounds bounds;
+  take(bytes, has_bounds);
+  take(bytes, bounds);
+  if (has_bounds) state.bounds = bounds;
   std::uint64_t count = 0;
   take(bytes, count);
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -190,15 +197,48 @@ Piece PieceRun::gathered(std::size_t part) const {
 Figures PieceRun::measure_before(Shelf* next) {
   divide_first(next);
   std::vector<PartFigures> mine;
+  Bounds bounds = Bounds::of_goal(options_.standard);
   for (const std::size_t part : mesh_.own()) {
-    mine.push_back({part, measure_own(mesh_.gathered(part), mesh_.state().parting,
-                                      static_cast<std::uint32_t>(part), options_.standard)});
+    const Piece piece = mesh_.gathered(part);
+    const Parting& parting = mesh_.state().parting;
+    const auto number = static_cast<std::uint32_t>(part);
+    mine.push_back({part, measure_own(piece, parting, number, options_.standard)});
+    bounds.widen(bounds_of_own(piece, parting, number, options_.standard));
   }
+  agree_on_bounds(bounds);
   return sum(mine, mesh_.ranks());
+}
+
+/// No piece may have worse tets than the whole mesh had: which piece has which must not show, and a
+/// good one must not be held to its own worst.
+void PieceRun::agree_on_bounds(const Bounds& mine) {
+  Bounds all = mine;
+  std::string bytes;
+  put(mine, bytes);
+  for (const std::string& from : mesh_.ranks().gather(bytes)) {
+    std::string_view rest = from;
+    Bounds other;
+    take(rest, other);
+    all.widen(other);
+  }
+  state_.bounds = all;
+}
+
+void PieceRun::find_bounds() {
+  Bounds bounds = Bounds::of_goal(options_.standard);
+  for (const std::size_t part : mesh_.own()) {
+    bounds.widen(bounds_of_own(mesh_.gathered(part), mesh_.state().parting,
+                               static_cast<std::uint32_t>(part), options_.standard));
+  }
+  agree_on_bounds(bounds);
 }
 
 void PieceRun::run() {
   agree_on_stop();
+  if (!stopped_ && !state_.bounds) {
+    divide_first(nullptr);
+    find_bounds();
+  }
   while (!stopped_) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<StepRecord> record = begin_step();
@@ -259,13 +299,15 @@ void PieceRun::divide_for(const StepRecord& record, Shelf* next) {
   }
 }
 
-/// Around the worst tets, none larger than a piece. In vertices, for these are read without the rest.
+/// Around the worst tets, none that takes more memory than a piece: balls have more tets at their
+/// border. In vertices, for these are read without the rest.
 ZoneMap PieceRun::make_zones(const Standing& last) const {
   ZoneMap zones(last.worst.take());
   const std::vector<std::int64_t> counts = mesh_.count_vertices(zones);
   const auto vertices = static_cast<std::uint64_t>(counts.back());
   const std::uint64_t tets = std::max<std::uint64_t>(last.tets, 1);
-  const std::uint64_t most = std::max<std::uint64_t>(tets / division_.pieces, division_.least_zone);
+  const std::uint64_t most =
+      std::max<std::uint64_t>(2 * tets / 3 / division_.pieces, division_.least_zone);
   zones.cut(std::span(counts).first(zones.balls().size()),
             static_cast<std::int64_t>(std::max<std::uint64_t>(most * vertices / tets, 1)));
   return zones;
@@ -344,18 +386,23 @@ unsigned PieceRun::rings_of(const StepRecord& record) const {
   return !record.is_zones && record.number > 1 ? division_.rings : 0;
 }
 
-/// Rounds of zones take turns: what one cannot move, the other often can. Those for the worst tets may
-/// cost mild ones, and the others remove these again.
-bool PieceRun::is_for_worst(const StepRecord& record) {
-  return record.is_zones && record.number % 2 == 0;
+/// Rounds of zones take turns. Those for the worst tets may cost mild ones, and the others remove
+/// these again. The worst come first: once all around them is polished, they are harder to move.
+/// Pieces leave the worst to them, for a border spoils what is done with costly operators. But zones
+/// have only so many: in a mesh that is too large for that each piece goes for its worst.
+Aim PieceRun::aim_of(const StepRecord& record) const {
+  constexpr std::uint64_t kTetsOfEach = 2'000;
+  if (record.is_zones) return record.number % 2 == 1 ? Aim::worst : Aim::but_worst;
+  return state_.limits.tets / kTetsOfEach > WorstTets::kMost ? Aim::all : Aim::but_worst;
 }
 
 /// Each has an equal share of what the mesh may grow by, and zones have one of the bad tets that were
 /// removed: see ZoneMap::share(). Whoever would need more stays as it was.
 TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const {
   TaskLimits limits;
+  limits.bounds = state_.bounds.value_or(Bounds());
   limits.is_zone = record.is_zones;
-  limits.is_for_worst = is_for_worst(record);
+  limits.aim = aim_of(record);
   limits.rings = rings_of(record);
   limits.fresh_rings = division_.fresh_rings;
   limits.whole = state_.limits.tets;
@@ -371,18 +418,16 @@ TaskLimits PieceRun::limits_of(std::size_t part, const StepRecord& record) const
     limits.share = static_cast<std::uint64_t>(std::count_if(
         balls.begin(), balls.end(), [&](const Ball& ball) { return ball.zone == zone; }));
   }
-  if (limits.is_for_worst) {
+  if (limits.aim == Aim::worst) {
     const std::size_t now = state_.records.back().after.indicators.n_bad;
-    constexpr std::size_t kShare = 20;  // of what was gained
+    constexpr std::size_t kShare = 4;  // of what was gained
     const std::size_t gained = state_.limits.n_bad > now ? state_.limits.n_bad - now : 0;
     const Parting& parting = mesh_.state().parting;
     limits.spare_bad = parting.zones.share(gained / kShare, part - parting.stretches());
   }
   if (options_.trace != nullptr && options_.trace->is_of(round(), part)) {
     limits.trace = [this, &record](const TetMesh& mesh) {
-      return options_.trace->start(
-          mesh, is_for_worst(record) ? options_.zone_settings : options_.settings,
-          division_.pieces);
+      return options_.trace->start(mesh, options_.settings.of(aim_of(record)), division_.pieces);
     };
   }
   if (state_.limits.seconds > 0) limits.seconds = std::max(1e-3, seconds_left());

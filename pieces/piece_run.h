@@ -25,7 +25,7 @@ struct Division {
   static constexpr unsigned kZoneRounds = 4;
   static constexpr unsigned kRings = 3;
   static constexpr unsigned kFreshRings = 1;
-  static constexpr std::uint64_t kLeastZone = 50'000;
+  static constexpr std::uint64_t kLeastZone = 300'000;
 
   std::size_t pieces = 1;
   unsigned divisions = kDivisions;
@@ -86,6 +86,7 @@ struct RunLimits {
 struct RunState {
   RunLimits limits;
   bool is_divided = false;          ///< the step that comes next has its pieces
+  std::optional<Bounds> bounds;     ///< of the mesh as it was; nothing: they are yet to be found
   std::vector<StepRecord> records;  ///< the worst tets of the last one alone
 };
 void append(const RunState& state, std::string& bytes);
@@ -152,13 +153,15 @@ class PieceRun {
 
  private:
   void divide_first(Shelf* next);
+  void agree_on_bounds(const Bounds& mine);
+  void find_bounds();
   void divide_for(const StepRecord& record, Shelf* next);
   Piece gathered(std::size_t part) const;
   ZoneMap make_zones(const Standing& last) const;
   std::vector<PartOutcome> share(std::vector<PartOutcome> mine);
   TaskLimits limits_of(std::size_t part, const StepRecord& record) const;
   unsigned rings_of(const StepRecord& record) const;
-  static bool is_for_worst(const StepRecord& record);
+  Aim aim_of(const StepRecord& record) const;
   /// The one that is worked on or comes next, from 1.
   unsigned round() const { return static_cast<unsigned>(state_.records.size()) + 1; }
   double seconds_left() const;

@@ -91,16 +91,53 @@ class StayingTets {
   std::vector<char> near_;
 };
 
-/// Worse in a figure that is promised never to be; frozen tets count, for they are the same.
-bool is_worse(const MeshStatistics& before, const MeshStatistics& after, const Goal& goal,
+constexpr double kRounding = 1e-9;
+
+/// By their angles, the worst first.
+std::vector<double> bad_qualities(const TetMesh& mesh) {
+  const Standard standard = mesh.standard().of_angles();
+  std::vector<double> bad;
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const TetHandle t(slot);
+    if (mesh.is_deleted(t)) continue;
+    const TetVertices& v = mesh.vertices(t);
+    const double quality =
+        standard.quality(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+    if (quality < kBadThreshold) bad.push_back(quality);
+  }
+  std::sort(bad.begin(), bad.end());
+  return bad;
+}
+
+/// The first that differs is better, or there are fewer.
+bool is_better(std::span<const double> after, std::span<const double> before) {
+  for (std::size_t i = 0; i < std::min(after.size(), before.size()); ++i) {
+    if (std::abs(after[i] - before[i]) > kRounding) return after[i] > before[i];
+  }
+  return after.size() < before.size();
+}
+
+/// What is promised not to become worse, frozen tets included.
+struct Reached {
+  MeshStatistics statistics;
+  std::vector<double> bad;  ///< where they may pay for each other
+
+  Reached(const TetMesh& mesh, const Goal& goal, bool may_pay)
+      : statistics(compute_statistics(mesh, goal)) {
+    if (may_pay) bad = bad_qualities(mesh);
+  }
+};
+
+bool is_worse(const Reached& before, const Reached& after, const Goal& goal,
               std::size_t spare_bad) {
-  constexpr double kRounding = 1e-9;
-  const bool is_spent = after.n_bad > before.n_bad || after.lambda > before.lambda + kRounding;
-  if (is_spent && after.n_bad <= before.n_bad + spare_bad && after.q_worst > before.q_worst) {
+  const MeshStatistics& then = before.statistics;
+  const MeshStatistics& now = after.statistics;
+  const bool is_spent = now.n_bad > then.n_bad || now.lambda > then.lambda + kRounding;
+  if (is_spent && now.n_bad <= then.n_bad + spare_bad && is_better(after.bad, before.bad)) {
     return false;
   }
-  return is_spent || after.theta_min < before.theta_min - kRounding ||
-         after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding;
+  return is_spent || now.theta_min < then.theta_min - kRounding ||
+         now.theta_max > std::max(then.theta_max, goal.max_angle) + kRounding;
 }
 
 /// Of a mesh of that side: makes qualities free of its size.
@@ -154,13 +191,15 @@ TaskResult Task::run(const TaskLimits& limits) {
   const bool is_sound = build();
   if (is_sound) {
     freeze(limits);
-    mesh_.set_bounds(Bounds::of(mesh_));
+    mesh_.set_bounds(limits.bounds);
     mesh_.set_size_field(options_.size_field);
     if (surface_ != nullptr) mesh_.set_surface_guard(surface_->guard(mesh_, gathered_));
     const Goal& goal = options_.standard.goal();
-    const MeshStatistics before = compute_statistics(mesh_, goal);
+    const bool may_pay = limits.spare_bad > 0;
+    const Reached before(mesh_, goal, may_pay);
     run_schedule(limits);
-    result_.went_back = is_worse(before, compute_statistics(mesh_, goal), goal, limits.spare_bad);
+    const Reached after(mesh_, goal, may_pay);
+    result_.went_back = is_worse(before, after, goal, limits.spare_bad);
   }
   if (!is_sound || result_.went_back) build();
   take_back();
@@ -206,8 +245,7 @@ void Task::run_schedule(const TaskLimits& limits) {
   if (options_.check_operators) run.set_inspector(&inspector);
   if (options_.watch) options_.watch(run);
   try {
-    improve(run, options_.schedule,
-            limits.is_for_worst ? options_.zone_settings : options_.settings);
+    improve(run, options_.schedule, options_.settings.of(limits.aim));
     // Where the fixed surface holds bad tets, it moves. What is stuck at a border is for another
     // division or a zone: costly rounds would only refine around it.
     if (mesh_.surface_guard() != nullptr && !run.cancelled()) {
@@ -354,16 +392,18 @@ void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
 
 }  // namespace
 
-ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings& settings) {
-  constexpr std::string_view kName = "worst_only";
+AimSettings::AimSettings(const Schedule& schedule, const ScheduleSettings& settings) {
   const ScheduleInfo info = schedule.describe();
-  const bool has = std::any_of(info.parameters.begin(), info.parameters.end(),
-                               [&](const ScheduleParameter& p) { return p.name == kName; });
-  const bool is_set = std::any_of(settings.begin(), settings.end(),
-                                  [&](const auto& setting) { return setting.first == kName; });
-  ScheduleSettings of_zone = settings;
-  if (has && !is_set) of_zone.emplace_back(kName, "true");
-  return of_zone;
+  settings_.fill(settings);
+  const auto set = [&](Aim aim, std::string_view name) {
+    const bool has = std::any_of(info.parameters.begin(), info.parameters.end(),
+                                 [&](const ScheduleParameter& p) { return p.name == name; });
+    const bool is_set = std::any_of(settings.begin(), settings.end(),
+                                    [&](const auto& setting) { return setting.first == name; });
+    if (has && !is_set) settings_[static_cast<std::size_t>(aim)].emplace_back(name, "true");
+  };
+  set(Aim::but_worst, "worst_later");
+  set(Aim::worst, "worst_only");
 }
 
 TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,
@@ -482,6 +522,18 @@ void Figures::add(const Figures& other) {
   protected_tets += other.protected_tets;
   protected_bad_tets += other.protected_bad_tets;
   misfits += other.misfits;
+}
+
+Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                     const Standard& standard) {
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
+  Bounds bounds = Bounds::of_goal(standard);
+  for (const PieceTet& tet : gathered.tets) {
+    if (!is_own(tet.vertices, parts, number)) continue;
+    const auto point = [&](std::size_t i) { return gathered.points[tet.vertices[i]]; };
+    bounds.widen(point(0), point(1), point(2), point(3));
+  }
+  return bounds;
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "kernel/bounds.h"
 #include "kernel/statistics.h"
 #include "pieces/held_surface.h"
 #include "pieces/parting.h"
@@ -20,12 +21,29 @@ namespace tetmend::pieces {
 
 class PieceTrace;
 
+/// What a schedule is to go for.
+enum class Aim : std::uint8_t {
+  all,
+  but_worst,  ///< the worst come later, with what lies around all of them
+  worst
+};
+
+/// The settings of a schedule for each aim: its parameter "worst_later" or "worst_only" is true, if it
+/// has one that the user has not set.
+class AimSettings {
+ public:
+  AimSettings(const Schedule& schedule, const ScheduleSettings& settings);
+  const ScheduleSettings& of(Aim aim) const { return settings_[static_cast<std::size_t>(aim)]; }
+
+ private:
+  std::array<ScheduleSettings, 3> settings_;  // by aim
+};
+
 /// The same for all pieces.
 struct TaskOptions {
   const Registry& registry;
   const Schedule& schedule;
-  const ScheduleSettings& settings;
-  const ScheduleSettings& zone_settings;  ///< likewise, in zones
+  const AimSettings& settings;
   Standard standard;
   std::shared_ptr<const SizeField> size_field = {};  ///< null: lengths are free
   /// Called before and after the schedule, so that it can be watched and stopped.
@@ -47,10 +65,11 @@ struct TaskLimits {
   /// of its tets, or where `share` is 0, those that may change.
   std::uint64_t whole = 0;  ///< 0: it has all
   std::uint64_t share = 0;
+  Bounds bounds;  ///< of the whole mesh, as the run found it
   bool is_zone = false;
-  bool is_for_worst = false;  ///< with TaskOptions::zone_settings
+  Aim aim = Aim::all;
   std::size_t most_new_tets = std::numeric_limits<std::size_t>::max();  ///< that it may grow by
-  /// A zone may end with so many more bad tets, if the worst is better.
+  /// A zone may end with so many more bad tets, if the worst are better.
   std::size_t spare_bad = 0;
   double seconds = 0;  ///< 0: no limit
   /// Null, or gives what records the run on the mesh of the piece; null: nothing does.
@@ -69,10 +88,6 @@ struct TaskResult {
   bool went_back = false;  ///< some figure had become worse, so it is as before
   bool stopped = false;    ///< cancelled or out of time
 };
-
-/// The settings of a schedule for a zone, where plain rounds have done what they can: its parameter
-/// "worst_only" is true, if it has one that the user has not set.
-ScheduleSettings zone_settings(const Schedule& schedule, const ScheduleSettings& settings);
 
 /// Works on the piece of that number. `gathered` holds all tets with a vertex in its part.
 /// @param surface null: it is fixed
@@ -119,6 +134,10 @@ struct Figures {
 
   void add(const Figures& other);
 };
+
+/// Of the own tets, for the standard. The same whoever asks: of the coordinates in the order of the piece.
+Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                     const Standard& standard);
 
 /// Builds all of a piece, which fails where a face has more than two tets, and measures what is its
 /// own. A face is that of the piece with the lowest part of its vertices: all its tets are there.

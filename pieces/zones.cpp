@@ -12,7 +12,10 @@ namespace tetmend::pieces {
 namespace {
 
 /// In longest edges of a bad tet: farther than operators reach.
-constexpr double kRadius = 4;
+constexpr double kRadius = 3;
+
+/// In radii: within that a point belongs to the ball of the worse tet. So no border is near the worst.
+constexpr double kCore = 0.5;
 
 /// Sets of balls that touch.
 class Clusters {
@@ -37,55 +40,34 @@ struct WeighedBall {
   std::int64_t points;
 };
 
-/// Where balls along an axis are parted: near this share of their points, where the gap is widest.
-std::size_t place_to_cut(std::span<const WeighedBall> balls, Eigen::Index axis, std::int64_t total,
-                         std::int64_t wanted) {
-  constexpr std::int64_t kSlack = 8;  // off by this part of all at most, where it can be
-  std::size_t place = 1;
-  std::int64_t least_off = std::numeric_limits<std::int64_t>::max();
-  double widest = 0;
-  std::int64_t before = 0;
-  for (std::size_t i = 1; i < balls.size(); ++i) {
-    before += balls[i - 1].points;
-    const std::int64_t off = std::max(std::abs(before - wanted) - total / kSlack, std::int64_t{0});
-    const double gap = balls[i].ball->centre[axis] - balls[i - 1].ball->centre[axis];
-    if (off > least_off || (off == least_off && gap <= widest)) continue;
-    place = i;
-    least_off = off;
-    widest = gap;
-  }
-  return place;
-}
-
-/// Parts balls of one zone until none has more points. New zones are numbered from `next` on.
-void halve(std::span<WeighedBall> balls, std::int64_t most, std::uint32_t& next) {
+/// Parts the balls of one zone, if they have more points. Each new one is the worst ball that is left
+/// with those nearest to it, as measured by radii: so no border is near the worst. The first keeps the
+/// number of the zone, others have those from `next` on.
+void part(std::vector<WeighedBall> balls, std::int64_t most, std::uint32_t& next) {
   std::int64_t total = 0;
   for (const WeighedBall& each : balls) total += each.points;
-  if (total <= most || balls.size() < 2) return;
-  std::array<Point, 2> box = {balls[0].ball->centre, balls[0].ball->centre};
-  for (const WeighedBall& each : balls) {
-    box[0] = box[0].cwiseMin(each.ball->centre);
-    box[1] = box[1].cwiseMax(each.ball->centre);
-  }
-  Eigen::Index axis = 0;
-  (box[1] - box[0]).maxCoeff(&axis);
-  std::sort(balls.begin(), balls.end(), [axis](const WeighedBall& a, const WeighedBall& b) {
-    const auto key = [axis](const Ball& ball) {
-      return std::tuple(ball.centre[axis], ball.centre.x(), ball.centre.y(), ball.centre.z(),
-                        ball.radius);
+  for (bool is_first = true; !balls.empty() && (total > most || !is_first); is_first = false) {
+    const auto worst = std::min_element(
+        balls.begin(), balls.end(),
+        [](const WeighedBall& a, const WeighedBall& b) { return a.ball->rank < b.ball->rank; });
+    const Ball& centre = *worst->ball;
+    const auto key = [&centre](const Ball& ball) {
+      const double apart = (ball.centre - centre.centre).norm();
+      return std::pair(apart / (ball.radius + centre.radius), ball.rank);
     };
-    return key(*a.ball) < key(*b.ball);
-  });
-  const std::int64_t parts = (total + most - 1) / most;
-  const std::size_t place = place_to_cut(balls, axis, total, total * (parts / 2) / parts);
-  const std::span<WeighedBall> before = balls.first(place);
-  const std::span<WeighedBall> behind = balls.subspan(place);
-  const bool is_worst_behind = std::any_of(behind.begin(), behind.end(),
-                                           [](const WeighedBall& b) { return b.ball->is_worst; });
-  for (const WeighedBall& each : is_worst_behind ? before : behind) each.ball->zone = next;
-  ++next;
-  halve(before, most, next);
-  halve(behind, most, next);
+    std::sort(balls.begin(), balls.end(), [&](const WeighedBall& a, const WeighedBall& b) {
+      return key(*a.ball) < key(*b.ball);
+    });
+    std::int64_t points = 0;
+    std::size_t taken = 0;
+    while (taken < balls.size() && (taken == 0 || points + balls[taken].points <= most)) {
+      points += balls[taken].points;
+      if (!is_first) balls[taken].ball->zone = next;
+      ++taken;
+    }
+    if (!is_first) ++next;
+    balls.erase(balls.begin(), balls.begin() + static_cast<std::ptrdiff_t>(taken));
+  }
 }
 
 }  // namespace
@@ -146,9 +128,9 @@ ZoneMap::ZoneMap(std::span<const WorstTet> worst) {
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < balls.size(); ++i) {
     std::uint32_t& zone = zone_of[clusters.find(i)];
-    balls[i].is_worst = zone == std::numeric_limits<std::uint32_t>::max();
-    if (balls[i].is_worst) zone = next++;
+    if (zone == std::numeric_limits<std::uint32_t>::max()) zone = next++;
     balls[i].zone = balls[i].cluster = zone;
+    balls[i].rank = static_cast<std::uint32_t>(i);
   }
   *this = ZoneMap(std::move(balls));
 }
@@ -208,7 +190,10 @@ void ZoneMap::search(std::size_t begin, std::size_t end, const Point& p, Nearest
   const Point from_centre = p - ball.centre;
   if (from_centre.norm() <= ball.radius) {
     const double distance = from_centre.squaredNorm() / (ball.radius * ball.radius);
-    if (nearest.ball == nullptr || distance < nearest.distance) nearest = {&ball, distance};
+    const std::pair key(distance <= kCore * kCore ? 0 : distance, ball.rank);
+    const bool is_nearest =
+        nearest.ball == nullptr || key < std::pair(nearest.distance, nearest.ball->rank);
+    if (is_nearest) nearest = {&ball, key.first};
   }
   search(begin, middle, p, nearest);
   search(middle + 1, end, p, nearest);
@@ -228,7 +213,7 @@ void ZoneMap::cut(std::span<const std::int64_t> by_ball, std::int64_t most) {
     zones[balls_[i].zone].push_back({&balls_[i], by_ball[i]});
   }
   auto next = static_cast<std::uint32_t>(count_);
-  for (std::vector<WeighedBall>& zone : zones) halve(zone, most, next);
+  for (std::vector<WeighedBall>& zone : zones) part(std::move(zone), most, next);
   note_clusters();
 }
 

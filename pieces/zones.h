@@ -30,7 +30,7 @@ struct WorstTet {
 class WorstTets {
  public:
   static constexpr std::size_t kMost = 10'000;
-  static constexpr std::size_t kLeast = 100;
+  static constexpr std::size_t kLeast = 1000;
   static constexpr Quality kLimit = 0.5F;  ///< worse ones are all taken
 
   void add(const WorstTet& tet);
@@ -51,11 +51,11 @@ struct Ball {
   double radius = 0;
   std::uint32_t zone = 0;
   std::uint32_t cluster = 0;  ///< balls of one touch each other, some in several zones
-  bool is_worst = false;      ///< around the worst tet of its cluster
+  std::uint32_t rank = 0;     ///< of its tet: 0 is the worst
 };
 
-/// Which zone a point lies in: that of the nearest ball around it, as measured by radii. Balls that
-/// touch are a cluster, and one zone unless that is cut. A cluster gives its number to the zone with
+/// Which zone a point lies in: that of the nearest ball around it, as measured by radii, or near the
+/// middle of several that of the worst tet. Balls that touch are a cluster, and one zone unless that is cut. A cluster gives its number to the zone with
 /// its worst tet.
 class ZoneMap {
  public:
@@ -67,8 +67,8 @@ class ZoneMap {
 
   /// Adds 1 for each point to the entry of the ball that is nearest to it, if it is in one.
   void count(std::span<const Point> points, std::span<std::int64_t> by_ball) const;
-  /// Cuts zones of more points, between balls that lie far from each other. What is left larger is a
-  /// ball alone. Once.
+  /// Cuts zones of more points: the worst ball stays with those nearest to it, and so on with what is
+  /// left. What is left larger is a ball alone. Once.
   /// @param by_ball  points of each of balls()
   void cut(std::span<const std::int64_t> by_ball, std::int64_t most);
 
@@ -83,7 +83,7 @@ class ZoneMap {
  private:
   struct Nearest {
     const Ball* ball = nullptr;
-    double distance = 1;  ///< squared, in radii
+    double distance = 1;  ///< squared, in radii; 0: near the middle
   };
   void note_clusters();
   void arrange(std::size_t begin, std::size_t end);

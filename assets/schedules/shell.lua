@@ -10,6 +10,8 @@ local least_yield    = parameter{"least_yield", default = 0.1, low = 0, high = 1
                                  help = "least number of bad tets that a costly attempt must remove on average"}
 local worst_only     = parameter{"worst_only", default = false,
                                  help = "go for the worst tets at once, whatever that costs in mild ones"}
+local worst_later    = parameter{"worst_later", default = false,
+                                 help = "leave them to a run with worst_only"}
 
 -- DEVIATION: Algorithm 5 tries all edges. The choice matters little for the mesh, but much for the time
 -- (docs/deviations.md).
@@ -84,11 +86,9 @@ end
 -- Needles count first: they would spoil what is around them. Sines alone count last, so that needles which
 -- the surface forces do not hide them.
 local function rescue_worst()
-  if not worst_only then
-    judge_by{price = half_price}
-    plain_round()
-    is_growing = true
-  end
+  judge_by{price = half_price}
+  plain_round()
+  is_growing = true
   begin_round()
   judge_by{price = 0}
   for _ = 1, last_sweeps // 2 do
@@ -123,7 +123,6 @@ local function insert_while_it_pays()
 end
 
 if worst_only then
-  is_growing = false
   rescue_worst()
   return
 end
@@ -133,6 +132,6 @@ plain_rounds()
 -- Where the surface forces most of the bad tets, costly operators only make more of them.
 local is_free = quality().n_bad < 2 / 3 * start.n_bad
 if rounds < max_rounds and last_sweeps > 0 and quality().n_bad > 0 then
-  if is_free then rescue_worst() end
+  if is_free and not worst_later then rescue_worst() end
   insert_while_it_pays()
 end
