@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "pieces/divided_mesh.h"
+#include "pieces/figures.h"
 #include "pieces/held_surface.h"
 #include "pieces/piece_task.h"
+#include "pieces/standing.h"
 
 namespace tetmend::pieces {
 

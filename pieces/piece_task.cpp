@@ -7,17 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "contract/inspector.h"
-#include "kernel/boundary_layers.h"
-#include "kernel/compensated_sum.h"
-#include "kernel/integrity.h"
 #include "kernel/mesh_builder.h"
 #include "kernel/mesh_view.h"
 #include "kernel/size_field.h"
-#include "kernel/surface_fingerprint.h"
-#include "pieces/bytes.h"
+#include "kernel/statistics.h"
+#include "pieces/standing.h"
 
 namespace tetmend::pieces {
 
@@ -138,17 +137,6 @@ bool is_worse(const Reached& before, const Reached& after, const Goal& goal,
   }
   return is_spent || now.theta_min < then.theta_min - kRounding ||
          now.theta_max > std::max(then.theta_max, goal.max_angle) + kRounding;
-}
-
-/// Of a mesh of that side: makes qualities free of its size.
-double scale_of(double side) {
-  return side > 0 ? std::ldexp(1.0, -std::ilogb(side)) : 1;
-}
-
-std::array<Point, 4> corners_of(const Piece& piece, const PieceTet& tet, double scale) {
-  std::array<Point, 4> corners;
-  for (std::size_t i = 0; i < 4; ++i) corners[i] = scale * piece.points[tet.vertices[i]];
-  return corners;
 }
 
 /// A piece while it is worked on.
@@ -348,48 +336,6 @@ void Task::take_tets(std::span<const std::uint32_t> numbers, Piece& all) {
   }
 }
 
-void add_shares(const MeshStatistics& part, MeshStatistics& all) {
-  const double old_share =
-      static_cast<double>(all.tets) / static_cast<double>(all.tets + part.tets);
-  const auto mean = [old_share](double& to, double from) {
-    to = old_share * to + (1 - old_share) * from;
-  };
-  mean(all.lambda, part.lambda);
-  for (std::size_t i = 0; i < all.lambda_bands.size(); ++i) {
-    mean(all.lambda_bands[i], part.lambda_bands[i]);
-  }
-  mean(all.q_mean, part.q_mean);
-  const double bad = static_cast<double>(std::max<std::size_t>(1, all.n_bad + part.n_bad));
-  all.q_aver = (all.q_aver * static_cast<double>(all.n_bad) +
-                part.q_aver * static_cast<double>(part.n_bad)) /
-               bad;
-}
-
-void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
-  if (part.tets == 0) return;
-  if (all.tets == 0) {
-    all = part;
-    return;
-  }
-  add_shares(part, all);
-  all.tets += part.tets;
-  all.vertices += part.vertices;
-  all.boundary_triangles += part.boundary_triangles;
-  all.inverted += part.inverted;
-  all.flat += part.flat;
-  all.volume += part.volume;
-  // Of the larger scale: what the other adds is small then.
-  const int scale = std::max(all.scale, part.scale);
-  all.scaled_volume = std::ldexp(all.scaled_volume, 3 * (all.scale - scale)) +
-                      std::ldexp(part.scaled_volume, 3 * (part.scale - scale));
-  all.scale = scale;
-  all.theta_min = std::min(all.theta_min, part.theta_min);
-  all.theta_max = std::max(all.theta_max, part.theta_max);
-  all.q_worst = std::min(all.q_worst, part.q_worst);
-  all.n_bad += part.n_bad;
-  for (std::size_t i = 0; i < all.histogram.size(); ++i) all.histogram[i] += part.histogram[i];
-}
-
 }  // namespace
 
 AimSettings::AimSettings(const Schedule& schedule, const ScheduleSettings& settings) {
@@ -432,172 +378,6 @@ std::optional<double> worst_free(const Piece& gathered, const Parting& parting,
     if (!worst || quality < *worst) worst = quality;
   }
   return worst;
-}
-
-void Standing::add(const Standing& other) {
-  const auto count = [](const QualityIndicators& of) {
-    return static_cast<double>(of.n_bad + of.n_needles);
-  };
-  const double all = count(indicators) + count(other.indicators);
-  if (all > 0) {
-    indicators.q_aver = (indicators.q_aver * count(indicators) +
-                         other.indicators.q_aver * count(other.indicators)) /
-                        all;
-  }
-  tets += other.tets;
-  indicators.q_worst = std::min(indicators.q_worst, other.indicators.q_worst);
-  worst_angle = std::min(worst_angle, other.worst_angle);
-  indicators.n_bad += other.indicators.n_bad;
-  indicators.n_needles += other.indicators.n_needles;
-  worst.add(other.worst);
-}
-
-void append(const Standing& standing, std::string& bytes) {
-  put(standing.tets, bytes);
-  put(standing.indicators, bytes);
-  put(standing.worst_angle, bytes);
-  const std::vector<WorstTet> worst = standing.worst.all();
-  put(std::uint64_t{worst.size()}, bytes);
-  for (const WorstTet& tet : worst) {
-    put(tet.quality, bytes);
-    for (const double x : tet.centre) put(x, bytes);
-    put(tet.reach, bytes);
-  }
-}
-
-Standing take_standing(std::string_view& bytes) {
-  Standing standing;
-  take(bytes, standing.tets);
-  take(bytes, standing.indicators);
-  take(bytes, standing.worst_angle);
-  std::uint64_t count = 0;
-  take(bytes, count);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    WorstTet tet;
-    take(bytes, tet.quality);
-    for (double& x : tet.centre) take(bytes, x);
-    take(bytes, tet.reach);
-    standing.worst.add(tet);
-  }
-  return standing;
-}
-
-Standing standing_of(const Piece& piece, const Standard& standard, double side) {
-  Standing standing;
-  standing.tets = piece.tets.size();
-  const double scale = scale_of(side);
-  CompensatedSum bad;
-  QualityIndicators& indicators = standing.indicators;
-  for (const PieceTet& tet : piece.tets) {
-    if (tet.is_protected()) continue;
-    const std::array<Point, 4> p = corners_of(piece, tet, scale);
-    const auto quality_by = [&](const Standard& by) {
-      return static_cast<Quality>(by.quality(p[0], p[1], p[2], p[3]));
-    };
-    const Quality quality = quality_by(standard);
-    indicators.q_worst = std::min(indicators.q_worst, static_cast<double>(quality));
-    if (quality >= kBadThreshold) continue;
-    const Quality of_angles = quality_by(standard.of_angles());
-    ++(of_angles < kBadThreshold ? indicators.n_bad : indicators.n_needles);
-    standing.worst_angle = std::min(standing.worst_angle, static_cast<double>(of_angles));
-    bad.add(static_cast<double>(quality));
-    if (of_angles >= kBadThreshold) continue;
-    WorstTet worst{of_angles, 0.25 / scale * (p[0] + p[1] + p[2] + p[3]), 0};
-    for (const auto& [i, j] : kEdgeVertices) {
-      worst.reach = std::max(worst.reach, (p[i] - p[j]).norm() / scale);
-    }
-    standing.worst.add(worst);
-  }
-  const std::size_t count = indicators.n_bad + indicators.n_needles;
-  indicators.q_aver = count == 0 ? 0 : bad.value() / static_cast<double>(count);
-  return standing;
-}
-
-void Figures::add(const Figures& other) {
-  add_statistics(other.statistics, statistics);
-  surface += other.surface;
-  not_positive += other.not_positive;
-  peculiar += other.peculiar;
-  layer_tets += other.layer_tets;
-  protected_tets += other.protected_tets;
-  protected_bad_tets += other.protected_bad_tets;
-  misfits += other.misfits;
-}
-
-Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                     const Standard& standard) {
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
-  Bounds bounds = Bounds::of_goal(standard);
-  for (const PieceTet& tet : gathered.tets) {
-    if (!is_own(tet.vertices, parts, number)) continue;
-    const auto point = [&](std::size_t i) { return gathered.points[tet.vertices[i]]; };
-    bounds.widen(point(0), point(1), point(2), point(3));
-  }
-  return bounds;
-}
-
-namespace {
-
-/// @param numbers of the tets in the piece, by slot
-void count_protected(const Piece& own, std::span<const std::uint32_t> numbers,
-                     const Standard& standard, TetMesh& mesh, Figures& figures) {
-  figures.protected_tets = static_cast<std::size_t>(std::count_if(
-      own.tets.begin(), own.tets.end(), [](const PieceTet& tet) { return tet.is_protected(); }));
-  if (figures.protected_tets == 0) return;
-  mesh.set_standard(standard);
-  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
-    const bool counts = own.tets[numbers[slot]].is_protected();
-    if (counts && mesh.quality(TetHandle(slot)) < kBadThreshold) ++figures.protected_bad_tets;
-  }
-}
-
-}  // namespace
-
-Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard, const HeldSurface* surface) {
-  Figures figures;
-  const Piece own = own_part(gathered, parting, number);
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
-  {
-    BuildReport report;
-    MeshData data = to_data(gathered);
-    const TetMesh mesh = TetMesh::build(data, {.report = &report});
-    figures.peculiar = report.reordered_tets + report.inverted_tets + report.flat_tets +
-                       (report.mirrored ? gathered.tets.size() : 0);
-    const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) {
-      std::array<std::uint32_t, 3> vertices{};
-      for (std::size_t i = 0; i < 3; ++i) vertices[i] = mesh.origin(face[i]);
-      return is_own(vertices, parts, number);
-    };
-    figures.surface = surface_fingerprint(mesh, is_own_face);
-    if (surface != nullptr) {
-      figures.misfits = surface->count_misfits(mesh, gathered, parting, number);
-    }
-    figures.layer_tets = find_boundary_layers(mesh).tets.size();
-    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
-      for (unsigned f = 0; f < 4; ++f) {
-        const HalfFace face(TetHandle(slot), f);
-        if (mesh.is_boundary(face) && is_own_face(mesh.vertices(face))) {
-          ++figures.statistics.boundary_triangles;
-        }
-      }
-    }
-  }
-  const std::size_t boundary = figures.statistics.boundary_triangles;
-  if (!own.tets.empty()) {
-    MeshData data = to_data(own);
-    data.triangles.clear();
-    data.edges.clear();
-    std::vector<std::uint32_t> numbers;
-    TetMesh mesh = TetMesh::build(data, {.report = nullptr, .tet_numbers = &numbers});
-    figures.statistics = compute_statistics(mesh, standard.goal());
-    figures.not_positive = count_not_positive(mesh);
-    count_protected(own, numbers, standard, mesh, figures);
-  }
-  figures.statistics.boundary_triangles = boundary;
-  figures.statistics.vertices = static_cast<std::size_t>(std::count_if(
-      own.marks.begin(), own.marks.end(), [](unsigned m) { return (m & kOwn) != 0; }));
-  return figures;
 }
 
 }  // namespace tetmend::pieces

@@ -3,13 +3,14 @@
 // what is its own is taken back. A function of the piece and the options alone.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
 
 #include "kernel/bounds.h"
-#include "kernel/statistics.h"
 #include "pieces/held_surface.h"
 #include "pieces/parting.h"
 #include "pieces/piece.h"
@@ -103,46 +104,5 @@ Piece own_part(const Piece& gathered, const Parting& parting, std::uint32_t numb
 /// The quality of the worst tet that work_on() may change; nothing where there is none.
 std::optional<double> worst_free(const Piece& gathered, const Parting& parting,
                                  std::uint32_t number, unsigned rings, const Standard& standard);
-
-/// How the own tets of pieces are by now. Order-free but for the rounding of the mean.
-struct Standing {
-  std::uint64_t tets = 0;
-  QualityIndicators indicators{.q_worst = 1};
-  double worst_angle = 1;  ///< as q_worst, by angles alone: needles do not hide them
-  WorstTets worst;
-
-  void add(const Standing& other);
-};
-
-void append(const Standing& standing, std::string& bytes);
-/// @throws Error when the bytes end too early.
-Standing take_standing(std::string_view& bytes);
-
-/// Of all tets of a piece that may change. `side` of the mesh: of its size the qualities are free.
-Standing standing_of(const Piece& piece, const Standard& standard, double side);
-
-/// What the final check adds up over all pieces.
-struct Figures {
-  MeshStatistics statistics;  ///< of the own tets
-  std::uint64_t surface = 0;  ///< part of surface_fingerprint()
-  std::size_t not_positive = 0;
-  std::size_t peculiar = 0;  ///< tets that building turned round, inverted and flat ones
-  std::size_t layer_tets = 0;
-  std::size_t protected_tets = 0;      ///< by the user
-  std::size_t protected_bad_tets = 0;  ///< of them
-  std::size_t misfits = 0;             ///< see HeldSurface::count_misfits()
-
-  void add(const Figures& other);
-};
-
-/// Of the own tets, for the standard. The same whoever asks: of the coordinates in the order of the piece.
-Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                     const Standard& standard);
-
-/// Builds all of a piece, which fails where a face has more than two tets, and measures what is its
-/// own. A face is that of the piece with the lowest part of its vertices: all its tets are there.
-/// @param surface null: it is fixed
-Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard, const HeldSurface* surface = nullptr);
 
 }  // namespace tetmend::pieces

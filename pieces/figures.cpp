@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "kernel/boundary_layers.h"
+#include "kernel/integrity.h"
+#include "kernel/mesh_builder.h"
+#include "kernel/surface_fingerprint.h"
+#include "pieces/piece_task.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+void add_shares(const MeshStatistics& part, MeshStatistics& all) {
+  const double old_share =
+      static_cast<double>(all.tets) / static_cast<double>(all.tets + part.tets);
+  const auto mean = [old_share](double& to, double from) {
+    to = old_share * to + (1 - old_share) * from;
+  };
+  mean(all.lambda, part.lambda);
+  for (std::size_t i = 0; i < all.lambda_bands.size(); ++i) {
+    mean(all.lambda_bands[i], part.lambda_bands[i]);
+  }
+  mean(all.q_mean, part.q_mean);
+  const double bad = static_cast<double>(std::max<std::size_t>(1, all.n_bad + part.n_bad));
+  all.q_aver = (all.q_aver * static_cast<double>(all.n_bad) +
+                part.q_aver * static_cast<double>(part.n_bad)) /
+               bad;
+}
+
+void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
+  if (part.tets == 0) return;
+  if (all.tets == 0) {
+    all = part;
+    return;
+  }
+  add_shares(part, all);
+  all.tets += part.tets;
+  all.vertices += part.vertices;
+  all.boundary_triangles += part.boundary_triangles;
+  all.inverted += part.inverted;
+  all.flat += part.flat;
+  all.volume += part.volume;
+  // Of the larger scale: what the other adds is small then.
+  const int scale = std::max(all.scale, part.scale);
+  all.scaled_volume = std::ldexp(all.scaled_volume, 3 * (all.scale - scale)) +
+                      std::ldexp(part.scaled_volume, 3 * (part.scale - scale));
+  all.scale = scale;
+  all.theta_min = std::min(all.theta_min, part.theta_min);
+  all.theta_max = std::max(all.theta_max, part.theta_max);
+  all.q_worst = std::min(all.q_worst, part.q_worst);
+  all.n_bad += part.n_bad;
+  for (std::size_t i = 0; i < all.histogram.size(); ++i) all.histogram[i] += part.histogram[i];
+}
+
+/// @param numbers of the tets in the piece, by slot
+void count_protected(const Piece& own, std::span<const std::uint32_t> numbers,
+                     const Standard& standard, TetMesh& mesh, Figures& figures) {
+  figures.protected_tets = static_cast<std::size_t>(std::count_if(
+      own.tets.begin(), own.tets.end(), [](const PieceTet& tet) { return tet.is_protected(); }));
+  if (figures.protected_tets == 0) return;
+  mesh.set_standard(standard);
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const bool counts = own.tets[numbers[slot]].is_protected();
+    if (counts && mesh.quality(TetHandle(slot)) < kBadThreshold) ++figures.protected_bad_tets;
+  }
+}
+
+}  // namespace
+
+void Figures::add(const Figures& other) {
+  add_statistics(other.statistics, statistics);
+  surface += other.surface;
+  not_positive += other.not_positive;
+  peculiar += other.peculiar;
+  layer_tets += other.layer_tets;
+  protected_tets += other.protected_tets;
+  protected_bad_tets += other.protected_bad_tets;
+  misfits += other.misfits;
+}
+
+Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                     const Standard& standard) {
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
+  Bounds bounds = Bounds::of_goal(standard);
+  for (const PieceTet& tet : gathered.tets) {
+    if (!is_own(tet.vertices, parts, number)) continue;
+    const auto point = [&](std::size_t i) { return gathered.points[tet.vertices[i]]; };
+    bounds.widen(point(0), point(1), point(2), point(3));
+  }
+  return bounds;
+}
+
+Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+                    const Standard& standard, const HeldSurface* surface) {
+  Figures figures;
+  const Piece own = own_part(gathered, parting, number);
+  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
+  {
+    BuildReport report;
+    MeshData data = to_data(gathered);
+    const TetMesh mesh = TetMesh::build(data, {.report = &report});
+    figures.peculiar = report.reordered_tets + report.inverted_tets + report.flat_tets +
+                       (report.mirrored ? gathered.tets.size() : 0);
+    const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) {
+      std::array<std::uint32_t, 3> vertices{};
+      for (std::size_t i = 0; i < 3; ++i) vertices[i] = mesh.origin(face[i]);
+      return is_own(vertices, parts, number);
+    };
+    figures.surface = surface_fingerprint(mesh, is_own_face);
+    if (surface != nullptr) {
+      figures.misfits = surface->count_misfits(mesh, gathered, parting, number);
+    }
+    figures.layer_tets = find_boundary_layers(mesh).tets.size();
+    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+      for (unsigned f = 0; f < 4; ++f) {
+        const HalfFace face(TetHandle(slot), f);
+        if (mesh.is_boundary(face) && is_own_face(mesh.vertices(face))) {
+          ++figures.statistics.boundary_triangles;
+        }
+      }
+    }
+  }
+  const std::size_t boundary = figures.statistics.boundary_triangles;
+  if (!own.tets.empty()) {
+    MeshData data = to_data(own);
+    data.triangles.clear();
+    data.edges.clear();
+    std::vector<std::uint32_t> numbers;
+    TetMesh mesh = TetMesh::build(data, {.report = nullptr, .tet_numbers = &numbers});
+    figures.statistics = compute_statistics(mesh, standard.goal());
+    figures.not_positive = count_not_positive(mesh);
+    count_protected(own, numbers, standard, mesh, figures);
+  }
+  figures.statistics.boundary_triangles = boundary;
+  figures.statistics.vertices = static_cast<std::size_t>(std::count_if(
+      own.marks.begin(), own.marks.end(), [](unsigned m) { return (m & kOwn) != 0; }));
+  return figures;
+}
+
+}  // namespace tetmend::pieces
