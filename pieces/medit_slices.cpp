@@ -13,7 +13,7 @@
 
 #include "kernel/formats/output_file.h"
 #include "pieces/bytes.h"
-#include "pieces/numbering.h"
+#include "pieces/file_walk.h"
 
 namespace tetmend::pieces {
 
@@ -213,54 +213,13 @@ void MeditSlices::read_vertices(Piece& slice) const {
 
 namespace {
 
-/// What a vertex of the new file is, in the order of ids. Vertices come from all pieces: ranges of
-/// ids at a time, so that memory holds only some.
-struct FileVertex {
-  VertexId id;
-  std::array<double, 3> point;
-  Label label;
-};
-
-/// Ranges of ids, of which the vertices are written at once: short enough for the memory of the first
-/// rank. Each vertex is read once.
-class VertexRanges {
- public:
-  explicit VertexRanges(const DividedMesh& mesh) {
-    constexpr VertexId kLeast = 50'000;
-    constexpr VertexId kMost = 500'000;
-    const VertexId first = mesh.state().first_id;
-    const VertexId all = mesh.state().next_id - first;
-    const VertexId at_once = std::clamp<VertexId>(all / (4 * mesh.ranks().count()), kLeast, kMost);
-    count_ = static_cast<std::size_t>((all + at_once - 1) / at_once);
-    for (const std::size_t part : mesh.own()) {
-      const std::vector<VertexId> ids = mesh.stored_ids(part);
-      for (std::size_t i = 0; i <= count_; ++i) {
-        const auto place = std::lower_bound(ids.begin(), ids.end(), first + i * at_once);
-        begins_.push_back(static_cast<std::size_t>(place - ids.begin()));
-      }
-    }
-  }
-  std::size_t count() const { return count_; }
-  /// Of the vertices of own piece i those of a range: from where to where they are.
-  std::pair<std::size_t, std::size_t> of_piece(std::size_t i, std::size_t range) const {
-    const std::size_t at = i * (count_ + 1) + range;
-    return {begins_[at], begins_[at + 1]};
-  }
-
- private:
-  std::size_t count_ = 0;
-  std::vector<std::size_t> begins_;  // by own piece and range, and the end of the last one
-};
-
 /// The first rank writes what all send it: a piece, or a range of vertices, at a time.
 class Writer {
  public:
   /// @param out null on all ranks but the first
-  Writer(OutputFile* out, const DividedMesh& mesh)
-      : out_(out), mesh_(mesh), ranks_(mesh.ranks()), numbering_(mesh) {}
+  Writer(OutputFile* out, const DividedMesh& mesh) : out_(out), walk_(mesh) {}
 
   void write() {
-    count();
     choose_version();
     put(std::int32_t{1});
     put(version_);
@@ -277,39 +236,14 @@ class Writer {
   }
 
  private:
-  void count() {
-    std::vector<VertexId> required;
-    std::array<std::int64_t, 3> counts{};
-    for (const std::size_t i : mesh_.own()) {
-      const Piece piece = mesh_.stored(i);
-      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
-        const bool is_listed = (piece.marks[v] & kOwn) != 0 && (piece.marks[v] & kRequired) != 0;
-        if (is_listed) required.push_back(piece.ids[v]);
-      }
-      counts[0] += static_cast<std::int64_t>(piece.tets.size());
-      counts[1] += static_cast<std::int64_t>(piece.triangles.size());
-      counts[2] += static_cast<std::int64_t>(piece.edges.size());
-    }
-    ranks_.add(counts);
-    counts_.vertices = numbering_.size();
-    counts_.tets = static_cast<std::uint64_t>(counts[0]);
-    counts_.triangles = static_cast<std::uint64_t>(counts[1]);
-    counts_.edges = static_cast<std::uint64_t>(counts[2]);
-    std::string bytes;
-    pieces::put(required, bytes);
-    for (const std::string& from : ranks_.gather(bytes)) {
-      std::string_view rest = from;
-      pieces::take(rest, required);
-      required_.insert(required_.end(), required.begin(), required.end());
-    }
-    std::sort(required_.begin(), required_.end());
-  }
   /// As write_medit_binary() does.
   void choose_version() {
-    const std::uint64_t most = std::max({counts_.vertices, counts_.tets, counts_.triangles,
-                                         counts_.edges, std::uint64_t{required_.size()}});
-    const std::uint64_t size = 256 + 76 * counts_.vertices + 12 * counts_.edges +
-                               16 * counts_.triangles + 4 * required_.size() + 20 * counts_.tets;
+    const FileWalk::Counts& counts = walk_.counts();
+    const std::uint64_t required = walk_.required().size();
+    const std::uint64_t most =
+        std::max({counts.vertices, counts.tets, counts.triangles, counts.edges, required});
+    const std::uint64_t size = 256 + 76 * counts.vertices + 12 * counts.edges +
+                               16 * counts.triangles + 4 * required + 20 * counts.tets;
     version_ = most > INT32_MAX ? 4 : size > INT32_MAX ? 3 : 2;
   }
   template <class Value>
@@ -333,64 +267,21 @@ class Writer {
   }
   template <class Integer>
   void write_rows() {
-    begin_rows<Integer>(vertices, counts_.vertices, 24 + sizeof(Integer));
-    write_vertices<Integer>();
-    write_elements<Integer>(edges, counts_.edges, &Piece::edges);
-    write_elements<Integer>(triangles, counts_.triangles, &Piece::triangles);
-    if (!required_.empty()) {
-      begin_rows<Integer>(required_vertices, required_.size(), sizeof(Integer));
-      for (const VertexId id : required_) put(number<Integer>(id));
-    }
-    write_elements<Integer>(tetrahedra, counts_.tets, &Piece::tets);
-  }
-  template <class Integer>
-  Integer number(VertexId id) const {
-    return static_cast<Integer>(numbering_.number(id) + 1);
-  }
-  /// What the ranks have for the file now, in their order.
-  std::vector<std::string> send_to_first(std::string bytes) const {
-    std::vector<std::string> to(ranks_.count());
-    to[0] = std::move(bytes);
-    return ranks_.exchange(std::move(to));
-  }
-
-  /// A range of ids at a time, from all pieces.
-  template <class Integer>
-  void write_vertices() {
-    const VertexRanges ranges(mesh_);
-    for (std::size_t i = 0; i < ranges.count(); ++i) {
-      std::vector<FileVertex> range;
-      {
-        const std::vector<std::string> came = send_to_first(collect(ranges, i));
-        std::size_t bytes = 0;
-        for (const std::string& from : came) bytes += from.size();
-        range.reserve(bytes / sizeof(FileVertex));
-        for (const std::string& from : came) {
-          for (std::string_view rest = from; !rest.empty();) {
-            pieces::take(rest, range.emplace_back());
-          }
-        }
-      }
-      std::sort(range.begin(), range.end(),
-                [](const FileVertex& a, const FileVertex& b) { return a.id < b.id; });
-      for (const FileVertex& vertex : range) {
+    const FileWalk::Counts& counts = walk_.counts();
+    begin_rows<Integer>(vertices, counts.vertices, 24 + sizeof(Integer));
+    walk_.vertices([&](std::span<const FileVertex> some) {
+      for (const FileVertex& vertex : some) {
         for (const double x : vertex.point) put(x);
         put(static_cast<Integer>(vertex.label));
       }
+    });
+    write_elements<Integer>(edges, counts.edges, &Piece::edges);
+    write_elements<Integer>(triangles, counts.triangles, &Piece::triangles);
+    if (!walk_.required().empty()) {
+      begin_rows<Integer>(required_vertices, walk_.required().size(), sizeof(Integer));
+      for (const VertexId id : walk_.required()) put(static_cast<Integer>(walk_.number(id) + 1));
     }
-  }
-  std::string collect(const VertexRanges& ranges, std::size_t number) const {
-    std::string bytes;
-    for (std::size_t i = 0; i < mesh_.own().size(); ++i) {
-      const auto [begin, end] = ranges.of_piece(i, number);
-      const Piece piece = mesh_.stored_vertices(mesh_.own()[i], begin, end);
-      for (std::size_t v = 0; v < piece.ids.size(); ++v) {
-        if ((piece.marks[v] & kOwn) == 0) continue;
-        const Point& p = piece.points[v];
-        pieces::put(FileVertex{piece.ids[v], {p.x(), p.y(), p.z()}, piece.label(v)}, bytes);
-      }
-    }
-    return bytes;
+    write_elements<Integer>(tetrahedra, counts.tets, &Piece::tets);
   }
   template <class Integer, class Element>
   void write_elements(std::int32_t keyword, std::uint64_t rows,
@@ -398,29 +289,15 @@ class Writer {
     if (rows == 0) return;
     constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
     begin_rows<Integer>(keyword, rows, kNumbers * sizeof(Integer));
-    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
-      std::string bytes;
-      if (std::binary_search(mesh_.own().begin(), mesh_.own().end(), i)) {
-        const Piece piece = mesh_.stored(i);
-        for (const Element& element : piece.*elements) {
-          for (const std::uint32_t v : element.vertices) {
-            pieces::put(number<Integer>(piece.ids[v]), bytes);
-          }
-          pieces::put(static_cast<Integer>(element.label), bytes);
-        }
-      }
-      for (const std::string& from : send_to_first(std::move(bytes))) {
-        if (out_ != nullptr) out_->put(from);
-      }
-    }
+    const auto pack = [](const auto& numbers, Label label, std::string& bytes) {
+      for (const std::uint64_t v : numbers) pieces::put(static_cast<Integer>(v + 1), bytes);
+      pieces::put(static_cast<Integer>(label), bytes);
+    };
+    walk_.elements(elements, pack, [&](std::string_view bytes) { out_->put(bytes); });
   }
 
   OutputFile* out_;
-  const DividedMesh& mesh_;
-  Ranks& ranks_;
-  Numbering numbering_;
-  FileCounts counts_;
-  std::vector<VertexId> required_;
+  const FileWalk walk_;
   std::int32_t version_ = 2;
   std::uint64_t position_ = 0;
 };

@@ -22,6 +22,7 @@
 #include "pieces/medit_slices.h"
 #include "pieces/partitioned_files.h"
 #include "pieces/slices.h"
+#include "pieces/vtu_output.h"
 
 namespace tetmend::pieces {
 
@@ -228,6 +229,10 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   }
   if (file.extension() == ".meshb" && details.source.empty()) {
     write_medit_slices(file, mesh);
+    return {};
+  }
+  if (file.extension() == ".vtu" && details.source.empty()) {
+    write_vtu_slices(file, mesh);
     return {};
   }
   mesh.bring_to_first();

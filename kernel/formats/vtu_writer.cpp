@@ -2,49 +2,23 @@
 // Writes VTK's XML files: inline base64, in blocks of zlib.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstring>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "kernel/formats/base64.h"
 #include "kernel/formats/cell_arrays.h"
-#include "kernel/formats/compression.h"
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/formats/vtu_array.h"
 
 namespace tetmend::formats {
 namespace {
 
-constexpr std::size_t kBlockSize = std::size_t{1} << 17;
-
 template <class T>
 std::string_view bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (static_cast<unsigned char>(c) < ' ')
-      result += ' ';
-    else
-      result += c;
-  }
-  return result;
 }
 
 class Writer {
@@ -54,13 +28,7 @@ class Writer {
 
   void write() {
     collect_cells();
-    out_.put("<?xml version=\"1.0\"?>\n");
-    out_.put(
-        fmt::format("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-                    "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n",
-                    std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian"));
-    out_.put(fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                         mesh_.point_count(), types_.size()));
+    out_.put(vtu_head(mesh_.point_count(), types_.size()));
     write_point_data();
     write_cell_data();
     write_points();
@@ -68,7 +36,8 @@ class Writer {
     write_array("connectivity", "Int64", 1, bytes_of(connectivity_));
     write_array("offsets", "Int64", 1, bytes_of(offsets_));
     write_array("types", "UInt8", 1, bytes_of(types_));
-    out_.put("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+    out_.put("</Cells>\n");
+    out_.put(kVtuEnd);
   }
 
  private:
@@ -147,21 +116,15 @@ class Writer {
   /// The header of the blocks is a base64 stream of its own.
   void write_array(std::string_view name, std::string_view type, std::size_t components,
                    std::string_view bytes) {
-    out_.put(
-        fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-                    "format=\"binary\">\n",
-                    type, escaped(name), components));
-    const std::size_t blocks = (bytes.size() + kBlockSize - 1) / kBlockSize;
-    std::vector<std::uint64_t> header = {blocks, kBlockSize, bytes.size() % kBlockSize};
+    out_.put(vtu_array_tag(name, type, components));
+    VtuBlocks blocks;
     std::string packed;
-    for (std::size_t i = 0; i < blocks; ++i) {
-      const std::string block = deflate_block(bytes.substr(i * kBlockSize, kBlockSize));
-      header.push_back(block.size());
-      packed += block;
-    }
-    out_.put(encode_base64(bytes_of(header)));
+    const auto take = [&](std::string_view block) { packed += block; };
+    blocks.put(bytes, take);
+    blocks.finish(take);
+    out_.put(encode_base64(bytes_of(blocks.header())));
     out_.put(encode_base64(packed));
-    out_.put("\n</DataArray>\n");
+    out_.put(kVtuArrayEnd);
   }
 
   OutputFile& out_;

@@ -136,7 +136,7 @@ MeshData joined(const std::vector<pieces::RankShare>& all) {
 }  // namespace
 
 TEST_CASE("the number of ranks does not show in the result, nor that of their threads") {
-  for (const char* ending : {".meshb", ".mesh"}) {
+  for (const char* ending : {".meshb", ".mesh", ".vtu"}) {
     CAPTURE(ending);
     const Files files(ending);
     for (const std::size_t count : {1, 2, 3, 8}) {

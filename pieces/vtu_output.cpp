@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// The layout of the format: kernel/formats/vtu_writer.cpp.
+#include "pieces/vtu_output.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kernel/formats/output_file.h"
+#include "kernel/formats/vtu_array.h"
+#include "pieces/bytes.h"
+#include "pieces/file_walk.h"
+
+namespace tetmend::pieces {
+
+namespace {
+
+using Take = std::function<void(std::string_view)>;
+
+/// The first rank writes what all send it. Each array is walked through twice, see VtuArray.
+class VtuWriter {
+ public:
+  /// @param out null on all ranks but the first
+  VtuWriter(OutputFile* out, const DividedMesh& mesh) : out_(out), walk_(mesh) {}
+
+  void write() {
+    const FileWalk::Counts& counts = walk_.counts();
+    put(formats::vtu_head(counts.vertices, counts.tets + counts.triangles + counts.edges));
+    if (walk_.has_point_labels()) {
+      put("<PointData>\n");
+      write_array("CellEntityIds", "Int32", 1, [&](const Take& take) { tell_point_labels(take); });
+      put("</PointData>\n");
+    }
+    put("<CellData>\n");
+    if (walk_.has_labels()) {
+      write_array("CellEntityIds", "Int32", 1, [&](const Take& take) { tell_labels(take); });
+    }
+    put("</CellData>\n<Points>\n");
+    write_array("Points", "Float64", 3, [&](const Take& take) { tell_points(take); });
+    put("</Points>\n<Cells>\n");
+    write_array("connectivity", "Int64", 1, [&](const Take& take) { tell_connectivity(take); });
+    write_array("offsets", "Int64", 1, [&](const Take& take) { tell_offsets(take); });
+    write_array("types", "UInt8", 1, [&](const Take& take) { tell_types(take); });
+    put("</Cells>\n");
+    put(formats::kVtuEnd);
+  }
+
+ private:
+  void put(std::string_view text) {
+    if (out_ != nullptr) out_->put(text);
+  }
+  template <class Tell>
+  void write_array(std::string_view name, std::string_view type, std::size_t components,
+                   Tell tell) {
+    formats::VtuArray array(name, type, components);
+    tell([&](std::string_view bytes) { array.measure(bytes); });
+    if (out_ != nullptr) array.begin(*out_);
+    tell([&](std::string_view bytes) { array.write(bytes, *out_); });
+    if (out_ != nullptr) array.end(*out_);
+  }
+
+  void tell_point_labels(const Take& take) const {
+    walk_.vertices([&](std::span<const FileVertex> some) {
+      std::string bytes;
+      for (const FileVertex& vertex : some) pieces::put(vertex.label, bytes);
+      take(bytes);
+    });
+  }
+  void tell_points(const Take& take) const {
+    walk_.vertices([&](std::span<const FileVertex> some) {
+      std::string bytes;
+      for (const FileVertex& vertex : some) pieces::put(vertex.point, bytes);
+      take(bytes);
+    });
+  }
+  template <class Pack>
+  void tell_elements(Pack pack, const Take& take) const {
+    walk_.elements(&Piece::tets, pack, take);
+    walk_.elements(&Piece::triangles, pack, take);
+    walk_.elements(&Piece::edges, pack, take);
+  }
+  void tell_labels(const Take& take) const {
+    tell_elements([](const auto&, Label label, std::string& bytes) { pieces::put(label, bytes); },
+                  take);
+  }
+  void tell_connectivity(const Take& take) const {
+    const auto pack = [](const auto& numbers, Label, std::string& bytes) {
+      for (const std::uint64_t v : numbers) pieces::put(static_cast<std::int64_t>(v), bytes);
+    };
+    tell_elements(pack, take);
+  }
+  /// What follows from the numbers of elements alone: the first rank knows it.
+  template <class See>
+  void for_each_cell(See see) const {
+    if (out_ == nullptr) return;
+    const FileWalk::Counts& counts = walk_.counts();
+    for (std::uint64_t i = 0; i < counts.tets; ++i) see(4, 10);
+    for (std::uint64_t i = 0; i < counts.triangles; ++i) see(3, 5);
+    for (std::uint64_t i = 0; i < counts.edges; ++i) see(2, 3);
+  }
+  void tell_offsets(const Take& take) const {
+    std::string bytes;
+    std::int64_t end = 0;
+    for_each_cell([&](int vertices, int) {
+      end += vertices;
+      pieces::put(end, bytes);
+      if (bytes.size() < kSome) return;
+      take(bytes);
+      bytes.clear();
+    });
+    if (!bytes.empty()) take(bytes);
+  }
+  void tell_types(const Take& take) const {
+    std::string bytes;
+    for_each_cell([&](int, int type) {
+      bytes += static_cast<char>(type);
+      if (bytes.size() < kSome) return;
+      take(bytes);
+      bytes.clear();
+    });
+    if (!bytes.empty()) take(bytes);
+  }
+
+  static constexpr std::size_t kSome = std::size_t{1} << 20;
+  OutputFile* out_;
+  const FileWalk walk_;
+};
+
+}  // namespace
+
+void write_vtu_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
+  std::optional<OutputFile> out;
+  if (mesh.ranks().is_first()) out.emplace(file);
+  VtuWriter(out ? &*out : nullptr, mesh).write();
+  if (out) out->commit();
+  mesh.ranks().meet();
+}
+
+}  // namespace tetmend::pieces
