@@ -19,6 +19,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "pieces/bytes.h"
+#include "pieces/gmsh_output.h"
 #include "pieces/medit_slices.h"
 #include "pieces/partitioned_files.h"
 #include "pieces/slices.h"
@@ -233,6 +234,11 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   }
   if (file.extension() == ".vtu" && details.source.empty()) {
     write_vtu_slices(file, mesh);
+    return {};
+  }
+  const bool is_msh_2 = details.variant.starts_with("2.2");
+  if (file.extension() == ".msh" && details.source.empty() && !is_msh_2) {
+    write_gmsh_slices(file, mesh, details.variant != "4.1 ASCII");
     return {};
   }
   mesh.bring_to_first();

@@ -2,7 +2,6 @@
 // Writes Gmsh's files of versions 2.2 and 4.1.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <numeric>
 #include <span>
@@ -17,55 +16,11 @@
 #include "kernel/error.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/gmsh_plan.h"
+#include "kernel/formats/gmsh_rows.h"
 #include "kernel/formats/output_rows.h"
 
 namespace tetmend::formats {
 namespace {
-
-/// A row of numbers, as text or as bytes.
-template <class Out>
-class Row {
- public:
-  Row(Out& out, bool binary) : out_(out), binary_(binary) {}
-  /// 4 bytes.
-  Row& integer(std::int64_t value) {
-    return binary_ ? bytes(static_cast<std::int32_t>(value)) : text(value);
-  }
-  /// 8 bytes.
-  Row& wide(std::int64_t value) { return binary_ ? bytes(value) : text(value); }
-  Row& size(std::size_t value) { return wide(static_cast<std::int64_t>(value)); }
-  Row& real(double value) {
-    if (binary_) return bytes(value);
-    separate();
-    out_.put_real(value);
-    return *this;
-  }
-  Row& point(const Point& point) { return real(point[0]).real(point[1]).real(point[2]); }
-  void end() {
-    if (!binary_) out_.put('\n');
-    is_first_ = true;
-  }
-
- private:
-  void separate() {
-    if (!is_first_) out_.put(' ');
-    is_first_ = false;
-  }
-  template <class T>
-  Row& bytes(T value) {
-    out_.put_bytes(value);
-    return *this;
-  }
-  Row& text(std::int64_t value) {
-    separate();
-    out_.put_integer(value);
-    return *this;
-  }
-
-  Out& out_;
-  bool binary_;
-  bool is_first_ = true;
-};
 
 /// Numbers 0, 1, ... in groups.
 struct Grouped {
@@ -86,26 +41,17 @@ struct Grouped {
   std::vector<std::uint32_t> order;
 };
 
-/// Without what would end the name in a file.
-std::string clean_name(std::string_view name) {
-  std::string clean(name);
-  for (char& c : clean) {
-    if (c == '"') c = '\'';
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
-  }
-  return clean;
-}
-
 double value_of(const DataArray& array, std::size_t i) {
   return std::visit([i](const auto& values) { return static_cast<double>(values[i]); },
                     array.values);
 }
 
-class Writer {
+class Writer : private GmshSections {
  public:
   Writer(OutputFile& out, std::string name, const MeshView& mesh, GmshPlan& plan, bool is_4,
          bool binary, bool is_part = false)
-      : out_(out),
+      : GmshSections(out, name, is_4, binary),
+        out_(out),
         name_(std::move(name)),
         mesh_(mesh),
         plan_(plan),
@@ -115,9 +61,9 @@ class Writer {
 
   void write() {
     write_header();
-    write_names();
+    write_names(plan_.names);
     if (is_4_) {
-      write_entities();
+      write_entities(plan_.entities);
       write_nodes_4();
       write_elements_4();
     } else {
@@ -129,8 +75,6 @@ class Writer {
   }
 
  private:
-  Row<OutputFile> row() { return {out_, binary_}; }
-
   const std::vector<std::int64_t>& given_numbers() const {
     static const std::vector<std::int64_t> kNone;
     return is_part_ ? mesh_.data()->point_numbers : kNone;
@@ -140,63 +84,14 @@ class Writer {
     return is_part_ ? mesh_.data()->point_numbers[point] : static_cast<std::int64_t>(point) + 1;
   }
 
-  void begin(std::string_view name) { out_.put(fmt::format("${}\n", name)); }
-  /// Of a section whose numbers are binary in a binary file.
-  void end_numbers(std::string_view name) {
-    if (binary_) out_.put('\n');
-    end(name);
-  }
-  void end(std::string_view name) { out_.put(fmt::format("$End{}\n", name)); }
-
-  void write_header() {
-    out_.put(fmt::format("$MeshFormat\n{} {} 8\n", is_4_ ? "4.1" : "2.2", binary_ ? 1 : 0));
-    if (binary_) {
-      out_.put_bytes(std::int32_t{1});
-      out_.put('\n');
-    }
-    end("MeshFormat");
-  }
-
-  void write_names() {
-    if (plan_.names.empty()) return;
-    begin("PhysicalNames");
-    out_.put(fmt::format("{}\n", plan_.names.size()));
-    for (const Group& group : plan_.names) {
-      out_.put(
-          fmt::format("{} {} \"{}\"\n", group.dimension, group.number, clean_name(group.name)));
-    }
-    end("PhysicalNames");
-  }
-
-  void write_entities() {
-    begin("Entities");
-    auto counts = row();
-    for (const auto& of_dimension : plan_.entities) counts.size(of_dimension.size());
-    counts.end();
-    for (const auto& of_dimension : plan_.entities) {
-      for (const GeometricEntity& entity : of_dimension) write_entity(entity);
-    }
-    end_numbers("Entities");
-  }
-
-  void write_entity(const GeometricEntity& entity) {
-    auto numbers = row();
-    numbers.integer(entity.tag);
-    for (std::size_t k = 0; k < (entity.dimension == 0 ? 3U : 6U); ++k) numbers.real(entity.box[k]);
-    numbers.size(entity.groups.size());
-    for (const Label group : entity.groups) numbers.integer(group);
-    if (entity.dimension > 0) {
-      numbers.size(entity.boundary.size());
-      for (const Label tag : entity.boundary) numbers.integer(tag);
-    }
-    numbers.end();
-  }
-
   void write_nodes_2() {
     begin("Nodes");
     out_.put(fmt::format("{}\n", mesh_.point_count()));
     put_rows(out_, mesh_.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
-      Row(buffer, binary_).integer(static_cast<std::int64_t>(i) + 1).point(mesh_.point(i)).end();
+      GmshRow(buffer, binary_)
+          .integer(static_cast<std::int64_t>(i) + 1)
+          .point(mesh_.point(i))
+          .end();
     });
     end_numbers("Nodes");
   }
@@ -223,10 +118,10 @@ class Writer {
     if (points.empty()) return;
     row().integer(entity.dimension).integer(entity.tag).integer(0).size(points.size()).end();
     put_rows(out_, points.size(), [&](std::size_t i, OutputBuffer& buffer) {
-      Row(buffer, binary_).wide(node(points[i])).end();
+      GmshRow(buffer, binary_).wide(node(points[i])).end();
     });
     put_rows(out_, points.size(), [&](std::size_t i, OutputBuffer& buffer) {
-      Row(buffer, binary_).point(mesh_.point(points[i])).end();
+      GmshRow(buffer, binary_).point(mesh_.point(points[i])).end();
     });
   }
 
@@ -293,7 +188,7 @@ class Writer {
     row().integer(kind.dimension()).integer(entity).integer(kind.type).size(elements.size()).end();
     const auto put = [&](std::size_t i, std::span<const std::uint32_t> vertices,
                          OutputBuffer& buffer) {
-      Row numbers(buffer, binary_);
+      GmshRow numbers(buffer, binary_);
       numbers.wide(kind.number(i));
       put_vertices(kind.type, vertices, [&](std::int64_t v) { numbers.wide(v); });
       numbers.end();
@@ -361,7 +256,7 @@ class Writer {
       const std::uint32_t entity = kind.entity_of[i];
       std::int64_t number = kind.number(i);
       for (const Label group : groups[entity]) {
-        Row numbers(buffer, binary_);
+        GmshRow numbers(buffer, binary_);
         numbers.integer(number++);
         if (!binary_) numbers.integer(kind.type).integer(2);
         numbers.integer(group).integer(entities[entity].tag);
@@ -418,7 +313,7 @@ class Writer {
     if (mesh_.has_point_labels()) {
       write_view_head("NodeData", kGmshPointLabels, 1, mesh_.point_count());
       put_rows(out_, mesh_.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
-        Row(buffer, binary_).integer(node(i)).real(mesh_.point_label(i)).end();
+        GmshRow(buffer, binary_).integer(node(i)).real(mesh_.point_label(i)).end();
       });
       end_numbers("NodeData");
     }
@@ -432,22 +327,10 @@ class Writer {
     write_element_views();
   }
 
-  void write_view_head(std::string_view section, std::string_view name, std::size_t components,
-                       std::size_t count) {
-    if (count > INT32_MAX) {
-      throw Error(
-          fmt::format("{}: cannot be written: a view of the format holds at most {} "
-                      "values, '{}' has {}",
-                      name_, INT32_MAX, name, count));
-    }
-    begin(section);
-    out_.put(fmt::format("1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", clean_name(name), components, count));
-  }
-
   template <class Number>
   void write_values(const DataArray& array, std::size_t count, const Number& number) {
     put_rows(out_, count, [&](std::size_t i, OutputBuffer& buffer) {
-      Row numbers(buffer, binary_);
+      GmshRow numbers(buffer, binary_);
       numbers.integer(number(i));
       for (std::size_t k = 0; k < array.components; ++k) {
         numbers.real(value_of(array, i * array.components + k));

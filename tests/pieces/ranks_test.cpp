@@ -153,6 +153,27 @@ TEST_CASE("the number of ranks does not show in the result, nor that of their th
   }
 }
 
+TEST_CASE("the format of the output is free, and all ranks help to write it") {
+  const Files files;
+  Mesh mesh = load(files.in);
+  Division division;
+  division.pieces = kPieces;
+  pieces::improve(mesh, {}, division);
+  for (const char* ending : {".msh", ".vtu", ".mesh"}) {
+    CAPTURE(ending);
+    const auto expected = files.folder.path() / (std::string("whole") + ending);
+    save(expected, mesh);
+    OutOfCore all = files.all();
+    all.output = files.folder.path() / (std::string("parts") + ending);
+    for (const std::size_t count : {1, 3}) {
+      CAPTURE(count);
+      std::filesystem::remove(all.output);
+      on_ranks(count, [&](Ranks& ranks) { improve(all, ranks); });
+      CHECK(bytes_of(all.output) == bytes_of(expected));
+    }
+  }
+}
+
 TEST_CASE("by which number the first vertex goes does not show in the result") {
   for (const char* ending : {".meshb", ".mesh"}) {
     const Files files(ending);

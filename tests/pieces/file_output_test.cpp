@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/vtu_output.h"
-
+// Files that are written piece by piece are those that are written as a whole.
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -10,7 +10,10 @@
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtu_array.h"
 #include "kernel/mesh_view.h"
+#include "pieces/gmsh_output.h"
+#include "pieces/medit_slices.h"
 #include "pieces/slices.h"
+#include "pieces/vtu_output.h"
 #include "tests/pieces/meshes.h"
 
 using namespace tetmend;
@@ -25,17 +28,22 @@ std::string bytes_written_to(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("a .vtu file by slices has the bytes of one that is written as a whole") {
+TEST_CASE("a file that is written piece by piece has the bytes of one that is written as a whole") {
   const test::Folder folder;
+  enum class Labels { none, some, many };
   for (const bool has_point_labels : {false, true}) {
-    for (const bool has_labels : {false, true}) {
+    for (const Labels labels : {Labels::none, Labels::some, Labels::many}) {
       CAPTURE(has_point_labels);
-      CAPTURE(has_labels);
-      MeshData data = test::lattice(10);  // indices of more than a block
+      CAPTURE(static_cast<int>(labels));
+      MeshData data = test::lattice(10);  // indices of more than a block of a .vtu file
       if (has_point_labels) {
-        for (std::size_t v = 0; v < data.points.size(); ++v) data.point_labels.push_back(v % 7);
+        for (std::size_t v = 0; v < data.points.size(); ++v) data.point_labels.push_back(Label(v % 7));
       }
-      if (!has_labels) {
+      for (std::uint32_t v = 0; v < 200; v += 3) data.edges.push_back({{v, v + 1}, Label(v % 5)});
+      for (std::size_t t = 0; labels == Labels::many && t < data.tets.size(); ++t) {
+        data.tets[t].label = static_cast<Label>(t / 40 % 17) - 4;
+      }
+      if (labels == Labels::none) {
         for (MeshData::Tet& tet : data.tets) tet.label = 0;
         data.triangles.clear();
         data.edges.clear();
@@ -51,12 +59,22 @@ TEST_CASE("a .vtu file by slices has the bytes of one that is written as a whole
         mesh.remove_gathered(part);
       }
       mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
-      write_vtu_slices(folder.path() / "slices.vtu", mesh);
       const Joined joined = join(mesh, data.points.size());
-      write_mesh(folder.path() / "whole.vtu", MeshView(joined.data));
-      const std::string written = bytes_written_to(folder.path() / "slices.vtu");
-      CHECK(written.size() > 1000);
-      CHECK(written == bytes_written_to(folder.path() / "whole.vtu"));
+      const auto check = [&](const std::string& ending, std::string_view variant, auto write) {
+        CAPTURE(ending);
+        const std::filesystem::path slices = folder.path() / ("slices" + ending);
+        const std::filesystem::path whole = folder.path() / ("whole" + ending);
+        write(slices);
+        MeshView view(joined.data);
+        view.set_variant(variant);
+        write_mesh(whole, view);
+        CHECK(bytes_written_to(slices).size() > 1000);
+        CHECK(bytes_written_to(slices) == bytes_written_to(whole));
+      };
+      check(".meshb", "", [&](const auto& file) { write_medit_slices(file, mesh); });
+      check(".vtu", "", [&](const auto& file) { write_vtu_slices(file, mesh); });
+      check(".msh", "", [&](const auto& file) { write_gmsh_slices(file, mesh, true); });
+      check(".msh", "4.1 ASCII", [&](const auto& file) { write_gmsh_slices(file, mesh, false); });
     }
   }
 }
