@@ -147,6 +147,7 @@ TEST_CASE("the number of ranks does not show in the result, nor that of their th
         const Result result = improve(files.all(), ranks, {.threads = threads});
         CHECK(result.after.n_bad < result.before.n_bad / 10);
         CHECK(result.worse().empty());
+        CHECK(result.surface_fingerprint_before == result.surface_fingerprint);
       });
       CHECK(bytes_of(files.out) == files.expected);
     }
