@@ -41,12 +41,12 @@ TEST_CASE("in the window a run is recorded, and opened in the debugger when it i
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
   click(800, 300);  // unfolds the panel
-  click(729, 489);  // record
-  click(737, 516);  // run
+  click(729, 516);  // record
+  click(737, 543);  // run
   wait_for("tetmend-live.trace");
   type("mousemove 500 350");
   wait_until_still();  // its last mesh is shown
-  click(890, 536);     // debug this run
+  click(890, 563);     // debug this run
   type("mousemove 500 350 key Right Right Right Right");
   const nlohmann::json state = viewer.quit();
   REQUIRE(state.contains("trace"));
