@@ -37,7 +37,8 @@ TEST_CASE("a file that is written piece by piece has the bytes of one that is wr
       CAPTURE(static_cast<int>(labels));
       MeshData data = test::lattice(10);  // indices of more than a block of a .vtu file
       if (has_point_labels) {
-        for (std::size_t v = 0; v < data.points.size(); ++v) data.point_labels.push_back(Label(v % 7));
+        for (std::size_t v = 0; v < data.points.size(); ++v)
+          data.point_labels.push_back(Label(v % 7));
       }
       for (std::uint32_t v = 0; v < 200; v += 3) data.edges.push_back({{v, v + 1}, Label(v % 5)});
       for (std::size_t t = 0; labels == Labels::many && t < data.tets.size(); ++t) {
