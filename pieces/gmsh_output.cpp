@@ -220,20 +220,28 @@ class GmshWriter {
     }
   }
 
+  /// Numbers of blocks and of all rows, the least and the greatest number of a row.
+  void begin_section(std::string_view name, std::uint64_t Entity::*rows) {
+    if (!sections_) return;
+    std::size_t blocks = 0;
+    std::uint64_t count = 0;
+    for (const Entity& entity : entities_) {
+      blocks += entity.*rows > 0 ? 1 : 0;
+      count += entity.*rows;
+    }
+    sections_->begin(name);
+    const auto last = static_cast<std::int64_t>(count);
+    sections_->row()
+        .size(blocks)
+        .size(count)
+        .wide(std::min<std::int64_t>(last, 1))
+        .wide(last)
+        .end();
+  }
+
   void write_nodes() {
     classify_nodes();
-    const std::uint64_t count = walk_.counts().vertices;
-    if (sections_) {
-      sections_->begin("Nodes");
-      const auto blocks = std::count_if(entities_.begin(), entities_.end(),
-                                        [](const Entity& entity) { return entity.nodes > 0; });
-      sections_->row()
-          .size(static_cast<std::size_t>(blocks))
-          .size(count)
-          .wide(count == 0 ? 0 : 1)
-          .wide(static_cast<std::int64_t>(count))
-          .end();
-    }
+    begin_section("Nodes", &Entity::nodes);
     std::vector<std::uint64_t> bytes;
     for (const Entity& entity : entities_) bytes.push_back(sizeof(Point) * entity.nodes);
     in_turns(0, entities_.size(), bytes,
@@ -285,18 +293,7 @@ class GmshWriter {
 
   void write_elements() {
     const FileWalk::Counts& counts = walk_.counts();
-    if (sections_) {
-      sections_->begin("Elements");
-      const auto blocks = std::count_if(entities_.begin(), entities_.end(),
-                                        [](const Entity& entity) { return entity.elements > 0; });
-      const std::uint64_t count = counts.edges + counts.triangles + counts.tets;
-      sections_->row()
-          .size(static_cast<std::size_t>(blocks))
-          .size(count)
-          .wide(count == 0 ? 0 : 1)
-          .wide(static_cast<std::int64_t>(count))
-          .end();
-    }
+    begin_section("Elements", &Entity::elements);
     write_kind(1, formats::gmsh_edge, 1, &Piece::edges);
     write_kind(2, formats::gmsh_triangle, 1 + counts.edges, &Piece::triangles);
     write_kind(3, formats::gmsh_tet, 1 + counts.edges + counts.triangles, &Piece::tets);
