@@ -2,6 +2,7 @@
 #include "pieces/file_walk.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace tetmend::pieces {
@@ -122,6 +123,15 @@ std::string FileWalk::collect(const Ranges& ranges, std::size_t number) const {
     }
   }
   return bytes;
+}
+
+void write_by_first(const std::filesystem::path& file, Ranks& ranks,
+                    const std::function<void(OutputFile* out)>& write) {
+  std::optional<OutputFile> out;
+  if (ranks.is_first()) out.emplace(file);
+  write(out ? &*out : nullptr);
+  if (out) out->commit();
+  ranks.meet();
 }
 
 }  // namespace tetmend::pieces

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/formats/output_file.h"
 #include "pieces/bytes.h"
 #include "pieces/divided_mesh.h"
 #include "pieces/numbering.h"
@@ -86,5 +88,10 @@ class FileWalk {
   bool has_point_labels_ = false;
   bool has_labels_ = false;
 };
+
+/// All ranks: write(out) with the file on the first rank, with null on others. It is there when all are
+/// done. @throws Error as OutputFile
+void write_by_first(const std::filesystem::path& file, Ranks& ranks,
+                    const std::function<void(OutputFile* out)>& write);
 
 }  // namespace tetmend::pieces

@@ -384,11 +384,8 @@ class GmshWriter {
 }  // namespace
 
 void write_gmsh_slices(const std::filesystem::path& file, const DividedMesh& mesh, bool binary) {
-  std::optional<OutputFile> out;
-  if (mesh.ranks().is_first()) out.emplace(file);
-  GmshWriter(out ? &*out : nullptr, file, mesh, binary).write();
-  if (out) out->commit();
-  mesh.ranks().meet();
+  write_by_first(file, mesh.ranks(),
+                 [&](OutputFile* out) { GmshWriter(out, file, mesh, binary).write(); });
 }
 
 }  // namespace tetmend::pieces

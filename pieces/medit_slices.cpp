@@ -305,11 +305,7 @@ class Writer {
 }  // namespace
 
 void write_medit_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
-  std::optional<OutputFile> out;
-  if (mesh.ranks().is_first()) out.emplace(file);
-  Writer(out ? &*out : nullptr, mesh).write();
-  if (out) out->commit();
-  mesh.ranks().meet();
+  write_by_first(file, mesh.ranks(), [&](OutputFile* out) { Writer(out, mesh).write(); });
 }
 
 }  // namespace tetmend::pieces

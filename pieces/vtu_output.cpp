@@ -131,11 +131,7 @@ class VtuWriter {
 }  // namespace
 
 void write_vtu_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
-  std::optional<OutputFile> out;
-  if (mesh.ranks().is_first()) out.emplace(file);
-  VtuWriter(out ? &*out : nullptr, mesh).write();
-  if (out) out->commit();
-  mesh.ranks().meet();
+  write_by_first(file, mesh.ranks(), [&](OutputFile* out) { VtuWriter(out, mesh).write(); });
 }
 
 }  // namespace tetmend::pieces

@@ -16,18 +16,9 @@ using namespace tetmend::pieces;
 
 namespace {
 
-/// Stores again without work.
-void store_idly(DividedMesh& mesh) {
-  for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
-    mesh.store(part, own_part(mesh.gathered(part), mesh.state().parting, part));
-    mesh.remove_gathered(part);
-  }
-  mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
-}
-
 void divide_idly(DividedMesh& mesh, std::size_t pieces, unsigned shift) {
   mesh.divide(pieces, shift);
-  store_idly(mesh);
+  test::store_idly(mesh);
 }
 
 /// Each gathered piece has all tets around its vertices. Each tet and each vertex is the own of one of
@@ -131,7 +122,7 @@ TEST_CASE("what is near no border and in no zone stays, and nothing is lost or d
   std::vector<std::size_t> sent;
   const auto check = [&] {
     sent.push_back(check_division(data, mesh));
-    store_idly(mesh);
+    test::store_idly(mesh);
   };
   for (const unsigned shift : {1u, 2u}) {
     mesh.divide_near_borders(shift, 1);

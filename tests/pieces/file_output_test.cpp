@@ -55,11 +55,7 @@ TEST_CASE("a file that is written piece by piece has the bytes of one that is wr
       add_slices(data, {}, mesh);
       mesh.end_slices();
       mesh.divide(5, 0);
-      for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
-        mesh.store(part, own_part(mesh.gathered(part), mesh.state().parting, part));
-        mesh.remove_gathered(part);
-      }
-      mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
+      test::store_idly(mesh);
       const Joined joined = join(mesh, data.points.size());
       const auto check = [&](const std::string& ending, std::string_view variant, auto write) {
         CAPTURE(ending);

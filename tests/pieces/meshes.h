@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "contract/zoo.h"
 #include "kernel/formats/mesh_io.h"
 #include "pieces/divided_mesh.h"
+#include "pieces/piece_task.h"
 
 namespace tetmend::test {
 
@@ -32,6 +34,15 @@ inline MeshData lattice(std::uint32_t n) {
   data.edges.push_back({{inside, inside + inside}, 6});
   data.required_vertices = {inside, inside + n - 2};
   return data;
+}
+
+/// Stores the pieces of a division again, without work.
+inline void store_idly(pieces::DividedMesh& mesh) {
+  for (std::uint32_t part = 0; part < mesh.parts(); ++part) {
+    mesh.store(part, pieces::own_part(mesh.gathered(part), mesh.state().parting, part));
+    mesh.remove_gathered(part);
+  }
+  mesh.number_added(std::vector<std::uint64_t>(mesh.parts(), 0));
 }
 
 /// A new folder that goes with its maker.
