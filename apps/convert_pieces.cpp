@@ -37,7 +37,9 @@ void convert_pieces(const std::filesystem::path& input, const std::filesystem::p
                         .parts = parts > 0 ? parts : pieces::usual_pieces(tets),
                         .variant = carry.variant,
                         .source = holds_more ? input : std::filesystem::path(),
-                        .label_array = carry.label_array});
+                        .label_array = carry.label_array,
+                        .shelf = &shelf,
+                        .pieces = ranks.count()});
 }
 
 }  // namespace tetmend::apps

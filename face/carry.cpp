@@ -141,8 +141,7 @@ class Carrying {
       DataArray& made = now_.point_data.emplace_back(DataArray{array.name, array.components, {}});
       std::visit([&](const auto& old) { made.values = interpolated(old, array.components); },
                  array.values);
-      const bool is_real = array.values.index() >= 2;
-      tell(array, made, "points", is_real ? kLinear : kNearest);
+      tell(array, made, true, false);
     }
   }
 
@@ -192,11 +191,11 @@ class Carrying {
     }
     for (const DataArray& array : before_.tet_data) {
       if (std::find(conserve_.begin(), conserve_.end(), array.name) != conserve_.end()) {
-        tell(array, now_.tet_data.emplace_back(conserved(array, shares)), "tets", kConserved);
+        tell(array, now_.tet_data.emplace_back(conserved(array, shares)), false, true);
         continue;
       }
-      tell(array, now_.tet_data.emplace_back(formats::selected_rows(array, old_tet_)), "tets",
-           kCentroid);
+      tell(array, now_.tet_data.emplace_back(formats::selected_rows(array, old_tet_)), false,
+           false);
     }
   }
 
@@ -439,27 +438,17 @@ class Carrying {
     }
   }
 
-  void tell(const DataArray& old, const DataArray& made, std::string_view on,
-            std::string_view rule) {
-    carried_.push_back(
-        {old.name, std::string(on), std::string(rule), integral_error(old, made, on)});
-  }
-
-  /// Largest of all components: |after - before| by the integral of the absolute value.
-  double integral_error(const DataArray& old, const DataArray& made, std::string_view on) const {
-    double worst = 0;
+  void tell(const DataArray& old, const DataArray& made, bool is_of_points, bool is_conserved) {
+    std::vector<ComponentIntegral> integrals;
     for (std::size_t k = 0; k < old.components; ++k) {
-      const auto [then, size] = integral(before_, old, k, on);
-      const double now = integral(now_, made, k, on).first;
-      if (now == then) continue;
-      const double error = std::abs(now - then) / std::max(size, std::abs(now));
-      worst = std::isfinite(error) ? std::max(worst, error) : worst;
+      const auto [then, size] = integral(before_, old, k, is_of_points);
+      integrals.push_back({then, size, integral(now_, made, k, is_of_points).first});
     }
-    return worst;
+    carried_.push_back(carried_array(old, is_of_points, is_conserved, integrals));
   }
 
   static std::pair<double, double> integral(const MeshData& data, const DataArray& array,
-                                            std::size_t k, std::string_view on) {
+                                            std::size_t k, bool is_of_points) {
     const auto value = [&](std::size_t row) {
       return std::visit(
           [&](const auto& v) { return static_cast<double>(v[row * array.components + k]); },
@@ -469,7 +458,7 @@ class Carrying {
     double size = 0;
     for (std::size_t t = 0; t < data.tets.size(); ++t) {
       double mean = 0;
-      if (on == "tets") {
+      if (!is_of_points) {
         mean = value(t);
       } else {
         for (const std::uint32_t v : data.tets[t].vertices) mean += value(v) / 4;
@@ -532,6 +521,21 @@ std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uin
                                 std::span<const std::string> conserve, MeshData& now,
                                 const SurfaceMarks* marks) {
   return Carrying(before, vertex_map, tet_map, conserve, now, marks).run();
+}
+
+CarriedArray carried_array(const DataArray& array, bool is_of_points, bool is_conserved,
+                           std::span<const ComponentIntegral> integrals) {
+  const bool is_real = array.values.index() >= 2;
+  const std::string_view rule = !is_of_points ? is_conserved ? kConserved : kCentroid
+                                : is_real     ? kLinear
+                                              : kNearest;
+  double worst = 0;
+  for (const auto& [then, size, now] : integrals) {
+    if (now == then) continue;
+    const double error = std::abs(now - then) / std::max(size, std::abs(now));
+    worst = std::isfinite(error) ? std::max(worst, error) : worst;
+  }
+  return {array.name, is_of_points ? "points" : "tets", std::string(rule), worst};
 }
 
 void check_conserve(const MeshData& data, std::span<const std::string> conserve) {

@@ -39,6 +39,16 @@ std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uin
                                 std::span<const std::string> conserve, MeshData& now,
                                 const SurfaceMarks* marks = nullptr);
 
+/// Of a component of an array over the mesh.
+struct ComponentIntegral {
+  double then = 0;
+  double size = 0;  ///< that of its absolute value, then
+  double now = 0;
+};
+/// What is told of an array.
+CarriedArray carried_array(const DataArray& array, bool is_of_points, bool is_conserved,
+                           std::span<const ComponentIntegral> integrals);
+
 /// @throws OptionError unless each name is that of an array of real numbers of the tets
 void check_conserve(const MeshData& data, std::span<const std::string> conserve);
 

@@ -23,10 +23,16 @@ double smallest(const std::array<double, 4>& weights) {
 
 struct TetLocator::Best {
   TetPlace place;
-  double smallest_weight = -std::numeric_limits<double>::infinity();
+  double smallest_weight = -std::numeric_limits<double>::infinity();  // 0: none is below
   double distance2 = std::numeric_limits<double>::infinity();  // of the box, where none holds it
 
   bool is_inside() const { return smallest_weight >= 0; }
+  /// Of several that hold the place the first, so that only the tets there decide.
+  bool is_better(std::uint32_t tet, double weight, double to_tet) const {
+    if (to_tet != distance2) return to_tet < distance2;
+    if (weight != smallest_weight) return weight > smallest_weight;
+    return tet < place.tet;
+  }
 };
 
 TetLocator::TetLocator(const MeshData& data, std::vector<std::uint32_t> tets)
@@ -75,11 +81,11 @@ TetPlace TetLocator::find(const Point& place) const {
   return best.place;
 }
 
-/// Looks into a box if it holds the place, or if no tet does so far and it is nearer than the best.
+/// Looks into a box if it holds the place, or if no tet does so far and it is no farther than the best.
 void TetLocator::search(std::uint32_t node, const Point& place, Best& best) const {
   const Node& here = nodes_[node];
   const double distance2 = here.box.squaredExteriorDistance(place);
-  if (best.is_inside() || distance2 > best.distance2) return;
+  if (distance2 > best.distance2) return;
   if (here.right != 0) {
     std::uint32_t near = node + 1;
     std::uint32_t far = here.right;
@@ -93,11 +99,10 @@ void TetLocator::search(std::uint32_t node, const Point& place, Best& best) cons
   }
   for (std::uint32_t i = here.begin; i < here.end; ++i) {
     const double to_tet = box_of(tets_[i]).squaredExteriorDistance(place);
-    if (to_tet > best.distance2) continue;
+    if (to_tet > best.distance2 || (best.is_inside() && tets_[i] > best.place.tet)) continue;
     const std::array<double, 4> weights = weights_in(data_, tets_[i], place);
-    const double weight = smallest(weights);
-    if (to_tet == best.distance2 && weight <= best.smallest_weight) continue;
-    best = {{tets_[i], weights}, weight, to_tet};
+    const double weight = std::min(smallest(weights), 0.0);
+    if (best.is_better(tets_[i], weight, to_tet)) best = {{tets_[i], weights}, weight, to_tet};
   }
 }
 

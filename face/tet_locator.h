@@ -27,8 +27,9 @@ class TetLocator {
   TetLocator(const MeshData& data, std::vector<std::uint32_t> tets);
 
   bool is_empty() const { return tets_.empty(); }
-  /// The tet that holds `place`; where none does, by rounding or because the tets leave a gap there,
-  /// one of the nearest, with weights below 0. Precondition: not empty. Cost: about log n.
+  /// The tet that holds `place`, of several the one of lowest number; where none does, by rounding or
+  /// because the tets leave a gap there, one of the nearest, with weights below 0. Precondition: not
+  /// empty. Cost: about log n.
   TetPlace find(const Point& place) const;
   /// The tets whose boxes meet that of `tet`, a tet of any mesh, ascending. Cost: about log n, and
   /// what it finds.

@@ -15,8 +15,6 @@ namespace tetmend {
 
 namespace {
 
-constexpr int kBits = 21;
-
 /// One step along the curve. The bits of the three axes at one level or two, most significant
 /// first, give one digit of the key or two. They also give the way in which the axes are turned and
 /// reflected below.
@@ -120,12 +118,16 @@ HilbertCurve::HilbertCurve(std::span<const Point> points) {
   scale_ = side > 0 ? ((1 << kBits) - 1) / side : 0;
 }
 
-std::uint64_t HilbertCurve::key(const Point& p) const {
-  std::array<std::uint32_t, 3> x{};
+HilbertCurve::Cell HilbertCurve::cell(const Point& p) const {
+  Cell x{};
   for (int i = 0; i < 3; ++i) {
     const double cell = std::clamp((p[i] - origin_[i]) * scale_, 0.0, double((1 << kBits) - 1));
     x[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(cell);
   }
+  return x;
+}
+
+std::uint64_t HilbertCurve::key(const Cell& x) {
   static_assert(kBits % 2 == 1);
   constexpr int kTop = kBits - 1;
   Step step = kSteps[0][x[0] >> kTop | x[1] >> kTop << 1 | x[2] >> kTop << 2];

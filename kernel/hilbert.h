@@ -2,6 +2,7 @@
 // Order of points along a Hilbert curve: neighbours on the curve are neighbours in space.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,9 +16,16 @@ class HilbertCurve {
  public:
   explicit HilbertCurve(std::span<const Point> points);
 
-  /// Position of the cell that holds p along the curve, 63 bits. Precondition: p lies in the
-  /// bounding box of the points.
-  std::uint64_t key(const Point& p) const;
+  static constexpr int kBits = 21;
+  /// Numbers of a cell along x, y and z, from 0.
+  using Cell = std::array<std::uint32_t, 3>;
+  /// That which holds p, or of a point outside of the box the nearest. No number falls where a
+  /// coordinate grows.
+  Cell cell(const Point& p) const;
+  /// Its position along the curve, 3 kBits bits. Cells whose numbers differ in their last k bits alone
+  /// follow each other: their positions differ in the last 3 k bits.
+  static std::uint64_t key(const Cell& cell);
+  std::uint64_t key(const Point& p) const { return key(cell(p)); }
 
  private:
   Point origin_ = Point::Zero();

@@ -209,7 +209,7 @@ void DividedMesh::each_point(const std::function<void(const Point&)>& use) const
   }
 }
 
-Parting DividedMesh::make_parting(std::size_t pieces, unsigned shift) const {
+Parting DividedMesh::cut(std::size_t pieces, unsigned shift) const {
   const double side = (state_.high - state_.low).maxCoeff();
   Parting parting{state_.low, side, shift};
   if (pieces == 1) return parting;
@@ -252,11 +252,11 @@ std::size_t DividedMesh::most_own() const {
 }
 
 void DividedMesh::divide(std::size_t pieces, unsigned shift, Shelf* next) {
-  send_all(make_parting(pieces, shift), 0, next);
+  send_all(cut(pieces, shift), 0, next);
 }
 
 void DividedMesh::divide_near_borders(unsigned shift, unsigned rings, Shelf* next) {
-  Parting parting = make_parting(state_.parting.stretches(), shift);
+  Parting parting = cut(state_.parting.stretches(), shift);
   parting.sends_all = false;
   send_all(std::move(parting), rings, next);
 }

@@ -71,6 +71,8 @@ class DividedMesh {
   void set_slice_marker(std::function<void(Piece&)> marker) { marker_ = std::move(marker); }
   /// All ranks, when all slices are there.
   void end_slices();
+  /// All ranks: cuts the shifted curve into stretches with as many vertices of the stored pieces.
+  Parting cut(std::size_t pieces, unsigned shift) const;
   /// All ranks: divides the stored pieces by the shifted curve.
   /// @param next where the gathered pieces go; the stored ones stay where they are then. Null: they go.
   void divide(std::size_t pieces, unsigned shift, Shelf* next = nullptr);
@@ -113,7 +115,6 @@ class DividedMesh {
 
  private:
   void each_point(const std::function<void(const Point&)>& use) const;
-  Parting make_parting(std::size_t pieces, unsigned shift) const;
   std::size_t most_own() const;
   void send_all(Parting parting, unsigned rings, Shelf* next);
   std::vector<std::string> send(std::size_t part, unsigned rings,

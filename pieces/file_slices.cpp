@@ -17,20 +17,37 @@ void fail_changed(const std::filesystem::path& file) {
   throw Error(fmt::format("{}: has changed while it was read", file.string()));
 }
 
+std::uint64_t FileSlices::slice_count(std::size_t tets_of_slice, const Ranks& ranks) const {
+  return std::max<std::uint64_t>(1 + counts_.tets / tets_of_slice, ranks.count());
+}
+
 void FileSlices::add_to(DividedMesh& mesh, std::size_t tets_of_slice) const {
-  const std::uint64_t ranks = mesh.ranks().count();
-  const std::uint64_t rank = mesh.ranks().number();
-  const std::uint64_t slices = std::max(1 + counts_.tets / tets_of_slice, ranks);
-  for (std::uint64_t i = slices * rank / ranks; i < slices * (rank + 1) / ranks; ++i) {
-    mesh.add_slice(i, read_slice(i, slices));
+  const std::uint64_t slices = slice_count(tets_of_slice, mesh.ranks());
+  const FileRange mine = FileRange::of_slice(slices, mesh.ranks().number(), mesh.ranks().count());
+  for (std::uint64_t i = mine.begin; i < mine.end; ++i) mesh.add_slice(i, read_slice(i, slices));
+}
+
+void FileSlices::for_row_slices(
+    std::size_t tets_of_slice, const Ranks& ranks,
+    const std::function<void(std::uint64_t number, RowSlice slice)>& use) const {
+  const std::uint64_t slices = slice_count(tets_of_slice, ranks);
+  const FileRange mine = FileRange::of_slice(slices, ranks.number(), ranks.count());
+  for (std::uint64_t i = mine.begin; i < mine.end; ++i) {
+    RowSlice slice{read_slice(i, slices), {}};
+    read_rows(share_of(i, slices), slice.piece.ids, slice.rows);
+    use(i, std::move(slice));
   }
 }
 
+FileSlices::Share FileSlices::share_of(std::uint64_t i, std::uint64_t slices) const {
+  return {FileRange::of_slice(counts_.vertices, i, slices),
+          FileRange::of_slice(counts_.tets, i, slices),
+          FileRange::of_slice(counts_.triangles, i, slices),
+          FileRange::of_slice(counts_.edges, i, slices)};
+}
+
 Piece FileSlices::read_slice(std::uint64_t i, std::uint64_t slices) const {
-  const Share of = {FileRange::of_slice(counts_.vertices, i, slices),
-                    FileRange::of_slice(counts_.tets, i, slices),
-                    FileRange::of_slice(counts_.triangles, i, slices),
-                    FileRange::of_slice(counts_.edges, i, slices)};
+  const Share of = share_of(i, slices);
   FileElements elements;
   read_elements(of, elements);
   std::uint64_t number = of.tets.begin;

@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "kernel/formats/file_bytes.h"
 #include "pieces/divided_mesh.h"
+#include "pieces/row_source.h"
 
 namespace tetmend::pieces {
 
@@ -85,10 +87,8 @@ struct FileElements {
 /// @throws Error: a file is not any more what it was when it was opened
 [[noreturn]] void fail_changed(const std::filesystem::path& file);
 
-class FileSlices {
+class FileSlices : public RowSource {
  public:
-  virtual ~FileSlices() = default;
-
   const FileCounts& counts() const { return counts_; }
   /// All ranks: each adds its share, about so many tets at a time. Without end_slices().
   /// @throws Error when the file has changed, or has a number out of range
@@ -99,6 +99,14 @@ class FileSlices {
   /// There are triangles that the file does not name: walls between parts of one label.
   virtual bool has_walls() const { return false; }
 
+  /// Rows and the name of the labels' array tell all that the file holds besides its mesh.
+  virtual bool has_all_in_rows() const { return false; }
+  std::uint64_t slice_count(std::size_t tets_of_slice, const Ranks& ranks) const override;
+  /// Those that add_to() adds.
+  void for_row_slices(
+      std::size_t tets_of_slice, const Ranks& ranks,
+      const std::function<void(std::uint64_t number, RowSlice slice)>& use) const override;
+
  protected:
   /// The elements of a slice, in their order. `of` has its range of each kind, and of vertices.
   struct Share {
@@ -107,10 +115,13 @@ class FileSlices {
   virtual void read_elements(const Share& of, FileElements& elements) const = 0;
   /// Gives points, labels and marks to a piece that has ids, ascending; but for kOwn.
   virtual void read_vertices(Piece& slice) const = 0;
+  /// Appends the rows of these elements, in their order, and of points by ascending numbers.
+  virtual void read_rows(const Share&, const std::vector<VertexId>&, ByKind<std::string>&) const {}
 
   FileCounts counts_;
 
  private:
+  Share share_of(std::uint64_t i, std::uint64_t slices) const;
   Piece read_slice(std::uint64_t i, std::uint64_t slices) const;
 };
 

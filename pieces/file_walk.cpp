@@ -90,39 +90,87 @@ std::vector<std::string> FileWalk::send_to_first(std::string bytes) const {
   return came;
 }
 
+void FileWalk::pieces(const std::function<void(std::size_t part, std::string& bytes)>& pack,
+                      const std::function<void(std::string_view)>& take_some) const {
+  for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
+    std::string bytes;
+    if (has(i)) pack(i, bytes);
+    for (const std::string& from : send_to_first(std::move(bytes))) take_some(from);
+  }
+}
+
+namespace {
+
+/// Where the bytes of a vertex stand.
+struct PlacedBytes {
+  VertexId id;
+  const char* at;
+};
+
+}  // namespace
+
 /// A range of ids at a time, from all pieces.
-void FileWalk::vertices(const std::function<void(std::span<const FileVertex>)>& take_some) const {
+void FileWalk::vertex_bytes(std::size_t size, const PackVertices& pack,
+                            const std::function<void(std::string_view)>& take_some) const {
   const Ranges ranges(mesh_);
   for (std::size_t i = 0; i < ranges.count(); ++i) {
-    std::vector<FileVertex> range;
-    {
-      const std::vector<std::string> came = send_to_first(collect(ranges, i));
-      std::size_t bytes = 0;
-      for (const std::string& from : came) bytes += from.size();
-      range.reserve(bytes / sizeof(FileVertex));
-      for (const std::string& from : came) {
-        for (std::string_view rest = from; !rest.empty();) take(rest, range.emplace_back());
+    const std::vector<std::string> came = send_to_first(collect(ranges, i, size, pack));
+    std::size_t bytes = 0;
+    for (const std::string& from : came) bytes += from.size();
+    std::vector<PlacedBytes> range;
+    range.reserve(bytes / (sizeof(VertexId) + size));
+    for (const std::string& from : came) {
+      for (std::string_view rest = from; !rest.empty();) {
+        take(rest, range.emplace_back().id);
+        range.back().at = take_front(rest, size).data();
       }
     }
     if (range.empty()) continue;
     std::sort(range.begin(), range.end(),
-              [](const FileVertex& a, const FileVertex& b) { return a.id < b.id; });
-    take_some(range);
+              [](const PlacedBytes& a, const PlacedBytes& b) { return a.id < b.id; });
+    constexpr std::size_t kSome = std::size_t{1} << 16;
+    for (std::size_t begin = 0; begin < range.size(); begin += kSome) {
+      std::string in_order;
+      for (std::size_t v = begin; v < std::min(begin + kSome, range.size()); ++v) {
+        in_order.append(range[v].at, size);
+      }
+      take_some(in_order);
+    }
   }
 }
 
-std::string FileWalk::collect(const Ranges& ranges, std::size_t number) const {
+/// Each begins with the id of its vertex.
+std::string FileWalk::collect(const Ranges& ranges, std::size_t number, std::size_t size,
+                              const PackVertices& pack) const {
   std::string bytes;
   for (std::size_t i = 0; i < mesh_.own().size(); ++i) {
     const auto [begin, end] = ranges.of_piece(i, number);
-    const Piece piece = mesh_.stored_vertices(mesh_.own()[i], begin, end);
+    const std::size_t part = mesh_.own()[i];
+    const Piece piece = mesh_.stored_vertices(part, begin, end);
+    const std::string packed = pack(part, begin, piece);
     for (std::size_t v = 0; v < piece.ids.size(); ++v) {
       if ((piece.marks[v] & kOwn) == 0) continue;
-      const Point& p = piece.points[v];
-      put(FileVertex{piece.ids[v], {p.x(), p.y(), p.z()}, piece.label(v)}, bytes);
+      put(piece.ids[v], bytes);
+      bytes.append(packed, v * size, size);
     }
   }
   return bytes;
+}
+
+void FileWalk::vertices(const std::function<void(std::span<const FileVertex>)>& take_some) const {
+  const auto pack = [](std::size_t, std::size_t, const Piece& piece) {
+    std::string bytes;
+    for (std::size_t v = 0; v < piece.ids.size(); ++v) {
+      const Point& p = piece.points[v];
+      put(FileVertex{{p.x(), p.y(), p.z()}, piece.label(v)}, bytes);
+    }
+    return bytes;
+  };
+  vertex_bytes(sizeof(FileVertex), pack, [&](std::string_view bytes) {
+    std::vector<FileVertex> vertices(bytes.size() / sizeof(FileVertex));
+    for (FileVertex& vertex : vertices) take(bytes, vertex);
+    take_some(vertices);
+  });
 }
 
 void write_by_first(const std::filesystem::path& file, Ranks& ranks,

@@ -24,7 +24,6 @@ namespace tetmend::pieces {
 
 /// What a vertex of the new file is.
 struct FileVertex {
-  VertexId id;
   std::array<double, 3> point;
   Label label;
 };
@@ -57,27 +56,42 @@ class FileWalk {
   template <class Element, class Pack>
   void elements(std::vector<Element> Piece::*list, Pack pack,
                 const std::function<void(std::string_view)>& take) const {
-    std::array<std::uint64_t, std::tuple_size_v<decltype(Element::vertices)>> numbers;
-    for (std::size_t i = 0; i < mesh_.state().stored; ++i) {
-      std::string bytes;
-      if (has(i)) {
-        const Piece piece = mesh_.stored(i);
-        for (const Element& element : piece.*list) {
-          for (std::size_t k = 0; k < numbers.size(); ++k) {
-            numbers[k] = number(piece.ids[element.vertices[k]]);
+    pieces(
+        [&](std::size_t part, std::string& bytes) {
+          std::array<std::uint64_t, std::tuple_size_v<decltype(Element::vertices)>> numbers;
+          const Piece piece = mesh_.stored(part);
+          for (const Element& element : piece.*list) {
+            for (std::size_t k = 0; k < numbers.size(); ++k) {
+              numbers[k] = number(piece.ids[element.vertices[k]]);
+            }
+            pack(numbers, element.label, bytes);
           }
-          pack(numbers, element.label, bytes);
-        }
-      }
-      for (const std::string& from : send_to_first(std::move(bytes))) take(from);
-    }
+        },
+        take);
   }
+  /// The rank that has a piece packs something of it, and the first one gets these bytes, in the order of
+  /// the pieces.
+  void pieces(const std::function<void(std::size_t part, std::string& bytes)>& pack,
+              const std::function<void(std::string_view)>& take) const;
+  /// Of a piece of this rank.
+  template <class Element>
+  std::size_t count(std::size_t part, std::vector<Element> Piece::*list) const {
+    return (mesh_.stored(part).*list).size();
+  }
+  /// Packs the same number of bytes for each of these vertices, which are those of a stored piece from
+  /// `begin` on.
+  using PackVertices =
+      std::function<std::string(std::size_t part, std::size_t begin, const Piece& vertices)>;
+  /// Tells the first rank `size` bytes of each vertex, in the order of the file.
+  void vertex_bytes(std::size_t size, const PackVertices& pack,
+                    const std::function<void(std::string_view)>& take) const;
 
  private:
   class Ranges;
   void count();
   bool has(std::size_t part) const;
-  std::string collect(const Ranges& ranges, std::size_t number) const;
+  std::string collect(const Ranges& ranges, std::size_t number, std::size_t size,
+                      const PackVertices& pack) const;
   std::vector<std::string> send_to_first(std::string bytes) const;
 
   const DividedMesh& mesh_;

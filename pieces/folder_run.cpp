@@ -280,7 +280,9 @@ Result FolderRun::finish(const Options& options) {
                           .source = saved_.holds_more ? saved_.input : "",
                           .label_array = saved_.label_array,
                           .conserve = options.conserve,
-                          .surface_moves = !tools.plan().surface.is_fixed()};
+                          .surface_moves = !tools.plan().surface.is_fixed(),
+                          .shelf = &to,
+                          .pieces = saved_.division.pieces};
   if (result.worse().empty()) {
     result.carried = write_pieces(output, mesh, details);
   } else {

@@ -5,6 +5,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -42,6 +43,15 @@ std::vector<std::string> gather_notes(const std::vector<std::string>& mine, Rank
     }
   }
   return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+namespace {
+
+/// For so many pieces.
+std::size_t tets_of_slice(std::uint64_t tets, std::size_t pieces) {
+  return std::min<std::size_t>(kTetsOfSlice, 1 + tets / pieces);
 }
 
 }  // namespace
@@ -138,7 +148,7 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
         "surface", "surface: where a file has arrays or groups, it needs the whole mesh in memory");
   }
   if (slices_) {
-    slices_->add_to(mesh, std::min<std::size_t>(kTetsOfSlice, 1 + tets_ / pieces));
+    slices_->add_to(mesh, tets_of_slice(tets_, pieces));
   } else if (mesh.ranks().is_first()) {
     const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data_);
     std::vector<char> is_kept;
@@ -220,6 +230,24 @@ std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const D
 
 }  // namespace
 
+namespace {
+
+/// No rank has all of it. Nothing where the file that was read holds more than arrays.
+std::optional<std::vector<CarriedArray>> write_vtu_with_rows(const std::filesystem::path& file,
+                                                             const DividedMesh& mesh,
+                                                             const WriteDetails& details) {
+  const auto source = open_slices(details.source, details.label_array, mesh.ranks());
+  if (!source || !source->has_all_in_rows()) return {};
+  MemoryShelf memory;
+  const CarriedRows rows(*source, mesh, tets_of_slice(source->counts().tets, details.pieces),
+                         details.pieces, details.conserve,
+                         details.shelf != nullptr ? *details.shelf : memory);
+  write_vtu_slices(file, mesh, {&rows, source->digest().label_array});
+  return mesh.ranks().is_first() ? rows.report() : std::vector<CarriedArray>();
+}
+
+}  // namespace
+
 std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
                                        const WriteDetails& details) {
   const ArrayFiles* const files = details.array_files;
@@ -235,6 +263,9 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   if (file.extension() == ".vtu" && details.source.empty()) {
     write_vtu_slices(file, mesh);
     return {};
+  }
+  if (file.extension() == ".vtu" && !details.surface_moves) {
+    if (auto carried = write_vtu_with_rows(file, mesh, details)) return std::move(*carried);
   }
   const bool is_msh_2 = details.variant.starts_with("2.2");
   if (file.extension() == ".msh" && details.source.empty() && !is_msh_2) {

@@ -74,6 +74,8 @@ struct WriteDetails {
   std::string label_array = {};            ///< of `source`
   std::vector<std::string> conserve = {};  ///< see Options
   bool surface_moves = false;
+  Shelf* shelf = nullptr;  ///< for what is brought over by all ranks; null: in memory
+  std::size_t pieces = 1;  ///< of the run
 };
 
 /// All ranks: the first writes the stored pieces, others help.

@@ -332,7 +332,9 @@ void FileRun::write() {
                                   .source = holds_more_ ? files_.input : std::filesystem::path(),
                                   .label_array = files_.label_array,
                                   .conserve = options_.conserve,
-                                  .surface_moves = !plan_.surface.is_fixed()});
+                                  .surface_moves = !plan_.surface.is_fixed(),
+                                  .shelf = shelf_.get(),
+                                  .pieces = division_.pieces});
   if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.remove();
 }
 

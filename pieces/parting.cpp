@@ -2,6 +2,7 @@
 #include "pieces/parting.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "kernel/chunks.h"
@@ -58,8 +59,61 @@ std::vector<std::uint64_t> KeyHistogram::cuts() const {
 std::uint32_t Parting::part_of(const Point& point, const HilbertCurve& curve) const {
   const int zone = zones.find(point);
   if (zone >= 0) return static_cast<std::uint32_t>(cuts.size()) + static_cast<std::uint32_t>(zone);
-  const auto after = std::upper_bound(cuts.begin() + 1, cuts.end(), curve.key(point));
+  return stretch_of(curve.key(point));
+}
+
+std::uint32_t Parting::stretch_of(std::uint64_t key) const {
+  const auto after = std::upper_bound(cuts.begin() + 1, cuts.end(), key);
   return static_cast<std::uint32_t>(after - cuts.begin() - 1);
+}
+
+namespace {
+
+/// Cells from `least` to `most` along each axis.
+struct CellBox {
+  HilbertCurve::Cell least, most;
+};
+
+/// Calls use(first, last) for the keys of a cube of 2^level cells a side, or where that says no, of those
+/// of its eighths that the box meets.
+template <class Use>
+void for_keys(const HilbertCurve::Cell& cube, int level, const CellBox& box, const Use& use) {
+  const std::uint64_t inside = (std::uint64_t{1} << (3 * level)) - 1;
+  const std::uint64_t first = HilbertCurve::key(cube) & ~inside;
+  if (use(first, first | inside) || level == 0) return;
+  const std::uint32_t half = 1U << (level - 1);
+  for (unsigned i = 0; i < 8; ++i) {
+    HilbertCurve::Cell eighth = cube;
+    bool meets = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((i >> axis & 1U) != 0) eighth[axis] += half;
+      meets = meets && eighth[axis] <= box.most[axis] && eighth[axis] + half > box.least[axis];
+    }
+    if (meets) for_keys(eighth, level - 1, box, use);
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> Parting::stretches_of(const Eigen::AlignedBox3d& box) const {
+  const HilbertCurve curve = shifted_curve(low, side, shift);
+  const CellBox cells{curve.cell(box.min()), curve.cell(box.max())};
+  int level = 0;  // of the smallest cube that has all of them
+  HilbertCurve::Cell cube{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    level = std::max(level, static_cast<int>(std::bit_width(cells.least[axis] ^ cells.most[axis])));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) cube[axis] = cells.least[axis] >> level << level;
+  std::vector<std::uint32_t> found;
+  for_keys(cube, level, cells, [&](std::uint64_t first, std::uint64_t last) {
+    const std::uint32_t stretch = stretch_of(first);
+    if (stretch != stretch_of(last)) return false;
+    found.push_back(stretch);
+    return true;
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 std::vector<std::uint32_t> Parting::parts_of(std::span<const Point> points) const {

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "kernel/hilbert.h"
 #include "kernel/mesh_data.h"
 #include "pieces/piece.h"
@@ -66,11 +68,14 @@ struct Parting {
   std::size_t parts() const { return cuts.size() + zones.count(); }
   /// Part of each point.
   std::vector<std::uint32_t> parts_of(std::span<const Point> points) const;
+  /// Of the stretches those that may have points of a box, ascending. Zones do not count.
+  std::vector<std::uint32_t> stretches_of(const Eigen::AlignedBox3d& box) const;
   /// Part of each vertex of a gathered piece.
   std::vector<std::uint32_t> parts_of(const Piece& gathered) const;
 
  private:
   std::uint32_t part_of(const Point& point, const HilbertCurve& curve) const;
+  std::uint32_t stretch_of(std::uint64_t key) const;
 };
 
 /// Whether an element belongs to the part: that of its vertices with the lowest number. `parts` is by

@@ -26,7 +26,9 @@ inline constexpr std::uint8_t kCorner = 8;
 inline constexpr std::uint8_t kSent = 16;  ///< tets around it were sent to the part that it lies in
 /// Not sent, but of a tet that was: other pieces have it, too.
 inline constexpr std::uint8_t kSeam = 32;
-inline constexpr std::uint8_t kLasting = kRequired | kCorner;  ///< marks that a vertex never loses
+inline constexpr std::uint8_t kMoved = 64;  ///< is no more where the file has it
+/// Marks that a vertex never loses.
+inline constexpr std::uint8_t kLasting = kRequired | kCorner | kMoved;
 
 inline bool is_own(std::uint8_t marks) {
   return (marks & kOwn) != 0;

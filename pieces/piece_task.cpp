@@ -282,7 +282,11 @@ void Task::take_vertices(const MeshView& view, Piece& all, std::vector<std::uint
     const bool is_new = origin == TetMesh::kNotFromFile;
     all.ids.push_back(is_new ? TaskResult::kNewVertex + result_.added++ : gathered_.ids[origin]);
     all.points.push_back(view.point(i));
-    const unsigned mark = is_new ? 0U : gathered_.marks[origin] & unsigned{kCorner};
+    unsigned mark = 0;
+    if (!is_new) {
+      mark = gathered_.marks[origin] & unsigned{kCorner | kMoved};
+      if (!(gathered_.points[origin] == view.point(i))) mark |= kMoved;
+    }
     all.marks.push_back(static_cast<std::uint8_t>(mark));
     if (view.has_point_labels()) all.labels.push_back(view.point_label(i));
     parts.push_back(is_new ? number_ : parts_[origin]);

@@ -23,20 +23,20 @@ using Take = std::function<void(std::string_view)>;
 class VtuWriter {
  public:
   /// @param out null on all ranks but the first
-  VtuWriter(OutputFile* out, const DividedMesh& mesh) : out_(out), walk_(mesh) {}
+  VtuWriter(OutputFile* out, const DividedMesh& mesh, const VtuExtras& extras)
+      : out_(out), walk_(mesh), extras_(extras), rows_(extras.rows) {}
 
   void write() {
     const FileWalk::Counts& counts = walk_.counts();
     put(formats::vtu_head(counts.vertices, counts.tets + counts.triangles + counts.edges));
-    if (walk_.has_point_labels()) {
-      put("<PointData>\n");
-      write_array("CellEntityIds", "Int32", 1, [&](const Take& take) { tell_point_labels(take); });
-      put("</PointData>\n");
-    }
+    write_point_data();
     put("<CellData>\n");
-    if (walk_.has_labels()) {
-      write_array("CellEntityIds", "Int32", 1, [&](const Take& take) { tell_labels(take); });
+    if (walk_.has_labels() || !extras_.label_array.empty()) {
+      write_array(extras_.label_array.empty() ? "CellEntityIds" : extras_.label_array, "Int32", 1,
+                  [&](const Take& take) { tell_labels(take); });
     }
+    write_rows(RowKind::tet,
+               [&](std::size_t array, const Take& take) { tell_rows_of_cells(array, take); });
     put("</CellData>\n<Points>\n");
     write_array("Points", "Float64", 3, [&](const Take& take) { tell_points(take); });
     put("</Points>\n<Cells>\n");
@@ -59,6 +59,43 @@ class VtuWriter {
     if (out_ != nullptr) array.begin(*out_);
     tell([&](std::string_view bytes) { array.write(bytes, *out_); });
     if (out_ != nullptr) array.end(*out_);
+  }
+
+  void write_point_data() {
+    const bool has_rows = rows_ != nullptr && !rows_->layout(RowKind::point).arrays().empty();
+    if (!walk_.has_point_labels() && !has_rows) return;
+    put("<PointData>\n");
+    if (walk_.has_point_labels()) {
+      write_array("CellEntityIds", "Int32", 1, [&](const Take& take) { tell_point_labels(take); });
+    }
+    write_rows(RowKind::point, [&](std::size_t array, const Take& take) {
+      const auto pack = [&](std::size_t part, std::size_t begin, const Piece& vertices) {
+        return rows_->column(RowKind::point, part, array, begin, begin + vertices.ids.size());
+      };
+      walk_.vertex_bytes(rows_->layout(RowKind::point).width(array), pack, take);
+    });
+    put("</PointData>\n");
+  }
+  template <class Tell>
+  void write_rows(RowKind kind, Tell tell) {
+    if (rows_ == nullptr) return;
+    const std::vector<DataArray>& arrays = rows_->layout(kind).arrays();
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+      write_array(arrays[i].name, formats::vtu_type_of(arrays[i]), arrays[i].components,
+                  [&](const Take& take) { tell(i, take); });
+    }
+  }
+  void tell_rows_of_cells(std::size_t array, const Take& take) const {
+    const auto tell = [&](RowKind kind, auto list) {
+      walk_.pieces(
+          [&](std::size_t part, std::string& bytes) {
+            bytes = rows_->column(kind, part, array, 0, walk_.count(part, list));
+          },
+          take);
+    };
+    tell(RowKind::tet, &Piece::tets);
+    tell(RowKind::triangle, &Piece::triangles);
+    tell(RowKind::edge, &Piece::edges);
   }
 
   void tell_point_labels(const Take& take) const {
@@ -126,12 +163,16 @@ class VtuWriter {
   static constexpr std::size_t kSome = std::size_t{1} << 20;
   OutputFile* out_;
   const FileWalk walk_;
+  const VtuExtras& extras_;
+  const CarriedRows* rows_;
 };
 
 }  // namespace
 
-void write_vtu_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
-  write_by_first(file, mesh.ranks(), [&](OutputFile* out) { VtuWriter(out, mesh).write(); });
+void write_vtu_slices(const std::filesystem::path& file, const DividedMesh& mesh,
+                      const VtuExtras& extras) {
+  write_by_first(file, mesh.ranks(),
+                 [&](OutputFile* out) { VtuWriter(out, mesh, extras).write(); });
 }
 
 }  // namespace tetmend::pieces

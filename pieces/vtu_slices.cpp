@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -224,6 +225,7 @@ bool VtuSlices::look_at_cells(Ranks& ranks) {
     chunks_.insert(chunks_.end(), others.begin(), others.end());
   }
   counts_ = {layout_.points, all[tets], all[triangles], all[edges], 0};
+  loose_points_ = all[points];
   return all[tets] > 0;
 }
 
@@ -358,21 +360,14 @@ bool VtuSlices::collect_labels(Ranks& ranks) {
   return !ranks.any(!is_good);
 }
 
-void VtuSlices::read_elements(const Share& of, FileElements& elements) const {
+/// For each chunk that has some of these elements, begin(chunk); then for each of them act(kind, cell of the
+/// chunk, cells).
+template <class Begin, class Act>
+void VtuSlices::for_cells(const Share& of, const Begin& begin, const Act& act) const {
   Cells cells(*this);
-  std::optional<VtuRows> labels;
-  if (cell_labels_) labels.emplace(rows_of(layout_.cell_data[*cell_labels_], layout_.cells));
-  std::vector<Label> labels_of_chunk;
   const std::array<FileRange, 3> ranges = {of.tets, of.triangles, of.edges};
   std::array<std::uint64_t, 4> next{};  // of each kind
-  const auto add = [&](std::size_t cell, auto& to) {
-    auto& made = to.emplace_back();
-    const std::int64_t* const corners = cells.corners_of(cell);
-    for (std::size_t k = 0; k < made.vertices.size(); ++k) {
-      made.vertices[k] = static_cast<VertexId>(corners[k]);
-    }
-    if (labels) made.element.label = labels_of_chunk[cell];
-  };
+  std::uint64_t found = 0;
   for (const CellChunk& chunk : chunks_) {
     bool is_needed = false;
     for (std::size_t k = 0; k < ranges.size(); ++k) {
@@ -384,20 +379,54 @@ void VtuSlices::read_elements(const Share& of, FileElements& elements) const {
       continue;
     }
     if (!cells.read(chunk.first, chunk.count)) fail_changed(file_);
-    if (labels) labels_of_chunk = as_labels(labels->read(chunk.first, chunk.count));
+    begin(chunk);
     for (std::size_t i = 0; i < cells.kinds.size(); ++i) {
       const Kind kind = cells.kinds[i];
       const std::uint64_t number = next[kind]++;
       if (kind == points || !ranges[kind].has(number)) continue;
-      if (kind == tets) add(i, elements.tets);
-      if (kind == triangles) add(i, elements.triangles);
-      if (kind == edges) add(i, elements.edges);
+      act(kind, i, cells);
+      ++found;
     }
   }
-  const bool has_all = elements.tets.size() == of.tets.size() &&
-                       elements.triangles.size() == of.triangles.size() &&
-                       elements.edges.size() == of.edges.size();
-  if (!has_all) fail_changed(file_);
+  if (found != of.tets.size() + of.triangles.size() + of.edges.size()) fail_changed(file_);
+}
+
+void VtuSlices::read_elements(const Share& of, FileElements& elements) const {
+  std::optional<VtuRows> labels;
+  if (cell_labels_) labels.emplace(rows_of(layout_.cell_data[*cell_labels_], layout_.cells));
+  std::vector<Label> labels_of_chunk;
+  const auto add = [&](const Cells& cells, std::size_t cell, auto& to) {
+    auto& made = to.emplace_back();
+    const std::int64_t* const corners = cells.corners_of(cell);
+    for (std::size_t k = 0; k < made.vertices.size(); ++k) {
+      made.vertices[k] = static_cast<VertexId>(corners[k]);
+    }
+    if (labels) made.element.label = labels_of_chunk[cell];
+  };
+  for_cells(
+      of,
+      [&](const CellChunk& chunk) {
+        if (labels) labels_of_chunk = as_labels(labels->read(chunk.first, chunk.count));
+      },
+      [&](Kind kind, std::size_t cell, const Cells& cells) {
+        if (kind == tets) add(cells, cell, elements.tets);
+        if (kind == triangles) add(cells, cell, elements.triangles);
+        if (kind == edges) add(cells, cell, elements.edges);
+      });
+}
+
+/// act(first, count, ids): rows of the file, and those of the ids, as a range, that are among them.
+template <class Act>
+void VtuSlices::for_points(const std::vector<VertexId>& ids, const Act& act) const {
+  for (std::size_t k = 0; k < ids.size();) {
+    const auto chunk = static_cast<std::size_t>(ids[k] / kRowsOfChunk);
+    const std::uint64_t first = chunk * kRowsOfChunk;
+    const std::size_t count = rows_of_chunk(layout_.points, chunk);
+    std::size_t end = k;
+    while (end < ids.size() && ids[end] < first + count) ++end;
+    act(first, count, std::span(ids).subspan(k, end - k));
+    k = end;
+  }
 }
 
 void VtuSlices::read_vertices(Piece& slice) const {
@@ -406,20 +435,73 @@ void VtuSlices::read_vertices(Piece& slice) const {
   const bool has_labels = point_labels_ && labelled_points_ > 0;
   if (has_labels) labels.emplace(rows_of(layout_.point_data[*point_labels_], layout_.points));
   slice.marks.assign(slice.ids.size(), 0);
-  for (std::size_t k = 0; k < slice.ids.size();) {
-    const std::size_t chunk = static_cast<std::size_t>(slice.ids[k] / kRowsOfChunk);
-    const std::uint64_t first = chunk * kRowsOfChunk;
-    const std::size_t count = rows_of_chunk(layout_.points, chunk);
+  for_points(slice.ids, [&](std::uint64_t first, std::size_t count, std::span<const VertexId> ids) {
     const std::vector<Point> points_of_chunk = as_points(places.read(first, count));
     std::vector<Label> labels_of_chunk;
     if (has_labels) labels_of_chunk = as_labels(labels->read(first, count));
-    for (; k < slice.ids.size() && slice.ids[k] < first + count; ++k) {
-      const auto row = static_cast<std::size_t>(slice.ids[k] - first);
+    for (const VertexId id : ids) {
+      const auto row = static_cast<std::size_t>(id - first);
       if (!points_of_chunk[row].allFinite()) fail_changed(file_);
       slice.points.push_back(points_of_chunk[row]);
       if (has_labels) slice.labels.push_back(labels_of_chunk[row]);
     }
+  });
+}
+
+/// Of the arrays of points or cells those that hold no labels.
+std::vector<const VtuColumn*> VtuSlices::columns(bool of_points) const {
+  const std::vector<VtuColumn>& all = of_points ? layout_.point_data : layout_.cell_data;
+  const std::optional<std::size_t>& labels = of_points ? point_labels_ : cell_labels_;
+  std::vector<const VtuColumn*> columns;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (labels != i) columns.push_back(&all[i]);
   }
+  return columns;
+}
+
+void VtuSlices::read_rows(const Share& of, const std::vector<VertexId>& ids,
+                          ByKind<std::string>& rows) const {
+  const ByKind<RowLayout> layouts = row_layouts();
+  const auto open = [&](bool of_points) {
+    std::vector<VtuRows> arrays;
+    for (const VtuColumn* const column : columns(of_points)) {
+      arrays.push_back(rows_of(*column, of_points ? layout_.points : layout_.cells));
+    }
+    return arrays;
+  };
+  const auto read_all = [](std::vector<VtuRows>& arrays, std::uint64_t first, std::size_t count) {
+    std::vector<DataArray::Values> values;
+    for (VtuRows& array : arrays) values.push_back(array.read(first, count));
+    return values;
+  };
+  const auto append = [](const RowLayout& layout, const std::vector<DataArray::Values>& values,
+                         std::size_t from, std::string& to) {
+    to.resize(to.size() + layout.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      layout.set(i, values[i], from, to.data() + to.size() - layout.size());
+    }
+  };
+  if (layouts[RowKind::point].size() > 0) {
+    std::vector<VtuRows> arrays = open(true);
+    for_points(ids, [&](std::uint64_t first, std::size_t count, std::span<const VertexId> some) {
+      const std::vector<DataArray::Values> values = read_all(arrays, first, count);
+      for (const VertexId id : some) {
+        append(layouts[RowKind::point], values, static_cast<std::size_t>(id - first),
+               rows[RowKind::point]);
+      }
+    });
+  }
+  if (layouts[RowKind::tet].size() == 0) return;
+  std::vector<VtuRows> arrays = open(false);
+  std::vector<DataArray::Values> values;
+  for_cells(
+      of, [&](const CellChunk& chunk) { values = read_all(arrays, chunk.first, chunk.count); },
+      [&](Kind kind, std::size_t cell, const Cells&) {
+        const RowKind of_kind = kind == tets        ? RowKind::tet
+                                : kind == triangles ? RowKind::triangle
+                                                    : RowKind::edge;
+        append(layouts[of_kind], values, cell, rows[of_kind]);
+      });
 }
 
 namespace {
@@ -430,6 +512,24 @@ DataArray nothing_of(const VtuColumn& column) {
 }
 
 }  // namespace
+
+bool VtuSlices::has_all_in_rows() const {
+  return loose_points_ == 0;
+}
+
+ByKind<RowLayout> VtuSlices::row_layouts() const {
+  const auto layout_of = [&](bool of_points) {
+    std::vector<DataArray> arrays;
+    for (const VtuColumn* const column : columns(of_points)) arrays.push_back(nothing_of(*column));
+    return RowLayout(std::move(arrays));
+  };
+  ByKind<RowLayout> layouts;
+  layouts[RowKind::point] = layout_of(true);
+  for (const RowKind kind : {RowKind::tet, RowKind::triangle, RowKind::edge}) {
+    layouts[kind] = layout_of(false);
+  }
+  return layouts;
+}
 
 MeshData VtuSlices::digest() const {
   MeshData data;
@@ -443,20 +543,13 @@ MeshData VtuSlices::digest() const {
       counts_.edges);  // messages have their number, as that of the points with labels
   data.point_labels.assign(labelled_points_, 1);
   if (cell_labels_) data.label_array = layout_.cell_data[*cell_labels_].name;
-  for (std::size_t i = 0; i < layout_.cell_data.size(); ++i) {
-    if (cell_labels_ == i) continue;
-    const DataArray array = nothing_of(layout_.cell_data[i]);
-    data.tet_data.push_back(array);
-    if (counts_.triangles > 0) data.triangle_data.push_back(array);
-    if (counts_.edges > 0) data.edge_data.push_back(array);
-  }
-  for (std::size_t i = 0; i < layout_.point_data.size(); ++i) {
-    if (point_labels_ != i) data.point_data.push_back(nothing_of(layout_.point_data[i]));
-  }
-  std::uint64_t loose = 0;
-  for (const CellChunk& chunk : chunks_) loose += chunk.of_kind[points];
-  if (loose > 0) {
-    data.other_elements.push_back({1, 1, {}, std::vector<Label>(loose, 0), {}, {}, {}});
+  const ByKind<RowLayout> layouts = row_layouts();
+  data.tet_data = layouts[RowKind::tet].arrays();
+  if (counts_.triangles > 0) data.triangle_data = data.tet_data;
+  if (counts_.edges > 0) data.edge_data = data.tet_data;
+  data.point_data = layouts[RowKind::point].arrays();
+  if (loose_points_ > 0) {
+    data.other_elements.push_back({1, 1, {}, std::vector<Label>(loose_points_, 0), {}, {}, {}});
   }
   return data;
 }

@@ -26,10 +26,14 @@ class VtuSlices final : public FileSlices {
                                           const std::string& label_array, Ranks& ranks);
 
   MeshData digest() const override;
+  bool has_all_in_rows() const override;
+  ByKind<RowLayout> row_layouts() const override;
 
  protected:
   void read_elements(const Share& of, FileElements& elements) const override;
   void read_vertices(Piece& slice) const override;
+  void read_rows(const Share& of, const std::vector<VertexId>& ids,
+                 ByKind<std::string>& rows) const override;
 
  private:
   enum Kind : std::size_t { tets, triangles, edges, points };
@@ -50,6 +54,11 @@ class VtuSlices final : public FileSlices {
   };
   class Cells;
 
+  template <class Begin, class Act>
+  void for_cells(const Share& of, const Begin& begin, const Act& act) const;
+  template <class Act>
+  void for_points(const std::vector<VertexId>& ids, const Act& act) const;
+  std::vector<const formats::VtuColumn*> columns(bool of_points) const;
   bool share_outline(Ranks& ranks);
   formats::VtuRows rows_of(const formats::VtuColumn& column, std::uint64_t rows) const {
     return {file_, outline_, layout_, column, rows};
@@ -70,6 +79,7 @@ class VtuSlices final : public FileSlices {
   std::optional<std::size_t> point_labels_;  // likewise; none where all are 0
   std::uint64_t labelled_points_ = 0;
   std::array<std::set<Label>, 4> labels_;  // that each kind has
+  std::uint64_t loose_points_ = 0;         // cells
   std::vector<std::string> notes_;
 };
 

@@ -101,6 +101,11 @@ void VtuArray::end(OutputFile& out) {
   out.put(kVtuArrayEnd);
 }
 
+std::string_view vtu_type_of(const DataArray& array) {
+  constexpr std::array<std::string_view, 4> kTypes = {"Int32", "Int64", "Float32", "Float64"};
+  return kTypes[array.values.index()];
+}
+
 std::string vtu_array_tag(std::string_view name, std::string_view type, std::size_t components) {
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n", type,

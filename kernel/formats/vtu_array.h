@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include <tetmend/data.h>
+
 #include "kernel/formats/output_file.h"
 
 namespace tetmend::formats {
@@ -55,6 +57,8 @@ class VtuArray {
   std::string waiting_;  // for a group of three bytes
 };
 
+/// As files name the type of its numbers.
+std::string_view vtu_type_of(const DataArray& array);
 /// What stands before the content of an array, which follows as two streams of base64: header() of its
 /// blocks, and the blocks.
 std::string vtu_array_tag(std::string_view name, std::string_view type, std::size_t components);

@@ -105,10 +105,9 @@ class Writer {
   }
 
   void write_array(const DataArray& array) {
-    constexpr std::array<std::string_view, 4> kTypes = {"Int32", "Int64", "Float32", "Float64"};
     std::visit(
         [&](const auto& values) {
-          write_array(array.name, kTypes[array.values.index()], array.components, bytes_of(values));
+          write_array(array.name, vtu_type_of(array), array.components, bytes_of(values));
         },
         array.values);
   }

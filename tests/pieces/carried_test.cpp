@@ -3,6 +3,7 @@
 // bytes of a run in pieces that has it.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -113,6 +114,62 @@ TEST_CASE("arrays, groups and parts are carried by ranks and by tasks as by one 
         Division division = in_pieces();
         const Result result = pieces::improve_files(files.all(), options, division, ranks);
         CHECK(result.carried.size() == (ranks.is_first() ? files.result.carried.size() : 0));
+      });
+      CHECK(bytes_of(files.out) == files.expected);
+    }
+    std::filesystem::remove(files.out);
+    improve_by_tasks(files, options);
+    CHECK(bytes_of(files.out) == files.expected);
+  }
+}
+
+TEST_CASE("arrays of a .vtu file are carried where no rank has all of it, as by one process") {
+  MeshData data = lattice(7);
+  data.label_array = "material";
+  data.triangles.push_back(data.triangles.front());  // named twice, with other numbers
+  data.triangles.push_back({{1, 2, 10}, 7});
+  std::vector<double> heights;
+  std::vector<float> velocities;
+  std::vector<std::int64_t> names;
+  for (const Point& p : data.points) {
+    heights.push_back(p.z() * p.z() + p.x());
+    for (const double x : p) velocities.push_back(static_cast<float>(std::sin(x)));
+    names.push_back(static_cast<std::int64_t>(names.size()) << 33);
+  }
+  data.point_data = {{"height", 1, heights}, {"velocity", 3, velocities}, {"name", 1, names}};
+  const auto give_cell_data = [](const auto& elements, std::vector<DataArray>& arrays) {
+    std::vector<double> density;
+    std::vector<std::int32_t> colours;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      density.push_back(1.0 / static_cast<double>(i + 1));
+      colours.push_back(static_cast<std::int32_t>(1'000'000 - i));
+    }
+    arrays = {{"density", 1, density}, {"colour", 1, colours}};
+  };
+  give_cell_data(data.tets, data.tet_data);
+  give_cell_data(data.triangles, data.triangle_data);
+  give_cell_data(data.edges, data.edge_data);
+  for (const bool is_conserved : {false, true}) {
+    CAPTURE(is_conserved);
+    Options options;
+    if (is_conserved) options.conserve = {"density"};
+    const Files files(data, ".vtu", options);
+    for (const std::size_t count : {1, 2, 5}) {
+      CAPTURE(count);
+      std::filesystem::remove(files.out);
+      on_ranks(count, [&](Ranks& ranks) {
+        Division division = in_pieces();
+        const Result result = pieces::improve_files(files.all(), options, division, ranks);
+        if (!ranks.is_first()) return;
+        REQUIRE(result.carried.size() == 5);
+        for (std::size_t i = 0; i < 5; ++i) {
+          const CarriedArray& here = result.carried[i];
+          const CarriedArray& there = files.result.carried[i];
+          CHECK(here.name == there.name);
+          CHECK(here.on == there.on);
+          CHECK(here.rule == there.rule);
+          CHECK(here.integral_error == doctest::Approx(there.integral_error).epsilon(1e-6));
+        }
       });
       CHECK(bytes_of(files.out) == files.expected);
     }

@@ -199,3 +199,29 @@ TEST_CASE("the worst tets are those below a limit, and some if there are fewer")
   CHECK(taken.size() == WorstTets::kMost);
   CHECK(taken.front().centre.x() == 29'999);
 }
+
+TEST_CASE("a box meets the stretches of all of its points, and few others") {
+  const std::vector<Point> points = test::lattice(20).points;
+  for (const unsigned shift : {0u, 1u}) {
+    const Parting parting = parting_of(points, 13, shift);
+    std::size_t found = 0;
+    std::size_t needed = 0;
+    for (std::size_t i = 0; i < points.size(); i += 7) {
+      const Point size(0.1 + double(i % 5), 0.2 + double(i % 3), 0.3);
+      const Eigen::AlignedBox3d box(points[i], points[i] + size);
+      const std::vector<std::uint32_t> stretches = parting.stretches_of(box);
+      CHECK(std::is_sorted(stretches.begin(), stretches.end()));
+      std::vector<Point> inside;
+      for (int k = 0; k < 1331; ++k) {
+        inside.push_back(points[i] + size.cwiseProduct(Point(k % 11, k / 11 % 11, k / 121)) / 10);
+      }
+      std::vector<std::uint32_t> parts = parting.parts_of(inside);
+      std::sort(parts.begin(), parts.end());
+      parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+      CHECK(std::includes(stretches.begin(), stretches.end(), parts.begin(), parts.end()));
+      found += stretches.size();
+      needed += parts.size();
+    }
+    CHECK(found <= needed + needed / 20);
+  }
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/rows.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <variant>
+
+namespace tetmend::pieces {
+
+namespace {
+
+/// Calls act with a value of the type that the array has.
+template <class Act>
+auto with_type(const DataArray& array, const Act& act) {
+  return std::visit(
+      [&](const auto& values) {
+        return act(typename std::decay_t<decltype(values)>::value_type{});
+      },
+      array.values);
+}
+
+template <class Value>
+Value load(const char* at) {
+  Value value;
+  std::memcpy(&value, at, sizeof(value));
+  return value;
+}
+
+template <class Value>
+void save(Value value, char* at) {
+  std::memcpy(at, &value, sizeof(value));
+}
+
+}  // namespace
+
+RowLayout::RowLayout(std::vector<DataArray> arrays) : arrays_(std::move(arrays)) {
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    std::visit([](auto& values) { values.clear(); }, arrays_[i].values);
+    places_.push_back(size_);
+    size_ += width(i);
+  }
+}
+
+std::size_t RowLayout::width(std::size_t array) const {
+  const std::size_t size = with_type(arrays_[array], [](auto value) { return sizeof(value); });
+  return size * arrays_[array].components;
+}
+
+void RowLayout::set(std::size_t array, const DataArray::Values& values, std::size_t from,
+                    char* row) const {
+  const std::size_t components = arrays_[array].components;
+  std::visit(
+      [&](const auto& numbers) {
+        std::memcpy(row + places_[array], numbers.data() + from * components, width(array));
+      },
+      values);
+}
+
+double RowLayout::number(std::size_t array, std::size_t component, const char* row) const {
+  return with_type(arrays_[array], [&](auto type) {
+    using Value = decltype(type);
+    return static_cast<double>(load<Value>(row + places_[array] + component * sizeof(Value)));
+  });
+}
+
+void RowLayout::interpolate(const std::array<const char*, 4>& rows,
+                            const std::array<double, 4>& weights, char* to) const {
+  const auto most =
+      static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    with_type(arrays_[i], [&](auto type) {
+      using Value = decltype(type);
+      for (std::size_t k = 0; k < arrays_[i].components; ++k) {
+        const std::size_t at = places_[i] + k * sizeof(Value);
+        if constexpr (std::is_integral_v<Value>) {
+          save(load<Value>(rows[most] + at), to + at);
+        } else {
+          // From the first vertex on, so that a constant stays what it is.
+          const auto first = static_cast<double>(load<Value>(rows[0] + at));
+          double sum = first;
+          for (std::size_t c = 1; c < 4; ++c) {
+            sum += weights[c] * (static_cast<double>(load<Value>(rows[c] + at)) - first);
+          }
+          save(static_cast<Value>(sum), to + at);
+        }
+      }
+    });
+  }
+}
+
+void RowLayout::average(std::size_t array, const std::vector<std::pair<const char*, double>>& rows,
+                        char* to) const {
+  with_type(arrays_[array], [&](auto type) {
+    using Value = decltype(type);
+    for (std::size_t k = 0; k < arrays_[array].components; ++k) {
+      double mean = 0;
+      for (const auto& [row, weight] : rows) mean += weight * number(array, k, row);
+      save(static_cast<Value>(mean), to + places_[array] + k * sizeof(Value));
+    }
+  });
+}
+
+void RowLayout::append_column(std::size_t array, std::string_view rows, std::string& bytes) const {
+  const std::size_t size = width(array);
+  for (std::size_t at = 0; at < rows.size(); at += size_) {
+    bytes.append(rows.substr(at + places_[array], size));
+  }
+}
+
+}  // namespace tetmend::pieces

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What a file holds in arrays, as rows of bytes: a row has all numbers of one point or element.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kernel/mesh_data.h"
+
+namespace tetmend::pieces {
+
+/// What has rows.
+enum class RowKind : std::size_t { point, tet, triangle, edge };
+inline constexpr std::array<RowKind, 4> kRowKinds = {RowKind::point, RowKind::tet,
+                                                     RowKind::triangle, RowKind::edge};
+/// Something for each kind.
+template <class Value>
+class ByKind {
+ public:
+  Value& operator[](RowKind kind) { return values_[static_cast<std::size_t>(kind)]; }
+  const Value& operator[](RowKind kind) const { return values_[static_cast<std::size_t>(kind)]; }
+
+ private:
+  std::array<Value, 4> values_{};
+};
+
+/// Where in a row the numbers of each array stand.
+class RowLayout {
+ public:
+  RowLayout() = default;
+  /// @param arrays  their values do not count
+  explicit RowLayout(std::vector<DataArray> arrays);
+
+  const std::vector<DataArray>& arrays() const { return arrays_; }
+  std::size_t size() const { return size_; }  ///< bytes of a row
+  std::size_t place(std::size_t array) const { return places_[array]; }
+  /// Bytes of an array in a row.
+  std::size_t width(std::size_t array) const;
+
+  /// Copies what an array has for its row `from` into a row. Precondition: values of its type.
+  void set(std::size_t array, const DataArray::Values& values, std::size_t from, char* row) const;
+  /// A number of a row.
+  double number(std::size_t array, std::size_t component, const char* row) const;
+  /// Real numbers by the weights; integers from the row with the greatest.
+  void interpolate(const std::array<const char*, 4>& rows, const std::array<double, 4>& weights,
+                   char* to) const;
+  /// Of an array of real numbers, the mean of rows by their weights, which sum to 1.
+  void average(std::size_t array, const std::vector<std::pair<const char*, double>>& rows,
+               char* to) const;
+  /// Appends what `rows` have of an array.
+  void append_column(std::size_t array, std::string_view rows, std::string& bytes) const;
+
+ private:
+  std::vector<DataArray> arrays_;
+  std::vector<std::size_t> places_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace tetmend::pieces
