@@ -88,7 +88,7 @@ struct Questions {
     std::uint64_t place;
   };
 
-  std::vector<OfNumber> old_points, old_tets;
+  std::vector<OfNumber> old_points, old_tets;  ///< that are as they were
   std::vector<AtPoint> new_points, new_tets;
   std::vector<OfIds<3>> triangles;
   std::vector<OfIds<2>> edges;
@@ -498,7 +498,9 @@ class NewPart {
   void average(const std::vector<std::size_t>& arrays);
   std::vector<double> integrals() const;
   const std::string& rows(RowKind kind) const { return rows_[kind]; }
-  void make_room();
+  /// Of its vertices that the file has, by the slices that have their rows.
+  std::vector<std::vector<Questions::OfNumber>> ask_for_vertices(std::uint64_t slices) const;
+  void make_room(const std::string& row_of_new_vertex);
   void check() const;
 
  private:
@@ -510,13 +512,16 @@ class NewPart {
   };
 
   std::size_t count(RowKind kind) const {
-    return kind == RowKind::point      ? piece_.ids.size()
+    return kind == RowKind::vertex     ? piece_.ids.size()
+           : kind == RowKind::point    ? piece_.ids.size()
            : kind == RowKind::tet      ? piece_.tets.size()
            : kind == RowKind::triangle ? piece_.triangles.size()
                                        : piece_.edges.size();
   }
+  bool has(RowKind kind) const { return layouts_[kind].size() > 0; }
+  bool is_old(std::size_t v) const { return piece_.ids[v] < mesh_.first_added(); }
   bool is_where_it_was(std::uint32_t v) const {
-    return piece_.ids[v] < mesh_.first_added() && (piece_.marks[v] & kMoved) == 0;
+    return is_old(v) && (piece_.marks[v] & kMoved) == 0;
   }
   VertexId number(std::uint32_t v) const { return piece_.ids[v] - mesh_.state().first_id; }
   template <class Element>
@@ -546,7 +551,7 @@ std::vector<Questions> NewPart::ask(const Parting& parting, double margin,
                                     bool asks_for_shares) const {
   std::vector<Questions> questions(parting.stretches());
   const std::vector<std::uint32_t> parts = parting.parts_of(std::span(piece_.points));
-  for (std::uint32_t v = 0; v < parts.size(); ++v) {
+  for (std::uint32_t v = 0; has(RowKind::point) && v < parts.size(); ++v) {
     Questions& of_part = questions[parts[v]];
     if (is_where_it_was(v)) {
       of_part.old_points.push_back({number(v), v});
@@ -554,12 +559,14 @@ std::vector<Questions> NewPart::ask(const Parting& parting, double margin,
       of_part.new_points.push_back({to_array(piece_.points[v]), v});
     }
   }
-  ask_for_tets(parting, parts, margin, asks_for_shares, questions);
-  for (std::size_t i = 0; i < piece_.triangles.size(); ++i) {
+  if (has(RowKind::point) || has(RowKind::tet)) {
+    ask_for_tets(parting, parts, margin, asks_for_shares, questions);
+  }
+  for (std::size_t i = 0; has(RowKind::triangle) && i < piece_.triangles.size(); ++i) {
     const auto& element = piece_.triangles[i];
     questions[home(element, parts)].triangles.push_back({numbers(element), i});
   }
-  for (std::size_t i = 0; i < piece_.edges.size(); ++i) {
+  for (std::size_t i = 0; has(RowKind::edge) && i < piece_.edges.size(); ++i) {
     const auto& element = piece_.edges[i];
     questions[home(element, parts)].edges.push_back({numbers(element), i});
   }
@@ -601,8 +608,28 @@ void NewPart::ask_for_tets(const Parting& parting, const std::vector<std::uint32
   }
 }
 
-void NewPart::make_room() {
+std::vector<std::vector<Questions::OfNumber>> NewPart::ask_for_vertices(
+    std::uint64_t slices) const {
+  std::vector<std::vector<Questions::OfNumber>> questions(slices);
+  const std::uint64_t vertices = mesh_.state().in_file;
+  std::uint64_t slice = 0;  // numbers ascend
+  for (std::uint32_t v = 0; v < piece_.ids.size(); ++v) {
+    if (!is_old(v)) break;
+    while (!FileRange::of_slice(vertices, slice, slices).has(number(v))) ++slice;
+    questions[slice].push_back({number(v), v});
+  }
+  return questions;
+}
+
+void NewPart::make_room(const std::string& row_of_new_vertex) {
   for (const RowKind kind : kRowKinds) rows_[kind].resize(count(kind) * layouts_[kind].size());
+  if (!has(RowKind::vertex)) return;
+  for (std::size_t v = 0; v < piece_.ids.size(); ++v) {
+    if (is_old(v)) continue;
+    rows_[RowKind::vertex].replace(v * row_of_new_vertex.size(), row_of_new_vertex.size(),
+                                   row_of_new_vertex);
+    ++filled_[RowKind::vertex];
+  }
 }
 
 void NewPart::take(const Answers& answers) {
@@ -624,7 +651,7 @@ void NewPart::take(const Answers& answers) {
 
 void NewPart::check() const {
   for (const RowKind kind : kRowKinds) {
-    if (filled_[kind] != count(kind)) fail_to_fit();
+    if (has(kind) && filled_[kind] != count(kind)) fail_to_fit();
   }
 }
 
@@ -671,8 +698,8 @@ std::vector<double> NewPart::integrals() const {
 /// One call of CarriedRows().
 class RowCarrier {
  public:
-  RowCarrier(const RowSource& source, const DividedMesh& mesh, std::size_t parts, Shelf& shelf,
-             std::span<const std::string> conserve)
+  RowCarrier(const RowSource& source, const DividedMesh& mesh, std::size_t tets_of_slice,
+             std::size_t parts, Shelf& shelf, std::span<const std::string> conserve)
       : source_(source),
         mesh_(mesh),
         ranks_(mesh.ranks()),
@@ -680,8 +707,11 @@ class RowCarrier {
         layouts_(source.row_layouts()),
         parting_(mesh.cut(parts, 0)),
         margin_(kMargin * parting_.side),
+        tets_of_slice_(tets_of_slice),
+        slices_(source.slice_count(tets_of_slice, ranks_)),
         old_(shelf, ranks_, pieces::owners_of(parting_, ranks_.count()), "old"),
         questions_(shelf, ranks_, pieces::owners_of(parting_, ranks_.count()), "questions"),
+        names_(shelf, ranks_, owners_of_slices(slices_, ranks_.count()), "names"),
         answers_(shelf, ranks_, owners_of(mesh), "answers") {
     const std::vector<DataArray>& arrays = layouts_[RowKind::tet].arrays();
     for (std::size_t i = 0; i < arrays.size(); ++i) {
@@ -691,10 +721,11 @@ class RowCarrier {
     }
   }
 
-  void run(std::size_t tets_of_slice) {
-    send_old(tets_of_slice);
+  void run() {
+    send_old();
     ask();
-    answer();
+    answer_for_parts();
+    answer_for_vertices();
     receive();
   }
   std::vector<CarriedArray> report();
@@ -703,10 +734,30 @@ class RowCarrier {
   /// By rounding a place may lie outside of the tets: so little, by the side of the mesh.
   static constexpr double kMargin = 1e-9;
 
-  void send_old(std::size_t tets_of_slice);
+  /// Each has a range.
+  static std::vector<std::uint32_t> owners_of_slices(std::uint64_t slices, std::uint64_t ranks) {
+    std::vector<std::uint32_t> owners;
+    for (std::uint64_t rank = 0; rank < ranks; ++rank) {
+      const std::uint64_t size = FileRange::of_slice(slices, rank, ranks).size();
+      owners.insert(owners.end(), size, static_cast<std::uint32_t>(rank));
+    }
+    return owners;
+  }
+  bool has(RowKind kind) const { return layouts_[kind].size() > 0; }
+  /// Places are looked up in old tets.
+  bool needs_tets() const { return has(RowKind::point) || has(RowKind::tet); }
+  /// Rows of something besides vertices.
+  bool needs_parts() const { return needs_tets() || has(RowKind::triangle) || has(RowKind::edge); }
+  static std::string name_of_slice(std::uint64_t number) {
+    return fmt::format("vertices-{}", number);
+  }
+
+  void send_old();
   void send_slice(std::uint64_t number, const RowSlice& slice);
+  void keep_vertices(std::uint64_t number, const RowSlice& slice);
   void ask();
-  void answer();
+  void answer_for_parts();
+  void answer_for_vertices();
   void receive();
 
   const RowSource& source_;
@@ -716,22 +767,35 @@ class RowCarrier {
   const ByKind<RowLayout> layouts_;
   const Parting parting_;
   const double margin_;
+  const std::size_t tets_of_slice_;
+  const std::uint64_t slices_;
   std::vector<std::size_t> conserved_;
-  Post old_, questions_, answers_;
+  Post old_, questions_;                                         // by part of space
+  Post names_;                                                   // by slice
+  Post answers_;                                                 // by stored piece
   std::map<std::uint64_t, std::vector<double>> before_, after_;  // integrals by part
 };
 
-void RowCarrier::send_old(std::size_t tets_of_slice) {
+void RowCarrier::send_old() {
   // A slice at a time on each rank, as far as it has one.
-  const std::uint64_t slices = source_.slice_count(tets_of_slice, ranks_);
-  const std::uint64_t most = (slices + ranks_.count() - 1) / ranks_.count();
+  const std::uint64_t most = (slices_ + ranks_.count() - 1) / ranks_.count();
   std::uint64_t sent = 0;
-  source_.for_row_slices(tets_of_slice, ranks_, [&](std::uint64_t number, const RowSlice& slice) {
-    send_slice(number, slice);
+  source_.for_row_slices(tets_of_slice_, ranks_, [&](std::uint64_t number, const RowSlice& slice) {
+    if (needs_parts()) send_slice(number, slice);
+    if (has(RowKind::vertex)) keep_vertices(number, slice);
     old_.deliver();
     ++sent;
   });
   for (; sent < most; ++sent) old_.deliver();
+}
+
+void RowCarrier::keep_vertices(std::uint64_t number, const RowSlice& slice) {
+  const std::size_t size = layouts_[RowKind::vertex].size();
+  std::string rows;
+  for (std::size_t v = 0; v < slice.piece.ids.size(); ++v) {
+    if (is_own(slice.piece.marks[v])) rows.append(slice.rows[RowKind::vertex], v * size, size);
+  }
+  shelf_.put(name_of_slice(number), std::move(rows));
 }
 
 /// A tet goes to all parts that its box meets, all else to one.
@@ -755,7 +819,7 @@ void RowCarrier::send_slice(std::uint64_t number, const RowSlice& slice) {
   for (std::size_t v = 0; v < piece.ids.size(); ++v) {
     if (is_own(piece.marks[v])) wanted(parts[v])[v] = 1;
   }
-  for (std::uint32_t t = 0; t < piece.tets.size(); ++t) {
+  for (std::uint32_t t = 0; needs_tets() && t < piece.tets.size(); ++t) {
     const PieceTet& tet = piece.tets[t];
     const std::array<Point, 4> corners = corners_of(piece.points, tet.vertices);
     for (const std::uint32_t part : parting_.stretches_of(box_of(corners, margin_))) {
@@ -777,47 +841,75 @@ void RowCarrier::send_slice(std::uint64_t number, const RowSlice& slice) {
 
 void RowCarrier::ask() {
   std::size_t next = 0;
-  questions_.send_all([&] {
-    if (next == mesh_.own().size()) return false;
-    const std::size_t part = mesh_.own()[next++];
-    const std::vector<Questions> all =
-        NewPart(mesh_, part, layouts_).ask(parting_, margin_, !conserved_.empty());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!all[i].is_empty()) questions_.send(part, i, all[i].bytes());
+  const auto ask_one = [&](std::size_t part) {
+    const NewPart piece(mesh_, part, layouts_);
+    if (needs_parts()) {
+      const std::vector<Questions> all = piece.ask(parting_, margin_, !conserved_.empty());
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].is_empty()) questions_.send(part, i, all[i].bytes());
+      }
     }
-    return next < mesh_.own().size();
-  });
+    if (!has(RowKind::vertex)) return;
+    const auto names = piece.ask_for_vertices(slices_);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      std::string bytes;
+      put(names[i], bytes);
+      if (!names[i].empty()) names_.send(part, i, bytes);
+    }
+  };
+  do {
+    if (next < mesh_.own().size()) ask_one(mesh_.own()[next++]);
+    questions_.deliver();
+    names_.deliver();
+  } while (ranks_.any(next < mesh_.own().size()));
 }
 
-void RowCarrier::answer() {
-  std::uint32_t part = 0;
-  const auto skip = [&] {
-    while (part < questions_.addresses() && !questions_.has(part)) ++part;
-    return part < questions_.addresses();
-  };
-  answers_.send_all([&] {
-    if (!skip()) return false;
-    OldPart old(old_.take(part), layouts_, parting_, part);
+void RowCarrier::answer_for_parts() {
+  if (!needs_parts()) return;
+  answers_.send_by_address(questions_, [&](std::size_t part) {
+    const auto number = static_cast<std::uint32_t>(part);
+    OldPart old(old_.take(part), layouts_, parting_, number);
     before_[part] = old.integrals();
     const auto messages = questions_.take(part);
     for (const auto& message : messages) {
       for (const std::uint64_t tet : Questions(message.second).kept) old.keep(tet);
     }
-    old.find_changed();
+    if (needs_tets()) old.find_changed();
     for (const auto& message : messages) {
       Answers answers;
       old.answer(Questions(message.second), answers);
       if (!answers.is_empty()) answers_.send(part, message.first, answers.bytes());
     }
-    ++part;
-    return skip();
+  });
+}
+
+void RowCarrier::answer_for_vertices() {
+  if (!has(RowKind::vertex)) return;
+  const std::size_t size = layouts_[RowKind::vertex].size();
+  const std::uint64_t vertices = mesh_.state().in_file;
+  answers_.send_by_address(names_, [&](std::size_t slice) {
+    const std::uint64_t first = FileRange::of_slice(vertices, slice, slices_).begin;
+    const std::string rows = shelf_.read(name_of_slice(slice));
+    shelf_.remove(name_of_slice(slice));
+    for (const auto& [part, message] : names_.take(slice)) {
+      std::string_view rest = message;
+      std::vector<Questions::OfNumber> asked;
+      take(rest, asked);
+      Answers answers;
+      for (const Questions::OfNumber& each : asked) {
+        if ((each.number - first + 1) * size > rows.size()) fail_to_fit();
+        answers.places[RowKind::vertex].push_back(each.place);
+        answers.rows[RowKind::vertex].append(rows, (each.number - first) * size, size);
+      }
+      answers_.send(questions_.addresses() + slice, part, answers.bytes());
+    }
   });
 }
 
 void RowCarrier::receive() {
   for (const std::size_t part : mesh_.own()) {
     NewPart made(mesh_, part, layouts_);
-    made.make_room();
+    made.make_room(source_.row_of_new_vertex());
     for (const auto& message : answers_.take(part)) made.take(Answers(message.second));
     made.check();
     made.average(conserved_);
@@ -855,8 +947,8 @@ CarriedRows::CarriedRows(const RowSource& source, const DividedMesh& mesh,
                          std::size_t tets_of_slice, std::size_t parts,
                          std::span<const std::string> conserve, Shelf& shelf)
     : layouts_(source.row_layouts()), shelf_(shelf) {
-  RowCarrier carrier(source, mesh, parts, shelf, conserve);
-  carrier.run(tets_of_slice);
+  RowCarrier carrier(source, mesh, tets_of_slice, parts, shelf, conserve);
+  carrier.run();
   report_ = carrier.report();
 }
 

@@ -29,19 +29,6 @@ struct FileCounts {
   std::uint64_t required_vertices = 0;
 };
 
-/// Some things of a file, by their numbers there.
-struct FileRange {
-  std::uint64_t begin = 0;
-  std::uint64_t end = 0;
-
-  std::uint64_t size() const { return end - begin; }
-  bool has(std::uint64_t i) const { return i >= begin && i < end; }
-  /// Of `count` things those of slice `i`.
-  static FileRange of_slice(std::uint64_t count, std::uint64_t i, std::uint64_t slices) {
-    return {count * i / slices, count * (i + 1) / slices};
-  }
-};
-
 /// An element whose vertices have their numbers in the file.
 template <class Element>
 struct FileElement {

@@ -52,14 +52,16 @@ class FileWalk {
   /// Tells the first rank some vertices at a time, in the order of the file.
   void vertices(const std::function<void(std::span<const FileVertex>)>& take) const;
   /// Likewise elements of one kind: the rank that has one packs it, by its numbers, and the first one
-  /// gets these bytes, some at a time.
+  /// gets these bytes, some at a time. @param change  may give them other labels, or leave some out
   template <class Element, class Pack>
   void elements(std::vector<Element> Piece::*list, Pack pack,
-                const std::function<void(std::string_view)>& take) const {
+                const std::function<void(std::string_view)>& take,
+                const std::function<void(std::size_t part, Piece&)>& change = {}) const {
     pieces(
         [&](std::size_t part, std::string& bytes) {
           std::array<std::uint64_t, std::tuple_size_v<decltype(Element::vertices)>> numbers;
-          const Piece piece = mesh_.stored(part);
+          Piece piece = mesh_.stored(part);
+          if (change) change(part, piece);
           for (const Element& element : piece.*list) {
             for (std::size_t k = 0; k < numbers.size(); ++k) {
               numbers[k] = number(piece.ids[element.vertices[k]]);

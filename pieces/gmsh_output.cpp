@@ -2,6 +2,7 @@
 // The layout of the format: kernel/formats/gmsh_writer.cpp.
 //
 //   a small mesh with an element for each label -> its plan: entities, their boxes and numbers
+//   or the entities of the file that was read: their numbers go where labels are otherwise
 //   entity of each vertex: that of lowest dimension that has an element with it
 //   nodes, then elements, entity by entity: many small ones, or one large, in a walk over all pieces
 #include "pieces/gmsh_output.h"
@@ -61,11 +62,43 @@ void add_shares(const Piece& piece, std::uint64_t part, std::int32_t dimension,
   }
 }
 
+/// Gives elements their entities for labels, and leaves out walls.
+class EntityNames {
+ public:
+  /// @param carried  null: labels stay
+  explicit EntityNames(const CarriedEntities* carried) : carried_(carried) {}
+
+  void operator()(std::size_t part, Piece& piece) const {
+    if (carried_ == nullptr) return;
+    name(part, RowKind::edge, 1, piece.edges);
+    name(part, RowKind::triangle, 2, piece.triangles);
+    name(part, RowKind::tet, 3, piece.tets);
+  }
+
+ private:
+  template <class Element>
+  void name(std::size_t part, RowKind kind, std::size_t dimension,
+            std::vector<Element>& elements) const {
+    if (carried_->rows.layout(kind).size() == 0) {
+      const auto& entity_of = carried_->extras.entity_of[dimension];
+      for (Element& element : elements) element.label = entity_of.find(element.label)->second;
+      return;
+    }
+    const std::string rows = carried_->rows.column(kind, part, 0, 0, elements.size());
+    std::string_view rest = rows;
+    for (Element& element : elements) take(rest, element.label);
+    std::erase_if(elements, [](const Element& element) { return element.label == kWall; });
+  }
+
+  const CarriedEntities* carried_;
+};
+
 /// Of all ranks, in the order of the pieces.
-std::vector<LabelShare> gather_shares(const DividedMesh& mesh) {
+std::vector<LabelShare> gather_shares(const DividedMesh& mesh, const EntityNames& names) {
   std::string bytes;
   for (const std::size_t part : mesh.own()) {
-    const Piece piece = mesh.stored(part);
+    Piece piece = mesh.stored(part);
+    names(part, piece);
     std::vector<LabelShare> shares;
     add_shares(piece, part, 1, piece.edges, shares);
     add_shares(piece, part, 2, piece.triangles, shares);
@@ -101,16 +134,22 @@ class GmshWriter {
  public:
   /// @param out null on all ranks but the first
   GmshWriter(OutputFile* out, const std::filesystem::path& file, const DividedMesh& mesh,
-             bool binary)
+             bool binary, const CarriedEntities* carried)
       : out_(out),
         ranks_(mesh.ranks()),
+        first_id_(mesh.state().first_id),
         walk_(mesh),
-        shares_(gather_shares(mesh)),
-        skeleton_(skeleton_of(shares_)),
+        carried_(carried),
+        names_(carried),
+        shares_(gather_shares(mesh, names_)),
+        skeleton_(carried != nullptr ? carried->extras.head : skeleton_of(shares_)),
         view_(skeleton_),
         plan_(view_) {
     if (out_ != nullptr) sections_.emplace(*out_, file.string(), true, binary);
-    list_entities();
+    carried == nullptr ? list_entities() : list_carried_entities();
+    for (const LabelShare& share : shares_) {
+      counts_[static_cast<std::size_t>(share.dimension)] += share.count;
+    }
   }
 
   void write() {
@@ -160,6 +199,24 @@ class GmshWriter {
     }
     first_volume_ = static_cast<std::uint32_t>(begins[3]);
   }
+  /// Those of the file that was read, by their numbers.
+  void list_carried_entities() {
+    for (std::size_t d = 0; d < 4; ++d) {
+      if (d == 3) first_volume_ = static_cast<std::uint32_t>(entities_.size());
+      for (const GeometricEntity& entity : plan_.entities[d]) {
+        entity_of_[d][entity.tag] = static_cast<std::uint32_t>(entities_.size());
+        entities_.push_back({entity.dimension, entity.tag, 0, 0});
+      }
+    }
+    for (const LabelShare& share : shares_) {
+      entities_[entity_of(static_cast<std::size_t>(share.dimension), share.label)].elements +=
+          share.count;
+    }
+    for (const GmshPointElement& point : carried_->extras.points) {
+      ++entities_[entity_of(0, point.entity)].elements;
+    }
+    counts_[0] = carried_->extras.points.size();
+  }
   std::uint32_t entity_of(std::size_t dimension, std::int64_t label) const {
     return entity_of_[dimension].find(static_cast<Label>(label))->second;
   }
@@ -171,18 +228,41 @@ class GmshWriter {
     const auto pack = [](const auto& numbers, Label label, std::string& bytes) {
       pieces::put(RowOf{numbers, label}, bytes);
     };
-    walk_.elements(list, pack, [&](std::string_view bytes) {
-      RowOf row;
-      while (!bytes.empty()) {
-        pieces::take(bytes, row);
-        see(row);
-      }
-    });
+    walk_.elements(
+        list, pack,
+        [&](std::string_view bytes) {
+          RowOf row;
+          while (!bytes.empty()) {
+            pieces::take(bytes, row);
+            see(row);
+          }
+        },
+        names_);
+  }
+
+  /// Vertices of the file that was read have an entity that the file names.
+  void take_named_entities() {
+    if (carried_ == nullptr) return;
+    const CarriedRows& rows = carried_->rows;
+    std::size_t v = 0;
+    walk_.vertex_bytes(
+        rows.layout(RowKind::vertex).width(0),
+        [&](std::size_t part, std::size_t begin, const Piece& vertices) {
+          return rows.column(RowKind::vertex, part, 0, begin, begin + vertices.ids.size());
+        },
+        [&](std::string_view bytes) {
+          for (std::array<std::int32_t, 2> entity{}; !bytes.empty(); ++v) {
+            pieces::take(bytes, entity);
+            if (entity[0] < 0) continue;
+            entity_of_node_[v] = entity_of(static_cast<std::size_t>(entity[0]), entity[1]);
+          }
+        });
   }
 
   void classify_nodes() {
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     if (out_ != nullptr) entity_of_node_.assign(walk_.counts().vertices, kNone);
+    take_named_entities();
     const auto classify = [&](std::size_t dimension, auto list) {
       for_each(list, [&](const auto& row) {
         for (const std::uint64_t v : row.numbers) {
@@ -292,12 +372,49 @@ class GmshWriter {
   }
 
   void write_elements() {
-    const FileWalk::Counts& counts = walk_.counts();
     begin_section("Elements", &Entity::elements);
-    write_kind(1, formats::gmsh_edge, 1, &Piece::edges);
-    write_kind(2, formats::gmsh_triangle, 1 + counts.edges, &Piece::triangles);
-    write_kind(3, formats::gmsh_tet, 1 + counts.edges + counts.triangles, &Piece::tets);
+    write_point_elements();
+    std::uint64_t first = 1 + counts_[0];
+    write_kind(1, formats::gmsh_edge, first, &Piece::edges);
+    first += counts_[1];
+    write_kind(2, formats::gmsh_triangle, first, &Piece::triangles);
+    first += counts_[2];
+    write_kind(3, formats::gmsh_tet, first, &Piece::tets);
     if (sections_) sections_->end_numbers("Elements");
+  }
+
+  /// Those in groups come first, by their vertices.
+  void write_point_elements() {
+    if (!sections_ || counts_[0] == 0) return;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> rows;  // vertex, entity
+    for (const bool is_in_group : {true, false}) {
+      const auto begin = static_cast<std::ptrdiff_t>(rows.size());
+      for (const GmshPointElement& point : carried_->extras.points) {
+        if (point.is_in_group != is_in_group) continue;
+        rows.emplace_back(walk_.number(first_id_ + point.vertex), entity_of(0, point.entity));
+      }
+      if (is_in_group) std::sort(rows.begin() + begin, rows.end());
+    }
+    for (std::uint32_t entity = 0; entity < entities_.size(); ++entity) {
+      if (entities_[entity].dimension > 0 || entities_[entity].elements == 0) continue;
+      begin_element_block(entity, formats::gmsh_point);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].second != entity) continue;
+        sections_->row()
+            .wide(static_cast<std::int64_t>(i) + 1)
+            .wide(static_cast<std::int64_t>(rows[i].first) + 1)
+            .end();
+      }
+    }
+  }
+  void begin_element_block(std::size_t number, int type) {
+    const Entity& entity = entities_[number];
+    sections_->row()
+        .integer(entity.dimension)
+        .integer(entity.tag)
+        .integer(type)
+        .size(entity.elements)
+        .end();
   }
 
   template <class Element>
@@ -314,15 +431,6 @@ class GmshWriter {
     using Numbered = std::pair<std::uint64_t, std::array<std::uint64_t, kVertices>>;
     std::vector<std::uint64_t> bytes;
     for (const Entity& entity : entities_) bytes.push_back(sizeof(Numbered) * entity.elements);
-    const auto begin_block = [&](std::size_t number) {
-      const Entity& entity = entities_[number];
-      sections_->row()
-          .integer(dimension)
-          .integer(entity.tag)
-          .integer(type)
-          .size(entity.elements)
-          .end();
-    };
     const auto write_row = [&](std::uint64_t number, const auto& vertices) {
       auto row = sections_->row();
       row.wide(static_cast<std::int64_t>(number));
@@ -333,7 +441,8 @@ class GmshWriter {
              [&](std::size_t begin, std::size_t end) {
                const bool is_alone = end == begin + 1;
                std::vector<std::vector<Numbered>> rows(end - begin);
-               if (is_alone && sections_) begin_block(begin);
+               if (is_alone && entities_[begin].elements == 0) return;
+               if (is_alone && sections_) begin_element_block(begin, type);
                std::uint64_t number = first;
                for_each(list, [&](const auto& row) {
                  const std::uint64_t here = number++;
@@ -348,7 +457,7 @@ class GmshWriter {
                });
                if (is_alone || !sections_) return;
                for (std::size_t i = begin; i < end; ++i) {
-                 begin_block(i);
+                 if (entities_[i].elements > 0) begin_element_block(i, type);
                  for (const auto& [here, vertices] : rows[i - begin]) write_row(here, vertices);
                }
              });
@@ -369,7 +478,10 @@ class GmshWriter {
 
   OutputFile* out_;
   Ranks& ranks_;
+  const VertexId first_id_;
   const FileWalk walk_;
+  const CarriedEntities* carried_;  // null: each label is an entity
+  const EntityNames names_;
   const std::vector<LabelShare> shares_;
   const MeshData skeleton_;
   const MeshView view_;
@@ -377,15 +489,17 @@ class GmshWriter {
   std::optional<formats::GmshSections> sections_;  // the first rank has them
   std::vector<Entity> entities_;
   std::array<std::map<Label, std::uint32_t>, 4> entity_of_;  // by dimension and label
+  std::array<std::uint64_t, 4> counts_{};                    // of elements, by dimension
   std::uint32_t first_volume_ = 0;
   std::vector<std::uint32_t> entity_of_node_;  // on the first rank
 };
 
 }  // namespace
 
-void write_gmsh_slices(const std::filesystem::path& file, const DividedMesh& mesh, bool binary) {
+void write_gmsh_slices(const std::filesystem::path& file, const DividedMesh& mesh, bool binary,
+                       const CarriedEntities* carried) {
   write_by_first(file, mesh.ranks(),
-                 [&](OutputFile* out) { GmshWriter(out, file, mesh, binary).write(); });
+                 [&](OutputFile* out) { GmshWriter(out, file, mesh, binary, carried).write(); });
 }
 
 }  // namespace tetmend::pieces

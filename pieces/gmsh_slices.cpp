@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fast_float/fast_float.h>
@@ -148,6 +150,8 @@ std::unique_ptr<FileSlices> GmshSlices::open(const std::filesystem::path& file, 
     if (!slices->look_at(kind, ranks)) return nullptr;
   }
   slices->share_walls(ranks);
+  slices->head_ = formats::read_gmsh_head(slices->layout_.head);
+  slices->is_listed_ = slices->look_at_entities();
   const auto& counts = slices->layout_.counts;
   slices->counts_ = {counts[GmshLayout::nodes], counts[GmshLayout::tets],
                      counts[GmshLayout::triangles] + slices->walls_.size(),
@@ -167,6 +171,7 @@ bool GmshSlices::share_layout(Ranks& ranks) {
       put(found->blocks, bytes);
       for (const auto& chunks : found->chunks) put(chunks, bytes);
       put(found->counts, bytes);
+      put(found->point_elements, bytes);
       put(found->loose_points, bytes);
       put(found->parametric, bytes);
     }
@@ -180,6 +185,7 @@ bool GmshSlices::share_layout(Ranks& ranks) {
   take(rest, layout_.blocks);
   for (auto& chunks : layout_.chunks) take(rest, chunks);
   take(rest, layout_.counts);
+  take(rest, layout_.point_elements);
   take(rest, layout_.loose_points);
   take(rest, layout_.parametric);
   return true;
@@ -326,10 +332,8 @@ std::vector<std::array<VertexId, 3>> GmshSlices::find_walls() const {
   return walls;
 }
 
-template <class Element>
-void GmshSlices::read_kind(GmshLayout::Kind kind, const FileRange& range,
-                           std::vector<FileElement<Element>>& elements) const {
-  elements.resize(range.size());
+template <class Act>
+void GmshSlices::for_range(GmshLayout::Kind kind, const FileRange& range, const Act& act) const {
   const NumberOrder& order = orders_[kind];
   const NumberOrder& nodes = orders_[GmshLayout::nodes];
   const std::size_t width = width_of(kind);
@@ -350,13 +354,26 @@ void GmshSlices::read_kind(GmshLayout::Kind kind, const FileRange& range,
       const std::uint64_t place = by_row ? chunk.first + row : order.place(*at);
       if (!range.has(place)) continue;
       if (!is_sound(at + 1, width - 1, nodes)) fail_changed(file_);
-      auto& element = elements[place - range.begin];
-      for (std::size_t k = 0; k + 1 < width; ++k) element.vertices[k] = nodes.place(at[k + 1]);
-      element.element.label = layout_.blocks[chunk.block].label;
+      act(place - range.begin, at, layout_.blocks[chunk.block]);
       ++found;
     }
   }
   if (found != range.size()) fail_changed(file_);
+}
+
+template <class Element>
+void GmshSlices::read_kind(GmshLayout::Kind kind, const FileRange& range,
+                           std::vector<FileElement<Element>>& elements) const {
+  elements.resize(range.size());
+  const NumberOrder& nodes = orders_[GmshLayout::nodes];
+  for_range(kind, range,
+            [&](std::uint64_t place, const std::int64_t* row, const formats::GmshBlock& block) {
+              auto& element = elements[place];
+              for (std::size_t k = 0; k < element.vertices.size(); ++k) {
+                element.vertices[k] = nodes.place(row[k + 1]);
+              }
+              element.element.label = block.label;
+            });
 }
 
 void GmshSlices::read_elements(const Share& of, FileElements& elements) const {
@@ -371,37 +388,158 @@ void GmshSlices::read_elements(const Share& of, FileElements& elements) const {
   read_kind(GmshLayout::edges, of.edges, elements.edges);
 }
 
-void GmshSlices::read_vertices(Piece& slice) const {
+/// read(chunk) comes before its rows, and is false where the chunk cannot be read.
+template <class Read, class Act>
+void GmshSlices::for_nodes(const std::vector<VertexId>& ids, const Read& read,
+                           const Act& act) const {
   const NumberOrder& order = orders_[GmshLayout::nodes];
-  slice.points.resize(slice.ids.size());
-  slice.marks.assign(slice.ids.size(), 0);
   ChunkReader reader(file_, layout_);
   std::vector<std::int64_t> numbers;
-  std::vector<Point> points;
   std::size_t found = 0;
   for (std::size_t i = 0; i < layout_.chunks[GmshLayout::nodes].size(); ++i) {
     const GmshChunk& chunk = layout_.chunks[GmshLayout::nodes][i];
     const NumberFacts& facts = facts_[GmshLayout::nodes][i];
-    auto id = std::lower_bound(slice.ids.begin(), slice.ids.end(), order.place(facts.least));
-    if (id == slice.ids.end() || *id > order.place(facts.most)) continue;
-    if (!reader.integers(chunk, 1, numbers) || !reader.places(chunk, points)) fail_changed(file_);
+    auto id = std::lower_bound(ids.begin(), ids.end(), order.place(facts.least));
+    if (id == ids.end() || *id > order.place(facts.most)) continue;
+    if (!reader.integers(chunk, 1, numbers) || !read(reader, chunk)) fail_changed(file_);
     for (std::size_t row = 0; row < chunk.rows; ++row) {
       if (!order.has(numbers[row])) fail_changed(file_);
       const std::uint64_t place = order.place(numbers[row]);
-      if (id == slice.ids.end() || *id != place) {
-        id = std::lower_bound(slice.ids.begin(), slice.ids.end(), place);
-      }
-      if (id == slice.ids.end() || *id != place) continue;
-      slice.points[static_cast<std::size_t>(id - slice.ids.begin())] = points[row];
+      if (id == ids.end() || *id != place) id = std::lower_bound(ids.begin(), ids.end(), place);
+      if (id == ids.end() || *id != place) continue;
+      act(static_cast<std::size_t>(id - ids.begin()), row, chunk);
       ++found;
       ++id;
     }
   }
-  if (found != slice.ids.size()) fail_changed(file_);
+  if (found != ids.size()) fail_changed(file_);
+}
+
+void GmshSlices::read_vertices(Piece& slice) const {
+  slice.points.resize(slice.ids.size());
+  slice.marks.assign(slice.ids.size(), 0);
+  std::vector<Point> points;
+  for_nodes(
+      slice.ids,
+      [&](ChunkReader& reader, const GmshChunk& chunk) { return reader.places(chunk, points); },
+      [&](std::size_t i, std::size_t row, const GmshChunk&) { slice.points[i] = points[row]; });
+}
+
+namespace {
+
+using Entity = std::array<std::int32_t, 2>;  // dimension and number
+
+template <class Value>
+void set_row(const Value& value, std::size_t i, std::string& rows) {
+  std::memcpy(rows.data() + i * sizeof(value), &value, sizeof(value));
+}
+
+}  // namespace
+
+ByKind<RowLayout> GmshSlices::row_layouts() const {
+  const auto integers = [](std::size_t components) {
+    return RowLayout({{"entity", components, std::vector<std::int32_t>()}});
+  };
+  ByKind<RowLayout> layouts;
+  layouts[RowKind::vertex] = integers(2);
+  const bool has_walls = !walls_.empty();
+  if (is_finer_than_labels(GmshLayout::tets)) layouts[RowKind::tet] = integers(1);
+  if (has_walls || is_finer_than_labels(GmshLayout::triangles)) {
+    layouts[RowKind::triangle] = integers(1);
+  }
+  if (is_finer_than_labels(GmshLayout::edges)) layouts[RowKind::edge] = integers(1);
+  return layouts;
+}
+
+std::string GmshSlices::row_of_new_vertex() const {
+  std::string row;
+  put(Entity{-1, 0}, row);
+  return row;
+}
+
+void GmshSlices::read_rows(const Share& of, const std::vector<VertexId>& ids,
+                           ByKind<std::string>& rows) const {
+  rows[RowKind::vertex].resize(ids.size() * sizeof(Entity));
+  for_nodes(
+      ids, [](ChunkReader&, const GmshChunk&) { return true; },
+      [&](std::size_t i, std::size_t, const GmshChunk& chunk) {
+        const formats::GmshBlock& block = layout_.blocks[chunk.block];
+        set_row(Entity{block.dimension, block.part}, i, rows[RowKind::vertex]);
+      });
+  const ByKind<RowLayout> layouts = row_layouts();
+  const auto read = [&](RowKind to, GmshLayout::Kind kind, FileRange range) {
+    if (layouts[to].size() == 0) return;
+    const std::uint64_t named = layout_.counts[kind];
+    const std::uint64_t all = range.size();
+    range = {std::min(range.begin, named), std::min(range.end, named)};
+    for (std::uint64_t i = 0; i < all; ++i) put(kWall, rows[to]);
+    for_range(kind, range,
+              [&](std::uint64_t place, const std::int64_t*, const formats::GmshBlock& block) {
+                set_row(block.part, place, rows[to]);
+              });
+  };
+  read(RowKind::tet, GmshLayout::tets, of.tets);
+  read(RowKind::triangle, GmshLayout::triangles, of.triangles);
+  read(RowKind::edge, GmshLayout::edges, of.edges);
+}
+
+bool GmshSlices::is_listed(int dimension, Label entity) const {
+  return std::any_of(head_.entities.begin(), head_.entities.end(), [&](const auto& each) {
+    return each.dimension == dimension && each.tag == entity && entity != kWall;
+  });
+}
+
+/// False where one is no vertex of the geometry, or is there twice.
+bool GmshSlices::read_point_elements() {
+  std::map<std::int64_t, Label> vertices;  // nodes on vertices of the geometry
+  ChunkReader reader(file_, layout_);
+  std::vector<std::int64_t> numbers;
+  for (const GmshChunk& chunk : layout_.chunks[GmshLayout::nodes]) {
+    const formats::GmshBlock& block = layout_.blocks[chunk.block];
+    if (block.dimension != 0) continue;
+    if (!reader.integers(chunk, 1, numbers)) fail_changed(file_);
+    for (const std::int64_t number : numbers) vertices[number] = block.part;
+  }
+  std::map<std::int64_t, GmshPointElement> by_number;
+  std::set<VertexId> seen;
+  for (const GmshChunk& chunk : layout_.point_elements) {
+    const formats::GmshBlock& block = layout_.blocks[chunk.block];
+    if (!reader.integers(chunk, 2, numbers)) return false;
+    for (std::size_t i = 0; i < numbers.size(); i += 2) {
+      const auto vertex = vertices.find(numbers[i + 1]);
+      if (vertex == vertices.end() || vertex->second != block.part) return false;
+      const VertexId id = orders_[GmshLayout::nodes].place(numbers[i + 1]);
+      const bool is_in_group = block.label != 0;
+      const bool is_new =
+          by_number.emplace(numbers[i], GmshPointElement{id, block.part, is_in_group}).second;
+      if (!is_new || !seen.insert(id).second) return false;
+    }
+  }
+  for (const auto& [number, element] : by_number) point_elements_.push_back(element);
+  return true;
+}
+
+/// Whether all that is not in rows is in the head of the file.
+bool GmshSlices::look_at_entities() {
+  const bool are_listed =
+      std::all_of(layout_.blocks.begin(), layout_.blocks.end(),
+                  [&](const auto& block) { return is_listed(block.dimension, block.part); });
+  return are_listed && read_point_elements();
+}
+
+GmshExtras GmshSlices::extras() const {
+  GmshExtras extras{head_, {}, point_elements_};
+  for (const auto kind : {GmshLayout::edges, GmshLayout::triangles, GmshLayout::tets}) {
+    for (const GmshChunk& chunk : layout_.chunks[kind]) {
+      const formats::GmshBlock& block = layout_.blocks[chunk.block];
+      extras.entity_of[kind].emplace(block.label, block.part);
+    }
+  }
+  return extras;
 }
 
 MeshData GmshSlices::digest() const {
-  MeshData data = formats::read_gmsh_head(layout_.head);
+  MeshData data = head_;
   const auto add = [&](GmshLayout::Kind kind, auto& elements, std::vector<Label>& parts,
                        bool has_all) {
     for (const GmshChunk& chunk : layout_.chunks[kind]) {

@@ -20,7 +20,9 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "pieces/bytes.h"
+#include "pieces/carried_rows.h"
 #include "pieces/gmsh_output.h"
+#include "pieces/gmsh_slices.h"
 #include "pieces/medit_slices.h"
 #include "pieces/partitioned_files.h"
 #include "pieces/slices.h"
@@ -119,6 +121,10 @@ std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output)
 
 bool InputMesh::holds_more(const std::filesystem::path& output) const {
   const bool is_one_of_ours = slices_ && !slices_->has_walls();  // walls are not written
+  if (is_one_of_ours && output.extension() == ".vtu") {
+    return !data_.point_data.empty() || !data_.tet_data.empty() || !data_.other_elements.empty() ||
+           !data_.label_array.empty();
+  }
   if (!is_one_of_ours || output.extension() != ".meshb") return holds_more_;
   // Of all that slices may hold besides, MEDIT's format has a place for marks and vectors alone.
   const auto is_medits = [](std::string_view name) {
@@ -232,18 +238,43 @@ std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const D
 
 namespace {
 
+CarriedRows carry_rows(const FileSlices& source, const DividedMesh& mesh,
+                       const WriteDetails& details, Shelf& memory) {
+  return {source,
+          mesh,
+          tets_of_slice(source.counts().tets, details.pieces),
+          details.pieces,
+          details.conserve,
+          details.shelf != nullptr ? *details.shelf : memory};
+}
+
 /// No rank has all of it. Nothing where the file that was read holds more than arrays.
 std::optional<std::vector<CarriedArray>> write_vtu_with_rows(const std::filesystem::path& file,
                                                              const DividedMesh& mesh,
                                                              const WriteDetails& details) {
   const auto source = open_slices(details.source, details.label_array, mesh.ranks());
-  if (!source || !source->has_all_in_rows()) return {};
+  const bool has_entities = dynamic_cast<const GmshSlices*>(source.get()) != nullptr;
+  if (!source || has_entities || !source->has_all_in_rows()) return {};
   MemoryShelf memory;
-  const CarriedRows rows(*source, mesh, tets_of_slice(source->counts().tets, details.pieces),
-                         details.pieces, details.conserve,
-                         details.shelf != nullptr ? *details.shelf : memory);
+  const CarriedRows rows = carry_rows(*source, mesh, details, memory);
   write_vtu_slices(file, mesh, {&rows, source->digest().label_array});
   return mesh.ranks().is_first() ? rows.report() : std::vector<CarriedArray>();
+}
+
+/// The same, of a file with entities that are in its list. False for any other.
+bool write_gmsh_with_entities(const std::filesystem::path& file, const DividedMesh& mesh,
+                              const WriteDetails& details) {
+  const auto opened = open_slices(details.source, details.label_array, mesh.ranks());
+  const auto* const source = dynamic_cast<const GmshSlices*>(opened.get());
+  if (source == nullptr || !source->has_all_in_rows()) return false;
+  const GmshExtras extras = source->extras();
+  const std::string& variant = details.variant.empty() ? extras.head.variant : details.variant;
+  if (variant.starts_with("2.2")) return false;
+  MemoryShelf memory;
+  const CarriedRows rows = carry_rows(*source, mesh, details, memory);
+  const CarriedEntities carried{rows, extras};
+  write_gmsh_slices(file, mesh, variant != "4.1 ASCII", &carried);
+  return true;
 }
 
 }  // namespace
@@ -271,6 +302,10 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   if (file.extension() == ".msh" && details.source.empty() && !is_msh_2) {
     write_gmsh_slices(file, mesh, details.variant != "4.1 ASCII");
     return {};
+  }
+  if (file.extension() == ".msh" && !details.source.empty() && !details.surface_moves &&
+      !is_msh_2) {
+    if (write_gmsh_with_entities(file, mesh, details)) return {};
   }
   mesh.bring_to_first();
   std::vector<CarriedArray> carried;

@@ -50,12 +50,17 @@ void Post::deliver() {
   }
 }
 
-void Post::send_all(const std::function<bool()>& send_some) {
-  bool has_more = true;
+void Post::send_by_address(const Post& other,
+                           const std::function<void(std::size_t address)>& send_for) {
+  std::vector<std::size_t> mine;
+  for (std::size_t address = 0; address < other.addresses(); ++address) {
+    if (other.has(address)) mine.push_back(address);
+  }
+  std::size_t next = 0;
   do {
-    if (has_more) has_more = send_some();
+    if (next < mine.size()) send_for(mine[next++]);
     deliver();
-  } while (ranks_.any(has_more));
+  } while (ranks_.any(next < mine.size()));
 }
 
 std::vector<std::pair<std::uint64_t, std::string>> Post::take(std::size_t address) {

@@ -24,9 +24,9 @@ class Post {
   void send(std::uint64_t source, std::size_t address, std::string_view message);
   /// All ranks: brings what was sent since the last time.
   void deliver();
-  /// All ranks: calls send_some() until it has nothing more on any, and delivers after each time.
-  /// @param send_some  false: that was all
-  void send_all(const std::function<bool()>& send_some);
+  /// All ranks: calls send_for(address) for each address of this rank in another post, and delivers after
+  /// each.
+  void send_by_address(const Post& other, const std::function<void(std::size_t address)>& send_for);
   /// What has come for an address of this rank, by source, whoever brought it. It is gone then.
   std::vector<std::pair<std::uint64_t, std::string>> take(std::size_t address);
 

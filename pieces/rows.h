@@ -14,9 +14,9 @@
 
 namespace tetmend::pieces {
 
-/// What has rows.
-enum class RowKind : std::size_t { point, tet, triangle, edge };
-inline constexpr std::array<RowKind, 4> kRowKinds = {RowKind::point, RowKind::tet,
+/// What has rows. Of a vertex: what goes where it goes; of a point: what belongs to its place.
+enum class RowKind : std::size_t { vertex, point, tet, triangle, edge };
+inline constexpr std::array<RowKind, 5> kRowKinds = {RowKind::vertex, RowKind::point, RowKind::tet,
                                                      RowKind::triangle, RowKind::edge};
 /// Something for each kind.
 template <class Value>
@@ -26,7 +26,7 @@ class ByKind {
   const Value& operator[](RowKind kind) const { return values_[static_cast<std::size_t>(kind)]; }
 
  private:
-  std::array<Value, 4> values_{};
+  std::array<Value, kRowKinds.size()> values_{};
 };
 
 /// Where in a row the numbers of each array stand.

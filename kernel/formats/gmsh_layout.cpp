@@ -256,6 +256,8 @@ class Scanner {
       require(dimension >= 0 && dimension <= 3 && (parametric == 0 || parametric == 1));
       require(part >= INT32_MIN && part <= INT32_MAX && rows >= 0 && rows <= count);
       GmshBlock& block = layout_.blocks.emplace_back();
+      block.dimension = static_cast<std::int32_t>(dimension);
+      block.part = static_cast<Label>(part);
       block.parameters = static_cast<std::uint32_t>(parametric * dimension);
       layout_.parametric = layout_.parametric || parametric == 1;
       const auto size = static_cast<std::uint64_t>(rows);
@@ -288,7 +290,11 @@ class Scanner {
       const std::uint64_t numbers = 1 + gmsh_type(static_cast<int>(type)).width;
       const std::vector<std::uint64_t> places = pass_over(size, numbers * sizeof(std::int64_t));
       if (kind == GmshLayout::nodes) {
-        point_blocks_.push_back({block.part, size});
+        for (std::uint64_t row = 0, k = 0; row < size; row += kRowsOfChunk, ++k) {
+          layout_.point_elements.push_back({layout_.blocks.size() - 1, row,
+                                            std::min(kRowsOfChunk, size - row), places[k],
+                                            places[k + 1] - places[k], 0, 0});
+        }
       } else {
         add_chunks(kind, size, places, {});
       }
@@ -313,8 +319,8 @@ class Scanner {
     for (GmshBlock& block : layout_.blocks) {
       block.label = gmsh_label(head, block.dimension, block.part);
     }
-    for (const auto& [part, rows] : point_blocks_) {
-      if (gmsh_label(head, 0, part) == 0) layout_.loose_points += rows;
+    for (const GmshChunk& chunk : layout_.point_elements) {
+      if (layout_.blocks[chunk.block].label == 0) layout_.loose_points += chunk.rows;
     }
   }
 
@@ -322,7 +328,6 @@ class Scanner {
   GmshLayout layout_;
   std::uint64_t section_at_ = 0;
   std::vector<std::pair<std::uint64_t, std::uint64_t>> skipped_;  // from where to where
-  std::vector<std::pair<Label, std::uint64_t>> point_blocks_;     // entity and rows
 };
 
 }  // namespace

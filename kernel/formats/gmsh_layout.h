@@ -43,7 +43,8 @@ struct GmshLayout {
   std::vector<GmshBlock> blocks;
   std::array<std::vector<GmshChunk>, 4> chunks;  ///< by kind
   std::array<std::uint64_t, 4> counts{};         ///< likewise
-  std::uint64_t loose_points = 0;                ///< elements of one node that are in no group
+  std::vector<GmshChunk> point_elements;         ///< rows of a number and a node
+  std::uint64_t loose_points = 0;                ///< of them, those that are in no group
   bool parametric = false;
 };
 

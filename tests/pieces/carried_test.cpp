@@ -12,6 +12,8 @@
 #include <tetmend/io.h>
 
 #include "face/mesh_access.h"
+#include "kernel/formats/mesh_io.h"
+#include "pieces/file_slices.h"
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
@@ -90,6 +92,13 @@ void improve_by_tasks(const Files& files, const Options& options) {
   }
 }
 
+/// So no rank need have all of it.
+bool is_told_by_rows(const std::filesystem::path& file) {
+  pieces::OneRank alone;
+  const auto slices = pieces::open_slices(file, {}, alone);
+  return slices && slices->has_all_in_rows();
+}
+
 std::string message_of(const std::function<void()>& work) {
   try {
     work();
@@ -154,6 +163,7 @@ TEST_CASE("arrays of a .vtu file are carried where no rank has all of it, as by 
     Options options;
     if (is_conserved) options.conserve = {"density"};
     const Files files(data, ".vtu", options);
+    CHECK(is_told_by_rows(files.in));
     for (const std::size_t count : {1, 2, 5}) {
       CAPTURE(count);
       std::filesystem::remove(files.out);
@@ -242,4 +252,90 @@ TEST_CASE("a region without a tet is an error, also where each rank has some tet
         "protect label:3: no tet has label 3: the mesh has 1, 2");
   CHECK(message({.only = {"box:7,7,7,8,8,8"}}) ==
         "only box:7,7,7,8,8,8: no tet lies in the box: the mesh fills 0,0,0,6,6,6");
+}
+
+namespace {
+
+/// Surfaces, curves and vertices of the geometry, with and without groups, and volumes that are finer than
+/// labels, as Gmsh has them.
+MeshData lattice_with_entities(bool is_finer) {
+  constexpr std::uint32_t kCells = 6;
+  MeshData data = lattice(kCells);
+  data.required_vertices.clear();
+  data.triangles.clear();
+  data.edges.clear();
+  const auto is_at = [&](std::uint32_t v, double z) { return data.points[v].z() == z; };
+  for (const MeshData::Tet& tet : data.tets) {
+    for (std::size_t skip = 0; skip < 4; ++skip) {
+      std::array<std::uint32_t, 3> face{};
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        if (i != skip) face[n++] = tet.vertices[i];
+      }
+      for (const double z : {0.0, double(kCells)}) {
+        if (!std::all_of(face.begin(), face.end(), [&](auto v) { return is_at(v, z); })) continue;
+        data.triangles.push_back({face, z > 0 ? 7 : 0});
+        data.triangle_parts.push_back(z > 0 ? 12 : data.points[face[0]].x() < 3 ? 10 : 11);
+      }
+    }
+  }
+  for (std::uint32_t v = 0; v < kCells; ++v) {
+    data.edges.push_back({{v, v + 1}, 0});
+    data.edge_parts.push_back(v < 3 ? 5 : 6);
+  }
+  for (MeshData::Tet& tet : data.tets) {
+    tet.label = 3;
+    const bool is_left = data.points[tet.vertices[0]].x() < 3;
+    data.tet_parts.push_back(is_finer && is_left ? 21 : 20);
+  }
+  data.point_entities.assign(data.points.size(), {3, 20});
+  for (const MeshData::Triangle& triangle : data.triangles) {
+    for (const std::uint32_t v : triangle.vertices) data.point_entities[v] = {2, 12};
+  }
+  data.point_entities[0] = {0, 1};
+  data.point_entities[kCells] = {0, 2};
+  data.groups.push_back({3, 3, "body", {}, {}});
+  data.groups.push_back({2, 7, "top", {}, {}});
+  data.groups.push_back({0, 9, "corner", {}, {kCells}});
+  const auto list = [&](int dimension, std::initializer_list<Label> tags, Label group) {
+    for (const Label tag : tags) {
+      GeometricEntity entity{dimension, tag, {0, 0, 0, 6, 6, 6}, {}, {}};
+      if (dimension == 0) entity.box = {0, 0, 0, 0, 0, 0};
+      if (group != 0) entity.groups = {group};
+      data.entities.push_back(entity);
+    }
+  };
+  list(0, {1}, 0);
+  list(0, {2}, 9);
+  list(1, {5, 6}, 0);
+  list(2, {10, 11}, 0);
+  list(2, {12}, 7);
+  list(3, {20, 21, 22}, 3);
+  data.other_elements.push_back({1, 1, {0}, {0}, {1}, {}, {}});
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("entities of a .msh file are carried where no rank has all of it, as by one process") {
+  for (const bool is_finer : {false, true}) {
+    CAPTURE(is_finer);
+    const Files files(lattice_with_entities(is_finer), ".msh", {});
+    const MeshData there = read_mesh(files.in);
+    REQUIRE(there.entities.size() == 10);
+    REQUIRE(there.other_elements.size() == 1);
+    CHECK(is_told_by_rows(files.in));
+    for (const std::size_t count : {1, 2, 5}) {
+      CAPTURE(count);
+      std::filesystem::remove(files.out);
+      on_ranks(count, [&](Ranks& ranks) {
+        Division division = in_pieces();
+        pieces::improve_files(files.all(), {}, division, ranks);
+      });
+      CHECK(bytes_of(files.out) == files.expected);
+    }
+    std::filesystem::remove(files.out);
+    improve_by_tasks(files, {});
+    CHECK(bytes_of(files.out) == files.expected);
+  }
 }
