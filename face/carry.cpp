@@ -18,6 +18,7 @@
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
 #include "kernel/formats/cell_arrays.h"
+#include "kernel/formats/medit_vectors.h"
 #include "kernel/geometry.h"
 #include "kernel/lists_of_kind.h"
 #include "kernel/parts.h"
@@ -361,7 +362,7 @@ class Carrying {
       const std::vector<bool> held = mask(group);
       switch (group.dimension) {
         case 0:
-          group.members = points_of(held);
+          group.members = points_of(held, !formats::is_medit_mark(group.name));
           break;
         case 3:
           group.members = tets_of(held);
@@ -375,6 +376,9 @@ class Carrying {
                new_elements_[static_cast<std::size_t>(group.dimension)]) {
             if (old.contains(model)) group.members.push_back(made);
           }
+          std::vector<std::uint32_t>& members = group.members;
+          std::sort(members.begin(), members.end());
+          members.erase(std::unique(members.begin(), members.end()), members.end());
         }
       }
       now_.groups.push_back(std::move(group));
@@ -396,9 +400,9 @@ class Carrying {
     return mask;
   }
   /// The points that are left; of a set that fills a volume also new ones in tets that it holds
-  /// wholly.
-  std::vector<std::uint32_t> points_of(const std::vector<bool>& held) {
-    const bool fills = fills_volume(held);
+  /// wholly. A mark, such as of corners, is of single points.
+  std::vector<std::uint32_t> points_of(const std::vector<bool>& held, bool may_fill) {
+    const bool fills = may_fill && fills_volume(held);
     std::vector<std::uint32_t> members;
     for (std::uint32_t i = 0; i < now_.points.size(); ++i) {
       const bool is_in = old_point_[i] != kGone

@@ -17,6 +17,9 @@
 
 namespace tetmend::pieces {
 
+using formats::kMeditMarks;
+using formats::kMeditVectors;
+
 namespace {
 
 enum Keyword : std::int32_t {
@@ -28,6 +31,19 @@ enum Keyword : std::int32_t {
   required_vertices = 15,
   end_of_mesh = 54
 };
+
+/// Bytes of a row of a section.
+std::uint64_t row_size(std::int32_t keyword, std::uint64_t integer_size) {
+  for (const formats::MeditVectors& kind : kMeditVectors) {
+    if (kind.vectors_keyword == keyword) return 3 * sizeof(double);
+    if (kind.at_keyword == keyword) return 2 * integer_size;
+  }
+  return integer_size * (keyword == tetrahedra  ? 5
+                         : keyword == triangles ? 4
+                         : keyword == edges     ? 3
+                                                : 1) +
+         (keyword == vertices ? 3 * sizeof(double) : 0);
+}
 
 template <class Value>
 bool read_value(std::ifstream& in, Value& value) {
@@ -50,7 +66,7 @@ std::unique_ptr<FileSlices> MeditSlices::open(const std::filesystem::path& file)
   if (!slices->list_sections()) return nullptr;
   slices->counts_ = {slices->vertices_.rows, slices->tets_.rows, slices->triangles_.rows,
                      slices->edges_.rows, slices->required_.rows};
-  if (slices->counts_.tets == 0) return nullptr;
+  if (slices->counts_.tets == 0 || !slices->are_marks_sound()) return nullptr;
   return slices;
 }
 
@@ -76,30 +92,188 @@ bool MeditSlices::list_sections() {
     std::uint64_t next = 0;
     if (!read_number(version >= 3, next)) return false;
     if (next == 0) next = size;
-    const std::array<std::pair<std::int32_t, Section*>, 5> kept = {
-        {{vertices, &vertices_},
-         {edges, &edges_},
-         {triangles, &triangles_},
-         {tetrahedra, &tets_},
-         {required_vertices, &required_}}};
-    const auto* found = std::find_if(kept.begin(), kept.end(),
-                                     [&](const auto& each) { return each.first == keyword; });
-    if (found != kept.end()) {
-      Section& section = *found->second;
-      if (section.begin != 0 || !read_number(version == 4, section.rows)) return false;
-      section.begin = static_cast<std::uint64_t>(in.tellg());
-      const std::uint64_t per_row = integer_size() * (keyword == tetrahedra  ? 5
-                                                      : keyword == triangles ? 4
-                                                      : keyword == edges     ? 3
-                                                                             : 1) +
-                                    (keyword == vertices ? 24 : 0);
-      if (next > size || section.rows * per_row != next - section.begin) return false;
+    if (Section* const section = section_of(keyword)) {
+      if (section->begin != 0 || !read_number(version_ == 4, section->rows)) return false;
+      section->begin = static_cast<std::uint64_t>(in.tellg());
+      const std::uint64_t per_row = row_size(keyword, integer_size());
+      if (next > size || section->rows * per_row != next - section->begin) return false;
     } else if (keyword != dimension) {
       return false;
     }
     in.seekg(static_cast<std::streamoff>(next));
   }
   return true;
+}
+
+/// Null for a keyword of which nothing is kept.
+MeditSlices::Section* MeditSlices::section_of(std::int32_t keyword) {
+  switch (keyword) {
+    case vertices:
+      return &vertices_;
+    case edges:
+      return &edges_;
+    case triangles:
+      return &triangles_;
+    case tetrahedra:
+      return &tets_;
+    case required_vertices:
+      return &required_;
+    default:
+      break;
+  }
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    if (kMeditMarks[i].keyword == keyword) return &marks_[i];
+  }
+  for (std::size_t i = 0; i < vectors_.size(); ++i) {
+    if (kMeditVectors[i].vectors_keyword == keyword) return &vectors_[i].vectors;
+    if (kMeditVectors[i].at_keyword == keyword) return &vectors_[i].at;
+  }
+  return nullptr;
+}
+
+/// Of a section of integers, `width` in a row.
+std::vector<std::uint64_t> MeditSlices::numbers(const Section& section, std::size_t width) const {
+  std::vector<std::uint64_t> numbers(section.rows * width);
+  if (numbers.empty()) return numbers;
+  FileBytes bytes(file_);
+  const char* at = bytes.read(section.begin, numbers.size() * integer_size());
+  for (std::uint64_t& number : numbers) {
+    number =
+        static_cast<std::uint64_t>(version_ == 4 ? load<std::int64_t>(at) : load<std::int32_t>(at));
+    at += integer_size();
+  }
+  return numbers;
+}
+
+/// All numbers are of something that is there, and no vertex has two vectors of a kind.
+bool MeditSlices::are_marks_sound() const {
+  const auto is_among = [](std::uint64_t most) {
+    return [most](std::uint64_t number) { return number >= 1 && number <= most; };
+  };
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    const int dimension = kMeditMarks[i].dimension;
+    const std::uint64_t most = dimension == 0   ? vertices_.rows
+                               : dimension == 1 ? edges_.rows
+                                                : triangles_.rows;
+    const std::vector<std::uint64_t> all = numbers(marks_[i], 1);
+    if (!std::all_of(all.begin(), all.end(), is_among(most))) return false;
+  }
+  for (const VectorSections& sections : vectors_) {
+    const std::vector<std::uint64_t> all = numbers(sections.at, 2);
+    std::vector<std::uint64_t> at;
+    for (std::size_t i = 0; i < all.size(); i += 2) {
+      if (!is_among(vertices_.rows)(all[i]) || !is_among(sections.vectors.rows)(all[i + 1])) {
+        return false;
+      }
+      at.push_back(all[i]);
+    }
+    std::sort(at.begin(), at.end());
+    if (std::adjacent_find(at.begin(), at.end()) != at.end()) return false;
+  }
+  return true;
+}
+
+namespace {
+
+/// Of a kind of marks, or behind those of a kind of vectors.
+constexpr std::int32_t bit_of_mark(std::size_t kind) {
+  return 1 << kind;
+}
+constexpr std::int32_t bit_of_vector(std::size_t kind) {
+  return bit_of_mark(kMeditMarks.size() + kind);
+}
+
+void set_mark(std::int32_t bit, std::size_t i, std::string& rows) {
+  std::int32_t marks = load<std::int32_t>(rows.data() + i * sizeof(bit));
+  marks |= bit;
+  std::memcpy(rows.data() + i * sizeof(bit), &marks, sizeof(marks));
+}
+
+}  // namespace
+
+bool MeditSlices::has_marks(int dimension) const {
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    if (kMeditMarks[i].dimension == dimension && marks_[i].rows > 0) return true;
+  }
+  return dimension == 0 &&
+         std::any_of(vectors_.begin(), vectors_.end(),
+                     [](const VectorSections& sections) { return sections.at.rows > 0; });
+}
+
+ByKind<RowLayout> MeditSlices::row_layouts() const {
+  const RowLayout marks({{"marks", 1, std::vector<std::int32_t>()}});
+  ByKind<RowLayout> layouts;
+  if (has_marks(0)) layouts[RowKind::vertex] = marks;
+  if (has_marks(1)) layouts[RowKind::edge] = marks;
+  if (has_marks(2)) layouts[RowKind::triangle] = marks;
+  layouts[RowKind::point] = RowLayout(digest().point_data);
+  return layouts;
+}
+
+std::string MeditSlices::row_of_new_vertex() const {
+  std::string row;
+  if (has_marks(0)) put(std::int32_t{0}, row);
+  return row;
+}
+
+MeshData MeditSlices::digest() const {
+  MeshData data;
+  const auto add_group = [&](int dimension, std::string_view name, std::uint64_t count) {
+    if (count == 0) return;
+    data.groups.push_back({dimension, 0, std::string(name), {}, std::vector<std::uint32_t>(count)});
+  };
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    add_group(kMeditMarks[i].dimension, kMeditMarks[i].section, marks_[i].rows);
+  }
+  for (std::size_t i = 0; i < vectors_.size(); ++i) {
+    if (vectors_[i].at.rows == 0) continue;
+    add_group(0, kMeditVectors[i].at, vectors_[i].at.rows);
+    data.point_data.push_back({std::string(kMeditVectors[i].vectors), 3, std::vector<double>()});
+  }
+  return data;
+}
+
+void MeditSlices::read_rows(const Share& of, const std::vector<VertexId>& ids,
+                            ByKind<std::string>& rows) const {
+  const ByKind<RowLayout> layouts = row_layouts();
+  rows[RowKind::vertex].resize(ids.size() * layouts[RowKind::vertex].size());
+  rows[RowKind::point].resize(ids.size() * layouts[RowKind::point].size());
+  rows[RowKind::edge].resize(of.edges.size() * layouts[RowKind::edge].size());
+  rows[RowKind::triangle].resize(of.triangles.size() * layouts[RowKind::triangle].size());
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    const int dimension = kMeditMarks[i].dimension;
+    const FileRange range = dimension == 1 ? of.edges : of.triangles;
+    std::string& to = rows[dimension == 1 ? RowKind::edge : RowKind::triangle];
+    for (const std::uint64_t number : numbers(marks_[i], 1)) {
+      if (dimension > 0) {
+        if (range.has(number - 1)) set_mark(bit_of_mark(i), number - 1 - range.begin, to);
+        continue;
+      }
+      const auto id = std::lower_bound(ids.begin(), ids.end(), number - 1);
+      if (id == ids.end() || *id != number - 1) continue;
+      set_mark(bit_of_mark(i), static_cast<std::size_t>(id - ids.begin()), rows[RowKind::vertex]);
+    }
+  }
+  for (std::size_t i = 0; i < vectors_.size(); ++i) add_vectors(i, ids, rows);
+}
+
+void MeditSlices::add_vectors(std::size_t kind, const std::vector<VertexId>& ids,
+                              ByKind<std::string>& rows) const {
+  constexpr std::size_t kSize = 3 * sizeof(double);
+  const VectorSections& sections = vectors_[kind];
+  if (sections.at.rows == 0) return;
+  const RowLayout layout(digest().point_data);
+  const std::size_t place = kind > 0 && vectors_[0].at.rows > 0 ? layout.place(1) : layout.place(0);
+  const std::vector<std::uint64_t> at = numbers(sections.at, 2);
+  FileBytes bytes(file_);
+  for (std::size_t k = 0; k < at.size(); k += 2) {
+    const auto id = std::lower_bound(ids.begin(), ids.end(), at[k] - 1);
+    if (id == ids.end() || *id != at[k] - 1) continue;
+    const auto i = static_cast<std::size_t>(id - ids.begin());
+    set_mark(bit_of_vector(kind), i, rows[RowKind::vertex]);
+    const char* const vector = bytes.read(sections.vectors.begin + (at[k + 1] - 1) * kSize, kSize);
+    std::copy_n(vector, kSize, rows[RowKind::point].data() + i * layout.size() + place);
+  }
 }
 
 namespace {
@@ -217,9 +391,11 @@ namespace {
 class Writer {
  public:
   /// @param out null on all ranks but the first
-  Writer(OutputFile* out, const DividedMesh& mesh) : out_(out), walk_(mesh) {}
+  Writer(OutputFile* out, const DividedMesh& mesh, const CarriedRows* rows)
+      : out_(out), ranks_(mesh.ranks()), walk_(mesh), rows_(rows) {}
 
   void write() {
+    collect_marks();
     choose_version();
     put(std::int32_t{1});
     put(version_);
@@ -236,6 +412,104 @@ class Writer {
   }
 
  private:
+  struct Vector {
+    std::uint64_t vertex;
+    std::array<double, 3> vector;
+  };
+
+  /// On the first rank, what is marked, by its numbers from 0.
+  void collect_marks() {
+    if (rows_ == nullptr) return;
+    collect_vertices();
+    collect_elements(RowKind::edge, 1, &Piece::edges);
+    collect_elements(RowKind::triangle, 2, &Piece::triangles);
+    std::uint64_t count = 0;
+    for (const auto& marked : marked_) count += marked.size();
+    std::string bytes;
+    pieces::put(count, bytes);
+    const std::vector<std::string> all = ranks_.gather(bytes);
+    std::string_view first = all.front();
+    take(first, marks_);
+  }
+  bool has(RowKind kind) const { return rows_ != nullptr && rows_->layout(kind).size() > 0; }
+  void collect_vertices() {
+    if (!has(RowKind::vertex)) return;
+    const std::size_t arrays = rows_->layout(RowKind::point).arrays().size();
+    const std::size_t size = sizeof(std::int32_t) + rows_->layout(RowKind::point).size();
+    const auto pack = [&](std::size_t part, std::size_t begin, const Piece& vertices) {
+      const std::size_t end = begin + vertices.ids.size();
+      const std::string marks = rows_->column(RowKind::vertex, part, 0, begin, end);
+      std::vector<std::string> vectors;
+      for (std::size_t i = 0; i < arrays; ++i) {
+        vectors.push_back(rows_->column(RowKind::point, part, i, begin, end));
+      }
+      std::string bytes;
+      for (std::size_t v = 0; v < vertices.ids.size(); ++v) {
+        bytes.append(marks, v * sizeof(std::int32_t), sizeof(std::int32_t));
+        for (const std::string& of_kind : vectors) {
+          bytes.append(of_kind, v * 3 * sizeof(double), 3 * sizeof(double));
+        }
+      }
+      return bytes;
+    };
+    std::uint64_t number = 0;
+    walk_.vertex_bytes(size, pack, [&](std::string_view bytes) {
+      for (; !bytes.empty(); ++number) see_vertex(number, bytes);
+    });
+  }
+  void see_vertex(std::uint64_t number, std::string_view& bytes) {
+    std::int32_t marks = 0;
+    take(bytes, marks);
+    see(marks, 0, number);
+    for (const DataArray& array : rows_->layout(RowKind::point).arrays()) {
+      Vector vector{number, {}};
+      take(bytes, vector.vector);
+      const std::size_t kind = array.name == kMeditVectors[0].vectors ? 0 : 1;
+      if ((marks & bit_of_vector(kind)) != 0) vectors_[kind].push_back(vector);
+    }
+  }
+  template <class Element>
+  void collect_elements(RowKind kind, int of_dimension, std::vector<Element> Piece::*list) {
+    if (!has(kind)) return;
+    std::uint64_t number = 0;
+    walk_.pieces(
+        [&](std::size_t part, std::string& bytes) {
+          bytes = rows_->column(kind, part, 0, 0, walk_.count(part, list));
+        },
+        [&](std::string_view bytes) {
+          for (std::int32_t marks = 0; !bytes.empty(); ++number) {
+            take(bytes, marks);
+            see(marks, of_dimension, number);
+          }
+        });
+  }
+  void see(std::int32_t marks, int of_dimension, std::uint64_t number) {
+    for (std::size_t i = 0; i < kMeditMarks.size(); ++i) {
+      const bool is_marked = (marks & bit_of_mark(i)) != 0;
+      if (is_marked && kMeditMarks[i].dimension == of_dimension) marked_[i].push_back(number);
+    }
+  }
+  template <class Integer>
+  void write_marks() {
+    for (std::size_t i = 0; i < kMeditMarks.size(); ++i) {
+      if (marked_[i].empty()) continue;
+      begin_rows<Integer>(kMeditMarks[i].keyword, marked_[i].size(), sizeof(Integer));
+      for (const std::uint64_t number : marked_[i]) put(static_cast<Integer>(number + 1));
+    }
+    for (std::size_t i = 0; i < kMeditVectors.size(); ++i) {
+      if (vectors_[i].empty()) continue;
+      begin_rows<Integer>(kMeditVectors[i].vectors_keyword, vectors_[i].size(), 3 * sizeof(double));
+      for (const Vector& vector : vectors_[i]) {
+        for (const double x : vector.vector) put(x);
+      }
+      begin_rows<Integer>(kMeditVectors[i].at_keyword, vectors_[i].size(), 2 * sizeof(Integer));
+      for (std::size_t k = 0; k < vectors_[i].size(); ++k) {
+        put(static_cast<Integer>(vectors_[i][k].vertex + 1));
+        put(static_cast<Integer>(k + 1));
+      }
+    }
+  }
+
   /// As write_medit_binary() does.
   void choose_version() {
     const FileWalk::Counts& counts = walk_.counts();
@@ -243,7 +517,7 @@ class Writer {
     const std::uint64_t most =
         std::max({counts.vertices, counts.tets, counts.triangles, counts.edges, required});
     const std::uint64_t size = 256 + 76 * counts.vertices + 12 * counts.edges +
-                               16 * counts.triangles + 4 * required + 20 * counts.tets;
+                               16 * counts.triangles + 4 * required + 20 * counts.tets + 4 * marks_;
     version_ = most > INT32_MAX ? 4 : size > INT32_MAX ? 3 : 2;
   }
   template <class Value>
@@ -281,6 +555,7 @@ class Writer {
       begin_rows<Integer>(required_vertices, walk_.required().size(), sizeof(Integer));
       for (const VertexId id : walk_.required()) put(static_cast<Integer>(walk_.number(id) + 1));
     }
+    write_marks<Integer>();
     write_elements<Integer>(tetrahedra, counts.tets, &Piece::tets);
   }
   template <class Integer, class Element>
@@ -297,15 +572,21 @@ class Writer {
   }
 
   OutputFile* out_;
+  Ranks& ranks_;
   const FileWalk walk_;
+  const CarriedRows* rows_;  // null: none
+  std::array<std::vector<std::uint64_t>, kMeditMarks.size()> marked_;
+  std::array<std::vector<Vector>, kMeditVectors.size()> vectors_;
+  std::uint64_t marks_ = 0;  // how many, on all ranks
   std::int32_t version_ = 2;
   std::uint64_t position_ = 0;
 };
 
 }  // namespace
 
-void write_medit_slices(const std::filesystem::path& file, const DividedMesh& mesh) {
-  write_by_first(file, mesh.ranks(), [&](OutputFile* out) { Writer(out, mesh).write(); });
+void write_medit_slices(const std::filesystem::path& file, const DividedMesh& mesh,
+                        const CarriedRows* rows) {
+  write_by_first(file, mesh.ranks(), [&](OutputFile* out) { Writer(out, mesh, rows).write(); });
 }
 
 }  // namespace tetmend::pieces

@@ -127,14 +127,9 @@ bool InputMesh::holds_more(const std::filesystem::path& output) const {
   }
   if (!is_one_of_ours || output.extension() != ".meshb") return holds_more_;
   // Of all that slices may hold besides, MEDIT's format has a place for marks and vectors alone.
-  const auto is_medits = [](std::string_view name) {
-    return formats::is_medit_vectors(name) ||
-           std::any_of(formats::kMeditMarks.begin(), formats::kMeditMarks.end(),
-                       [&](const formats::MeditMark& mark) { return mark.section == name; });
-  };
   const auto any = [&](const auto& named) {
     return std::any_of(named.begin(), named.end(),
-                       [&](const auto& each) { return is_medits(each.name); });
+                       [&](const auto& each) { return formats::is_medit_mark(each.name); });
   };
   return any(data_.groups) || any(data_.point_data);
 }
@@ -248,7 +243,19 @@ CarriedRows carry_rows(const FileSlices& source, const DividedMesh& mesh,
           details.shelf != nullptr ? *details.shelf : memory};
 }
 
-/// No rank has all of it. Nothing where the file that was read holds more than arrays.
+/// No rank has all of it. False where the file that was read is of another format.
+bool write_medit_with_marks(const std::filesystem::path& file, const DividedMesh& mesh,
+                            const WriteDetails& details) {
+  const auto opened = open_slices(details.source, details.label_array, mesh.ranks());
+  const auto* const source = dynamic_cast<const MeditSlices*>(opened.get());
+  if (source == nullptr) return false;
+  MemoryShelf memory;
+  const CarriedRows rows = carry_rows(*source, mesh, details, memory);
+  write_medit_slices(file, mesh, &rows);
+  return true;
+}
+
+/// The same of arrays. Nothing where the file that was read holds more than arrays.
 std::optional<std::vector<CarriedArray>> write_vtu_with_rows(const std::filesystem::path& file,
                                                              const DividedMesh& mesh,
                                                              const WriteDetails& details) {
@@ -290,6 +297,9 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   if (file.extension() == ".meshb" && details.source.empty()) {
     write_medit_slices(file, mesh);
     return {};
+  }
+  if (file.extension() == ".meshb" && !details.surface_moves) {
+    if (write_medit_with_marks(file, mesh, details)) return {};
   }
   if (file.extension() == ".vtu" && details.source.empty()) {
     write_vtu_slices(file, mesh);

@@ -4,6 +4,7 @@
 // one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/medit_marks.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
 
@@ -84,6 +86,13 @@ inline bool is_medit_vectors(std::string_view name) {
     if (name == kind.vectors || name == kind.at) return true;
   }
   return false;
+}
+
+/// True if `name` is that of a group that a MEDIT file has a section for.
+inline bool is_medit_mark(std::string_view name) {
+  return is_medit_vectors(name) ||
+         std::any_of(kMeditMarks.begin(), kMeditMarks.end(),
+                     [&](const MeditMark& mark) { return mark.section == name; });
 }
 
 }  // namespace tetmend::formats

@@ -189,6 +189,48 @@ TEST_CASE("arrays of a .vtu file are carried where no rank has all of it, as by 
   }
 }
 
+TEST_CASE("marks and normals of a .meshb file are carried where no rank has all of it") {
+  MeshData data = lattice(6);
+  for (std::uint32_t v = 0; v + 1 < 40; ++v) data.edges.push_back({{v, v + 1}, Label(v % 3)});
+  data.triangles.push_back({{1, 2, 9}, 7});
+  data.groups.push_back({0, 0, "Corners", {}, {0, 6, 60, 61, 62, 150}});  // some are inside
+  data.groups.push_back({1, 0, "Ridges", {}, {9, 3, 4, 21}});
+  data.groups.push_back({1, 0, "RequiredEdges", {}, {0, 9}});
+  data.groups.push_back({2, 0, "RequiredTriangles", {}, {1}});
+  for (const char* name : {"Normals", "Tangents"}) {
+    const bool is_normal = name[0] == 'N';
+    std::vector<double> values;
+    for (std::size_t i = 0; i < 3 * data.points.size(); ++i) values.push_back(std::cos(double(i)));
+    data.point_data.push_back({name, 3, values});
+    Group group{0, 0, is_normal ? "NormalAtVertices" : "TangentAtVertices", {}, {}};
+    for (std::uint32_t v = is_normal ? 0 : 5; v < 80; v += 5) group.members.push_back(v);
+    data.groups.push_back(group);
+  }
+  for (const bool has_normals : {true, false}) {
+    CAPTURE(has_normals);
+    if (!has_normals) {
+      data.point_data.erase(data.point_data.begin());
+      std::erase_if(data.groups, [](const Group& g) { return g.name == "NormalAtVertices"; });
+    }
+    const Files files(data, ".meshb", {});
+    const MeshData there = read_mesh(files.in);
+    REQUIRE(there.groups.size() == (has_normals ? 6 : 5));
+    CHECK(is_told_by_rows(files.in));
+    for (const std::size_t count : {1, 2, 5}) {
+      CAPTURE(count);
+      std::filesystem::remove(files.out);
+      on_ranks(count, [&](Ranks& ranks) {
+        Division division = in_pieces();
+        pieces::improve_files(files.all(), {}, division, ranks);
+      });
+      CHECK(bytes_of(files.out) == files.expected);
+    }
+    std::filesystem::remove(files.out);
+    improve_by_tasks(files, {});
+    CHECK(bytes_of(files.out) == files.expected);
+  }
+}
+
 TEST_CASE("what a file holds that the output cannot have is told, once") {
   const Files files(lattice_with_data(), ".msh", {});
   OutOfCore plain = files.all();
