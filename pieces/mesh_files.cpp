@@ -60,7 +60,7 @@ std::size_t tets_of_slice(std::uint64_t tets, std::size_t pieces) {
 
 InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const ArrayFiles* files,
                      const std::string& label_array)
-    : files_(files) {
+    : file_(file), label_array_(label_array), files_(files) {
   if (files != nullptr && files->is_one(file)) {
     arrays_ = files->read(file, label_array);
     const ArrayCounts counts = count_all(*arrays_, ranks);
@@ -145,8 +145,8 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
     return;
   }
   if (slices_ && surface_moves_ && holds_more_) {
-    throw OptionError(
-        "surface", "surface: where a file has arrays or groups, it needs the whole mesh in memory");
+    slices_.reset();  // what marks the surface is not in slices
+    if (mesh.ranks().is_first()) read_whole(file_, label_array_);
   }
   if (slices_) {
     slices_->add_to(mesh, tets_of_slice(tets_, pieces));

@@ -19,8 +19,9 @@
 
 namespace tetmend::pieces {
 
-/// A mesh that is to be divided. What open_slices() knows is read slice by slice; of others the first
-/// rank has the arrays of the whole mesh, until they are in pieces.
+/// A mesh that is to be divided. What open_slices() knows is read slice by slice; of others, and where the
+/// surface may move and there is more than labels and constraints, the first rank has the arrays of the whole
+/// mesh, until they are in pieces.
 class InputMesh {
  public:
   /// All ranks. @throws Error as read_mesh(), and for a mesh of second order.
@@ -45,6 +46,8 @@ class InputMesh {
  private:
   void read_whole(const std::filesystem::path& file, const std::string& label_array);
 
+  std::filesystem::path file_;
+  std::string label_array_;
   const ArrayFiles* files_ = nullptr;
   std::unique_ptr<FileSlices> slices_;
   std::optional<RankShare> arrays_;

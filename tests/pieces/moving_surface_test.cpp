@@ -154,6 +154,30 @@ TEST_CASE("a surface that moves in pieces has the same bytes for threads, ranks,
   CHECK(last->surface_change->proven == files.result.surface_change->proven);
 }
 
+TEST_CASE("a moving surface takes marks and arrays of a file along, whoever has them") {
+  for (const char* ending : {".meshb", ".vtu"}) {
+    CAPTURE(ending);
+    MeshData data = ball();
+    std::vector<double> heights;
+    for (const Point& p : data.points) heights.push_back(p.z());
+    if (ending == std::string(".vtu")) {
+      data.point_data.push_back({"height", 1, heights});
+    } else {
+      data.groups.push_back({0, 0, "Corners", {}, {0, 1, 2}});
+    }
+    const Files files(data, ending);
+    for (const std::size_t ranks : {1, 3}) {
+      CAPTURE(ranks);
+      on_ranks(ranks, [&](Ranks& rank) {
+        Division division = in_pieces();
+        pieces::improve_files(files.all(), options_of("5%"), division, rank);
+      });
+      CHECK(bytes_of(files.out) == files.expected);
+      std::filesystem::remove(files.out);
+    }
+  }
+}
+
 TEST_CASE("a run with a moving surface that was killed goes on from its checkpoint") {
   const Files files(ball());
   OutOfCore saved = files.all();
