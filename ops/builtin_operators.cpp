@@ -19,6 +19,7 @@
 #include "ops/smoothing.h"
 #include "ops/surface_contraction.h"
 #include "ops/surface_edge_removal.h"
+#include "ops/surface_insertion.h"
 #include "ops/surface_smoothing.h"
 #include "ops/surface_split.h"
 #include "ops/vertex_removal.h"
@@ -48,6 +49,7 @@ Registry Registry::builtin() {
   registry.add(surface_edge_removal_info());
   registry.add(surface_contraction_info());
   registry.add(surface_split_info());
+  registry.add(surface_insertion_info());
   return registry;
 }
 

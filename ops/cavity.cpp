@@ -50,23 +50,32 @@ void VertexCavity::begin(TetHandle target, double least, const Limits& limits) {
 Verdict VertexCavity::offer(const TetMesh& mesh, Workspace& workspace, const Point& point) {
   const auto is_worse = [](const Face& a, const Face& b) { return a.quality > b.quality; };
   taken_.clear();
+  dropped_.clear();
   inside_.clear();
   front_.clear();
   bound_ = std::numeric_limits<double>::infinity();
   take(mesh, target_, point);
   double best = worst_;
   std::size_t best_count = 0;
+  std::size_t best_dropped = 0;
   while (bound_ > best && !front_.empty()) {
     const Face face = front_.front();
     const HalfFace twin = mesh.twin(face.face);
-    const bool crossable = mesh.is_free(face.face);
-    if (!crossable || !inside_.contains(twin.tet().index())) {
+    const bool crossable = mesh.is_free(face.face) || is_open(mesh, face.face);
+    if (!crossable || twin.is_outside() || !inside_.contains(twin.tet().index())) {
       if (face.quality > best) {
         best = face.quality;
         best_count = taken_.size();
+        best_dropped = dropped_.size();
         if (best >= limits_.enough) break;
       }
       if (!crossable || taken_.size() == limits_.max_tets) break;
+      if (twin.is_outside()) {
+        dropped_.push_back(face.face);
+        std::pop_heap(front_.begin(), front_.end(), is_worse);
+        front_.pop_back();
+        continue;
+      }
       if (!workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return Verdict::deferred;
       take(mesh, twin.tet(), point);
       continue;
@@ -75,8 +84,16 @@ Verdict VertexCavity::offer(const TetMesh& mesh, Workspace& workspace, const Poi
     front_.pop_back();
   }
   if (best_count == 0) return Verdict::no_improvement;
-  keep(mesh, best_count, point, best);
+  keep(mesh, best_count, best_dropped, point, best);
   return Verdict::accepted;
+}
+
+/// A face of the patch, with no frozen tet behind it.
+bool VertexCavity::is_open(const TetMesh& mesh, HalfFace face) const {
+  if (limits_.patch == SurfaceGuard::kNone) return false;
+  const HalfFace twin = mesh.twin(face);
+  return mesh.surface_guard()->patch(mesh.vertices(face)) == limits_.patch &&
+         (twin.is_outside() || !mesh.is_frozen(twin.tet()));
 }
 
 /// Adds a tet, and to the front those of its faces that do not lead back inside.
@@ -86,8 +103,9 @@ void VertexCavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
   inside_.insert(t.index());
   for (unsigned f = 0; f < 4; ++f) {
     const HalfFace face(t, f);
-    const bool crossable = mesh.is_free(face);
-    if (crossable && inside_.contains(mesh.twin(face).tet().index())) continue;
+    const bool crossable = mesh.is_free(face) || is_open(mesh, face);
+    if (crossable && !mesh.is_boundary(face) && inside_.contains(mesh.twin(face).tet().index()))
+      continue;
     const auto [a, b, c] = mesh.vertices(face);
     const double quality =
         mesh.standard().quality(point, mesh.point(a), mesh.point(b), mesh.point(c));
@@ -97,8 +115,9 @@ void VertexCavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
   }
 }
 
-/// The first `count` tets taken are the best cavity so far.
-void VertexCavity::keep(const TetMesh& mesh, std::size_t count, const Point& point, double worst) {
+/// The first `count` tets taken are the best cavity so far; of the boundary, so many faces give way.
+void VertexCavity::keep(const TetMesh& mesh, std::size_t count, std::size_t dropped,
+                        const Point& point, double worst) {
   move(point, worst);
   tets_.assign(taken_.begin(), taken_.begin() + static_cast<std::ptrdiff_t>(count));
   if (count < taken_.size()) {
@@ -109,9 +128,11 @@ void VertexCavity::keep(const TetMesh& mesh, std::size_t count, const Point& poi
   for (const TetHandle t : tets_) {
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace twin = mesh.neighbours(t)[f];
-      if (twin.is_outside() || !inside_.contains(twin.tet().index())) {
-        faces_.push_back(HalfFace(t, f));
-      }
+      const auto end = dropped_.begin() + static_cast<std::ptrdiff_t>(dropped);
+      const bool is_outer = twin.is_outside()
+                                ? std::find(dropped_.begin(), end, HalfFace(t, f)) == end
+                                : !inside_.contains(twin.tet().index());
+      if (is_outer) faces_.push_back(HalfFace(t, f));
     }
   }
 }

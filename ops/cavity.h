@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "kernel/index_set.h"
+#include "kernel/surface_guard.h"
 #include "kernel/workspace.h"
 #include "trace/verdict.h"
 
@@ -27,6 +29,9 @@ class VertexCavity {
   struct Limits {
     std::size_t max_tets = 64;  ///< a cavity holds no more
     double enough = 1;          ///< stop growing when the worst new tet is as good as this
+    /// Of a surface that may change: its faces give way as well. Between regions the cavity has tets of
+    /// both sides.
+    std::uint32_t patch = SurfaceGuard::kNone;
   };
 
   /// Where a vertex might go, and the quality of its worst tet.
@@ -41,13 +46,13 @@ class VertexCavity {
 
   /// `accepted` when the vertex at that point has a better cavity than all before, which is then
   /// kept instead. `deferred` when the search meets the border of the territory. A cavity crosses
-  /// no boundary, constrained face or border of a frozen tet. Cost: n log n for the n tets that it
+  /// no boundary, constrained face or border of a frozen tet, but for faces of the patch. Cost: n log n for the n tets that it
   /// looks at, `max_tets` at most; ends early when a face that cannot be crossed bounds all that
   /// could follow.
   Verdict offer(const TetMesh& mesh, Workspace& workspace, const Point& point);
 
   /// The best so far: the place, the tets to be replaced (the target first), and the outer faces as
-  /// faces of these tets.
+  /// faces of these tets, without those of the patch that give way.
   const Point& point() const { return point_; }
   std::span<const TetHandle> tets() const { return tets_; }
   std::span<const HalfFace> faces() const { return faces_; }
@@ -65,8 +70,10 @@ class VertexCavity {
     HalfFace face;
   };
 
+  bool is_open(const TetMesh& mesh, HalfFace face) const;
   void take(const TetMesh& mesh, TetHandle t, const Point& point);
-  void keep(const TetMesh& mesh, std::size_t count, const Point& point, double worst);
+  void keep(const TetMesh& mesh, std::size_t count, std::size_t dropped, const Point& point,
+            double worst);
 
   TetHandle target_;
   Limits limits_;
@@ -77,6 +84,7 @@ class VertexCavity {
   std::vector<HalfFace> faces_;
   // The one that grows.
   std::vector<TetHandle> taken_;
+  std::vector<HalfFace> dropped_;  // of the boundary
   IndexSet inside_;
   std::vector<Face> front_;  // a heap, the worst on top; some are inside by now
   double bound_ = 0;         // worst of the faces that cannot be crossed

@@ -16,11 +16,12 @@ using namespace tetmend::contract;
 namespace {
 
 const std::vector<std::string> kOperators = {"surface_edge_removal", "surface_smoothing",
-                                             "surface_contraction", "surface_split"};
+                                             "surface_contraction", "surface_split",
+                                             "surface_insertion"};
 
 bool is_live(const TetMesh& mesh, Target target) {
-  return target.kind == TargetKind::vertex ? !mesh.is_deleted(target.vertex())
-                                           : !mesh.is_deleted(target.edge().tet());
+  if (target.kind == TargetKind::vertex) return !mesh.is_deleted(target.vertex());
+  return !mesh.is_deleted(target.kind == TargetKind::edge ? target.edge().tet() : target.tet());
 }
 
 /// Attempts everywhere; returns how many were accepted.
@@ -97,4 +98,36 @@ TEST_CASE("the judge of surfaces sees what is missing of either one") {
   part.faces.erase(part.faces.begin());
   CHECK(complaint_about_shape(whole, part) == "a part of the surface vanished");
   CHECK(complaint_about_shape(part, whole) == "labels meet that did not meet before");
+}
+
+TEST_CASE(
+    "a vertex that surface_insertion puts into a mesh lies on the surface, in the same patch") {
+  TetMesh mesh = bowl_with_free_surface({.share = 0.01}, 17);
+  const Registry registry = Registry::builtin();
+  const auto op = registry.make("surface_insertion", {{"relax", 0}});
+  Workspace workspace(mesh);
+  OperatorStates states;
+  OperatorContext context{mesh, workspace, states};
+  std::size_t accepted = 0;
+  for (const Target target : targets(mesh, TargetKind::tet)) {
+    if (mesh.is_deleted(target.tet())) continue;
+    const auto slots = static_cast<std::uint32_t>(mesh.vertex_slots());
+    const std::size_t vertices = mesh.vertex_count();
+    if (op->attempt(context, target) != Verdict::accepted) continue;
+    ++accepted;
+    if (mesh.vertex_slots() == slots) continue;  // it has the slot of one that went
+    CHECK(mesh.vertex_count() <= vertices + 1);
+    const VertexHandle v(slots);
+    CHECK(mesh.is_fixed(v));
+    CHECK(mesh.surface_guard()->place(v) == SurfacePlace::smooth);
+    const Point& p = mesh.point(v);
+    CHECK((mesh.surface_guard()->nearest(v, p) - p).norm() < 0.1);
+  }
+  CHECK(accepted > 0);
+}
+
+TEST_CASE("operators that change the surface leave one alone that has no guard") {
+  TetMesh mesh = bowl_with_free_surface({.share = 0.01}, 17);
+  mesh.set_surface_guard(nullptr);
+  CHECK(try_all(mesh) == 0);
 }
