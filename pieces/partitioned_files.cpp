@@ -169,7 +169,7 @@ void write_arrays(const ArrayFiles& kind, const std::filesystem::path& file,
   DividedMesh mesh(shelf, ranks, counts.points);
   add_arrays(arrays, mesh);
   divide_into_parts(mesh, usual_pieces(counts.tets));
-  kind.write_stored(file, mesh);
+  kind.write_stored(file, mesh, nullptr);
 }
 
 /// A part has a number instead of "%d", from 1.
@@ -271,7 +271,8 @@ void GmshParts::write(const std::filesystem::path& file, const RankShare& arrays
   write_arrays(*this, file, arrays, ranks_);
 }
 
-void GmshParts::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
+void GmshParts::write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                             const CarriedRows*) const {
   const std::size_t count = mesh.state().stored;
   const Drafts drafts(file, ranks_);
   const Numbering numbering(mesh);
@@ -319,7 +320,8 @@ void PvtuFiles::write(const std::filesystem::path& file, const RankShare& arrays
   write_arrays(*this, file, arrays, ranks_);
 }
 
-void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
+void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                             const CarriedRows*) const {
   const std::filesystem::path folder = pvtu_folder(file);
   const std::string stem = folder.filename().string();
   const auto name_of = [&](std::size_t part) { return pvtu_part(file, part); };

@@ -26,7 +26,8 @@ class PvtuFiles final : public ArrayFiles {
   RankShare read(const std::filesystem::path& file, const std::string& label_array) const override;
   void write(const std::filesystem::path& file, const RankShare& arrays) const override;
   /// The file that names the parts is the last to get its name.
-  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const override;
+  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                    const CarriedRows* rows) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }
@@ -47,7 +48,8 @@ class GmshParts final : public ArrayFiles {
   void write(const std::filesystem::path& file, const RankShare& arrays) const override;
   /// Part 1 is the last to get its name: without it there is no mesh for those who read. Further parts
   /// of an older mesh go.
-  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const override;
+  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                    const CarriedRows* rows) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }
