@@ -17,7 +17,7 @@ void divide_into_parts(DividedMesh& mesh, std::size_t parts);
 /// `.pvtu` of VTK with its `.vtu` files. Those that are written lie in a folder of the name of the file
 /// without its ending, a piece in each, and name their points by an array `GlobalNodeId`. Where files
 /// that are read have no such array, points of several at one place, bit by bit, are one. Ghost cells
-/// (`vtkGhostType`) go. Of other arrays only labels are kept; the rest is named in notes.
+/// (`vtkGhostType`) go. Arrays are kept that all parts have; others are named in notes.
 class PvtuFiles final : public ArrayFiles {
  public:
   /// @param ranks must outlive it
@@ -31,6 +31,7 @@ class PvtuFiles final : public ArrayFiles {
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }
+  bool takes(const std::filesystem::path&, RowKind kind, const DataArray& array) const override;
 
  private:
   Ranks& ranks_;
