@@ -54,6 +54,18 @@ std::vector<std::string> gather_notes(const std::vector<std::string>& mine, Rank
   return {all.begin(), all.end()};
 }
 
+const std::vector<DataArray>& arrays_of(const MeshData& data, RowKind kind) {
+  return kind == RowKind::point      ? data.point_data
+         : kind == RowKind::tet      ? data.tet_data
+         : kind == RowKind::triangle ? data.triangle_data
+                                     : data.edge_data;
+}
+
+bool has_any_array(const MeshData& data) {
+  return std::any_of(kRowKinds.begin(), kRowKinds.end(),
+                     [&](RowKind kind) { return !arrays_of(data, kind).empty(); });
+}
+
 /// For so many pieces.
 std::size_t tets_of_slice(std::uint64_t tets, std::size_t pieces) {
   return std::min<std::size_t>(kTetsOfSlice, 1 + tets / pieces);
@@ -75,6 +87,7 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
     required_vertices_ = slices_->counts().required_vertices;
     data_ = slices_->digest();
     holds_more_ = face::holds_more(data_);
+    has_arrays_ = has_any_array(data_);
     return;
   }
   is_elsewhere_ = !ranks.is_first();
@@ -84,12 +97,14 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
     put(std::uint64_t{data_.tets.size()}, facts);
     put(std::uint64_t{data_.points.size()}, facts);
     put(holds_more_, facts);
+    put(has_arrays_, facts);
   }
   const std::vector<std::string> all = ranks.gather(facts);
   std::string_view rest = all.front();
   pieces::take(rest, tets_);
   pieces::take(rest, vertices_);
   pieces::take(rest, holds_more_);
+  pieces::take(rest, has_arrays_);
 }
 
 /// Values of arrays go: they are read again when they are needed.
@@ -102,7 +117,7 @@ void InputMesh::read_share(const std::filesystem::path& file, Ranks& ranks,
   vertices_ = counts.points;
   required_vertices_ = counts.required_vertices;
   data_.notes = gather_notes(arrays_->notes, ranks);
-  holds_more_ = has_arrays(arrays_->arrays);
+  has_arrays_ = holds_more_ = has_arrays(arrays_->arrays);
   data_.point_data = nothing_of(arrays_->arrays[RowKind::point]);
   data_.tet_data = nothing_of(arrays_->arrays[RowKind::tet]);
   data_.triangle_data = nothing_of(arrays_->arrays[RowKind::triangle]);
@@ -116,17 +131,11 @@ void InputMesh::read_whole(const std::filesystem::path& file, const std::string&
     throw Error(fmt::format("{}: a mesh of second order cannot be divided", file.string()));
   }
   holds_more_ = face::holds_more(data_);
+  has_arrays_ = has_any_array(data_);
   required_vertices_ = data_.required_vertices.size();
 }
 
 namespace {
-
-const std::vector<DataArray>& arrays_of(const MeshData& data, RowKind kind) {
-  return kind == RowKind::point      ? data.point_data
-         : kind == RowKind::tet      ? data.tet_data
-         : kind == RowKind::triangle ? data.triangle_data
-                                     : data.edge_data;
-}
 
 /// What neither labels, constraints nor arrays are.
 bool holds_more_than_arrays(const MeshData& data) {
@@ -186,17 +195,7 @@ std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output)
 
 bool InputMesh::holds_more(const std::filesystem::path& output) const {
   if (!carries_arrays(output)) return false;
-  const auto any_array = [&](const auto& is_it) {
-    return std::any_of(kRowKinds.begin(), kRowKinds.end(), [&](RowKind kind) {
-      const std::vector<DataArray>& arrays = arrays_of(data_, kind);
-      return std::any_of(arrays.begin(), arrays.end(),
-                         [&](const DataArray& array) { return is_it(kind, array); });
-    });
-  };
-  if (is_of_ranks(output)) {
-    return any_array(
-        [&](RowKind kind, const DataArray& array) { return files_->takes(output, kind, array); });
-  }
+  if (is_of_ranks(output)) return has_arrays_ && files_->takes(output, RowKind::tet, DataArray());
   const bool has_no_walls =
       is_share_ || (slices_ && !slices_->has_walls());  // they are not written
   if (!has_no_walls || output.extension() != ".meshb") return holds_more_;

@@ -57,6 +57,7 @@ class InputMesh {
   std::uint64_t vertices_ = 0;
   std::uint64_t required_vertices_ = 0;
   bool holds_more_ = false;
+  bool has_arrays_ = false;  // all ranks know it
   bool surface_moves_ = false;
   bool is_elsewhere_ = false;  // the first rank has it
 };
