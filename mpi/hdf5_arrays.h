@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <tetmend/data.h>
+
 #include "mpi/hdf5_file.h"
 #include "pieces/ranks.h"
 #include "pieces/rows.h"

@@ -286,6 +286,28 @@ TEST_CASE(
   CHECK(after.edge_data == before.edge_data);
 }
 
+TEST_CASE("whole numbers of tets stay data in parts, where the mesh has no labels") {
+  const Folder folder;
+  MeshData data = mesh_with_arrays();
+  for (MeshData::Tet& tet : data.tets) tet.label = 0;
+  data.triangles.clear();
+  data.triangle_data.clear();
+  data.edges.clear();
+  data.edge_data.clear();
+  const auto in = folder.path() / "in.vtu";
+  const auto parts = folder.path() / "parts.pvtu";
+  const auto again = folder.path() / "again.vtu";
+  save(in, MeshAccess::make(data));
+  on_ranks(2, [&](Ranks& ranks) {
+    convert_with_arrays(in, parts, ranks, kPieces);
+    convert_with_arrays(parts, again, ranks);
+  });
+  const MeshData after = read_mesh(again);
+  REQUIRE(after.tet_data.size() == 2);
+  CHECK(after.tet_data[1].name == "colour");
+  CHECK(after.tets.front().label == 0);
+}
+
 TEST_CASE("a run from parts to parts carries their arrays as a run from a file of all of it") {
   const Folder folder;
   const auto in = folder.path() / "in.vtu";
