@@ -214,6 +214,46 @@ TEST_CASE("data of a .vtu file, and of one that is read as a whole, goes to rank
   }
 }
 
+TEST_CASE("walls between parts of one label, which a file does not name, have no data on ranks") {
+  MeshData data = lattice_with_arrays(5);
+  data.label_array.clear();
+  for (const MeshData::Tet& tet : data.tets) {
+    const double x = data.points[tet.vertices[0]].x();
+    data.tet_parts.push_back(x < 2 ? 1 : x < 3 ? 2 : 3);
+  }
+  data.groups.push_back({.dimension = 3, .number = 1, .name = "left", .parts = {1, 2}});
+  data.groups.push_back({.dimension = 3, .number = 2, .name = "right", .parts = {3}});
+  const Folder folder;
+  const auto in = folder.path() / "in.msh";
+  save(in, MeshAccess::make(data));
+  Mesh mesh = load(in);
+  pieces::Division division;
+  division.pieces = kPieces;
+  pieces::improve(mesh, {}, division);
+  const MeshData improved = MeshAccess::data(mesh);
+  REQUIRE(improved.triangle_data.size() == 2);
+  on_ranks(3, [&](Ranks& ranks) {
+    const HeldMesh held(data, ranks);
+    pieces::OutOfCore files;
+    files.input = in;
+    files.output = "out.held";
+    files.array_files = &held;
+    files.tell_lost = [](const std::vector<std::string>& lost) {
+      CHECK(lost == std::vector<std::string>{"groups and whatever there is besides arrays, labels "
+                                             "and constraints are not written"});
+    };
+    pieces::Division pieces_of;
+    pieces_of.pieces = kPieces;
+    pieces::improve_files(files, {}, pieces_of, ranks);
+    if (!ranks.is_first()) return;
+    CHECK(is_same(held.written[RowKind::point], improved.point_data));
+    CHECK(is_same(held.written[RowKind::tet], improved.tet_data));
+    for (const DataArray& array : held.written[RowKind::triangle]) {
+      CHECK(array.size() > improved.triangles.size() * array.components);
+    }
+  });
+}
+
 TEST_CASE("a mesh of one piece keeps the data that lies on ranks, also in a file of one process") {
   const MeshData data = lattice_with_arrays(6);
   const Folder folder;
