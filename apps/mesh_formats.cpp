@@ -58,7 +58,7 @@ std::string parts_help() {
 
 MeshData read_whole(const std::filesystem::path& file, const pieces::ArrayFiles* known) {
   if (!is_in_parts(file, known)) return read_mesh(file);
-  const pieces::RankShare arrays = known->read(file, {});
+  pieces::RankShare arrays = known->read(file, {});
   if (arrays.points.size() > UINT32_MAX) {
     throw Error(fmt::format("{}: {} points are too many for one mesh", file.string(),
                             arrays.points.size()));
@@ -69,6 +69,10 @@ MeshData read_whole(const std::filesystem::path& file, const pieces::ArrayFiles*
   take_elements(arrays.tets, data.tets);
   take_elements(arrays.triangles, data.triangles);
   take_elements(arrays.edges, data.edges);
+  data.point_data = std::move(arrays.arrays[pieces::RowKind::point]);
+  data.tet_data = std::move(arrays.arrays[pieces::RowKind::tet]);
+  data.triangle_data = std::move(arrays.arrays[pieces::RowKind::triangle]);
+  data.edge_data = std::move(arrays.arrays[pieces::RowKind::edge]);
   data.notes = arrays.notes;
   std::sort(data.notes.begin(), data.notes.end());
   data.notes.erase(std::unique(data.notes.begin(), data.notes.end()), data.notes.end());

@@ -68,6 +68,9 @@ class Hdf5Files final : public pieces::ArrayFiles {
   void write(const std::filesystem::path& file, const pieces::RankShare& arrays) const override {
     mpi::write_hdf5(file, arrays, MPI_COMM_WORLD);
   }
+  bool takes(const std::filesystem::path&, pieces::RowKind, const DataArray&) const override {
+    return true;
+  }
 };
 #endif
 

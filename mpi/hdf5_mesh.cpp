@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Each array is one data set without chunks. So that the bytes do not depend on time or on what was on
-// the disk, times are not kept and nothing is filled.
 #include "mpi/hdf5_mesh.h"
 
 #include <algorithm>
@@ -12,139 +10,26 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
-#include "kernel/error.h"
 #include "kernel/formats/output_file.h"
+#include "mpi/hdf5_arrays.h"
+#include "mpi/hdf5_file.h"
 #include "mpi/mpi_ranks.h"
 
 namespace tetmend::mpi {
 
 namespace {
 
-/// An object of HDF5, which is closed by its own function.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  bool is_open() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// A file that all ranks have open.
-class File {
- public:
-  enum class Access { read, write };
-
-  File(std::filesystem::path name, Access access, MPI_Comm ranks)
-      : name_(std::move(name)),
-        ranks_(ranks),
-        transfer_(H5Pcreate(H5P_DATASET_XFER), H5Pclose),
-        file_(open(access), H5Fclose) {
-    H5Pset_dxpl_mpio(transfer_, H5FD_MPIO_COLLECTIVE);
-    if (!file_.is_open())
-      fail(access == Access::read ? "is no HDF5 file that can be read" : "cannot be written");
-  }
-
-  [[noreturn]] void fail(std::string_view what) const {
-    throw Error(fmt::format("{}: {}", name_.string(), what));
-  }
-
-  bool has(const char* name) const { return H5Lexists(file_, name, H5P_DEFAULT) > 0; }
-
-  /// An equal share of the rows; `width` numbers each.
-  template <class Number>
-  std::vector<Number> read(const char* name, std::size_t width, hid_t type) const {
-    const Handle set(H5Dopen2(file_, name, H5P_DEFAULT), H5Dclose);
-    if (!set.is_open()) fail(fmt::format("has no array /{}", name));
-    const Handle space(H5Dget_space(set), H5Sclose);
-    std::array<hsize_t, 2> size = {0, 1};
-    const int rank = H5Sget_simple_extent_ndims(space);
-    if (rank < 1 || rank > 2) fail(fmt::format("/{} has another form than a table", name));
-    H5Sget_simple_extent_dims(space, size.data(), nullptr);
-    if (size[1] != width) {
-      fail(fmt::format("/{} has {} columns: expected {}", name, size[1], width));
-    }
-    const MpiRanks all(ranks_);
-    const hsize_t begin = size[0] * all.number() / all.count();
-    const hsize_t end = size[0] * (all.number() + 1) / all.count();
-    std::vector<Number> numbers((end - begin) * width);
-    const herr_t done = transfer(rank, begin, end - begin, width, space, [&](hid_t memory) {
-      return H5Dread(set, type, memory, space, transfer_, numbers.data());
-    });
-    if (done < 0) fail(fmt::format("/{} cannot be read", name));
-    return numbers;
-  }
-
-  /// The rows of this rank, from `begin` on, of `total`; `width` 1: a list without columns.
-  template <class Number>
-  void write(const char* name, const std::vector<Number>& numbers, std::uint64_t begin,
-             std::uint64_t total, std::size_t width, hid_t type) const {
-    const int rank = width == 1 ? 1 : 2;
-    const std::array<hsize_t, 2> size = {total, width};
-    const Handle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
-    const Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(made, false);
-    H5Pset_fill_time(made, H5D_FILL_TIME_NEVER);
-    const Handle set(H5Dcreate2(file_, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT),
-                     H5Dclose);
-    if (!set.is_open()) fail("cannot be written");
-    const herr_t done =
-        transfer(rank, begin, numbers.size() / width, width, space, [&](hid_t memory) {
-          return H5Dwrite(set, type, memory, space, transfer_, numbers.data());
-        });
-    if (done < 0) fail("cannot be written: is the disk full?");
-  }
-
- private:
-  hid_t open(Access access) const {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what goes wrong is told by us
-    const Handle all(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fapl_mpio(all, ranks_, MPI_INFO_NULL);
-    if (access == Access::read) return H5Fopen(name_.c_str(), H5F_ACC_RDONLY, all);
-    const Handle made(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_obj_track_times(made, false);
-    return H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, made, all);
-  }
-
-  template <class Transfer>
-  herr_t transfer(int rank, hsize_t begin, hsize_t count, hsize_t width, hid_t space,
-                  const Transfer& work) const {
-    const std::array<hsize_t, 2> from = {begin, 0};
-    const std::array<hsize_t, 2> size = {count, width};
-    const Handle memory(H5Screate_simple(rank, size.data(), nullptr), H5Sclose);
-    if (count == 0) {
-      H5Sselect_none(space);
-      H5Sselect_none(memory);
-    } else {
-      H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
-    }
-    return work(memory);
-  }
-
-  std::filesystem::path name_;
-  MPI_Comm ranks_;
-  Handle transfer_;
-  Handle file_;
-};
-
 template <std::size_t N>
 using Elements = std::vector<pieces::RankShare::Element<N>>;
 
 template <std::size_t N>
-void read_elements(const File& file, const char* name, const char* labels, Elements<N>& elements) {
+void read_elements(const Hdf5File& file, const char* name, const char* labels,
+                   Elements<N>& elements) {
   if (!file.has(name)) return;
-  const auto numbers = file.read<std::int64_t>(name, N, H5T_NATIVE_INT64);
+  const auto numbers = file.read<std::int64_t>(name, N);
   std::vector<std::int32_t> label;
-  if (file.has(labels)) label = file.read<std::int32_t>(labels, 1, H5T_NATIVE_INT32);
+  if (file.has(labels)) label = file.read<std::int32_t>(labels, 1);
   elements.resize(numbers.size() / N);
   if (!label.empty() && label.size() != elements.size()) {
     file.fail(fmt::format("/{} and /{} do not have the same length", name, labels));
@@ -160,10 +45,10 @@ void read_elements(const File& file, const char* name, const char* labels, Eleme
 /// Writes the arrays of one rank where they belong among those of all.
 class Writer {
  public:
-  Writer(const File& file, MPI_Comm ranks) : file_(file), ranks_(ranks) {}
+  Writer(const Hdf5File& file, MPI_Comm ranks) : file_(file), ranks_(ranks) {}
 
   template <class Number>
-  void write(const char* name, const std::vector<Number>& numbers, std::size_t width, hid_t type) {
+  void write(const char* name, const std::vector<Number>& numbers, std::size_t width) {
     std::string mine(sizeof(std::uint64_t), '\0');
     const std::uint64_t rows = numbers.size() / width;
     std::memcpy(mine.data(), &rows, sizeof(rows));
@@ -176,7 +61,7 @@ class Writer {
       if (r < ranks_.number()) begin += theirs;
       total += theirs;
     }
-    file_.write(name, numbers, begin, total, width, type);
+    file_.write(name, numbers, begin, total, width);
   }
 
   template <std::size_t N>
@@ -189,22 +74,31 @@ class Writer {
       }
       label.push_back(element.label);
     }
-    write(name, numbers, N, H5T_NATIVE_INT64);
-    write(labels, label, 1, H5T_NATIVE_INT32);
+    write(name, numbers, N);
+    write(labels, label, 1);
   }
 
  private:
-  const File& file_;
+  const Hdf5File& file_;
   MpiRanks ranks_;
 };
 
+Hdf5Counts by_kind(const pieces::ArrayCounts& counts) {
+  Hdf5Counts all;
+  all[pieces::RowKind::point] = counts.points;
+  all[pieces::RowKind::tet] = counts.tets;
+  all[pieces::RowKind::triangle] = counts.triangles;
+  all[pieces::RowKind::edge] = counts.edges;
+  return all;
+}
+
 void write_arrays(const std::filesystem::path& name, const pieces::RankShare& arrays,
                   const pieces::ArrayCounts& counts, bool has_labels, MPI_Comm ranks) {
-  const File file(name, File::Access::write, ranks);
+  const Hdf5File file(name, Hdf5File::Access::write, ranks);
   Writer writer(file, ranks);
   std::vector<double> coordinates;
   for (const Point& p : arrays.points) coordinates.insert(coordinates.end(), p.begin(), p.end());
-  writer.write("geometry", coordinates, 3, H5T_NATIVE_DOUBLE);
+  writer.write("geometry", coordinates, 3);
   coordinates = {};
   writer.write("connect", "group", arrays.tets);
   if (counts.triangles > 0) writer.write("triangles", "triangle_labels", arrays.triangles);
@@ -212,18 +106,68 @@ void write_arrays(const std::filesystem::path& name, const pieces::RankShare& ar
   if (counts.required_vertices > 0) {
     const std::vector<std::int64_t> required(arrays.required_vertices.begin(),
                                              arrays.required_vertices.end());
-    writer.write("required_vertices", required, 1, H5T_NATIVE_INT64);
+    writer.write("required_vertices", required, 1);
   }
   if (has_labels) {
     std::vector<std::int32_t> labels(arrays.point_labels.begin(), arrays.point_labels.end());
     labels.resize(arrays.points.size(), 0);
-    writer.write("vertex_labels", labels, 1, H5T_NATIVE_INT32);
+    writer.write("vertex_labels", labels, 1);
   }
+  MpiRanks all(ranks);
+  write_hdf5_arrays(file, arrays.arrays, by_kind(counts), all);
+}
+
+std::string as_text(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+/// What ParaView needs to know of the arrays of points or tets.
+std::string describe_arrays(const std::string& file, const std::vector<DataArray>& arrays,
+                            pieces::RowKind kind, std::uint64_t rows) {
+  if (rows == 0) return {};
+  const std::vector<std::string> tables = hdf5_table_names(arrays);
+  std::string text;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    const DataArray& array = arrays[i];
+    const bool is_real = array.values.index() >= 2;
+    const bool is_long = array.values.index() % 2 == 1;
+    const std::string_view form = array.components == 1   ? "Scalar"
+                                  : array.components == 3 ? "Vector"
+                                                          : "Matrix";
+    text += fmt::format(
+        R"(   <Attribute Name="{}" AttributeType="{}" Center="{}">
+    <DataItem NumberType="{}" Precision="{}" Format="HDF" Dimensions="{}{}">{}:/{}/{}</DataItem>
+   </Attribute>
+)",
+        as_text(array.name), form, kind == pieces::RowKind::point ? "Node" : "Cell",
+        is_real ? "Float" : "Int", is_long ? 8 : 4, rows,
+        array.components == 1 ? "" : fmt::format(" {}", array.components), as_text(file),
+        hdf5_group_of(kind), as_text(tables[i]));
+  }
+  return text;
 }
 
 /// What ParaView needs to know; see xdmf.org.
-std::string description(const std::string& name, const pieces::ArrayCounts& counts) {
-  return fmt::format(R"(<?xml version="1.0" ?>
+std::string description(const std::string& name, const pieces::ArrayCounts& counts,
+                        const pieces::KindArrays& arrays) {
+  return fmt::format(
+      R"(<?xml version="1.0" ?>
 <Xdmf Version="2.0">
  <Domain>
   <Grid Name="mesh" GridType="Uniform">
@@ -236,19 +180,34 @@ std::string description(const std::string& name, const pieces::ArrayCounts& coun
    <Attribute Name="group" Center="Cell">
     <DataItem NumberType="Int" Precision="4" Format="HDF" Dimensions="{1}">{0}:/group</DataItem>
    </Attribute>
-  </Grid>
+{3}{4}  </Grid>
  </Domain>
 </Xdmf>
 )",
-                     name, counts.tets, counts.points);
+      as_text(name), counts.tets, counts.points,
+      describe_arrays(name, arrays[pieces::RowKind::point], pieces::RowKind::point, counts.points),
+      describe_arrays(name, arrays[pieces::RowKind::tet], pieces::RowKind::tet, counts.tets));
+}
+
+/// What is in the root besides.
+void note_unknown(const Hdf5File& file, std::vector<std::string>& notes) {
+  constexpr std::array<std::string_view, 13> kKnown = {
+      "geometry",          "vertex_labels",   "connect",   "group",
+      "triangles",         "triangle_labels", "edges",     "edge_labels",
+      "required_vertices", "point_data",      "cell_data", "triangle_data",
+      "edge_data"};
+  for (const std::string& name : hdf5_names_in(file, "/")) {
+    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
+    notes.push_back(fmt::format("/{} is not kept: it has no name of an array of a mesh", name));
+  }
 }
 
 }  // namespace
 
 pieces::RankShare read_hdf5(const std::filesystem::path& name, MPI_Comm ranks) {
-  const File file(name, File::Access::read, ranks);
+  const Hdf5File file(name, Hdf5File::Access::read, ranks);
   pieces::RankShare arrays;
-  const auto coordinates = file.read<double>("geometry", 3, H5T_NATIVE_DOUBLE);
+  const auto coordinates = file.read<double>("geometry", 3);
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
     arrays.points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
   }
@@ -257,17 +216,20 @@ pieces::RankShare read_hdf5(const std::filesystem::path& name, MPI_Comm ranks) {
   read_elements(file, "triangles", "triangle_labels", arrays.triangles);
   read_elements(file, "edges", "edge_labels", arrays.edges);
   if (file.has("vertex_labels")) {
-    const auto labels = file.read<std::int32_t>("vertex_labels", 1, H5T_NATIVE_INT32);
+    const auto labels = file.read<std::int32_t>("vertex_labels", 1);
     if (labels.size() != arrays.points.size()) {
       file.fail("/geometry and /vertex_labels do not have the same length");
     }
     arrays.point_labels.assign(labels.begin(), labels.end());
   }
   if (file.has("required_vertices")) {
-    for (const std::int64_t v : file.read<std::int64_t>("required_vertices", 1, H5T_NATIVE_INT64)) {
+    for (const std::int64_t v : file.read<std::int64_t>("required_vertices", 1)) {
       arrays.required_vertices.push_back(static_cast<std::uint64_t>(v));
     }
   }
+  note_unknown(file, arrays.notes);
+  MpiRanks all(ranks);
+  arrays.arrays = read_hdf5_arrays(file, by_kind(count_all(arrays, all)), arrays.notes);
   return arrays;
 }
 
@@ -284,7 +246,7 @@ void write_hdf5(const std::filesystem::path& file, const pieces::RankShare& arra
     std::filesystem::rename(part, file);
     std::filesystem::path beside = file;
     OutputFile out(beside.replace_extension(".xdmf"));
-    out.put(description(file.filename().string(), counts));
+    out.put(description(file.filename().string(), counts, arrays.arrays));
     out.commit();
   }
   ranks.meet();

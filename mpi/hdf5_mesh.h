@@ -6,7 +6,8 @@
 //   /group     M int32, labels        /triangles K x 3 int64, /triangle_labels K int32
 //   /edges, /edge_labels              /required_vertices int64      /vertex_labels N int32
 //
-// The first two are what other programs have, too; of the rest a file has what its mesh has.
+// The first two are what other programs have, too; of the rest a file has what its mesh has. Named arrays:
+// hdf5_arrays.h.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +19,7 @@
 namespace tetmend::mpi {
 
 /// All ranks: each reads an equal share of every array.
-/// @throws Error for a file that is none, lacks /geometry or /connect, or has arrays of another form
+/// @throws Error for a file that is none, lacks /geometry or /connect, or has these of another form
 pieces::RankShare read_hdf5(const std::filesystem::path& file, MPI_Comm ranks);
 
 /// All ranks: writes the file, which has the same bytes for any number of ranks, and FILE.xdmf beside

@@ -145,12 +145,12 @@ struct Answers {
   std::string share_rows;
 
   bool is_empty() const {
-    return shares.empty() && std::all_of(kRowKinds.begin(), kRowKinds.end(),
+    return shares.empty() && std::all_of(kAllRowKinds.begin(), kAllRowKinds.end(),
                                          [&](RowKind kind) { return places[kind].empty(); });
   }
   std::string bytes() const {
     std::string all;
-    for (const RowKind kind : kRowKinds) {
+    for (const RowKind kind : kAllRowKinds) {
       put(places[kind], all);
       put(rows[kind], all);
     }
@@ -160,7 +160,7 @@ struct Answers {
   }
   Answers() = default;
   explicit Answers(std::string_view all) {
-    for (const RowKind kind : kRowKinds) {
+    for (const RowKind kind : kAllRowKinds) {
       take(all, places[kind]);
       take(all, rows[kind]);
     }
@@ -622,7 +622,7 @@ std::vector<std::vector<Questions::OfNumber>> NewPart::ask_for_vertices(
 }
 
 void NewPart::make_room(const std::string& row_of_new_vertex) {
-  for (const RowKind kind : kRowKinds) rows_[kind].resize(count(kind) * layouts_[kind].size());
+  for (const RowKind kind : kAllRowKinds) rows_[kind].resize(count(kind) * layouts_[kind].size());
   if (!has(RowKind::vertex)) return;
   for (std::size_t v = 0; v < piece_.ids.size(); ++v) {
     if (is_old(v)) continue;
@@ -633,7 +633,7 @@ void NewPart::make_room(const std::string& row_of_new_vertex) {
 }
 
 void NewPart::take(const Answers& answers) {
-  for (const RowKind kind : kRowKinds) {
+  for (const RowKind kind : kAllRowKinds) {
     const std::size_t size = layouts_[kind].size();
     for (std::size_t i = 0; i < answers.places[kind].size(); ++i) {
       std::copy_n(answers.rows[kind].data() + i * size, size,
@@ -650,7 +650,7 @@ void NewPart::take(const Answers& answers) {
 }
 
 void NewPart::check() const {
-  for (const RowKind kind : kRowKinds) {
+  for (const RowKind kind : kAllRowKinds) {
     if (has(kind) && filled_[kind] != count(kind)) fail_to_fit();
   }
 }
@@ -914,7 +914,7 @@ void RowCarrier::receive() {
     made.check();
     made.average(conserved_);
     after_[part] = made.integrals();
-    for (const RowKind kind : kRowKinds) shelf_.put(rows_name(kind, part), made.rows(kind));
+    for (const RowKind kind : kAllRowKinds) shelf_.put(rows_name(kind, part), made.rows(kind));
   }
 }
 

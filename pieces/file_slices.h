@@ -88,6 +88,8 @@ class FileSlices : public RowSource {
 
   /// Rows and the name of the labels' array tell all that the file holds besides its mesh.
   virtual bool has_all_in_rows() const { return false; }
+  /// The same, and rows are arrays of the file.
+  virtual bool has_only_arrays() const { return false; }
   std::uint64_t slice_count(std::size_t tets_of_slice, const Ranks& ranks) const override;
   /// Those that add_to() adds.
   void for_row_slices(

@@ -97,6 +97,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
     saved.run.is_divided = true;
     try {
       InputMesh mesh_file(files.input, ranks, files.array_files, files.label_array);
+      if (!tools.plan().surface.is_fixed()) mesh_file.set_surface_moves();
       std::error_code several_files;
       saved.input_size = std::filesystem::file_size(files.input, several_files);
       saved.vertices = mesh_file.vertices();

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -25,12 +27,18 @@
 #include "pieces/gmsh_slices.h"
 #include "pieces/medit_slices.h"
 #include "pieces/partitioned_files.h"
+#include "pieces/row_source.h"
+#include "pieces/rows.h"
+#include "pieces/share_slices.h"
 #include "pieces/slices.h"
 #include "pieces/vtu_output.h"
 
 namespace tetmend::pieces {
 
 namespace {
+
+/// Of elements, where a mesh has other arrays: else readers of .vtu might take one of these for labels.
+constexpr const char* kElementLabels = "CellEntityIds";
 
 /// Of all ranks, each once.
 std::vector<std::string> gather_notes(const std::vector<std::string>& mine, Ranks& ranks) {
@@ -47,9 +55,17 @@ std::vector<std::string> gather_notes(const std::vector<std::string>& mine, Rank
   return {all.begin(), all.end()};
 }
 
-}  // namespace
+const std::vector<DataArray>& arrays_of(const MeshData& data, RowKind kind) {
+  return kind == RowKind::point      ? data.point_data
+         : kind == RowKind::tet      ? data.tet_data
+         : kind == RowKind::triangle ? data.triangle_data
+                                     : data.edge_data;
+}
 
-namespace {
+bool has_any_array(const MeshData& data) {
+  return std::any_of(kRowKinds.begin(), kRowKinds.end(),
+                     [&](RowKind kind) { return !arrays_of(data, kind).empty(); });
+}
 
 /// For so many pieces.
 std::size_t tets_of_slice(std::uint64_t tets, std::size_t pieces) {
@@ -62,12 +78,7 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
                      const std::string& label_array)
     : file_(file), label_array_(label_array), files_(files) {
   if (files != nullptr && files->is_one(file)) {
-    arrays_ = files->read(file, label_array);
-    const ArrayCounts counts = count_all(*arrays_, ranks);
-    tets_ = counts.tets;
-    vertices_ = counts.points;
-    required_vertices_ = counts.required_vertices;
-    data_.notes = gather_notes(arrays_->notes, ranks);
+    read_share(file, ranks, label_array);
     return;
   }
   slices_ = open_slices(file, label_array, ranks);
@@ -77,6 +88,7 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
     required_vertices_ = slices_->counts().required_vertices;
     data_ = slices_->digest();
     holds_more_ = face::holds_more(data_);
+    has_arrays_ = has_any_array(data_);
     return;
   }
   is_elsewhere_ = !ranks.is_first();
@@ -86,12 +98,32 @@ InputMesh::InputMesh(const std::filesystem::path& file, Ranks& ranks, const Arra
     put(std::uint64_t{data_.tets.size()}, facts);
     put(std::uint64_t{data_.points.size()}, facts);
     put(holds_more_, facts);
+    put(has_arrays_, facts);
   }
   const std::vector<std::string> all = ranks.gather(facts);
   std::string_view rest = all.front();
   pieces::take(rest, tets_);
   pieces::take(rest, vertices_);
   pieces::take(rest, holds_more_);
+  pieces::take(rest, has_arrays_);
+}
+
+/// Values of arrays go: they are read again when they are needed.
+void InputMesh::read_share(const std::filesystem::path& file, Ranks& ranks,
+                           const std::string& label_array) {
+  is_share_ = true;
+  arrays_ = files_->read(file, label_array);
+  const ArrayCounts counts = count_all(*arrays_, ranks);
+  tets_ = counts.tets;
+  vertices_ = counts.points;
+  required_vertices_ = counts.required_vertices;
+  data_.notes = gather_notes(arrays_->notes, ranks);
+  has_arrays_ = holds_more_ = has_arrays(arrays_->arrays);
+  data_.point_data = nothing_of(arrays_->arrays[RowKind::point]);
+  data_.tet_data = nothing_of(arrays_->arrays[RowKind::tet]);
+  data_.triangle_data = nothing_of(arrays_->arrays[RowKind::triangle]);
+  data_.edge_data = nothing_of(arrays_->arrays[RowKind::edge]);
+  arrays_->arrays = {};
 }
 
 void InputMesh::read_whole(const std::filesystem::path& file, const std::string& label_array) {
@@ -100,33 +132,78 @@ void InputMesh::read_whole(const std::filesystem::path& file, const std::string&
     throw Error(fmt::format("{}: a mesh of second order cannot be divided", file.string()));
   }
   holds_more_ = face::holds_more(data_);
+  has_arrays_ = has_any_array(data_);
   required_vertices_ = data_.required_vertices.size();
+}
+
+namespace {
+
+/// What neither labels, constraints nor arrays are.
+bool holds_more_than_arrays(const MeshData& data) {
+  const auto any = [](const auto&... lists) { return (!lists.empty() || ...); };
+  return any(data.tet_parts, data.triangle_parts, data.edge_parts, data.point_entities, data.groups,
+             data.entities, data.periodic, data.other_elements, data.point_numbers,
+             data.tet_numbers, data.deck);
+}
+
+/// Names the arrays that are not carried.
+void note_lost_arrays(const MeshData& data,
+                      const std::function<bool(RowKind, const DataArray&)>& is_carried,
+                      std::vector<std::string>& lost) {
+  constexpr std::array<std::string_view, 4> kNames = {"points", "tets", "triangles", "edges"};
+  for (const RowKind kind : kRowKinds) {
+    for (const DataArray& array : arrays_of(data, kind)) {
+      if (is_carried(kind, array)) continue;
+      lost.push_back(fmt::format("the array '{}' of {} is not written", array.name,
+                                 kNames[static_cast<std::size_t>(kind)]));
+    }
+  }
+}
+
+}  // namespace
+
+bool InputMesh::is_of_ranks(const std::filesystem::path& output) const {
+  return files_ != nullptr && files_->is_one(output);
+}
+
+/// Where all ranks read or write together, arrays are carried for a fixed surface alone.
+bool InputMesh::carries_arrays(const std::filesystem::path& output) const {
+  return !surface_moves_ || (!is_share_ && !is_of_ranks(output));
 }
 
 std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output) const {
   std::vector<std::string> lost = data_.notes;
-  if (files_ == nullptr || !files_->is_one(output)) {
+  const bool is_together = is_of_ranks(output);
+  const bool carries = carries_arrays(output);
+  note_lost_arrays(
+      data_,
+      [&](RowKind kind, const DataArray& array) {
+        return carries && (!is_together || files_->takes(output, kind, array));
+      },
+      lost);
+  if (!is_together && carries) {
     for (std::string& text : not_written(output, data_)) lost.push_back(std::move(text));
-    return lost;
   }
-  if (holds_more_) {
+  if (is_together && holds_more_than_arrays(data_)) {
     lost.emplace_back(
-        "arrays, groups and whatever there is besides labels and constraints are not written");
+        "groups and whatever there is besides arrays, labels and constraints are not written");
   }
-  if (required_vertices_ > 0 && !files_->has_required_vertices(output)) {
+  if (is_together && required_vertices_ > 0 && !files_->has_required_vertices(output)) {
     lost.emplace_back("required vertices are not written");
   }
   return lost;
 }
 
 bool InputMesh::holds_more(const std::filesystem::path& output) const {
-  const bool is_one_of_ours = slices_ && !slices_->has_walls();  // walls are not written
-  if (is_one_of_ours && output.extension() == ".vtu") {
-    return !data_.point_data.empty() || !data_.tet_data.empty() || !data_.other_elements.empty() ||
-           !data_.label_array.empty();
+  if (!carries_arrays(output)) return false;
+  if (is_of_ranks(output)) return has_arrays_ && files_->takes(output, RowKind::tet, DataArray());
+  const bool has_no_walls =
+      is_share_ || (slices_ && !slices_->has_walls());  // they are not written
+  if (has_no_walls && output.extension() == ".vtu") {
+    return has_arrays_ || !data_.other_elements.empty() || !data_.label_array.empty();
   }
-  if (!is_one_of_ours || output.extension() != ".meshb") return holds_more_;
-  // Of all that slices may hold besides, MEDIT's format has a place for marks and vectors alone.
+  if (!has_no_walls || output.extension() != ".meshb") return holds_more_;
+  // Of all that these may hold besides, MEDIT's format has a place for marks and vectors alone.
   const auto any = [&](const auto& named) {
     return std::any_of(named.begin(), named.end(),
                        [&](const auto& each) { return formats::is_medit_mark(each.name); });
@@ -211,16 +288,25 @@ void add_protected(InputMesh& input, const Options& options, DividedMesh& mesh,
 
 namespace {
 
+/// All ranks: on the first one the file that was read.
+MeshData read_source(const WriteDetails& details, Ranks& ranks) {
+  const ArrayFiles* const files = details.array_files;
+  if (files != nullptr && files->is_one(details.source)) {
+    return gather_mesh(details.source, *files, details.label_array, ranks);
+  }
+  return ranks.is_first() ? read_mesh(details.source, details.label_array) : MeshData();
+}
+
+/// On the first rank. @param before null: it holds nothing besides the mesh
 std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const DividedMesh& mesh,
-                                      const WriteDetails& details) {
+                                      const WriteDetails& details, const MeshData* before) {
   Joined joined = join(mesh, details.vertices);
   std::vector<CarriedArray> carried;
-  if (!details.source.empty()) {
-    const MeshData before = read_mesh(details.source, details.label_array);
-    const Maps maps = maps_of(joined, before.points.size(), before.tets.size());
+  if (before != nullptr) {
+    const Maps maps = maps_of(joined, before->points.size(), before->tets.size());
     const face::SurfaceMarks marks =
-        details.surface_moves ? face::mark_surface(before) : face::SurfaceMarks();
-    carried = face::carry(before, maps.vertices, maps.tets, details.conserve, joined.data,
+        details.surface_moves ? face::mark_surface(*before) : face::SurfaceMarks();
+    carried = face::carry(*before, maps.vertices, maps.tets, details.conserve, joined.data,
                           details.surface_moves ? &marks : nullptr);
   }
   MeshView view(joined.data);
@@ -229,18 +315,88 @@ std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const D
   return carried;
 }
 
-}  // namespace
+/// Its arrays, with none for the walls that were put between its parts.
+RankShare share_of_whole(const MeshData& data) {
+  RankShare share = all_of(data);
+  const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
+  for (const MeshData::Triangle& wall : walls) {
+    auto& made = share.triangles.emplace_back();
+    std::copy(wall.vertices.begin(), wall.vertices.end(), made.vertices.begin());
+  }
+  for (DataArray& array : share.arrays[RowKind::triangle]) {
+    append_nothing(walls.size() * array.components, array);
+  }
+  return share;
+}
 
-namespace {
-
-CarriedRows carry_rows(const FileSlices& source, const DividedMesh& mesh,
+CarriedRows carry_rows(const RowSource& source, std::uint64_t tets, const DividedMesh& mesh,
                        const WriteDetails& details, Shelf& memory) {
   return {source,
           mesh,
-          tets_of_slice(source.counts().tets, details.pieces),
+          tets_of_slice(tets, details.pieces),
           details.pieces,
           details.conserve,
           details.shelf != nullptr ? *details.shelf : memory};
+}
+
+/// What the file that was read has in arrays.
+struct OpenedRows {
+  std::unique_ptr<FileSlices> file;
+  RankShare share;
+  std::unique_ptr<ShareSlices> slices;  // of the share
+  std::uint64_t tets = 0;
+  std::string label_array;
+
+  const RowSource& source() const { return file ? static_cast<const RowSource&>(*file) : *slices; }
+};
+
+/// All ranks. @param arrays_are_all  what there is besides is not written in any case
+/// @returns nothing where rows are not all that is to be brought over
+std::optional<OpenedRows> open_rows(const WriteDetails& details, bool arrays_are_all,
+                                    Ranks& ranks) {
+  OpenedRows rows;
+  const ArrayFiles* const files = details.array_files;
+  if (files != nullptr && files->is_one(details.source)) {
+    rows.share = files->read(details.source, details.label_array);
+    if (!rows.share.arrays[RowKind::tet].empty()) rows.label_array = kElementLabels;
+  } else {
+    rows.file = open_slices(details.source, details.label_array, ranks);
+    if (rows.file && rows.file->has_only_arrays()) {
+      rows.tets = rows.file->counts().tets;
+      rows.label_array = rows.file->digest().label_array;
+      return rows;
+    }
+    if (!arrays_are_all) return {};
+    rows.file.reset();
+    if (ranks.is_first()) {
+      rows.share = share_of_whole(read_mesh(details.source, details.label_array));
+    }
+    share_outlines(rows.share.arrays, ranks);
+  }
+  rows.tets = count_all(rows.share, ranks).tets;
+  return rows;
+}
+
+/// No rank has all of it. Nothing where more than rows is to be brought over.
+std::optional<std::vector<CarriedArray>> write_with_rows(const std::filesystem::path& file,
+                                                         const DividedMesh& mesh,
+                                                         const WriteDetails& details) {
+  Ranks& ranks = mesh.ranks();
+  const ArrayFiles* const files = details.array_files;
+  const bool is_of_ranks = files != nullptr && files->is_one(file);
+  std::optional<OpenedRows> opened = open_rows(details, is_of_ranks, ranks);
+  if (!opened) return {};
+  if (!opened->file) opened->slices = std::make_unique<ShareSlices>(opened->share, ranks);
+  MemoryShelf memory;
+  const CarriedRows rows = carry_rows(opened->source(), opened->tets, mesh, details, memory);
+  opened->slices.reset();
+  opened->share = {};
+  if (is_of_ranks) {
+    files->write_stored(file, mesh, &rows);
+  } else {
+    write_vtu_slices(file, mesh, {&rows, opened->label_array});
+  }
+  return ranks.is_first() ? rows.report() : std::vector<CarriedArray>();
 }
 
 /// No rank has all of it. False where the file that was read is of another format.
@@ -250,22 +406,9 @@ bool write_medit_with_marks(const std::filesystem::path& file, const DividedMesh
   const auto* const source = dynamic_cast<const MeditSlices*>(opened.get());
   if (source == nullptr) return false;
   MemoryShelf memory;
-  const CarriedRows rows = carry_rows(*source, mesh, details, memory);
+  const CarriedRows rows = carry_rows(*source, source->counts().tets, mesh, details, memory);
   write_medit_slices(file, mesh, &rows);
   return true;
-}
-
-/// The same of arrays. Nothing where the file that was read holds more than arrays.
-std::optional<std::vector<CarriedArray>> write_vtu_with_rows(const std::filesystem::path& file,
-                                                             const DividedMesh& mesh,
-                                                             const WriteDetails& details) {
-  const auto source = open_slices(details.source, details.label_array, mesh.ranks());
-  const bool has_entities = dynamic_cast<const GmshSlices*>(source.get()) != nullptr;
-  if (!source || has_entities || !source->has_all_in_rows()) return {};
-  MemoryShelf memory;
-  const CarriedRows rows = carry_rows(*source, mesh, details, memory);
-  write_vtu_slices(file, mesh, {&rows, source->digest().label_array});
-  return mesh.ranks().is_first() ? rows.report() : std::vector<CarriedArray>();
 }
 
 /// The same, of a file with entities that are in its list. False for any other.
@@ -278,7 +421,7 @@ bool write_gmsh_with_entities(const std::filesystem::path& file, const DividedMe
   const std::string& variant = details.variant.empty() ? extras.head.variant : details.variant;
   if (variant.starts_with("2.2")) return false;
   MemoryShelf memory;
-  const CarriedRows rows = carry_rows(*source, mesh, details, memory);
+  const CarriedRows rows = carry_rows(*source, source->counts().tets, mesh, details, memory);
   const CarriedEntities carried{rows, extras};
   write_gmsh_slices(file, mesh, variant != "4.1 ASCII", &carried);
   return true;
@@ -286,12 +429,39 @@ bool write_gmsh_with_entities(const std::filesystem::path& file, const DividedMe
 
 }  // namespace
 
+MeshData gather_mesh(const std::filesystem::path& file, const ArrayFiles& files,
+                     const std::string& label_array, Ranks& ranks) {
+  RankShare share = files.read(file, label_array);
+  const std::uint64_t vertices = count_all(share, ranks).points;
+  MemoryShelf shelf;
+  DividedMesh pieces(shelf, ranks, vertices);
+  add_arrays(share, pieces);
+  KindArrays arrays = gather_arrays(share.arrays, ranks);
+  share = {};
+  pieces.bring_to_first();
+  if (!ranks.is_first()) return {};
+  MeshData data = join(pieces, vertices).data;
+  data.point_data = std::move(arrays[RowKind::point]);
+  data.tet_data = std::move(arrays[RowKind::tet]);
+  data.triangle_data = std::move(arrays[RowKind::triangle]);
+  data.edge_data = std::move(arrays[RowKind::edge]);
+  if (!data.tet_data.empty()) data.label_array = kElementLabels;
+  return data;
+}
+
 std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
                                        const WriteDetails& details) {
   const ArrayFiles* const files = details.array_files;
-  if (files != nullptr && files->is_one(file)) {
-    if (details.parts > 0 && files->is_in_parts(file)) divide_into_parts(mesh, details.parts);
-    files->write_stored(file, mesh);
+  const bool is_of_ranks = files != nullptr && files->is_one(file);
+  if (is_of_ranks && details.parts > 0 && files->is_in_parts(file)) {
+    divide_into_parts(mesh, details.parts);
+  }
+  const bool takes_rows = is_of_ranks || file.extension() == ".vtu";
+  if (takes_rows && !details.source.empty() && !details.surface_moves) {
+    if (auto carried = write_with_rows(file, mesh, details)) return std::move(*carried);
+  }
+  if (is_of_ranks) {
+    files->write_stored(file, mesh, nullptr);
     return {};
   }
   if (file.extension() == ".meshb" && details.source.empty()) {
@@ -305,9 +475,6 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
     write_vtu_slices(file, mesh);
     return {};
   }
-  if (file.extension() == ".vtu" && !details.surface_moves) {
-    if (auto carried = write_vtu_with_rows(file, mesh, details)) return std::move(*carried);
-  }
   const bool is_msh_2 = details.variant.starts_with("2.2");
   if (file.extension() == ".msh" && details.source.empty() && !is_msh_2) {
     write_gmsh_slices(file, mesh, details.variant != "4.1 ASCII");
@@ -317,9 +484,13 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
       !is_msh_2) {
     if (write_gmsh_with_entities(file, mesh, details)) return {};
   }
+  const bool has_source = !details.source.empty();
+  const MeshData before = has_source ? read_source(details, mesh.ranks()) : MeshData();
   mesh.bring_to_first();
   std::vector<CarriedArray> carried;
-  if (mesh.ranks().is_first()) carried = write_whole(file, mesh, details);
+  if (mesh.ranks().is_first()) {
+    carried = write_whole(file, mesh, details, has_source ? &before : nullptr);
+  }
   mesh.ranks().meet();
   return carried;
 }

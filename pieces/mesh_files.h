@@ -39,23 +39,28 @@ class InputMesh {
   void check_conserve(const std::vector<std::string>& names) const;
   /// All ranks: adds all of it, in slices for so many pieces, with end_slices(). Once.
   void add_to(DividedMesh& mesh, std::size_t pieces);
-  /// Before add_to(): the surface may move. So triangles and edges have marks for labels where these
+  /// Before all others: the surface may move. So triangles and edges have marks for labels where these
   /// do not tell all, see SurfaceMarks, and points that are to stay are marked.
   void set_surface_moves() { surface_moves_ = true; }
 
  private:
   void read_whole(const std::filesystem::path& file, const std::string& label_array);
+  void read_share(const std::filesystem::path& file, Ranks& ranks, const std::string& label_array);
+  bool is_of_ranks(const std::filesystem::path& output) const;
+  bool carries_arrays(const std::filesystem::path& output) const;
 
   std::filesystem::path file_;
   std::string label_array_;
   const ArrayFiles* files_ = nullptr;
   std::unique_ptr<FileSlices> slices_;
+  bool is_share_ = false;  // of a file that all ranks read together
   std::optional<RankShare> arrays_;
   MeshData data_;
   std::uint64_t tets_ = 0;
   std::uint64_t vertices_ = 0;
   std::uint64_t required_vertices_ = 0;
   bool holds_more_ = false;
+  bool has_arrays_ = false;  // all ranks know it
   bool surface_moves_ = false;
   bool is_elsewhere_ = false;  // the first rank has it
 };
@@ -71,8 +76,8 @@ struct WriteDetails {
   /// For files of parts, into how many the mesh is divided before; 0: each stored piece is one.
   std::size_t parts = 0;
   std::string variant = {};  ///< see MeshView::variant()
-  /// The file that was read, if it holds more than labels and constraints. Read again by the first
-  /// rank, which brings over what it holds. Empty: there is nothing.
+  /// The file that was read, if it holds more than labels and constraints. Read again, by all ranks or by
+  /// the first one, to bring over what it holds. Empty: there is nothing.
   std::filesystem::path source = {};
   std::string label_array = {};            ///< of `source`
   std::vector<std::string> conserve = {};  ///< see Options
@@ -80,6 +85,11 @@ struct WriteDetails {
   Shelf* shelf = nullptr;  ///< for what is brought over by all ranks; null: in memory
   std::size_t pieces = 1;  ///< of the run
 };
+
+/// All ranks: the mesh of such a file, with its arrays, on the first one.
+/// @throws Error as ArrayFiles::read()
+MeshData gather_mesh(const std::filesystem::path& file, const ArrayFiles& files,
+                     const std::string& label_array, Ranks& ranks);
 
 /// All ranks: the first writes the stored pieces, others help.
 /// @returns on the first rank, what was brought over

@@ -62,7 +62,6 @@ class FileRun {
 
  private:
   Result improve_whole();
-  Mesh gather_whole();
   bool read();
   void measure_before();
   void hold_surface();
@@ -144,13 +143,20 @@ Result FileRun::run() {
 /// There is memory enough for all of it.
 Result FileRun::improve_whole() {
   const ArrayFiles* known = files_.array_files;
-  Mesh mesh = known != nullptr && known->is_one(files_.input) ? gather_whole()
-              : ranks_.is_first() ? load(files_.input, options_.threads, files_.label_array)
-                                  : Mesh();
+  Mesh mesh;
+  if (known != nullptr && known->is_one(files_.input)) {
+    MeshData data = gather_mesh(files_.input, *known, files_.label_array, ranks_);
+    if (ranks_.is_first()) mesh = MeshAccess::make(std::move(data));
+  } else if (ranks_.is_first()) {
+    mesh = load(files_.input, options_.threads, files_.label_array);
+  }
   Result result;
   if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
   if (known != nullptr && known->is_one(files_.output)) {
-    known->write(files_.output, ranks_.is_first() ? all_of(MeshAccess::data(mesh)) : RankShare());
+    RankShare share;
+    if (ranks_.is_first()) share = all_of(MeshAccess::data(mesh));
+    share_outlines(share.arrays, ranks_);
+    known->write(files_.output, share);
   } else if (ranks_.is_first()) {
     tetmend::save(files_.output, mesh, options_.threads, files_.variant);
   }
@@ -158,25 +164,16 @@ Result FileRun::improve_whole() {
   return result;
 }
 
-/// On the first rank.
-Mesh FileRun::gather_whole() {
-  InputMesh input(files_.input, ranks_, files_.array_files, files_.label_array);
-  MemoryShelf shelf;
-  DividedMesh pieces(shelf, ranks_, input.vertices());
-  const std::uint64_t vertices = input.vertices();
-  input.add_to(pieces, 1);
-  pieces.bring_to_first();
-  return ranks_.is_first() ? MeshAccess::make(join(pieces, vertices).data) : Mesh();
-}
-
 /// False if one piece is enough.
 bool FileRun::read() {
   InputMesh input(files_.input, ranks_, files_.array_files, files_.label_array);
   input.check_conserve(options_.conserve);
+  const bool is_in_pieces = is_divided(input.tets());
+  if (is_in_pieces && !plan_.surface.is_fixed()) input.set_surface_moves();
   if (ranks_.is_first() && files_.tell_lost && !std::exchange(is_told_, true)) {
     files_.tell_lost(input.lost_in(files_.output));
   }
-  if (!is_divided(input.tets())) return false;
+  if (!is_in_pieces) return false;
   check(options_, division_);
   vertices_ = input.vertices();
   holds_more_ = input.holds_more(files_.output);

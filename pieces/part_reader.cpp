@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/mesh_io.h"
 #include "pieces/bytes.h"
@@ -60,11 +61,14 @@ void drop_ghosts(std::vector<DataArray>& arrays, std::vector<Element>& elements)
   if (!ghosts) return;
   const std::vector<std::uint64_t> marks = whole_numbers(*ghosts);
   if (marks.size() != elements.size()) return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if ((marks[i] & kNotOfThisPart) == 0) elements[kept++] = elements[i];
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < elements.size(); ++i) {
+    if ((marks[i] & kNotOfThisPart) == 0) kept.push_back(i);
   }
-  elements.resize(kept);
+  if (kept.size() == elements.size()) return;
+  for (DataArray& array : arrays) array = formats::selected_rows(array, kept);
+  for (std::size_t i = 0; i < kept.size(); ++i) elements[i] = elements[kept[i]];
+  elements.resize(kept.size());
 }
 
 template <class Element, std::size_t N>
@@ -79,6 +83,11 @@ void add_elements(const std::vector<Element>& from, std::uint64_t first,
 
 }  // namespace
 
+bool is_of_parts(RowKind kind, std::string_view name) {
+  const bool is_id = std::find(kKnownIds.begin(), kKnownIds.end(), name) != kKnownIds.end();
+  return name == kGhosts || (kind == RowKind::point && is_id);
+}
+
 void PartReader::read_vtu(const std::filesystem::path& file, std::uint64_t part,
                           const std::string& label_array) {
   MeshData data = read_mesh(file, label_array);
@@ -89,6 +98,7 @@ void PartReader::read_vtu(const std::filesystem::path& file, std::uint64_t part,
 
 void PartReader::read_msh(const std::filesystem::path& file, std::uint64_t part) {
   MeshData data = formats::read_gmsh_part(file);
+  drop_arrays(data);
   data.point_data.push_back({kPointIds, 1, std::move(data.point_numbers)});
   if (!data.groups.empty() || !data.entities.empty() || !data.periodic.empty()) {
     share_.notes.emplace_back("groups and entities are not kept: parts have labels alone");
@@ -107,7 +117,11 @@ void PartReader::add(const std::filesystem::path& file, MeshData& data, std::uin
   drop_ghosts(data.triangle_data, data.triangles);
   drop_ghosts(data.edge_data, data.edges);
   take_array(data.point_data, kGhosts);
-  note_rest(data);
+  for (const std::string& text : data.notes) share_.notes.push_back(text);
+  arrays_[RowKind::point].add(std::move(data.point_data), data.points.size());
+  arrays_[RowKind::tet].add(std::move(data.tet_data), data.tets.size());
+  arrays_[RowKind::triangle].add(std::move(data.triangle_data), data.triangles.size());
+  arrays_[RowKind::edge].add(std::move(data.edge_data), data.edges.size());
   const std::uint64_t first = points_.points.size();
   add_elements(data.tets, first, share_.tets);
   add_elements(data.triangles, first, share_.triangles);
@@ -130,6 +144,12 @@ RankShare PartReader::finish(Ranks& ranks) {
   renumber(share_.tets);
   renumber(share_.triangles);
   renumber(share_.edges);
+  constexpr std::array<std::string_view, 4> kNames = {"points", "tets", "triangles", "edges"};
+  for (const RowKind kind : kRowKinds) {
+    share_.arrays[kind] =
+        arrays_[kind].finish(ranks, kNames[static_cast<std::size_t>(kind)], share_.notes);
+  }
+  share_.arrays[RowKind::point] = merge_point_arrays(merged, share_.arrays[RowKind::point], ranks);
   share_.points = std::move(merged.points);
   share_.point_labels = std::move(merged.labels);
   return std::move(share_);
@@ -171,19 +191,19 @@ void PartReader::take_ids(const std::filesystem::path& file, MeshData& data) {
   points_.ids.insert(points_.ids.end(), ids.begin(), ids.end());
 }
 
-void PartReader::note_rest(const MeshData& data) {
-  const auto note = [&](std::string text) { share_.notes.push_back(std::move(text)); };
-  for (const std::string& text : data.notes) note(text);
-  const auto note_arrays = [&](const std::vector<DataArray>& arrays, std::string_view on) {
+/// Names them, and drops them.
+void PartReader::drop_arrays(MeshData& data) {
+  const auto note_and_drop = [&](std::vector<DataArray>& arrays, std::string_view on) {
     for (const DataArray& array : arrays) {
-      note(
+      share_.notes.push_back(
           fmt::format("the array '{}' of {} is not kept: parts have labels alone", array.name, on));
     }
+    arrays.clear();
   };
-  note_arrays(data.point_data, "points");
-  note_arrays(data.tet_data, "tets");
-  note_arrays(data.triangle_data, "triangles");
-  note_arrays(data.edge_data, "edges");
+  note_and_drop(data.point_data, "points");
+  note_and_drop(data.tet_data, "tets");
+  note_and_drop(data.triangle_data, "triangles");
+  note_and_drop(data.edge_data, "edges");
 }
 
 }  // namespace tetmend::pieces

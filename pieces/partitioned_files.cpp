@@ -17,16 +17,22 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/pending_file.h"
+#include "kernel/formats/vtu_array.h"
 #include "kernel/mesh_view.h"
+#include "pieces/carried_rows.h"
 #include "pieces/improve.h"
 #include "pieces/numbering.h"
 #include "pieces/part_reader.h"
 #include "pieces/piece_task.h"
 #include "pieces/pvtu.h"
+#include "pieces/rows.h"
+#include "pieces/share_slices.h"
 #include "pieces/shelf.h"
+#include "pieces/slices.h"
 
 namespace tetmend::pieces {
 
@@ -54,6 +60,63 @@ MeshData data_of(const Piece& piece, const Numbering& numbering, bool has_labels
   }
   data.point_data.push_back({kPointIds, 1, std::move(ids)});
   return data;
+}
+
+/// The arrays of a kind that parts are written with.
+std::vector<DataArray> outlines_of(RowKind kind, const CarriedRows* rows) {
+  if (rows == nullptr) return {};
+  std::vector<DataArray> arrays = nothing_of(rows->layout(kind).arrays());
+  std::erase_if(arrays, [&](const DataArray& array) { return is_of_parts(kind, array.name); });
+  return arrays;
+}
+
+/// Those of a stored piece, with values.
+void add_arrays_of(RowKind kind, const CarriedRows* rows, std::size_t part, std::size_t count,
+                   std::vector<DataArray>& to) {
+  if (rows == nullptr) return;
+  const std::vector<DataArray>& arrays = rows->layout(kind).arrays();
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    if (is_of_parts(kind, arrays[i].name)) continue;
+    append_values(rows->column(kind, part, i, 0, count), to.emplace_back(nothing_of(arrays[i])));
+  }
+}
+
+void add_arrays_of_part(const CarriedRows* rows, std::size_t part, MeshData& data) {
+  add_arrays_of(RowKind::point, rows, part, data.points.size(), data.point_data);
+  add_arrays_of(RowKind::tet, rows, part, data.tets.size(), data.tet_data);
+  add_arrays_of(RowKind::triangle, rows, part, data.triangles.size(), data.triangle_data);
+  add_arrays_of(RowKind::edge, rows, part, data.edges.size(), data.edge_data);
+}
+
+/// What the file that names the parts says of their arrays.
+struct PvtuArrays {
+  std::vector<PvtuArray> of_points;
+  std::vector<PvtuArray> of_cells;
+
+  PvtuArrays(bool has_point_labels, bool has_labels, const CarriedRows* rows) {
+    if (has_point_labels) of_points.push_back({kLabelArray, "Int32"});
+    of_points.push_back({kPointIds, "Int64"});
+    if (has_labels) of_cells.push_back({kLabelArray, "Int32"});
+    add(outlines_of(RowKind::point, rows), of_points);
+    MeshData outlines;
+    outlines.tet_data = outlines_of(RowKind::tet, rows);
+    outlines.triangle_data = outlines_of(RowKind::triangle, rows);
+    outlines.edge_data = outlines_of(RowKind::edge, rows);
+    add(formats::join_cell_arrays(outlines), of_cells);
+  }
+
+ private:
+  static void add(const std::vector<DataArray>& from, std::vector<PvtuArray>& to) {
+    for (const DataArray& array : from) {
+      to.push_back({array.name, std::string(formats::vtu_type_of(array)), array.components});
+    }
+  }
+};
+
+/// Other arrays of elements: without labels readers might take one of these for them.
+bool has_cell_arrays(const CarriedRows* rows) {
+  return !outlines_of(RowKind::tet, rows).empty() ||
+         !outlines_of(RowKind::triangle, rows).empty() || !outlines_of(RowKind::edge, rows).empty();
 }
 
 /// Whether any of them has a label, of all ranks.
@@ -169,7 +232,10 @@ void write_arrays(const ArrayFiles& kind, const std::filesystem::path& file,
   DividedMesh mesh(shelf, ranks, counts.points);
   add_arrays(arrays, mesh);
   divide_into_parts(mesh, usual_pieces(counts.tets));
-  kind.write_stored(file, mesh);
+  if (!has_arrays(arrays.arrays)) return kind.write_stored(file, mesh, nullptr);
+  const ShareSlices source(arrays, ranks);
+  const CarriedRows rows(source, mesh, kTetsOfSlice, mesh.state().stored, {}, shelf);
+  kind.write_stored(file, mesh, &rows);
 }
 
 /// A part has a number instead of "%d", from 1.
@@ -271,7 +337,8 @@ void GmshParts::write(const std::filesystem::path& file, const RankShare& arrays
   write_arrays(*this, file, arrays, ranks_);
 }
 
-void GmshParts::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
+void GmshParts::write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                             const CarriedRows*) const {
   const std::size_t count = mesh.state().stored;
   const Drafts drafts(file, ranks_);
   const Numbering numbering(mesh);
@@ -319,16 +386,19 @@ void PvtuFiles::write(const std::filesystem::path& file, const RankShare& arrays
   write_arrays(*this, file, arrays, ranks_);
 }
 
-void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
+void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                             const CarriedRows* rows) const {
   const std::filesystem::path folder = pvtu_folder(file);
   const std::string stem = folder.filename().string();
   const auto name_of = [&](std::size_t part) { return pvtu_part(file, part); };
   const Drafts drafts(file, ranks_);
   const Numbering numbering(mesh);
   const LabelsOfAll labels(mesh);
+  const bool has_labels = labels.elements || has_cell_arrays(rows);
   for (const std::size_t part : mesh.own()) {
-    write_mesh(drafts / name_of(part),
-               data_of(mesh.stored(part), numbering, labels.elements, labels.points));
+    MeshData data = data_of(mesh.stored(part), numbering, has_labels, labels.points);
+    add_arrays_of_part(rows, part, data);
+    write_mesh(drafts / name_of(part), data);
   }
   ranks_.meet();
   if (ranks_.is_first()) {
@@ -339,15 +409,15 @@ void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMes
       pieces.push_back(fmt::format("{}/{}", stem, name_of(part)));
       parts.push_back(folder / name_of(part));
     }
-    std::vector<PvtuArray> of_points;
-    std::vector<PvtuArray> of_cells;
-    if (labels.points) of_points.push_back({kLabelArray, "Int32"});
-    of_points.push_back({kPointIds, "Int64"});
-    if (labels.elements) of_cells.push_back({kLabelArray, "Int32"});
-    write_pvtu(drafts / file.filename().string(), pieces, of_points, of_cells);
+    const PvtuArrays arrays(labels.points, has_labels, rows);
+    write_pvtu(drafts / file.filename().string(), pieces, arrays.of_points, arrays.of_cells);
     drafts.name_all(file, parts, surplus_parts(file, parts));
   }
   ranks_.meet();
+}
+
+bool PvtuFiles::takes(const std::filesystem::path&, RowKind kind, const DataArray& array) const {
+  return !is_of_parts(kind, array.name);
 }
 
 void PvtuFiles::check_output(const std::filesystem::path& file) const {

@@ -17,7 +17,7 @@ void divide_into_parts(DividedMesh& mesh, std::size_t parts);
 /// `.pvtu` of VTK with its `.vtu` files. Those that are written lie in a folder of the name of the file
 /// without its ending, a piece in each, and name their points by an array `GlobalNodeId`. Where files
 /// that are read have no such array, points of several at one place, bit by bit, are one. Ghost cells
-/// (`vtkGhostType`) go. Of other arrays only labels are kept; the rest is named in notes.
+/// (`vtkGhostType`) go. Arrays are kept that all parts have; others are named in notes.
 class PvtuFiles final : public ArrayFiles {
  public:
   /// @param ranks must outlive it
@@ -26,10 +26,12 @@ class PvtuFiles final : public ArrayFiles {
   RankShare read(const std::filesystem::path& file, const std::string& label_array) const override;
   void write(const std::filesystem::path& file, const RankShare& arrays) const override;
   /// The file that names the parts is the last to get its name.
-  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const override;
+  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                    const CarriedRows* rows) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }
+  bool takes(const std::filesystem::path&, RowKind kind, const DataArray& array) const override;
 
  private:
   Ranks& ranks_;
@@ -47,7 +49,8 @@ class GmshParts final : public ArrayFiles {
   void write(const std::filesystem::path& file, const RankShare& arrays) const override;
   /// Part 1 is the last to get its name: without it there is no mesh for those who read. Further parts
   /// of an older mesh go.
-  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const override;
+  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                    const CarriedRows* rows) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }

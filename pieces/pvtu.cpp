@@ -35,6 +35,11 @@ std::string as_attribute(const std::string& text) {
   return safe;
 }
 
+std::string as_components(std::size_t components) {
+  if (components == 1) return {};
+  return fmt::format(" NumberOfComponents=\"{}\"", components);
+}
+
 /// Counted from 1.
 std::size_t line_of(const std::filesystem::path& file, std::ptrdiff_t offset) {
   std::ifstream in(file, std::ios::binary);
@@ -80,8 +85,8 @@ void write_pvtu(const std::filesystem::path& file, std::span<const std::string> 
   const auto put_arrays = [&](std::string_view name, std::span<const PvtuArray> arrays) {
     out.put(fmt::format("<{}>\n", name));
     for (const PvtuArray& array : arrays) {
-      out.put(fmt::format("<PDataArray type=\"{}\" Name=\"{}\"/>\n", array.type,
-                          as_attribute(array.name)));
+      out.put(fmt::format("<PDataArray type=\"{}\" Name=\"{}\"{}/>\n", array.type,
+                          as_attribute(array.name), as_components(array.components)));
     }
     out.put(fmt::format("</{}>\n", name));
   };

@@ -2,6 +2,7 @@
 // VTK's XML files `.pvtu`: a mesh in several `.vtu` files.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -16,6 +17,7 @@ std::vector<std::filesystem::path> read_pvtu(const std::filesystem::path& file);
 struct PvtuArray {
   std::string name;
   std::string type;  ///< "Int32"
+  std::size_t components = 1;
 };
 
 /// @param pieces their files, as they are named from the folder of `file`

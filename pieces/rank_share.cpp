@@ -2,214 +2,18 @@
 #include "pieces/rank_share.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "kernel/error.h"
 #include "pieces/bytes.h"
+#include "pieces/carried_rows.h"
 #include "pieces/numbering.h"
-#include "pieces/slices.h"
+#include "pieces/sent_vertex.h"
+#include "pieces/share_slices.h"
 
 namespace tetmend::pieces {
 
 namespace {
-
-/// What a rank sends of a vertex.
-struct SentVertex {
-  std::uint64_t number;
-  std::array<double, 3> point;
-  Label label;
-  std::uint32_t is_required;
-};
-
-std::vector<std::uint64_t> numbers_of_all(std::uint64_t mine, Ranks& ranks) {
-  std::string bytes;
-  put(mine, bytes);
-  std::vector<std::uint64_t> all;
-  for (const std::string& from : ranks.gather(bytes)) {
-    std::string_view rest = from;
-    take(rest, all.emplace_back());
-  }
-  return all;
-}
-
-/// Which numbers each rank has, when they are numbered through.
-class Ranges {
- public:
-  Ranges(std::uint64_t mine, Ranks& ranks) : begins_{0} {
-    for (const std::uint64_t count : numbers_of_all(mine, ranks)) {
-      begins_.push_back(begins_.back() + count);
-    }
-  }
-  std::uint64_t begin(std::size_t rank) const { return begins_[rank]; }
-  std::uint64_t total() const { return begins_.back(); }
-  std::size_t rank_of(std::uint64_t number) const {
-    const auto after = std::upper_bound(begins_.begin(), begins_.end(), number);
-    return static_cast<std::size_t>(after - begins_.begin()) - 1;
-  }
-
- private:
-  std::vector<std::uint64_t> begins_;
-};
-
-/// The slices of one rank, one after another; all ranks make as many.
-class Slicer {
- public:
-  Slicer(const RankShare& arrays, DividedMesh& to)
-      : arrays_(arrays),
-        to_(to),
-        ranks_(to.ranks()),
-        points_(arrays.points.size(), ranks_),
-        tets_(arrays.tets.size(), ranks_) {
-    const std::vector<std::uint64_t> counts = numbers_of_all(arrays.tets.size(), ranks_);
-    slices_ = 1 + *std::max_element(counts.begin(), counts.end()) / kTetsOfSlice;
-    note_required();
-  }
-
-  void add_all() {
-    for (std::uint64_t i = 0; i < slices_; ++i) add(i);
-    to_.end_slices();
-  }
-
- private:
-  template <class Element>
-  using Range = std::pair<const Element*, const Element*>;
-
-  /// Of a list, what slice i has.
-  template <class Value>
-  Range<Value> range(const std::vector<Value>& all, std::uint64_t i) const {
-    return {all.data() + all.size() * i / slices_, all.data() + all.size() * (i + 1) / slices_};
-  }
-
-  void note_required() {
-    is_required_.assign(arrays_.points.size(), 0);
-    std::vector<std::string> to(ranks_.count());
-    for (const std::uint64_t v : arrays_.required_vertices) {
-      put(checked(v), to[points_.rank_of(v)]);
-    }
-    for (const std::string& from : ranks_.exchange(std::move(to))) {
-      for (std::string_view rest = from; !rest.empty();) {
-        std::uint64_t v = 0;
-        take(rest, v);
-        is_required_[v - points_.begin(ranks_.number())] = 1;
-      }
-    }
-  }
-
-  std::uint64_t checked(std::uint64_t v) const {
-    if (v < points_.total()) return v;
-    throw Error(fmt::format("there is no vertex {}: the mesh has {}", v, points_.total()));
-  }
-
-  template <std::size_t N>
-  void note(Range<RankShare::Element<N>> elements, std::vector<VertexId>& ids) const {
-    for (const auto* element = elements.first; element != elements.second; ++element) {
-      const auto& v = element->vertices;
-      for (std::size_t i = 0; i < N; ++i) {
-        ids.push_back(checked(v[i]));
-        for (std::size_t k = 0; k < i; ++k) {
-          if (v[k] == v[i]) throw Error(fmt::format("an element has vertex {} twice", v[i]));
-        }
-      }
-    }
-  }
-
-  template <std::size_t N, class Element>
-  static void renumber(Range<RankShare::Element<N>> from, const std::vector<VertexId>& ids,
-                       std::vector<Element>& to) {
-    for (const auto* each = from.first; each != from.second; ++each) {
-      Element& element = to.emplace_back();
-      element.label = each->label;
-      for (std::size_t k = 0; k < N; ++k) {
-        const auto found = std::lower_bound(ids.begin(), ids.end(), each->vertices[k]);
-        element.vertices[k] = static_cast<std::uint32_t>(found - ids.begin());
-      }
-    }
-  }
-
-  void add(std::uint64_t i) {
-    Piece slice;
-    note(range(arrays_.tets, i), slice.ids);
-    note(range(arrays_.triangles, i), slice.ids);
-    note(range(arrays_.edges, i), slice.ids);
-    const std::uint64_t first = points_.begin(ranks_.number());
-    const auto own = range(arrays_.points, i);
-    const auto own_begin = first + static_cast<std::uint64_t>(own.first - arrays_.points.data());
-    const auto own_end = first + static_cast<std::uint64_t>(own.second - arrays_.points.data());
-    for (std::uint64_t v = own_begin; v < own_end; ++v) slice.ids.push_back(v);
-    std::sort(slice.ids.begin(), slice.ids.end());
-    slice.ids.erase(std::unique(slice.ids.begin(), slice.ids.end()), slice.ids.end());
-    renumber(range(arrays_.tets, i), slice.ids, slice.tets);
-    renumber(range(arrays_.triangles, i), slice.ids, slice.triangles);
-    renumber(range(arrays_.edges, i), slice.ids, slice.edges);
-    number_tets(i, slice);
-    fetch(slice);
-    for (std::size_t k = 0; k < slice.ids.size(); ++k) {
-      if (slice.ids[k] < own_begin || slice.ids[k] >= own_end) continue;
-      slice.marks[k] = static_cast<std::uint8_t>(slice.marks[k] | kOwn);
-    }
-    to_.add_slice(ranks_.number() * slices_ + i, slice);
-  }
-
-  void number_tets(std::uint64_t i, Piece& slice) const {
-    std::uint64_t number = tets_.begin(ranks_.number()) + arrays_.tets.size() * i / slices_;
-    for (PieceTet& tet : slice.tets) {
-      tet.origin = static_cast<std::uint32_t>(std::min<std::uint64_t>(number++, PieceTet::kNone));
-    }
-  }
-
-  /// Asks the ranks that have them for the vertices of a slice.
-  void fetch(Piece& slice) const {
-    std::vector<std::string> asked(ranks_.count());
-    for (const VertexId id : slice.ids) put(id, asked[points_.rank_of(id)]);
-    std::vector<std::string> answers(ranks_.count());
-    const std::vector<std::string> questions = ranks_.exchange(std::move(asked));
-    for (std::size_t r = 0; r < questions.size(); ++r) {
-      for (std::string_view rest = questions[r]; !rest.empty();) {
-        std::uint64_t id = 0;
-        take(rest, id);
-        put(sent(id), answers[r]);
-      }
-    }
-    // Ids ascend and so do the ranks that have them: so the answers come in their order.
-    std::vector<Label> labels;
-    for (const std::string& from : ranks_.exchange(std::move(answers))) {
-      for (std::string_view rest = from; !rest.empty();) {
-        SentVertex vertex{};
-        take(rest, vertex);
-        slice.points.emplace_back(vertex.point[0], vertex.point[1], vertex.point[2]);
-        if (!slice.points.back().allFinite()) {
-          throw Error(
-              fmt::format("a coordinate of vertex {} is not a finite number", vertex.number));
-        }
-        slice.marks.push_back(vertex.is_required != 0 ? kRequired : 0);
-        labels.push_back(vertex.label);
-      }
-    }
-    const bool has = std::any_of(labels.begin(), labels.end(), [](Label l) { return l != 0; });
-    if (has) slice.labels = std::move(labels);
-  }
-
-  SentVertex sent(std::uint64_t id) const {
-    const std::uint64_t at = id - points_.begin(ranks_.number());
-    const Point& p = arrays_.points[at];
-    return {id,
-            {p.x(), p.y(), p.z()},
-            arrays_.point_labels.empty() ? 0 : arrays_.point_labels[at],
-            is_required_[at] != 0 ? 1U : 0U};
-  }
-
-  const RankShare& arrays_;
-  DividedMesh& to_;
-  Ranks& ranks_;
-  Ranges points_;
-  Ranges tets_;
-  std::uint64_t slices_ = 1;
-  std::vector<char> is_required_;
-};
 
 template <std::size_t N, class Element>
 void append_elements(const std::vector<Element>& from, const std::vector<std::uint64_t>& numbers,
@@ -221,11 +25,12 @@ void append_elements(const std::vector<Element>& from, const std::vector<std::ui
   }
 }
 
-/// Puts the vertices that came in the order of their numbers.
+/// Puts the vertices that came in the order of their numbers. Behind each is its row.
 void place_vertices(const std::vector<std::string>& came, std::uint64_t begin, std::uint64_t end,
-                    RankShare& arrays) {
+                    const RowLayout& layout, RankShare& arrays) {
   arrays.points.resize(end - begin);
   arrays.point_labels.assign(end - begin, 0);
+  std::string rows((end - begin) * layout.size(), '\0');
   for (const std::string& from : came) {
     for (std::string_view rest = from; !rest.empty();) {
       SentVertex vertex{};
@@ -233,16 +38,72 @@ void place_vertices(const std::vector<std::string>& came, std::uint64_t begin, s
       const std::uint64_t at = vertex.number - begin;
       arrays.points[at] = Point(vertex.point[0], vertex.point[1], vertex.point[2]);
       arrays.point_labels[at] = vertex.label;
+      const std::string_view row = take_front(rest, layout.size());
+      std::copy(row.begin(), row.end(), rows.data() + at * layout.size());
       if (vertex.is_required != 0) arrays.required_vertices.push_back(vertex.number);
     }
   }
   std::sort(arrays.required_vertices.begin(), arrays.required_vertices.end());
+  layout.take_rows(rows, arrays.arrays[RowKind::point]);
+}
+
+/// Of the elements of one kind that a stored piece has.
+void append_columns(const CarriedRows& rows, RowKind kind, std::size_t part, std::size_t count,
+                    RankShare& arrays) {
+  std::vector<DataArray>& of_kind = arrays.arrays[kind];
+  for (std::size_t i = 0; i < of_kind.size(); ++i) {
+    append_values(rows.column(kind, part, i, 0, count), of_kind[i]);
+  }
+}
+
+/// All numbers of the vertices of a stored piece, array by array.
+class PointColumns {
+ public:
+  PointColumns(const CarriedRows* rows, std::size_t part, std::size_t count) {
+    if (rows == nullptr) return;
+    const RowLayout& layout = rows->layout(RowKind::point);
+    for (std::size_t i = 0; i < layout.arrays().size(); ++i) {
+      columns_.push_back(rows->column(RowKind::point, part, i, 0, count));
+      widths_.push_back(layout.width(i));
+    }
+  }
+  void append_row(std::size_t v, std::string& bytes) const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      bytes.append(columns_[i], v * widths_[i], widths_[i]);
+    }
+  }
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<std::size_t> widths_;
+};
+
+/// What a rank has when values are still to come.
+RankShare share_for(const CarriedRows* rows) {
+  RankShare arrays;
+  if (rows == nullptr) return arrays;
+  for (const RowKind kind : kRowKinds) {
+    arrays.arrays[kind] = nothing_of(rows->layout(kind).arrays());
+  }
+  return arrays;
+}
+
+void append_piece(const Piece& piece, const std::vector<std::uint64_t>& numbers,
+                  const CarriedRows* rows, std::size_t part, RankShare& arrays) {
+  append_elements(piece.tets, numbers, arrays.tets);
+  append_elements(piece.triangles, numbers, arrays.triangles);
+  append_elements(piece.edges, numbers, arrays.edges);
+  if (rows == nullptr) return;
+  append_columns(*rows, RowKind::tet, part, piece.tets.size(), arrays);
+  append_columns(*rows, RowKind::triangle, part, piece.triangles.size(), arrays);
+  append_columns(*rows, RowKind::edge, part, piece.edges.size(), arrays);
 }
 
 }  // namespace
 
-void ArrayFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const {
-  write(file, take_arrays(mesh));
+void ArrayFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                              const CarriedRows* rows) const {
+  write(file, take_arrays(mesh, rows));
 }
 
 bool SeveralArrayFiles::is_one(const std::filesystem::path& file) const {
@@ -264,9 +125,9 @@ void SeveralArrayFiles::write(const std::filesystem::path& file, const RankShare
   of(file).write(file, arrays);
 }
 
-void SeveralArrayFiles::write_stored(const std::filesystem::path& file,
-                                     const DividedMesh& mesh) const {
-  of(file).write_stored(file, mesh);
+void SeveralArrayFiles::write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                                     const CarriedRows* rows) const {
+  of(file).write_stored(file, mesh, rows);
 }
 
 void SeveralArrayFiles::check_output(const std::filesystem::path& file) const {
@@ -279,6 +140,11 @@ bool SeveralArrayFiles::is_in_parts(const std::filesystem::path& file) const {
 
 bool SeveralArrayFiles::has_required_vertices(const std::filesystem::path& file) const {
   return of(file).has_required_vertices(file);
+}
+
+bool SeveralArrayFiles::takes(const std::filesystem::path& file, RowKind kind,
+                              const DataArray& array) const {
+  return of(file).takes(file, kind, array);
 }
 
 RankShare all_of(const MeshData& data) {
@@ -296,7 +162,46 @@ RankShare all_of(const MeshData& data) {
   take(data.triangles, arrays.triangles);
   take(data.edges, arrays.edges);
   arrays.required_vertices.assign(data.required_vertices.begin(), data.required_vertices.end());
+  arrays.arrays[RowKind::point] = data.point_data;
+  arrays.arrays[RowKind::tet] = data.tet_data;
+  arrays.arrays[RowKind::triangle] = data.triangle_data;
+  arrays.arrays[RowKind::edge] = data.edge_data;
   return arrays;
+}
+
+bool has_arrays(const KindArrays& arrays) {
+  return std::any_of(kRowKinds.begin(), kRowKinds.end(),
+                     [&](RowKind kind) { return !arrays[kind].empty(); });
+}
+
+void share_outlines(KindArrays& arrays, Ranks& ranks) {
+  std::string bytes;
+  for (const RowKind kind : kRowKinds) {
+    put(std::uint64_t{arrays[kind].size()}, bytes);
+    for (const DataArray& array : arrays[kind]) append_outline(array, bytes);
+  }
+  const std::string all = ranks.gather(ranks.is_first() ? bytes : std::string()).front();
+  if (ranks.is_first()) return;
+  std::string_view rest = all;
+  for (const RowKind kind : kRowKinds) {
+    std::uint64_t count = 0;
+    take(rest, count);
+    arrays[kind].clear();
+    for (std::uint64_t i = 0; i < count; ++i) arrays[kind].push_back(take_outline(rest));
+  }
+}
+
+KindArrays gather_arrays(const KindArrays& arrays, Ranks& ranks) {
+  KindArrays all;
+  for (const RowKind kind : kRowKinds) {
+    for (const DataArray& mine : arrays[kind]) {
+      std::vector<std::string> to(ranks.count());
+      to[0] = bytes_of_values(mine);
+      DataArray& made = all[kind].emplace_back(nothing_of(mine));
+      for (const std::string& from : ranks.exchange(std::move(to))) append_values(from, made);
+    }
+  }
+  return all;
 }
 
 ArrayCounts count_all(const RankShare& arrays, Ranks& ranks) {
@@ -312,11 +217,11 @@ ArrayCounts count_all(const RankShare& arrays, Ranks& ranks) {
 }
 
 void add_arrays(const RankShare& arrays, DividedMesh& to) {
-  Slicer(arrays, to).add_all();
+  ShareSlices(arrays, to.ranks()).add_to(to);
 }
 
-RankShare take_arrays(const DividedMesh& mesh) {
-  RankShare arrays;
+RankShare take_arrays(const DividedMesh& mesh, const CarriedRows* rows) {
+  RankShare arrays = share_for(rows);
   Ranks& ranks = mesh.ranks();
   const Numbering numbering(mesh);
   const std::uint64_t total = numbering.size();
@@ -326,6 +231,7 @@ RankShare take_arrays(const DividedMesh& mesh) {
   for (const std::size_t part : mesh.own()) {
     const Piece piece = mesh.stored(part);
     std::vector<std::uint64_t> numbers(piece.ids.size());
+    const PointColumns columns(rows, part, piece.ids.size());
     for (std::size_t v = 0; v < numbers.size(); ++v) {
       numbers[v] = numbering.number(piece.ids[v]);
       if ((piece.marks[v] & kOwn) == 0) continue;
@@ -337,13 +243,13 @@ RankShare take_arrays(const DividedMesh& mesh) {
                      piece.label(v),
                      (piece.marks[v] & kRequired) != 0 ? 1U : 0U},
           to[rank]);
+      columns.append_row(v, to[rank]);
     }
-    append_elements(piece.tets, numbers, arrays.tets);
-    append_elements(piece.triangles, numbers, arrays.triangles);
-    append_elements(piece.edges, numbers, arrays.edges);
+    append_piece(piece, numbers, rows, part, arrays);
   }
   place_vertices(ranks.exchange(std::move(to)), begin_of(ranks.number()),
-                 begin_of(ranks.number() + 1), arrays);
+                 begin_of(ranks.number() + 1), RowLayout(nothing_of(arrays.arrays[RowKind::point])),
+                 arrays);
   const bool has_labels =
       ranks.any(std::any_of(arrays.point_labels.begin(), arrays.point_labels.end(),
                             [](Label label) { return label != 0; }));

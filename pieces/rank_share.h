@@ -12,8 +12,11 @@
 
 #include "kernel/mesh_data.h"
 #include "pieces/divided_mesh.h"
+#include "pieces/rows.h"
 
 namespace tetmend::pieces {
+
+class CarriedRows;
 
 /// What one rank has. Vertices are numbered through: those of the first rank first. Elements of one
 /// rank come before those of the next.
@@ -29,7 +32,10 @@ struct RankShare {
   std::vector<Element<3>> triangles;
   std::vector<Element<2>> edges;
   std::vector<std::uint64_t> required_vertices;  ///< in the whole mesh
-  std::vector<std::string> notes;                ///< what of a file is not here, one sentence each
+  /// Values of its own points and elements. All ranks have the same arrays, also where they have no
+  /// values for them.
+  KindArrays arrays;
+  std::vector<std::string> notes;  ///< what of a file is not here, one sentence each
 };
 
 /// Files that all ranks read and write together.
@@ -44,13 +50,19 @@ class ArrayFiles {
   /// All ranks. @throws Error
   virtual void write(const std::filesystem::path& file, const RankShare& arrays) const = 0;
   /// All ranks: the stored pieces. @throws Error
-  virtual void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const;
+  /// @param rows of their points and elements; null: none
+  virtual void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                            const CarriedRows* rows) const;
   /// @throws Error when it is known already that it cannot be written
   virtual void check_output(const std::filesystem::path&) const {}
   /// Whether each stored piece is a file of its own.
   virtual bool is_in_parts(const std::filesystem::path&) const { return false; }
   /// Whether it can hold required vertices.
   virtual bool has_required_vertices(const std::filesystem::path&) const { return true; }
+  /// Whether it can hold an array.
+  virtual bool takes(const std::filesystem::path&, RowKind, const DataArray&) const {
+    return false;
+  }
 };
 
 /// Those of several kinds: the first that knows a file has it. All must outlive it.
@@ -60,10 +72,13 @@ class SeveralArrayFiles final : public ArrayFiles {
   bool is_one(const std::filesystem::path& file) const override;
   RankShare read(const std::filesystem::path& file, const std::string& label_array) const override;
   void write(const std::filesystem::path& file, const RankShare& arrays) const override;
-  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh) const override;
+  void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
+                    const CarriedRows* rows) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path& file) const override;
   bool has_required_vertices(const std::filesystem::path& file) const override;
+  bool takes(const std::filesystem::path& file, RowKind kind,
+             const DataArray& array) const override;
 
  private:
   /// Precondition: is_one().
@@ -74,6 +89,12 @@ class SeveralArrayFiles final : public ArrayFiles {
 
 /// All of a mesh, as the share of one rank.
 RankShare all_of(const MeshData& data);
+
+bool has_arrays(const KindArrays& arrays);
+/// All ranks: each gets those that the first one has, without values.
+void share_outlines(KindArrays& arrays, Ranks& ranks);
+/// All ranks: the first one gets the values of all.
+KindArrays gather_arrays(const KindArrays& arrays, Ranks& ranks);
 
 /// All ranks: how many elements there are on all of them.
 struct ArrayCounts {
@@ -89,6 +110,7 @@ void add_arrays(const RankShare& arrays, DividedMesh& to);
 /// All ranks: the stored pieces as such arrays. Vertices and elements have the order of join(),
 /// vertices are shared out evenly, elements stay where their pieces are. Precondition: each rank has a
 /// range of the pieces, as after a division without zones.
-RankShare take_arrays(const DividedMesh& mesh);
+/// @param rows of the pieces; null: none
+RankShare take_arrays(const DividedMesh& mesh, const CarriedRows* rows = nullptr);
 
 }  // namespace tetmend::pieces

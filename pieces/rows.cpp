@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <variant>
+
+#include "pieces/bytes.h"
 
 namespace tetmend::pieces {
 
@@ -32,7 +35,78 @@ void save(Value value, char* at) {
   std::memcpy(at, &value, sizeof(value));
 }
 
+/// An empty array of the type that has this place among the types of values.
+template <std::size_t I = 0>
+DataArray::Values values_of_type(std::size_t type) {
+  if constexpr (I + 1 < std::variant_size_v<DataArray::Values>) {
+    if (type != I) return values_of_type<I + 1>(type);
+  }
+  return DataArray::Values(std::in_place_index<I>);
+}
+
 }  // namespace
+
+DataArray nothing_of(const DataArray& array) {
+  return {array.name, array.components, values_of_type(array.values.index())};
+}
+
+std::vector<DataArray> nothing_of(const std::vector<DataArray>& arrays) {
+  std::vector<DataArray> all;
+  for (const DataArray& array : arrays) all.push_back(nothing_of(array));
+  return all;
+}
+
+bool is_like(const DataArray& a, const DataArray& b) {
+  return a.name == b.name && a.components == b.components && a.values.index() == b.values.index();
+}
+
+std::string_view bytes_of_values(const DataArray& array) {
+  return std::visit(
+      [](const auto& values) {
+        return std::string_view(reinterpret_cast<const char*>(values.data()),
+                                values.size() * sizeof(values[0]));
+      },
+      array.values);
+}
+
+void append_values(std::string_view bytes, DataArray& array) {
+  if (bytes.empty()) return;
+  std::visit(
+      [&](auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        const std::size_t before = values.size();
+        values.resize(before + bytes.size() / sizeof(Value));
+        std::memcpy(values.data() + before, bytes.data(), bytes.size());
+      },
+      array.values);
+}
+
+void append_nothing(std::size_t numbers, DataArray& array) {
+  std::visit(
+      [&](auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        values.resize(values.size() + numbers, std::numeric_limits<Value>::quiet_NaN());
+      },
+      array.values);
+}
+
+void append_outline(const DataArray& array, std::string& bytes) {
+  put(array.name, bytes);
+  put(std::uint64_t{array.components}, bytes);
+  put(std::uint64_t{array.values.index()}, bytes);
+}
+
+DataArray take_outline(std::string_view& bytes) {
+  DataArray array;
+  std::uint64_t components = 0;
+  std::uint64_t type = 0;
+  take(bytes, array.name);
+  take(bytes, components);
+  take(bytes, type);
+  array.components = components;
+  array.values = values_of_type(type);
+  return array;
+}
 
 RowLayout::RowLayout(std::vector<DataArray> arrays) : arrays_(std::move(arrays)) {
   for (std::size_t i = 0; i < arrays_.size(); ++i) {
@@ -99,6 +173,24 @@ void RowLayout::average(std::size_t array, const std::vector<std::pair<const cha
       save(static_cast<Value>(mean), to + places_[array] + k * sizeof(Value));
     }
   });
+}
+
+void RowLayout::append_rows(const std::vector<DataArray>& from, std::size_t begin, std::size_t end,
+                            std::string& rows) const {
+  const std::size_t before = rows.size();
+  rows.resize(before + (end - begin) * size_);
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    char* row = rows.data() + before;
+    for (std::size_t k = begin; k < end; ++k, row += size_) set(i, from[i].values, k, row);
+  }
+}
+
+void RowLayout::take_rows(std::string_view rows, std::vector<DataArray>& to) const {
+  for (std::size_t i = 0; i < arrays_.size(); ++i) {
+    std::string column;
+    append_column(i, rows, column);
+    append_values(column, to[i]);
+  }
 }
 
 void RowLayout::append_column(std::size_t array, std::string_view rows, std::string& bytes) const {

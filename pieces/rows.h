@@ -15,8 +15,11 @@
 namespace tetmend::pieces {
 
 /// What has rows. Of a vertex: what goes where it goes; of a point: what belongs to its place.
-enum class RowKind : std::size_t { vertex, point, tet, triangle, edge };
-inline constexpr std::array<RowKind, 5> kRowKinds = {RowKind::vertex, RowKind::point, RowKind::tet,
+enum class RowKind : std::size_t { point, tet, triangle, edge, vertex };
+inline constexpr std::array<RowKind, 5> kAllRowKinds = {
+    RowKind::point, RowKind::tet, RowKind::triangle, RowKind::edge, RowKind::vertex};
+/// What files have arrays of.
+inline constexpr std::array<RowKind, 4> kRowKinds = {RowKind::point, RowKind::tet,
                                                      RowKind::triangle, RowKind::edge};
 /// Something for each kind.
 template <class Value>
@@ -26,8 +29,27 @@ class ByKind {
   const Value& operator[](RowKind kind) const { return values_[static_cast<std::size_t>(kind)]; }
 
  private:
-  std::array<Value, kRowKinds.size()> values_{};
+  std::array<Value, kAllRowKinds.size()> values_{};
 };
+
+/// For each kind arrays of all that has rows, in the same order.
+using KindArrays = ByKind<std::vector<DataArray>>;
+
+/// Name, components and type, without values.
+DataArray nothing_of(const DataArray& array);
+std::vector<DataArray> nothing_of(const std::vector<DataArray>& arrays);
+/// True for arrays that differ in their values alone.
+bool is_like(const DataArray& a, const DataArray& b);
+/// Its numbers, as they are in memory.
+std::string_view bytes_of_values(const DataArray& array);
+/// Appends such numbers.
+void append_values(std::string_view bytes, DataArray& array);
+/// Appends what says "none" for so many numbers: 0 for integers, NaN.
+void append_nothing(std::size_t numbers, DataArray& array);
+
+/// What nothing_of() leaves, as bytes. @throws Error when they end too early
+void append_outline(const DataArray& array, std::string& bytes);
+DataArray take_outline(std::string_view& bytes);
 
 /// Where in a row the numbers of each array stand.
 class RowLayout {
@@ -54,6 +76,11 @@ class RowLayout {
                char* to) const;
   /// Appends what `rows` have of an array.
   void append_column(std::size_t array, std::string_view rows, std::string& bytes) const;
+  /// Appends the rows of things from `begin` to `end`. Precondition: arrays like these, with values.
+  void append_rows(const std::vector<DataArray>& from, std::size_t begin, std::size_t end,
+                   std::string& rows) const;
+  /// The other way. Precondition: arrays like these.
+  void take_rows(std::string_view rows, std::vector<DataArray>& to) const;
 
  private:
   std::vector<DataArray> arrays_;

@@ -2,11 +2,14 @@
 // The layout of the format: kernel/formats/vtu_writer.cpp.
 #include "pieces/vtu_output.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtu_array.h"
@@ -18,6 +21,36 @@ namespace tetmend::pieces {
 namespace {
 
 using Take = std::function<void(std::string_view)>;
+
+/// An array over all cells, as join_cell_arrays() makes it, and which it is among those of each kind.
+struct CellArray {
+  DataArray outline;
+  ByKind<std::optional<std::size_t>> places;
+};
+
+constexpr std::array<RowKind, 3> kCellKinds = {RowKind::tet, RowKind::triangle, RowKind::edge};
+
+std::vector<CellArray> join_cell_arrays(const CarriedRows& rows) {
+  std::vector<CellArray> joined;
+  for (const RowKind kind : kCellKinds) {
+    const std::vector<DataArray>& arrays = rows.layout(kind).arrays();
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+      auto found = std::find_if(joined.begin(), joined.end(), [&](const CellArray& array) {
+        return !array.places[kind] && is_like(array.outline, arrays[i]);
+      });
+      if (found == joined.end()) found = joined.insert(found, {arrays[i], {}});
+      found->places[kind] = i;
+    }
+  }
+  return joined;
+}
+
+/// What cells have that have no such array.
+std::string bytes_of_nothing(const DataArray& outline, std::size_t count) {
+  DataArray nothing = outline;
+  append_nothing(count * outline.components, nothing);
+  return std::string(bytes_of_values(nothing));
+}
 
 /// The first rank writes what all send it. Each array is walked through twice, see VtuArray.
 class VtuWriter {
@@ -35,8 +68,7 @@ class VtuWriter {
       write_array(extras_.label_array.empty() ? "CellEntityIds" : extras_.label_array, "Int32", 1,
                   [&](const Take& take) { tell_labels(take); });
     }
-    write_rows(RowKind::tet,
-               [&](std::size_t array, const Take& take) { tell_rows_of_cells(array, take); });
+    write_rows_of_cells();
     put("</CellData>\n<Points>\n");
     write_array("Points", "Float64", 3, [&](const Take& take) { tell_points(take); });
     put("</Points>\n<Cells>\n");
@@ -68,28 +100,36 @@ class VtuWriter {
     if (walk_.has_point_labels()) {
       write_array("CellEntityIds", "Int32", 1, [&](const Take& take) { tell_point_labels(take); });
     }
-    write_rows(RowKind::point, [&](std::size_t array, const Take& take) {
-      const auto pack = [&](std::size_t part, std::size_t begin, const Piece& vertices) {
-        return rows_->column(RowKind::point, part, array, begin, begin + vertices.ids.size());
-      };
-      walk_.vertex_bytes(rows_->layout(RowKind::point).width(array), pack, take);
-    });
+    if (has_rows) write_rows_of_points();
     put("</PointData>\n");
   }
-  template <class Tell>
-  void write_rows(RowKind kind, Tell tell) {
-    if (rows_ == nullptr) return;
-    const std::vector<DataArray>& arrays = rows_->layout(kind).arrays();
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
-      write_array(arrays[i].name, formats::vtu_type_of(arrays[i]), arrays[i].components,
-                  [&](const Take& take) { tell(i, take); });
+  void write_rows_of_points() {
+    const RowLayout& layout = rows_->layout(RowKind::point);
+    for (std::size_t i = 0; i < layout.arrays().size(); ++i) {
+      const auto pack = [&](std::size_t part, std::size_t begin, const Piece& vertices) {
+        return rows_->column(RowKind::point, part, i, begin, begin + vertices.ids.size());
+      };
+      write_array(layout.arrays()[i],
+                  [&](const Take& take) { walk_.vertex_bytes(layout.width(i), pack, take); });
     }
   }
-  void tell_rows_of_cells(std::size_t array, const Take& take) const {
+  void write_rows_of_cells() {
+    if (rows_ == nullptr) return;
+    for (const CellArray& array : join_cell_arrays(*rows_)) {
+      write_array(array.outline, [&](const Take& take) { tell_rows_of_cells(array, take); });
+    }
+  }
+  template <class Tell>
+  void write_array(const DataArray& outline, Tell tell) {
+    write_array(outline.name, formats::vtu_type_of(outline), outline.components, tell);
+  }
+  void tell_rows_of_cells(const CellArray& array, const Take& take) const {
     const auto tell = [&](RowKind kind, auto list) {
       walk_.pieces(
           [&](std::size_t part, std::string& bytes) {
-            bytes = rows_->column(kind, part, array, 0, walk_.count(part, list));
+            const std::size_t count = walk_.count(part, list);
+            bytes = array.places[kind] ? rows_->column(kind, part, *array.places[kind], 0, count)
+                                       : bytes_of_nothing(array.outline, count);
           },
           take);
     };

@@ -27,6 +27,7 @@ class VtuSlices final : public FileSlices {
 
   MeshData digest() const override;
   bool has_all_in_rows() const override;
+  bool has_only_arrays() const override { return has_all_in_rows(); }
   ByKind<RowLayout> row_layouts() const override;
 
  protected:

@@ -6,6 +6,7 @@ usage: mpi_test.py TETMEND TETMEND_MPI|none SOURCE_FOLDER
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -213,6 +214,104 @@ def seen_by_meshio(folder):
           seen[4] == seen[0], "meshio sees another mesh", done.stdout, done.stderr[-300:])
 
 
+def write_data(folder):
+    """A mesh with arrays, also with names that HDF5 has no path for; as tetmend writes it."""
+    run(PROGRAM, "convert", MESHES / "two_materials.mesh", folder / "plain.vtu")
+    text = (folder / "plain.vtu").read_bytes()
+    points, cells = (int(re.search(rb'NumberOf%s="(\d+)"' % kind, text)[1]) for kind in (b"Points", b"Cells"))
+
+    def array(kind, name, components, count):
+        values = ((7 * i) % 1000 / (8 if kind[0] == "F" else 1) for i in range(count * components))
+        return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
+                + " ".join(f"{value:g}" for value in values) + "</DataArray>\n").encode()
+
+    of_points = b"".join(array(kind, name, components, points) for kind, name, components in (
+        ("Float64", "temperature", 1), ("Float32", "a/b", 3), ("Int64", ".", 1), ("Int32", "x:y &lt;z", 2),
+        ("Float64", " blank", 1)))
+    of_cells = array("Float64", "density", 1, cells) + array("Float32", "stress", 9, cells) + array("Int64", "id", 1, cells)
+    if b"<PointData>" not in text:
+        text = text.replace(b"<CellData>", b"<PointData>\n</PointData>\n<CellData>", 1)
+    text = text.replace(b"</PointData>", of_points + b"</PointData>").replace(b"</CellData>", of_cells + b"</CellData>")
+    (folder / "ascii.vtu").write_bytes(text)
+    done = run(PROGRAM, "convert", folder / "ascii.vtu", folder / "data.vtu")
+    check(done.returncode == 0 and done.stderr == "", "a mesh with arrays", done.stderr)
+
+
+def arrays_of_hdf5(folder):
+    """They are those of one process with a .vtu file, for any number of ranks."""
+    write_data(folder)
+    data = folder / "data.vtu"
+    contents = set()
+    for ranks in (1, 2, 3, 8):
+        done = run("mpirun", "-n", ranks, MPI_PROGRAM, "convert", data, folder / "data.h5")
+        check(done.returncode == 0 and done.stderr == "", "arrays to .h5", ranks, done.stderr)
+        contents.add((folder / "data.h5").read_bytes())
+    check(len(contents) == 1, "the number of ranks shows in arrays of .h5")
+    for way in ("data.h5", "data.pvtu"):
+        if way != "data.h5":
+            run("mpirun", "-n", 2, MPI_PROGRAM, "convert", folder / "data.h5", folder / way)
+        done = run("mpirun", "-n", 3, MPI_PROGRAM, "convert", folder / way, folder / "again.vtu")
+        check((folder / "again.vtu").read_bytes() == data.read_bytes(), "arrays there and back", way, done.stderr)
+    for more in ([], ["--pieces", 3], ["--pieces", 3, "--conserve", "density"]):
+        out, expected, improved = folder / "out.vtu", folder / "expected.vtu", set()
+        run(PROGRAM, "improve", data, "-o", expected, "-q", *more)
+        for ranks in (1, 2, 5):
+            done = run(*mpi(ranks, folder / "data.h5", "-o", out, "-q", *more))
+            check(done.returncode == 0 and done.stderr == "", "improve with arrays", ranks, more, done.stderr)
+            check(out.read_bytes() == expected.read_bytes(), "other arrays from .h5", ranks, more)
+            run(*mpi(ranks, folder / "data.h5", "-o", folder / "improved.h5", "-q", *more))
+            improved.add((folder / "improved.h5").read_bytes())
+        run(*mpi(2, data, "-o", folder / "improved.h5", "-q", *more))
+        improved.add((folder / "improved.h5").read_bytes())
+        check(len(improved) == 1, "ranks or the format of the input show in improved arrays", more)
+        done = run("mpirun", "-n", 2, MPI_PROGRAM, "convert", folder / "improved.h5", out)
+        check(out.read_bytes() == expected.read_bytes(), "other arrays to .h5", more, done.stderr)
+    done = run(*mpi(2, folder / "data.h5", "-o", folder / "report.h5", "--pieces", 3))
+    check(done.stdout.count("data of points 'a/b': linear in the old mesh") == 1, "no report of arrays", done.stdout)
+    done = run(*mpi(2, folder / "data.h5", "-o", folder / "report.h5", "--pieces", 3, "--conserve", "id", "-q"))
+    check(done.returncode != 0 and "id" in done.stderr, "integers are conserved", done.stderr)
+    done = run("mpirun", "-n", 2, MPI_PROGRAM, "convert", folder / "data.h5", folder / "data_%d.msh")
+    check(done.stderr.count("the array 'density' of tets is not written") == 1, "lost arrays are not named", done.stderr)
+    arrays_seen_by_others(folder)
+
+
+def arrays_seen_by_others(folder):
+    """By h5py and meshio, if they are there. What h5py adds is read, or named."""
+    if run("/usr/bin/python3", "-c", "import meshio, h5py").returncode != 0:
+        print("meshio or h5py is not there: arrays of .h5 were not tried by others")
+        return
+    script = """
+import sys, h5py, meshio, numpy
+seen = meshio.read(sys.argv[1] + "/data.xdmf")
+print(sorted(seen.point_data), [values[0].shape[1:] for values in seen.cell_data.values()], seen.point_data["a/b"][1].tolist())
+with h5py.File(sys.argv[1] + "/data.h5", "r+") as file:
+    print(sorted(file["point_data"]), file["cell_data/density"][5])
+    points = len(file["geometry"])
+    file["point_data/half"] = numpy.arange(points, dtype="f2")
+    file["point_data/short"] = numpy.arange(points, dtype=">u2")
+    file["point_data/cube"] = numpy.zeros((points, 2, 2))
+    file["point_data/fewer"] = numpy.zeros(points - 1)
+    file["point_data/unsigned"] = numpy.zeros(points, dtype="u8")
+    file["point_data/more/deeper"] = numpy.zeros(points)
+    file["point_data/array-2"].attrs["name"] = "renamed"
+    file["edge_data/x"] = numpy.zeros(3)
+    file["fields"] = numpy.zeros(3)
+"""
+    done = run("/usr/bin/python3", "-c", script, folder)
+    lines = done.stdout.splitlines()
+    check(lines == ["[' blank', '.', 'a/b', 'temperature', 'x:y <z'] [(), (), (9,), ()] [2.625, 3.5, 4.375]",
+                    "['array-2', 'array-3', 'array-4', 'array-5', 'temperature'] 4.375"], "others see other arrays", done.stdout,
+          done.stderr[-500:])
+    done = run("mpirun", "-n", 3, MPI_PROGRAM, "convert", folder / "data.h5", folder / "more.vtu")
+    for name in ("point_data/cube", "point_data/fewer", "point_data/unsigned", "point_data/more", "edge_data/x", "fields"):
+        check(done.stderr.count(f"/{name} is not kept") == 1, "what is no array is not named", name, done.stderr)
+    check(done.returncode == 0 and done.stderr.count("note:") == 6, "other notes", done.stderr)
+    text = (folder / "more.vtu").read_bytes()
+    for tag in (b'"Float32" Name="half"', b'"Int32" Name="short"', b'"Float32" Name="renamed"'):
+        check(tag in text, "an array of others is not read", tag)
+    check(b'Name="a/b"' not in text and b'Name="cube"' not in text, "an array that is not there")
+
+
 def meshes_in_parts(folder):
     """Written and read by all processes: their number shows in neither."""
     for name in ("out.pvtu", "out_%d.msh"):
@@ -312,6 +411,8 @@ def main() -> int:
             mistakes(folder)
             killed_rank(folder, expected)
             files_of_hdf5(folder, expected)
+            if (folder / "whole.h5").exists():
+                arrays_of_hdf5(folder)
             meshes_in_parts(folder)
         else:
             print("tetmend-mpi or mpirun is not there: processes of MPI were not tried")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Meshes in several files: no rank has all, and none of them shows in the result.
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -202,7 +203,183 @@ TEST_CASE("parts without numbers of their points are one mesh by their places") 
   }
 }
 
-TEST_CASE("ghost tets of parts go, and arrays that are not kept are named") {
+namespace {
+
+/// Arrays of points, tets, triangles and edges, as the whole mesh of parts has them.
+MeshData mesh_with_arrays() {
+  MeshData data = mesh_of_vtk();
+  data.label_array = "CellEntityIds";
+  std::vector<double> heights;
+  std::vector<float> winds;
+  for (const Point& p : data.points) {
+    heights.push_back(p.z() * p.z() + p.x());
+    for (const double x : p) winds.push_back(static_cast<float>(x * 0.3));
+  }
+  data.point_data = {{"height", 1, heights}, {"wind", 3, winds}};
+  const auto give = [](const auto& elements, std::vector<DataArray>& arrays) {
+    std::vector<double> density;
+    std::vector<std::int32_t> colours;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      density.push_back(1.0 / static_cast<double>(i + 1));
+      colours.push_back(static_cast<std::int32_t>(i % 3));
+    }
+    arrays = {{"density", 1, density}, {"colour", 1, colours}};
+  };
+  give(data.tets, data.tet_data);
+  give(data.triangles, data.triangle_data);
+  give(data.edges, data.edge_data);
+  return data;
+}
+
+void convert_with_arrays(const std::filesystem::path& in, const std::filesystem::path& out,
+                         Ranks& ranks, std::size_t parts = 0) {
+  const PvtuFiles pvtu(ranks);
+  pieces::InputMesh mesh(in, ranks, &pvtu);
+  CHECK(mesh.lost_in(out).empty());
+  pieces::MemoryShelf shelf;
+  pieces::DividedMesh slices(shelf, ranks, mesh.vertices());
+  const bool holds_more = mesh.holds_more(out);
+  CHECK(holds_more);
+  mesh.add_to(slices, kPieces);
+  pieces::write_pieces(
+      out, slices,
+      {.vertices = mesh.vertices(), .array_files = &pvtu, .parts = parts, .source = in});
+}
+
+}  // namespace
+
+TEST_CASE(
+    "arrays go into parts and come out of them, with the same bytes for any number of ranks") {
+  const Folder folder;
+  const auto in = folder.path() / "in.vtu";
+  const auto parts = folder.path() / "parts.pvtu";
+  save(in, MeshAccess::make(mesh_with_arrays()));
+  std::map<std::string, std::string> expected;
+  std::string whole;
+  for (const std::size_t count : {1, 2, 5}) {
+    CAPTURE(count);
+    on_ranks(count, [&](Ranks& ranks) { convert_with_arrays(in, parts, ranks, kPieces); });
+    const auto now = bytes_of_all(parts);
+    CHECK(now.size() == kPieces + 1);
+    if (expected.empty()) expected = now;
+    CHECK((now == expected));
+    const auto again = folder.path() / "again.vtu";
+    on_ranks(6 - count, [&](Ranks& ranks) { convert_with_arrays(parts, again, ranks); });
+    if (whole.empty()) whole = bytes_of(again);
+    CHECK(bytes_of(again) == whole);
+  }
+  const MeshData before = read_mesh(in);
+  const MeshData after = read_mesh(folder.path() / "again.vtu");
+  CHECK(after.point_data == before.point_data);  // points have their order
+  // Tets have another one: each is known by its vertices.
+  const auto by_vertices = [](const MeshData& data) {
+    std::map<std::array<std::uint32_t, 4>, std::pair<double, std::int32_t>> values;
+    for (std::size_t t = 0; t < data.tets.size(); ++t) {
+      values[data.tets[t].vertices] = {
+          std::get<std::vector<double>>(data.tet_data.at(0).values).at(t),
+          std::get<std::vector<std::int32_t>>(data.tet_data.at(1).values).at(t)};
+    }
+    return values;
+  };
+  CHECK((by_vertices(after) == by_vertices(before)));
+  CHECK(after.triangle_data == before.triangle_data);
+  CHECK(after.edge_data == before.edge_data);
+}
+
+TEST_CASE("whole numbers of tets stay data in parts, where the mesh has no labels") {
+  const Folder folder;
+  MeshData data = mesh_with_arrays();
+  for (MeshData::Tet& tet : data.tets) tet.label = 0;
+  data.triangles.clear();
+  data.triangle_data.clear();
+  data.edges.clear();
+  data.edge_data.clear();
+  const auto in = folder.path() / "in.vtu";
+  const auto parts = folder.path() / "parts.pvtu";
+  const auto again = folder.path() / "again.vtu";
+  save(in, MeshAccess::make(data));
+  on_ranks(2, [&](Ranks& ranks) {
+    convert_with_arrays(in, parts, ranks, kPieces);
+    convert_with_arrays(parts, again, ranks);
+  });
+  const MeshData after = read_mesh(again);
+  REQUIRE(after.tet_data.size() == 2);
+  CHECK(after.tet_data[1].name == "colour");
+  CHECK(after.tets.front().label == 0);
+}
+
+TEST_CASE("a run from parts to parts carries their arrays as a run from a file of all of it") {
+  const Folder folder;
+  const auto in = folder.path() / "in.vtu";
+  const auto parts = folder.path() / "parts.pvtu";
+  const auto same = folder.path() / "same.vtu";  // in the order of the parts
+  save(in, MeshAccess::make(mesh_with_arrays()));
+  on_ranks(2, [&](Ranks& ranks) {
+    convert_with_arrays(in, parts, ranks, kPieces);
+    convert_with_arrays(parts, same, ranks);
+  });
+  const auto improve = [&](const std::filesystem::path& from, const std::filesystem::path& to,
+                           Ranks& ranks) {
+    const PvtuFiles pvtu(ranks);
+    pieces::OutOfCore files;
+    files.input = from;
+    files.output = to;
+    files.array_files = &pvtu;
+    files.tell_lost = [](const std::vector<std::string>& lost) { CHECK(lost.empty()); };
+    pieces::Division division;
+    division.pieces = kPieces;
+    const Result result = pieces::improve_files(files, {.conserve = {"density"}}, division, ranks);
+    CHECK(result.carried.size() == (ranks.is_first() ? 4 : 0));
+  };
+  const auto expected = folder.path() / "expected.vtu";
+  const auto whole = folder.path() / "whole.vtu";
+  on_ranks(1, [&](Ranks& ranks) { improve(same, expected, ranks); });
+  for (const std::size_t count : {1, 2, 5}) {
+    CAPTURE(count);
+    const auto out = folder.path() / "out.pvtu";
+    on_ranks(count, [&](Ranks& ranks) {
+      improve(parts, whole, ranks);
+      improve(parts, out, ranks);
+    });
+    CHECK(bytes_of(whole) == bytes_of(expected));
+    on_ranks(2, [&](Ranks& ranks) { convert_with_arrays(out, whole, ranks); });
+    CHECK(bytes_of(whole) == bytes_of(expected));
+  }
+}
+
+TEST_CASE("where parts have several values for a point, that of the first part counts") {
+  const Folder folder;
+  const auto in = folder.path() / "in.vtu";
+  const auto parts = folder.path() / "in.pvtu";
+  save(in, MeshAccess::make(mesh_with_arrays()));
+  on_ranks(2, [&](Ranks& ranks) { convert_with_arrays(in, parts, ranks, kPieces); });
+  double number = 0;
+  std::map<std::int64_t, double> expected;
+  for (const auto& part : pieces::read_pvtu(parts)) {
+    MeshData data = read_mesh(part);
+    for (DataArray& array : data.point_data) {
+      if (array.name == "height") array.values = std::vector<double>(data.points.size(), number);
+      if (array.name != "GlobalNodeId") continue;
+      for (const std::int64_t id : std::get<std::vector<std::int64_t>>(array.values)) {
+        expected.emplace(id, number);
+      }
+    }
+    write_mesh(part, data);
+    ++number;
+  }
+  for (const std::size_t count : {1, 3}) {
+    CAPTURE(count);
+    const auto out = folder.path() / "out.vtu";
+    on_ranks(count, [&](Ranks& ranks) { convert_with_arrays(parts, out, ranks); });
+    const MeshData data = read_mesh(out);
+    const auto& heights = std::get<std::vector<double>>(data.point_data.at(0).values);
+    REQUIRE(heights.size() == expected.size());
+    for (const auto& [id, height] : expected)
+      CHECK(heights[static_cast<std::size_t>(id)] == height);
+  }
+}
+
+TEST_CASE("ghost tets of parts go with their values, and arrays that some parts lack are named") {
   const Folder folder;
   const auto in = folder.path() / "in.meshb";
   const auto parts = folder.path() / "in.pvtu";
@@ -218,16 +395,25 @@ TEST_CASE("ghost tets of parts go, and arrays that are not kept are named") {
       ghosts.push_back(1);
     }
     data.tet_data.push_back({"vtkGhostType", 1, ghosts});
-    data.point_data.push_back({"heat", 1, std::vector<double>(data.points.size(), 1.0)});
+    if (part == pieces::read_pvtu(parts).front()) {
+      data.point_data.push_back({"heat", 1, std::vector<double>(data.points.size(), 1.0)});
+    }
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < data.tets.size(); ++i) sizes.push_back(ghosts[i] == 0 ? 2.5 : -1);
+    data.tet_data.push_back({"size", 1, sizes});
     write_mesh(part, data);
   }
   on_ranks(2, [&](Ranks& ranks) {
     const PvtuFiles files(ranks);
     const pieces::InputMesh mesh(parts, ranks, &files);
     CHECK(mesh.tets() == tets);
-    CHECK(mesh.lost_in(folder.path() / "x.pvtu") ==
-          std::vector<std::string>{
-              "the array 'heat' of points is not kept: parts have labels alone"});
+    CHECK(
+        mesh.lost_in(folder.path() / "x.pvtu") ==
+        std::vector<std::string>{"the array 'heat' of points is not kept: not all parts have it"});
+    const pieces::RankShare share = files.read(parts, {});
+    REQUIRE(share.arrays[pieces::RowKind::tet].size() == 1);
+    CHECK(share.arrays[pieces::RowKind::tet].front().values ==
+          DataArray::Values(std::vector<double>(share.tets.size(), 2.5)));
   });
 }
 
