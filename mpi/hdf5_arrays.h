@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Named arrays in files of HDF5. Points, tets, triangles and edges have a group each, with a table for each
-// array, in its order:
+// Named arrays in files of HDF5. Points, tets, triangles and edges have a group each, with a table
+// for each array, in its order:
 //
 //   /point_data/NAME  N x components, or N    /cell_data/NAME  of tets
 //   /triangle_data/NAME                       /edge_data/NAME
@@ -33,11 +33,13 @@ std::vector<std::string> hdf5_table_names(const std::vector<DataArray>& arrays);
 pieces::KindArrays read_hdf5_arrays(const Hdf5File& file, const Hdf5Counts& counts,
                                     std::vector<std::string>& notes);
 
-/// All ranks: arrays of what there is none of are left out. @throws Error when they cannot be written
+/// All ranks: arrays of what there is none of are left out. @throws Error when they cannot be
+/// written
 void write_hdf5_arrays(const Hdf5File& file, const pieces::KindArrays& arrays,
                        const Hdf5Counts& counts, pieces::Ranks& ranks);
 
-/// The names in the root or a group of it, in the order in which they were made, if the file has kept that.
+/// The names in the root or a group of it, in the order in which they were made, if the file has
+/// kept that.
 std::vector<std::string> hdf5_names_in(const Hdf5File& file, const std::string& group);
 
 }  // namespace tetmend::mpi

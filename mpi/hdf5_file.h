@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A file of HDF5 that all ranks have open, and its tables. Each is one data set without chunks. So that the
-// bytes do not depend on time or on what was on the disk, times are not kept and nothing is filled.
+// A file of HDF5 that all ranks have open, and its tables. Each is one data set without chunks. So
+// that the bytes do not depend on time or on what was on the disk, times are not kept and nothing
+// is filled.
 #pragma once
 
 #include <array>
@@ -54,7 +55,8 @@ inline hid_t hdf5_type<double>() {
   return H5T_NATIVE_DOUBLE;
 }
 
-/// All ranks call the same functions. Names of tables are paths from the root, without the first '/'.
+/// All ranks call the same functions. Names of tables are paths from the root, without the first
+/// '/'.
 class Hdf5File {
  public:
   enum class Access { read, write };

@@ -6,8 +6,8 @@
 //   /group     M int32, labels        /triangles K x 3 int64, /triangle_labels K int32
 //   /edges, /edge_labels              /required_vertices int64      /vertex_labels N int32
 //
-// The first two are what other programs have, too; of the rest a file has what its mesh has. Named arrays:
-// hdf5_arrays.h.
+// The first two are what other programs have, too; of the rest a file has what its mesh has. Named
+// arrays: hdf5_arrays.h.
 #pragma once
 
 #include <filesystem>

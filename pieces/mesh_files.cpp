@@ -37,7 +37,8 @@ namespace tetmend::pieces {
 
 namespace {
 
-/// Of elements, where a mesh has other arrays: else readers of .vtu might take one of these for labels.
+/// Of elements, where a mesh has other arrays: else readers of .vtu might take one of these for
+/// labels.
 constexpr const char* kElementLabels = "CellEntityIds";
 
 /// Of all ranks, each once.

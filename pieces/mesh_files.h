@@ -39,8 +39,9 @@ class InputMesh {
   void check_conserve(const std::vector<std::string>& names) const;
   /// All ranks: adds all of it, in slices for so many pieces, with end_slices(). Once.
   void add_to(DividedMesh& mesh, std::size_t pieces);
-  /// Before all others: the surface may move. So triangles and edges have marks for labels where these
-  /// do not tell all, see SurfaceMarks, and points that are to stay are marked.
+  /// Before lost_in(), holds_more() and add_to(): the surface may move. Then triangles and edges
+  /// have marks for labels where these do not tell all, see SurfaceMarks, and points that are to
+  /// stay are marked.
   void set_surface_moves() { surface_moves_ = true; }
 
  private:
@@ -76,8 +77,8 @@ struct WriteDetails {
   /// For files of parts, into how many the mesh is divided before; 0: each stored piece is one.
   std::size_t parts = 0;
   std::string variant = {};  ///< see MeshView::variant()
-  /// The file that was read, if it holds more than labels and constraints. Read again, by all ranks or by
-  /// the first one, to bring over what it holds. Empty: there is nothing.
+  /// The file that was read, if it holds more than labels and constraints. Read again, by all ranks
+  /// or by the first one, to bring over what it holds. Empty: there is nothing.
   std::filesystem::path source = {};
   std::string label_array = {};            ///< of `source`
   std::vector<std::string> conserve = {};  ///< see Options

@@ -47,10 +47,10 @@ struct OutOfCore {
 };
 
 /// All ranks; what they return is the same but for times, and `carried`, which is on the first. The
-/// output has the bytes of improve() with the same number of pieces. Of `.meshb`, `.msh` and `.vtu` files
-/// and of those of array_files no rank has all in memory, nor of arrays that go from such a file to `.vtu`
-/// or one of array_files; of others, and of whatever else there is besides labels and constraints, the
-/// first rank has the whole mesh, while it is read and while it is written.
+/// output has the bytes of improve() with the same number of pieces. Of `.meshb`, `.msh` and `.vtu`
+/// files and of those of array_files no rank has all in memory, nor of arrays that go from such a
+/// file to `.vtu` or one of array_files; of others, and of whatever else there is besides labels
+/// and constraints, the first rank has the whole mesh, while it is read and while it is written.
 /// @param division  0 pieces: as many as the memory asks for, or one for each 4 million tets; the
 /// number that it was then. With one piece the first rank works alone, as improve() does.
 /// @throws OptionError for an option that needs the whole mesh: keep_size, ignore_interior; Error as

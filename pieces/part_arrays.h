@@ -17,10 +17,11 @@ namespace tetmend::pieces {
 /// Those of one kind, of the parts that one rank has.
 class PartArrays {
  public:
-  /// Of the next part. @param count how many points or elements it has; of a part without any, arrays do
-  /// not count
+  /// Of the next part. @param count how many points or elements it has; of a part without any,
+  /// arrays do not count
   void add(std::vector<DataArray> arrays, std::size_t count);
-  /// All ranks: the arrays of all parts, in the order of the first one, with the values of this rank's.
+  /// All ranks: the arrays of all parts, in the order of the first one, with the values of this
+  /// rank's.
   /// @param on what has them, for a note about each array that some parts do not have
   std::vector<DataArray> finish(Ranks& ranks, std::string_view on, std::vector<std::string>& notes);
 
@@ -36,8 +37,8 @@ class PartArrays {
   std::uint64_t parts_ = 0;
 };
 
-/// All ranks: from values of the points of parts those of the whole mesh. Where parts have several for
-/// one point, that of the first part counts.
+/// All ranks: from values of the points of parts those of the whole mesh. Where parts have several
+/// for one point, that of the first part counts.
 /// @param arrays  the same on all ranks, with the values of PartPoints::points
 std::vector<DataArray> merge_point_arrays(const MergedPoints& merged,
                                           const std::vector<DataArray>& arrays, Ranks& ranks);

@@ -37,7 +37,8 @@ class PartReader {
   /// A file of Gmsh, whose numbers of nodes are those of the whole mesh. @throws Error likewise
   void read_msh(const std::filesystem::path& file, std::uint64_t part);
   /// All ranks: what all have read is one mesh.
-  /// Has the arrays that all parts have; where they have several values for a point, that of the first.
+  /// Has the arrays that all parts have; where they have several values for a point, that of the
+  /// first.
   /// @throws Error as merge_points(), and where parts have labels in arrays of several names
   RankShare finish(Ranks& ranks);
 

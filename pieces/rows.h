@@ -76,7 +76,8 @@ class RowLayout {
                char* to) const;
   /// Appends what `rows` have of an array.
   void append_column(std::size_t array, std::string_view rows, std::string& bytes) const;
-  /// Appends the rows of things from `begin` to `end`. Precondition: arrays like these, with values.
+  /// Appends the rows of things from `begin` to `end`. Precondition: arrays like these, with
+  /// values.
   void append_rows(const std::vector<DataArray>& from, std::size_t begin, std::size_t end,
                    std::string& rows) const;
   /// The other way. Precondition: arrays like these.

@@ -29,8 +29,8 @@ class RankRanges {
   std::vector<std::uint64_t> begins_;
 };
 
-/// Slices of all ranks. A slice has all that it needs of vertices that others have; so all ranks make as
-/// many of them, at the same time.
+/// Slices of all ranks. A slice has all that it needs of vertices that others have; so all ranks
+/// make as many of them, at the same time.
 class ShareSlices final : public RowSource {
  public:
   /// All ranks. It must not outlive what it is given.
@@ -38,7 +38,8 @@ class ShareSlices final : public RowSource {
   ShareSlices(const RankShare& share, Ranks& ranks);
 
   /// All ranks: adds all slices, with end_slices().
-  /// @throws Error for a vertex that is not there, a repeated one, and a coordinate that is not finite
+  /// @throws Error for a vertex that is not there, a repeated one, and a coordinate that is not
+  /// finite
   void add_to(DividedMesh& mesh) const;
   ByKind<RowLayout> row_layouts() const override;
   std::uint64_t slice_count(std::size_t tets_of_slice, const Ranks& ranks) const override;

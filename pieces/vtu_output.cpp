@@ -22,7 +22,8 @@ namespace {
 
 using Take = std::function<void(std::string_view)>;
 
-/// An array over all cells, as join_cell_arrays() makes it, and which it is among those of each kind.
+/// An array over all cells, as join_cell_arrays() makes it, and which it is among those of each
+/// kind.
 struct CellArray {
   DataArray outline;
   ByKind<std::optional<std::size_t>> places;

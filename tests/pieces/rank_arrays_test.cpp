@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Data arrays of a mesh whose arrays lie on ranks: a run in pieces has the values of one with all of it in
-// memory, wherever they lay.
+// Data arrays of a mesh whose arrays lie on ranks: a run in pieces has the values of one with all
+// of it in memory, wherever they lay.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -38,7 +38,8 @@ std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Of all four types, in rows of one, two and three numbers; triangles and edges have others than tets.
+/// Of all four types, in rows of one, two and three numbers; triangles and edges have others than
+/// tets.
 MeshData lattice_with_arrays(std::uint32_t n) {
   MeshData data = lattice(n);
   data.required_vertices.clear();  // VTK has none
