@@ -8,6 +8,7 @@
 #include "apps/mesh_formats.h"
 #include "pieces/improve.h"
 #include "pieces/mesh_files.h"
+#include "pieces/mesh_output.h"
 
 namespace tetmend::apps {
 

@@ -16,6 +16,7 @@
 #include "face/watcher.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
+#include "pieces/mesh_output.h"
 #include "pieces/piece_trace.h"
 
 namespace tetmend::pieces {

@@ -17,6 +17,7 @@
 #include "face/watcher.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
+#include "pieces/mesh_output.h"
 #include "pieces/piece_trace.h"
 #include "pieces/run_folder.h"
 #include "pieces/slices.h"

@@ -2,6 +2,8 @@
 // Between the arrays of a whole mesh and its pieces.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,10 @@ namespace tetmend::pieces {
 
 /// Slices of about so many tets. How many there are cannot show in the result.
 inline constexpr std::size_t kTetsOfSlice = 500'000;
+/// The same, of a mesh that is for so many pieces.
+inline std::size_t tets_of_slice(std::uint64_t tets, std::size_t pieces) {
+  return std::min<std::size_t>(kTetsOfSlice, 1 + tets / pieces);
+}
 
 /// Adds a mesh, on one rank, to one that has nothing yet; end_slices() is left to the caller.
 /// `is_protected` has a mark for each tet, or none; `is_kept` one for each point of a surface that may

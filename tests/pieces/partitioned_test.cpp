@@ -16,6 +16,7 @@
 #include "pieces/improve.h"
 #include "pieces/merged_points.h"
 #include "pieces/mesh_files.h"
+#include "pieces/mesh_output.h"
 #include "pieces/out_of_core.h"
 #include "pieces/partitioned_files.h"
 #include "pieces/pvtu.h"
