@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/vtu_array.h"
 #include "mpi/hdf5_arrays.h"
 #include "mpi/hdf5_file.h"
 #include "mpi/mpi_ranks.h"
@@ -117,26 +118,6 @@ void write_arrays(const std::filesystem::path& name, const pieces::RankShare& ar
   write_hdf5_arrays(file, arrays.arrays, by_kind(counts), all);
 }
 
-std::string as_text(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
-
 /// What ParaView needs to know of the arrays of points or tets.
 std::string describe_arrays(const std::string& file, const std::vector<DataArray>& arrays,
                             pieces::RowKind kind, std::uint64_t rows) {
@@ -155,10 +136,10 @@ std::string describe_arrays(const std::string& file, const std::vector<DataArray
     <DataItem NumberType="{}" Precision="{}" Format="HDF" Dimensions="{}{}">{}:/{}/{}</DataItem>
    </Attribute>
 )",
-        as_text(array.name), form, kind == pieces::RowKind::point ? "Node" : "Cell",
+        formats::xml_escaped(array.name), form, kind == pieces::RowKind::point ? "Node" : "Cell",
         is_real ? "Float" : "Int", is_long ? 8 : 4, rows,
-        array.components == 1 ? "" : fmt::format(" {}", array.components), as_text(file),
-        hdf5_group_of(kind), as_text(tables[i]));
+        array.components == 1 ? "" : fmt::format(" {}", array.components),
+        formats::xml_escaped(file), hdf5_group_of(kind), formats::xml_escaped(tables[i]));
   }
   return text;
 }
@@ -184,7 +165,7 @@ std::string description(const std::string& name, const pieces::ArrayCounts& coun
  </Domain>
 </Xdmf>
 )",
-      as_text(name), counts.tets, counts.points,
+      formats::xml_escaped(name), counts.tets, counts.points,
       describe_arrays(name, arrays[pieces::RowKind::point], pieces::RowKind::point, counts.points),
       describe_arrays(name, arrays[pieces::RowKind::tet], pieces::RowKind::tet, counts.tets));
 }

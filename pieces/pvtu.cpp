@@ -10,30 +10,11 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/vtu_array.h"
 
 namespace tetmend::pieces {
 
 namespace {
-
-std::string as_attribute(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string as_components(std::size_t components) {
   if (components == 1) return {};
@@ -86,7 +67,7 @@ void write_pvtu(const std::filesystem::path& file, std::span<const std::string> 
     out.put(fmt::format("<{}>\n", name));
     for (const PvtuArray& array : arrays) {
       out.put(fmt::format("<PDataArray type=\"{}\" Name=\"{}\"{}/>\n", array.type,
-                          as_attribute(array.name), as_components(array.components)));
+                          formats::xml_escaped(array.name), as_components(array.components)));
     }
     out.put(fmt::format("</{}>\n", name));
   };
@@ -96,7 +77,7 @@ void write_pvtu(const std::filesystem::path& file, std::span<const std::string> 
       "<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
       "</PPoints>\n");
   for (const std::string& piece : pieces) {
-    out.put(fmt::format("<Piece Source=\"{}\"/>\n", as_attribute(piece)));
+    out.put(fmt::format("<Piece Source=\"{}\"/>\n", formats::xml_escaped(piece)));
   }
   out.put("</PUnstructuredGrid>\n</VTKFile>\n");
   out.commit();

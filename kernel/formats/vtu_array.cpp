@@ -14,25 +14,6 @@ namespace {
 
 constexpr std::size_t kBlockSize = std::size_t{1} << 17;
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (static_cast<unsigned char>(c) < ' ')
-      result += ' ';
-    else
-      result += c;
-  }
-  return result;
-}
-
 }  // namespace
 
 void VtuBlocks::put(std::string_view bytes, const Sink& sink) {
@@ -101,6 +82,25 @@ void VtuArray::end(OutputFile& out) {
   out.put(kVtuArrayEnd);
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (static_cast<unsigned char>(c) < ' ')
+      result += ' ';
+    else
+      result += c;
+  }
+  return result;
+}
+
 std::string_view vtu_type_of(const DataArray& array) {
   constexpr std::array<std::string_view, 4> kTypes = {"Int32", "Int64", "Float32", "Float64"};
   return kTypes[array.values.index()];
@@ -109,7 +109,7 @@ std::string_view vtu_type_of(const DataArray& array) {
 std::string vtu_array_tag(std::string_view name, std::string_view type, std::size_t components) {
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n", type,
-      escaped(name), components);
+      xml_escaped(name), components);
 }
 
 std::string vtu_head(std::uint64_t points, std::uint64_t cells) {

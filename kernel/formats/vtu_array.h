@@ -57,6 +57,8 @@ class VtuArray {
   std::string waiting_;  // for a group of three bytes
 };
 
+/// As the value of an attribute; a control character becomes a blank.
+std::string xml_escaped(std::string_view text);
 /// As files name the type of its numbers.
 std::string_view vtu_type_of(const DataArray& array);
 /// What stands before the content of an array, which follows as two streams of base64: header() of its

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 
 #include <doctest/doctest.h>
@@ -99,6 +100,26 @@ bool is_told_by_rows(const std::filesystem::path& file) {
   return slices && slices->has_all_in_rows();
 }
 
+/// By ranks, and by tasks over files, the bytes are the same.
+/// @param see  looks at the result on each rank
+void check_all_ways(const Files& files, const Options& options,
+                    std::initializer_list<std::size_t> counts,
+                    const std::function<void(const Result&, Ranks&)>& see = {}) {
+  for (const std::size_t count : counts) {
+    CAPTURE(count);
+    std::filesystem::remove(files.out);
+    on_ranks(count, [&](Ranks& ranks) {
+      Division division = in_pieces();
+      const Result result = pieces::improve_files(files.all(), options, division, ranks);
+      if (see) see(result, ranks);
+    });
+    CHECK(bytes_of(files.out) == files.expected);
+  }
+  std::filesystem::remove(files.out);
+  improve_by_tasks(files, options);
+  CHECK(bytes_of(files.out) == files.expected);
+}
+
 std::string message_of(const std::function<void()>& work) {
   try {
     work();
@@ -116,19 +137,9 @@ TEST_CASE("arrays, groups and parts are carried by ranks and by tasks as by one 
     const Options options = {.conserve = {}};
     const Files files(lattice_with_data(), ending, options);
     CHECK(files.result.carried.size() >= 2);
-    for (const std::size_t count : {1, 3}) {
-      CAPTURE(count);
-      std::filesystem::remove(files.out);
-      on_ranks(count, [&](Ranks& ranks) {
-        Division division = in_pieces();
-        const Result result = pieces::improve_files(files.all(), options, division, ranks);
-        CHECK(result.carried.size() == (ranks.is_first() ? files.result.carried.size() : 0));
-      });
-      CHECK(bytes_of(files.out) == files.expected);
-    }
-    std::filesystem::remove(files.out);
-    improve_by_tasks(files, options);
-    CHECK(bytes_of(files.out) == files.expected);
+    check_all_ways(files, options, {1, 3}, [&](const Result& result, Ranks& ranks) {
+      CHECK(result.carried.size() == (ranks.is_first() ? files.result.carried.size() : 0));
+    });
   }
 }
 
@@ -164,28 +175,18 @@ TEST_CASE("arrays of a .vtu file are carried where no rank has all of it, as by 
     if (is_conserved) options.conserve = {"density"};
     const Files files(data, ".vtu", options);
     CHECK(is_told_by_rows(files.in));
-    for (const std::size_t count : {1, 2, 5}) {
-      CAPTURE(count);
-      std::filesystem::remove(files.out);
-      on_ranks(count, [&](Ranks& ranks) {
-        Division division = in_pieces();
-        const Result result = pieces::improve_files(files.all(), options, division, ranks);
-        if (!ranks.is_first()) return;
-        REQUIRE(result.carried.size() == 5);
-        for (std::size_t i = 0; i < 5; ++i) {
-          const CarriedArray& here = result.carried[i];
-          const CarriedArray& there = files.result.carried[i];
-          CHECK(here.name == there.name);
-          CHECK(here.on == there.on);
-          CHECK(here.rule == there.rule);
-          CHECK(here.integral_error == doctest::Approx(there.integral_error).epsilon(1e-6));
-        }
-      });
-      CHECK(bytes_of(files.out) == files.expected);
-    }
-    std::filesystem::remove(files.out);
-    improve_by_tasks(files, options);
-    CHECK(bytes_of(files.out) == files.expected);
+    check_all_ways(files, options, {1, 2, 5}, [&](const Result& result, Ranks& ranks) {
+      if (!ranks.is_first()) return;
+      REQUIRE(result.carried.size() == 5);
+      for (std::size_t i = 0; i < 5; ++i) {
+        const CarriedArray& here = result.carried[i];
+        const CarriedArray& there = files.result.carried[i];
+        CHECK(here.name == there.name);
+        CHECK(here.on == there.on);
+        CHECK(here.rule == there.rule);
+        CHECK(here.integral_error == doctest::Approx(there.integral_error).epsilon(1e-6));
+      }
+    });
   }
 }
 
@@ -216,18 +217,7 @@ TEST_CASE("marks and normals of a .meshb file are carried where no rank has all 
     const MeshData there = read_mesh(files.in);
     REQUIRE(there.groups.size() == (has_normals ? 6 : 5));
     CHECK(is_told_by_rows(files.in));
-    for (const std::size_t count : {1, 2, 5}) {
-      CAPTURE(count);
-      std::filesystem::remove(files.out);
-      on_ranks(count, [&](Ranks& ranks) {
-        Division division = in_pieces();
-        pieces::improve_files(files.all(), {}, division, ranks);
-      });
-      CHECK(bytes_of(files.out) == files.expected);
-    }
-    std::filesystem::remove(files.out);
-    improve_by_tasks(files, {});
-    CHECK(bytes_of(files.out) == files.expected);
+    check_all_ways(files, {}, {1, 2, 5});
   }
 }
 
@@ -263,19 +253,10 @@ TEST_CASE("regions that are protected stay, whoever has them") {
     const Files files(lattice(8), ".meshb", options);
     CHECK(files.result.protected_tets > 0);
     CHECK(files.expected != Files(lattice(8), ".meshb", {}).expected);
-    for (const std::size_t count : {1, 3}) {
-      std::filesystem::remove(files.out);
-      on_ranks(count, [&](Ranks& ranks) {
-        Division division = in_pieces();
-        const Result result = pieces::improve_files(files.all(), options, division, ranks);
-        CHECK(result.protected_tets == files.result.protected_tets);
-        CHECK(result.protected_bad_tets == files.result.protected_bad_tets);
-      });
-      CHECK(bytes_of(files.out) == files.expected);
-    }
-    std::filesystem::remove(files.out);
-    improve_by_tasks(files, options);
-    CHECK(bytes_of(files.out) == files.expected);
+    check_all_ways(files, options, {1, 3}, [&](const Result& result, Ranks&) {
+      CHECK(result.protected_tets == files.result.protected_tets);
+      CHECK(result.protected_bad_tets == files.result.protected_bad_tets);
+    });
   }
 }
 
@@ -367,17 +348,6 @@ TEST_CASE("entities of a .msh file are carried where no rank has all of it, as b
     REQUIRE(there.entities.size() == 10);
     REQUIRE(there.other_elements.size() == 1);
     CHECK(is_told_by_rows(files.in));
-    for (const std::size_t count : {1, 2, 5}) {
-      CAPTURE(count);
-      std::filesystem::remove(files.out);
-      on_ranks(count, [&](Ranks& ranks) {
-        Division division = in_pieces();
-        pieces::improve_files(files.all(), {}, division, ranks);
-      });
-      CHECK(bytes_of(files.out) == files.expected);
-    }
-    std::filesystem::remove(files.out);
-    improve_by_tasks(files, {});
-    CHECK(bytes_of(files.out) == files.expected);
+    check_all_ways(files, {}, {1, 2, 5});
   }
 }
