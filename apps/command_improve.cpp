@@ -153,6 +153,7 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
     return pieces::improve_files(files, run, division,
                                  ranks != nullptr ? *ranks : static_cast<Ranks&>(alone));
   });
+  report.writing = report.costs.writing;
 }
 
 void improve_in_core(const ImproveOptions& options, ProgressLine& line,

@@ -129,7 +129,8 @@ the same command goes on from the last division, with any number of processes.
 Files of HDF5 (.h5) are read and written by all processes together, if tetmend-mpi
 was built with it; FILE.xdmf beside them is what ParaView opens. So are meshes in
 parts: .pvtu with its .vtu files, and Gmsh's part_1.msh, part_2.msh... under the
-name part_%d.msh. Other formats are read and written by the first process alone.
+name part_%d.msh. Of .meshb, .vtu and .msh each reads its share, and the first one
+writes. Other formats are read and written by the first process alone.
 SIGUSR1 to mpirun stops the work: the mesh is written as improved so far.
 
 Exit status: that of tetmend improve)");

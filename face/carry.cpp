@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "face/overlap.h"
 #include "face/tet_locator.h"
@@ -547,8 +548,12 @@ void check_conserve(const MeshData& data, std::span<const std::string> conserve)
     const auto has_name = [&](const DataArray& array) { return array.name == name; };
     const auto found = std::find_if(data.tet_data.begin(), data.tet_data.end(), has_name);
     if (found == data.tet_data.end()) {
-      throw OptionError("conserve",
-                        fmt::format("conserve: no array of the tets is named '{}'", name));
+      std::vector<std::string> names;
+      for (const DataArray& array : data.tet_data) names.push_back(array.name);
+      const std::string known =
+          names.empty() ? "they have none" : fmt::format("they have {}", fmt::join(names, ", "));
+      throw OptionError(
+          "conserve", fmt::format("conserve: no array of the tets is named '{}': {}", name, known));
     }
     if (found->values.index() < 2) {
       throw OptionError("conserve",

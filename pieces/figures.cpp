@@ -72,6 +72,15 @@ void count_protected(const Piece& own, std::span<const std::uint32_t> numbers,
   }
 }
 
+std::size_t count_touched(const Piece& own) {
+  return static_cast<std::size_t>(
+      std::count_if(own.tets.begin(), own.tets.end(), [&](const PieceTet& tet) {
+        return (tet.origin & ~PieceTet::kProtected) == PieceTet::kNone ||
+               std::any_of(tet.vertices.begin(), tet.vertices.end(),
+                           [&](std::uint32_t v) { return (own.marks[v] & kMoved) != 0; });
+      }));
+}
+
 }  // namespace
 
 void Figures::add(const Figures& other) {
@@ -80,6 +89,7 @@ void Figures::add(const Figures& other) {
   not_positive += other.not_positive;
   peculiar += other.peculiar;
   layer_tets += other.layer_tets;
+  touched += other.touched;
   protected_tets += other.protected_tets;
   protected_bad_tets += other.protected_bad_tets;
   misfits += other.misfits;
@@ -127,6 +137,7 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
       }
     }
   }
+  figures.touched = count_touched(own);
   const std::size_t boundary = figures.statistics.boundary_triangles;
   if (!own.tets.empty()) {
     MeshData data = to_data(own);

@@ -20,6 +20,7 @@ struct Figures {
   std::size_t not_positive = 0;
   std::size_t peculiar = 0;  ///< tets that building turned round, inverted and flat ones
   std::size_t layer_tets = 0;
+  std::size_t touched = 0;  ///< tets that the file does not have, or with a vertex that has moved
   std::size_t protected_tets = 0;      ///< by the user
   std::size_t protected_bad_tets = 0;  ///< of them
   std::size_t misfits = 0;             ///< see HeldSurface::count_misfits()

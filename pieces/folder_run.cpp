@@ -290,6 +290,7 @@ Result FolderRun::finish(const Options& options) {
   } else {
     result.notes.push_back(why_as_it_was(result));
     result.after = result.before;
+    result.touched_tets = 0;
     if (steps.surface() != nullptr) result.surface_change = steps.surface()->unchanged();
     FolderShelf again(folder_.make_step(last + 1));
     DividedMesh slices(again, ranks, saved_.vertices);

@@ -300,6 +300,7 @@ void check_after(const Figures& before, const Figures& after, Kept kept, Result&
   result.protected_tets = before.protected_tets;
   result.protected_bad_tets = before.protected_bad_tets;
   result.after = after.statistics;
+  result.touched_tets = after.touched;
   result.surface_fingerprint_before = before.surface;
   result.surface_fingerprint = after.surface;
   result.not_positive_after = after.not_positive;

@@ -130,12 +130,10 @@ void NewPart::average(const std::vector<std::size_t>& arrays) {
     std::vector<std::pair<const char*, double>> rows;
     double sum = 0;
     for (; i < shares_.size() && shares_[i].place == place; ++i) {
-      if (!(shares_[i].volume > 0)) continue;
       rows.emplace_back(share_rows_.data() + shares_[i].row * layout.size(), shares_[i].volume);
       sum += shares_[i].volume;
     }
     for (auto& row : rows) row.second /= sum;
-    if (rows.empty()) continue;
     for (const std::size_t array : arrays) {
       layout.average(array, rows, rows_[RowKind::tet].data() + place * layout.size());
     }

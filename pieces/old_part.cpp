@@ -191,6 +191,7 @@ void OldPart::answer_shares(const std::vector<Questions::OfTet>& asked, Answers&
     for (std::size_t i = 0; i < 4; ++i) tet[i] = to_point(corners[i]);
     for (const std::uint32_t old : changed_->near(tet)) {
       const double volume = face::overlap(tet, corners_of(data_.points, data_.tets[old].vertices));
+      if (!(volume > 0)) continue;  // their boxes meet, no more
       answers.shares.push_back({place, origins_[old], volume});
       answers.share_rows.append(row(RowKind::tet, old), layouts_[RowKind::tet].size());
     }

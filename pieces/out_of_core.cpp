@@ -312,11 +312,14 @@ void FileRun::note_costs() const {
 }
 
 void FileRun::write() {
+  double unasked = 0;
+  const Stopwatch watch(files_.costs != nullptr ? files_.costs->writing : unasked);
   std::size_t parts = 0;
   if (!result_.worse().empty()) {
     result_.notes.push_back(why_as_it_was(result_));
     watcher_.noted(result_.notes.back());
     result_.after = result_.before;
+    result_.touched_tets = 0;
     result_.surface_change = unchanged_surface_;
     if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too

@@ -21,6 +21,7 @@ struct RunCosts {
   std::size_t ranks = 0;
   std::vector<Traffic> divisions;  ///< of all ranks together; seconds: of the slowest
   std::vector<PartTime> parts;     ///< by rank
+  double writing = 0;              ///< seconds of this rank, with what is brought over
 
   /// That came from another rank, for each tet and division.
   double bytes_a_tet() const;

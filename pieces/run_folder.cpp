@@ -22,7 +22,7 @@ constexpr std::string_view kStep = "step-";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 7\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 8\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {

@@ -139,6 +139,8 @@ TEST_CASE("arrays, groups and parts are carried by ranks and by tasks as by one 
     CHECK(files.result.carried.size() >= 2);
     check_all_ways(files, options, {1, 3}, [&](const Result& result, Ranks& ranks) {
       CHECK(result.carried.size() == (ranks.is_first() ? files.result.carried.size() : 0));
+      CHECK(files.result.touched_tets > 0);
+      CHECK(result.touched_tets == files.result.touched_tets);
     });
   }
 }
