@@ -280,6 +280,17 @@ def chosen(rows: list[Competitor], only: list[str]) -> list[Competitor]:
 # --- the command line
 
 
+def add_folders(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--build", type=Path, default=BUILD, help="build folder")
+    parser.add_argument("-o", "--output", type=Path, default=WORK, metavar="DIR",
+                        help="folder of the results (default: build/bench)")
+
+
+def use_folders(options: argparse.Namespace) -> None:
+    global BUILD, WORK
+    BUILD, WORK = options.build.resolve(), options.output.resolve()
+
+
 def parse(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="script/bench",
@@ -297,8 +308,11 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     add("--continue", dest="continued", action="store_true",
         help="take what an earlier call, stopped or with fewer meshes, measured at this commit")
     add("--profile", action="store_true", help="and the functions that take the most time (perf)")
+    add_folders(parser)
     documents.add_option(parser)
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    use_folders(options)
+    return options
 
 
 def measured_before(results: dict, found: list[Competitor]) -> dict[str, dict]:
@@ -352,7 +366,7 @@ def main() -> None:
     drawings = {**charts.all_charts(results), **dots.all_charts(results)}
     for file in [WORK / "results.md", *([options.write] if options.write else [])]:
         documents.write(file, report.page(results), drawings)
-    print(f"\nSaved in {WORK.relative_to(ROOT)}: results.json, results.md, figures.")
+    print(f"\nSaved in {os.path.relpath(WORK)}: results.json, results.md, figures.")
     if options.profile:
         profile(meshes[-1])
 

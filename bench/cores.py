@@ -13,9 +13,11 @@ import compare
 import documents
 
 TEXT = (
-    "Estimated from the time of each block, measured on one thread: scans of the whole mesh split "
-    "evenly, blocks go to the next free thread, the largest first, everything else waits. What a "
-    "machine with so many cores loses to its memory is not in these figures. *alone %*: share of "
+    "**A model, not a measurement.** Only the time of each block is measured, on one "
+    "thread. From these follows what more threads would take: scans of the whole mesh split evenly, "
+    "blocks go to the next free thread, the largest first, everything else waits. What many cores "
+    "lose to memory and caches that they share is not in these figures, and it is much: on a machine "
+    "of 16 cores the default improved f6_1m 3.6 times as fast as on one of them. *alone %*: share of "
     "the time that one thread works alone. *deferred %*: targets that were tried again, for each "
     "that was tried."
 )
@@ -54,7 +56,7 @@ def section(mesh: str, text: str) -> list[str]:
 def page(made: documents.Stamp, printed: dict[str, str]) -> str:
     """@param printed  output of bench/scaling by the name of the mesh"""
     sections = [part for mesh, text in printed.items() for part in section(mesh, text)]
-    return documents.document("Many cores", made, [TEXT, *sections])
+    return documents.document("Many cores: a model", made, [TEXT, *sections])
 
 
 def measure(name: str) -> tuple[str, str]:

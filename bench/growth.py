@@ -65,8 +65,10 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=1, metavar="N", help="(default: 1)")
     parser.add_argument("--sizes", default="1e4,1e5,1e6,1e7,3.7e7", metavar="N,N,...",
                         help="numbers of tets (default: 10 thousand to 37 million)")
+    compare.add_folders(parser)
     documents.add_option(parser)
     options = parser.parse_args()
+    compare.use_folders(options)
     runs = {}
     for size in map(float, options.sizes.split(",")):
         runs[size] = measure(size, options.threads)

@@ -31,7 +31,7 @@ std::size_t count_calls(const TraceFile& file, const RecordingRange& range);
 
 /// Points and tets are listed once and named by their numbers; a step has the tets that come and go.
 /// A point moved is another point of the same vertex. Coordinates are relative to the box of all.
-/// assets/page/page.js reads this. Leaves the replay where it was. Cost: a study of each call.
+/// assets/page/recording reads this. Leaves the replay where it was. Cost: a study of each call.
 nlohmann::ordered_json record(const TraceFile& file, Replay& replay, const RecordingRange& range);
 
 }  // namespace tetmend::explain

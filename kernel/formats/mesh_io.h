@@ -60,7 +60,7 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file)
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
 /// folder. Doubles are written so
-/// that reading gives the same bits. Required vertices are kept by MEDIT only. `.msh` has the
+/// that reading gives the same bits. Required vertices: see docs/formats.md. `.msh` has the
 /// version and coding that `variant` of the data names, else 4.1 binary. A file appears
 /// under its name only when complete, see PendingFile, so a failure leaves an older file untouched,
 /// and of several files all.

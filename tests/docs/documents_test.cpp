@@ -5,10 +5,13 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include "kernel/judge.h"
+#include "kernel/tet_mesh.h"
 #include "ops/registry.h"
 #include "tests/apps/program.h"
 
@@ -95,6 +98,33 @@ bool stands_in_one_of(const std::vector<std::string>& files, const std::string& 
   return false;
 }
 
+// ---- The deviations -----------------------------------------------------------------------------
+
+struct QuotedParameter {
+  std::string name;
+  std::string value;
+  std::string file;
+};
+
+/// What stands as `name = value`, `file`, wherever lines end.
+std::vector<QuotedParameter> parameters_of(const std::string& page) {
+  static const std::regex kParameter("`(\\w+) = ([^`]*)`, `([\\w./]+)`");
+  std::vector<QuotedParameter> found;
+  for (std::sregex_iterator it(page.begin(), page.end(), kParameter), end; it != end; ++it) {
+    found.push_back({(*it)[1], (*it)[2], (*it)[3]});
+  }
+  return found;
+}
+
+/// A constant, a word of Lua, a parameter of a schedule or of an operator.
+bool has_value(const std::string& source, const QuotedParameter& parameter) {
+  const std::string value =
+      std::regex_replace(parameter.value, std::regex("[.*+?^${}()|\\[\\]\\\\]"), "\\$&");
+  const std::regex kForms("\\b" + parameter.name + "( = |\", default = |\"(, [^,{}]*){3}, )" +
+                          value + "f?[;,})\\s]");
+  return std::regex_search(source, kForms);
+}
+
 // ---- Headers of operators -----------------------------------------------------------------------
 
 /// The comments of a file as one line.
@@ -119,6 +149,39 @@ TEST_CASE("each identifier of docs/glossary.md stands in a file that is named be
     for (const std::string& identifier : entry.identifiers) {
       CHECK_MESSAGE(stands_in_one_of(entry.files, identifier), identifier);
     }
+  }
+}
+
+TEST_CASE("each parameter of docs/deviations.md has its value in the file that is named with it") {
+  const std::string page = with_single_blanks(read_text(kSource / "docs/deviations.md"));
+  const std::vector<QuotedParameter> parameters = parameters_of(page);
+  REQUIRE(parameters.size() > 15);
+  for (const QuotedParameter& parameter : parameters) {
+    CAPTURE(parameter.name);
+    CAPTURE(parameter.value);
+    REQUIRE_MESSAGE(std::filesystem::exists(kSource / parameter.file), parameter.file);
+    CHECK_MESSAGE(has_value(read_text(kSource / parameter.file), parameter), parameter.file);
+  }
+  CHECK(matches(page, std::regex("`\\w+ = ")).size() == parameters.size());
+  const std::string sizes = "makes " + std::to_string(TetMesh::bytes_per_tet()) +
+                            " bytes a tet and " + std::to_string(TetMesh::bytes_per_vertex()) +
+                            " a vertex";
+  CHECK_MESSAGE(page.find(sizes) != std::string::npos, sizes);
+}
+
+TEST_CASE("docs/operators.md has the promise of each judge") {
+  const std::string page = read_text(kSource / "docs/operators.md");
+  const std::vector<std::pair<std::string, Judge>> judges = {
+      {"strict", Judge::strict()},
+      {"fair", Judge::fair({})},
+      {"reaches", Judge::reaches(1)},
+      {"lowers_angle", Judge::lowers_angle(0)},
+      {"raises_mean", Judge::raises_mean(0)},
+      {"untangles", Judge::untangles()},
+      {"opening", Judge::opening()}};
+  for (const auto& [name, judge] : judges) {
+    const std::string row = "| `" + name + "` | " + std::string(judge.promise()) + " |";
+    CHECK_MESSAGE(page.find(row) != std::string::npos, row);
   }
 }
 
