@@ -7,6 +7,7 @@ results_test.py SOURCE_FOLDER own BUILD_FOLDER    rows of meshes that come with 
 results_test.py SOURCE_FOLDER tire BUILD_FOLDER   rows of the paper's tire, from TETMEND_BENCH_MESHES
 """
 
+import json
 import re
 import subprocess
 import sys
@@ -101,11 +102,6 @@ class Commits(unittest.TestCase):
                 self.assertEqual(known.returncode, 0, f"{commit} is in no history of this commit: make {page.name} "
                                                       f"anew. {known.stderr}")
 
-    def test_each_page_is_run_again_or_has_a_reason_why_not(self) -> None:
-        pages = {page.stem for page in RESULTS.glob("*.md")}
-        self.assertEqual(pages, RERUNS.keys() | NOT_RUN.keys())
-        self.assertFalse(RERUNS.keys() & NOT_RUN.keys())
-
 
 # --- rows
 
@@ -152,7 +148,7 @@ def differences(written: str, made: str, keys: int) -> list[str]:
     return sorted(wrong, key=lambda line: line.partition("|")[2])
 
 
-class Rows_of_pages(unittest.TestCase):
+class RowsOfPages(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         folder = tempfile.TemporaryDirectory()
@@ -187,6 +183,27 @@ class Rows_of_pages(unittest.TestCase):
                 self.assertEqual(wrong, [], f"\n{name}.md is not of today:\n" + "\n".join(wrong))
                 print(f"{name}: {count} rows", flush=True)
 
+    def test_pieces_of_the_bracket_are_what_docs_pieces_says(self) -> None:
+        if WHAT != "own":
+            self.skipTest("not of this mesh")
+        [table] = [table for _, table in documents.tables((SOURCE / "docs" / "pieces.md").read_text())
+                   if "Pieces" in table[0]]
+        first = next(i for i, row in enumerate(table) if row[0] == "`bracket`")
+        last = next(i for i, row in enumerate(table) if i > first and row[0])
+        self.assertGreater(last - first, 1)
+        for _, pieces, *figures in table[first:last]:
+            told = self.folder / "report.json"
+            subprocess.run([BUILD / "bin" / "tetmend", "improve", compare.named_mesh("bracket"), "--quiet", "-o",
+                            self.folder / "pieces.meshb", "--pieces", pieces, "--report", told], check=True)
+            now = json.loads(told.read_text())["after"]
+            self.assertEqual(figures, [f"{now['tets']:,}", f"{now['n_bad']:,}",
+                                       f"{now['theta_min']:.1f}, {now['theta_max']:.1f}", f"{now['lambda']:.2g}"])
+
+    def test_each_page_is_run_again_or_has_a_reason_why_not(self) -> None:
+        pages = {page.stem for page in RESULTS.glob("*.md")}
+        self.assertEqual(pages, RERUNS.keys() | NOT_RUN.keys())
+        self.assertFalse(RERUNS.keys() & NOT_RUN.keys())
+
     def test_a_figure_that_was_changed_is_noticed(self) -> None:
         page = "## A\n\n| mesh | tets | user s |\n|---|---|---|\n| cube | 5 | 0.1 |\n| tire | 7 | 0.2 |\n"
         again = page.replace("0.1", "0.3").replace("| tire | 7 | 0.2 |\n", "")
@@ -202,7 +219,7 @@ def main() -> None:
     else:
         is_there = WHAT == "own" or any(mesh.name.split(".")[0] == WHAT for mesh in compare.given_meshes())
         lacking = None if is_there else f"{WHAT} lies in no folder that TETMEND_BENCH_MESHES names"
-        case = Rows_of_pages
+        case = RowsOfPages
     if lacking:
         print(f"skipped: {lacking}")
         sys.exit(SKIPPED)
