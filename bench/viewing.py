@@ -56,8 +56,10 @@ def main() -> None:
     parser.add_argument("--mesh", type=float, nargs="+", default=[1e6, 1e7], metavar="N",
                         help="tets of the meshes (default: one and ten million)")
     parser.add_argument("--trace", type=float, default=1e6, metavar="N", help="tets of the trace (default: a million)")
+    compare.add_folders(parser)
     documents.add_option(parser)
     options = parser.parse_args()
+    compare.use_folders(options)
     folder = compare.WORK / "viewing"
     folder.mkdir(parents=True, exist_ok=True)
     runs = []

@@ -12,7 +12,8 @@ import report
 TEXT = (
     "What each schedule does is in [schedules.md](../schedules.md). `grummp` and `stellar` are the "
     "paper's description of these schedules in tetmend's operators, not the programs; `shell` is "
-    "Algorithm 6, the default."
+    "Algorithm 6, the default. `surface` is made to follow another one where `--surface` lets the "
+    "surface move; here it is alone, and the surface stays."
 )
 ELSEWHERE = (
     "Table 3 of the paper: its own meshes, its own machine, the programs of others as they were "
