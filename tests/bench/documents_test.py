@@ -352,6 +352,17 @@ class Published(unittest.TestCase):
                     self.assertEqual(known, figure, message)
         self.assertGreater(len(told), 20)
 
+    def test_the_page_on_the_surface_has_the_figures_of_its_results(self) -> None:
+        [quoted] = [table for _, table in documents.tables((SOURCE / "docs" / "surface.md").read_text())
+                    if "Program" in table[0]]
+        [measured] = tables((SOURCE / "docs" / "results" / "surface.md").read_text())
+        wanted = [measured[0].index(name)
+                  for name in ("mesh", "program", "angles", "below 30 or above 150")]
+        there = [[row[i] for i in wanted] for row in measured[1:]]
+        self.assertGreater(len(quoted), 3)
+        for row in quoted[1:]:
+            self.assertIn(row, there)
+
     def test_what_the_page_claims_of_rivals_is_so(self) -> None:
         text = (SOURCE / "docs" / "results" / "rivals.md").read_text()
         compared = [table for _, table in documents.tables(text)
