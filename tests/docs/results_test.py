@@ -199,6 +199,38 @@ class RowsOfPages(unittest.TestCase):
             self.assertEqual(figures, [f"{now['tets']:,}", f"{now['n_bad']:,}",
                                        f"{now['theta_min']:.1f}, {now['theta_max']:.1f}", f"{now['lambda']:.2g}"])
 
+    def test_the_moving_body_does_what_docs_examples_says(self) -> None:
+        if WHAT != "own":
+            self.skipTest("not of this mesh")
+        page = (SOURCE / "docs" / "examples.md").read_text()
+        repaired, plain, at_once = (self.steps_of_the_body(*options)
+                                    for options in ([], ["--plain"], ["--steps", "1"]))
+        [(_, table)] = documents.tables(page)
+        self.assertGreater(len(table), 4)
+        for step, *figures in table[1:]:
+            now, moved = repaired[int(step) - 1], plain[int(step) - 1]
+            self.assertEqual(figures, [now["theta_min"], now["theta_max"], now["inverted"],
+                                       f"{int(now['tets']):,}", f"{int(now['touched']):,}",
+                                       moved["theta_min"], moved["theta_max"], moved["inverted"]], step)
+        prose = " ".join(page.split())
+        least = min(float(step["theta_min"]) for step in repaired)
+        most = max(int(step["touched"]) / int(step["tets"]) for step in repaired)
+        first = next(step for step in plain if step["inverted"] != "0")
+        for claim in (f"the smallest angle of all 40 steps is {least:.1f} degrees",
+                      f"No step touches more than {100 * most:.0f} % of the tets",
+                      f"the first tets turn over in step {first['step']}.",
+                      f"takes {at_once[0]['parts']} parts",
+                      f"a smallest angle of {float(at_once[0]['theta_min']):.1f} degrees"):
+            self.assertIn(claim, prose)
+
+    def steps_of_the_body(self, *options: str) -> list[dict[str, str]]:
+        ran = subprocess.run([BUILD / "bin" / "moving_body", *options], capture_output=True, text=True,
+                             check=False)  # status 1 is for tets that turned over
+        rows = [line.split() for line in ran.stdout.splitlines()]
+        heading = next(i for i, row in enumerate(rows) if row[:1] == ["step"])
+        return [dict(zip(rows[heading], row, strict=True)) for row in rows[heading + 1:]
+                if len(row) == len(rows[heading]) and row[0].isdecimal()]
+
     def test_each_page_is_run_again_or_has_a_reason_why_not(self) -> None:
         pages = {page.stem for page in RESULTS.glob("*.md")}
         self.assertEqual(pages, RERUNS.keys() | NOT_RUN.keys())
