@@ -63,6 +63,7 @@ NOT_RUN = {
     "ranks": "large meshes only",
     "viewing": "times only",
 }
+NEED_TIME = {"rivals", "surface"}
 # What another machine, or another load, changes.
 VARIES = re.compile(r"(.* )?(s|seconds|MB)|tets a second|improving us a tet|ratio|peak bytes a tet")
 
@@ -175,6 +176,8 @@ class RowsOfPages(unittest.TestCase):
             if not meshes:
                 continue
             with self.subTest(page=name):
+                if name in NEED_TIME and not Path(compare.GNU_TIME).exists():
+                    self.skipTest(f"no {compare.GNU_TIME}: please install the Debian package time")
                 page = (RESULTS / f"{name}.md").read_text()
                 made = self.make(page, [*meshes, *rerun.options])
                 count = sum(len(rows) for _, rows in rows_of(made))
