@@ -363,6 +363,26 @@ class Published(unittest.TestCase):
         for row in quoted[1:]:
             self.assertIn(row, there)
 
+    def test_no_run_in_a_table_was_ended_by_the_clock(self) -> None:
+        for file in (SOURCE / "docs" / "results").glob("*.md"):
+            self.assertNotIn(", stopped |", file.read_text(), f"{file.name}: give it a longer --time-limit")
+
+    def test_what_pages_claim_of_schedules_is_so(self) -> None:
+        def of(mesh: str, schedule: str) -> dict[str, float]:
+            return {name: float(pages.figure(f"schedules / {mesh} / {schedule} / {name}",
+                                             SOURCE / "docs" / "results").replace(",", ""))
+                    for name in ("tets", "theta_min", "theta_max", "bad", "user s")}
+
+        shell, stellar, thorough = (of("f6_1m", name) for name in ("shell", "stellar", "thorough"))
+        self.assertLess(stellar["bad"], thorough["bad"])  # "One schedule leaves fewer on the largest mesh, ..."
+        self.assertLess(stellar["tets"], thorough["tets"])  # "... at a price."
+        self.assertGreater(stellar["user s"], 5 * thorough["user s"])
+        self.assertLess(stellar["bad"], shell["bad"])
+        self.assertGreater(of("f6_280k", "stellar")["bad"], of("f6_280k", "shell")["bad"])
+        for mesh in ("f6_1m", "f6_280k", "f6s_280k"):  # "better angles than Stellar's on all these aircraft"
+            self.assertGreater(of(mesh, "thorough")["theta_min"], of(mesh, "stellar")["theta_min"])
+            self.assertLess(of(mesh, "thorough")["theta_max"], of(mesh, "stellar")["theta_max"])
+
     def test_what_the_page_claims_of_rivals_is_so(self) -> None:
         text = (SOURCE / "docs" / "results" / "rivals.md").read_text()
         compared = [table for _, table in documents.tables(text)
