@@ -13,7 +13,7 @@ SOURCE = Path(sys.argv[1])
 DOCS = SOURCE / "docs"
 PAGE = (DOCS / "reliability.md").read_text()
 LINK = re.compile(r"\[([^\]]*\d[^\]]*)\]\((results/[^)]*)\)")
-NUMBER = re.compile(r"(?<![\w.,])\d[\d,]*(?:\.\d+)?")
+NUMBER = re.compile(r"(?<![\w.,])\d+(?:,\d{3})*(?:\.\d+)?(?![\w])")
 
 
 class Reliability(unittest.TestCase):
