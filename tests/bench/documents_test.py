@@ -383,6 +383,20 @@ class Published(unittest.TestCase):
             self.assertGreater(of(mesh, "thorough")["theta_min"], of(mesh, "stellar")["theta_min"])
             self.assertLess(of(mesh, "thorough")["theta_max"], of(mesh, "stellar")["theta_max"])
 
+    def test_what_pages_claim_of_operators_is_so(self) -> None:
+        def of(mesh: str, column: str) -> dict[str, float]:
+            [table] = tables((SOURCE / "docs" / "results" / "ablation.md").read_text())
+            return {row[1]: float(row[table[0].index(column)].replace(",", ""))
+                    for row in table[1:] if row[0] == mesh}
+
+        for mesh, operator in (("f6_1m", "cavity_insertion"), ("f6_280k", "insert_points")):
+            bad = of(mesh, "bad")
+            self.assertEqual(max(bad, key=bad.get), operator)  # "Insertion buys most"
+        least = of("f6_280k", "theta_min")
+        for operator in ("sequence", "joint_smoothing"):  # "raise the smallest angle"
+            self.assertLess(least[operator], least["nothing"] - 0.5)
+        self.assertGreater(of("f6_1m", "tets")["local_reconnection"], 1.1 * of("f6_1m", "tets")["nothing"])
+
     def test_what_the_page_claims_of_rivals_is_so(self) -> None:
         text = (SOURCE / "docs" / "results" / "rivals.md").read_text()
         compared = [table for _, table in documents.tables(text)
