@@ -4,7 +4,8 @@
 # -DSOURCE= -DWORK= -DCOMPILER= -DGENERATOR=
 file(REMOVE_RECURSE ${WORK})
 file(WRITE ${WORK}/source/CMakeLists.txt
-  "cmake_minimum_required(VERSION 3.22)\nproject(trial CXX)\ninclude(${SOURCE}/cmake/find_mpi.cmake)\n"
+  "cmake_minimum_required(VERSION 3.22)\nproject(trial CXX)\ninclude(${SOURCE}/cmake/mpi_for_programs.cmake)\n"
+  "if(NOT tetmend_mpi_lacks)\n  find_package(MPI 3.1 QUIET COMPONENTS CXX)\nendif()\n"
   "message(STATUS \"found: '\${MPI_CXX_FOUND}'\")\n")
 # As the wrappers of Open MPI without libopenmpi-dev.
 foreach(name mpicxx mpic++ mpiCC)

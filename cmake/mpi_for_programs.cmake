@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Finds MPI as find_package(MPI) does, but passes over one that is there to run programs alone: its compiler wrapper names
-# folders that are not there, of which FindMPI makes an error.
+# Sets tetmend_mpi_lacks to a folder where MPI is here to run programs alone: its compiler wrapper names folders that are not
+# there, of which FindMPI makes an error.
 find_program(tetmend_mpi_wrapper NAMES ${MPI_CXX_COMPILER} mpicxx mpic++ mpiCC NO_CACHE)
 set(tetmend_mpi_flags "")
 if(tetmend_mpi_wrapper)
@@ -17,6 +17,4 @@ foreach(folder IN LISTS tetmend_mpi_folders)
 endforeach()
 if(tetmend_mpi_lacks)
   message(STATUS "MPI is here to run programs alone: there is no ${tetmend_mpi_lacks}")
-else()
-  find_package(MPI 3.1 QUIET COMPONENTS CXX)
 endif()
