@@ -473,7 +473,8 @@ def vtu_packed_elements_of_xml(n):
 @case
 def pvtu_parts(n):
     n = n // 20
-    parts = {f"p{i}.vtu": VTU % (PIECE % "") for i in range(1, n + 1)}
+    place = lambda i: f"{2*i} 0 0 {2*i+1} 0 0 {2*i} 1 0 {2*i} 0 1"
+    parts = {f"p{i}.vtu": VTU % (PIECE % "").replace("0 0 0 1 0 0 0 1 0 0 0 1", place(i)) for i in range(1, n + 1)}
     return {"a.pvtu": '<VTKFile type="PUnstructuredGrid" version="0.1"><PUnstructuredGrid GhostLevel="0">' +
             rows('<Piece Source="p%(i)d.vtu"/>', n) + "</PUnstructuredGrid></VTKFile>\n"} | parts
 
