@@ -564,9 +564,10 @@ def elmer_names(n):
 
 @case
 def tetgen_attributes(n):
-    columns = min(1000, n // 10)
-    return {"a.ele": "1 4 0\n0 0 1 2 3\n", "a.node": f"4 3 {columns} 0\n" + "".join(
-        f"{i} {x} {y} {z}" + columns * " 1" + "\n" for i, (x, y, z) in enumerate(((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))))}
+    corners = "".join(f"{i} {x} {y} {z}" + " 1" * 9 + "\n" for i, (x, y, z) in
+                      enumerate(((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))))
+    return {"a.ele": "1 4 0\n0 0 1 2 3\n",
+            "a.node": f"{n + 4} 3 9 0\n{corners}" + rows("%(i)d 0 0 5" + " 1" * 9 + "\n", n, 4)}
 
 
 @case
