@@ -210,7 +210,7 @@ std::string format_build(const BuildReport& report) {
   note(report.dropped_vertices, "vertex", "vertices", "inside a region no longer required");
   note(report.loose_triangles, "triangle", "triangles", "that no tet has as a face: kept as is");
   note(report.loose_edges, "edge", "edges", "that no tet has: kept as is");
-  note(report.unused_points, "point", "points", "that no tet uses: kept as is");
+  note(report.unused_points, "point", "points", "that no element uses: kept as is");
   return text;
 }
 

@@ -21,6 +21,7 @@
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/geometry.h"
+#include "kernel/grouping.h"
 #include "kernel/lists_of_kind.h"
 #include "kernel/parts.h"
 #include "kernel/tet_faces.h"
@@ -360,27 +361,15 @@ class Carrying {
         now_.groups.push_back(std::move(group));
         continue;
       }
-      const std::vector<bool> held = mask(group);
       switch (group.dimension) {
         case 0:
-          group.members = points_of(held, !formats::is_medit_mark(group.name));
+          group.members = points_of(group.members, !formats::is_medit_mark(group.name));
           break;
         case 3:
-          group.members = tets_of(held);
+          group.members = tets_of(group.members);
           break;
-        default: {
-          const auto& map = element_maps_[static_cast<std::size_t>(group.dimension)];
-          const std::set<std::uint32_t> old(group.members.begin(), group.members.end());
-          std::erase_if(group.members, [&](std::uint32_t i) { return map[i] == kGone; });
-          for (std::uint32_t& member : group.members) member = map[member];
-          for (const auto& [model, made] :
-               new_elements_[static_cast<std::size_t>(group.dimension)]) {
-            if (old.contains(model)) group.members.push_back(made);
-          }
-          std::vector<std::uint32_t>& members = group.members;
-          std::sort(members.begin(), members.end());
-          members.erase(std::unique(members.begin(), members.end()), members.end());
-        }
+        default:
+          group.members = elements_of(group.members, static_cast<std::size_t>(group.dimension));
       }
       now_.groups.push_back(std::move(group));
     }
@@ -393,45 +382,84 @@ class Carrying {
     }
   }
 
-  std::vector<bool> mask(const Group& group) const {
-    std::vector<bool> mask(group.dimension == 0 ? before_.points.size() : before_.tets.size());
-    if (group.dimension == 0 || group.dimension == 3) {
-      for (const std::uint32_t member : group.members) mask[member] = true;
-    }
-    return mask;
-  }
+  using Members = std::vector<std::uint32_t>;
+
+  // There may be as many groups as members: each takes time for its own alone, not for the mesh.
+
   /// The points that are left; of a set that fills a volume also new ones in tets that it holds
   /// wholly. A mark, such as of corners, is of single points.
-  std::vector<std::uint32_t> points_of(const std::vector<bool>& held, bool may_fill) {
-    const bool fills = may_fill && fills_volume(held);
-    std::vector<std::uint32_t> members;
-    for (std::uint32_t i = 0; i < now_.points.size(); ++i) {
-      const bool is_in = old_point_[i] != kGone
-                             ? held[old_point_[i]]
-                             : fills && holds(held, before_.tets[places_[i].tet]);
-      if (is_in) members.push_back(i);
+  Members points_of(const Members& old, bool may_fill) {
+    held_.resize(before_.points.size(), 0);
+    for (const std::uint32_t v : old) held_[v] = 1;
+    Members members;
+    for (const std::uint32_t v : old) {
+      if (vertex_map_[v] != kGone) members.push_back(vertex_map_[v]);
     }
-    return members;
+    if (may_fill && fills_volume(old)) {
+      index_new_points();
+      for (const std::uint32_t v : old) {
+        for (const std::uint32_t i : new_points_at_.group(v)) {
+          const std::uint32_t point = new_points_[i];
+          if (holds(before_.tets[places_[point].tet])) members.push_back(point);
+        }
+      }
+    }
+    for (const std::uint32_t v : old) held_[v] = 0;
+    return in_order(std::move(members));
   }
-  static bool holds(const std::vector<bool>& held, const MeshData::Tet& tet) {
+  bool holds(const MeshData::Tet& tet) const {
     return std::all_of(tet.vertices.begin(), tet.vertices.end(),
-                       [&](std::uint32_t v) { return held[v]; });
+                       [this](std::uint32_t v) { return held_[v] != 0; });
   }
   /// It holds a vertex within the volume, or all vertices of tets: others mark places on the surface.
-  bool fills_volume(const std::vector<bool>& held) {
+  bool fills_volume(const Members& old) {
     if (is_inside_.empty()) is_inside_ = inner_vertices(before_);
-    for (std::size_t i = 0; i < held.size(); ++i) {
-      if (held[i] && is_inside_[i]) return true;
+    if (std::any_of(old.begin(), old.end(), [this](std::uint32_t v) { return is_inside_[v]; })) {
+      return true;
     }
     return !before_.tets.empty() &&
            std::all_of(before_.tets.begin(), before_.tets.end(),
-                       [&](const MeshData::Tet& tet) { return holds(held, tet); });
+                       [this](const MeshData::Tet& tet) { return holds(tet); });
   }
-  std::vector<std::uint32_t> tets_of(const std::vector<bool>& held) const {
-    std::vector<std::uint32_t> members;
-    for (std::uint32_t i = 0; i < old_tet_.size(); ++i) {
-      if (held[old_tet_[i]]) members.push_back(i);
+  /// New points by a corner of the old tet that they lie in.
+  void index_new_points() {
+    if (!new_points_at_.begin.empty()) return;
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = 0; i < now_.points.size(); ++i) {
+      if (old_point_[i] != kGone) continue;
+      new_points_.push_back(i);
+      corners.push_back(before_.tets[places_[i].tet].vertices[0]);
     }
+    new_points_at_ = group_by_key(corners, static_cast<std::uint32_t>(before_.points.size()));
+  }
+
+  Members tets_of(const Members& old) {
+    if (tets_from_.begin.empty()) {
+      tets_from_ = group_by_key(old_tet_, static_cast<std::uint32_t>(before_.tets.size()));
+    }
+    Members members;
+    for (const std::uint32_t t : old) {
+      const auto made = tets_from_.group(t);
+      members.insert(members.end(), made.begin(), made.end());
+    }
+    return in_order(std::move(members));
+  }
+
+  Members elements_of(const Members& old, std::size_t dimension) {
+    auto& made = new_elements_[dimension];
+    if (!std::is_sorted(made.begin(), made.end())) std::sort(made.begin(), made.end());
+    Members members;
+    for (const std::uint32_t i : old) {
+      if (element_maps_[dimension][i] != kGone) members.push_back(element_maps_[dimension][i]);
+      auto at = std::lower_bound(made.begin(), made.end(), std::pair(i, std::uint32_t{0}));
+      for (; at != made.end() && at->first == i; ++at) members.push_back(at->second);
+    }
+    return in_order(std::move(members));
+  }
+
+  static Members in_order(Members members) {
+    std::sort(members.begin(), members.end());
+    members.erase(std::unique(members.begin(), members.end()), members.end());
     return members;
   }
 
@@ -484,7 +512,11 @@ class Carrying {
   std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
   std::vector<std::uint32_t> changed_;    // old tets
   std::vector<bool> is_inside_;           // old points; empty: not asked for yet
-  std::vector<TetPlace> places_;          // in the old mesh, of points that are new or have moved
+  std::vector<char> held_;                // old points of the group at hand
+  std::vector<std::uint32_t> new_points_;
+  Grouping new_points_at_;        // what of them is at an old point; empty: not asked for yet
+  Grouping tets_from_;            // new tets by the old tet that they are from; likewise
+  std::vector<TetPlace> places_;  // in the old mesh, of points that are new or have moved
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
   // New ones of a changed surface, each with the old one that it is like.
   std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 4> new_elements_;

@@ -102,7 +102,10 @@ constexpr Row kRows[] = {
        o.time_limit = read_number(text, 1e-3, 1e9, "a number of seconds");
      }},
     {{"plugin", "FILE", kAdds},
-     [](Options& o, std::string_view text) { o.plugin.emplace_back(text); }},
+     [](Options& o, std::string_view text) {
+       if (text.empty()) throw Error("no file is named");
+       o.plugin.emplace_back(text);
+     }},
     {{"check-operators", kSwitch},
      [](Options& o, std::string_view text) { o.check_operators = read_switch(text); }},
     {{"threads", "N"},

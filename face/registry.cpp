@@ -3,7 +3,9 @@
 #include "face/registry.h"
 
 #include <algorithm>
+#include <system_error>
 
+#include "kernel/error.h"
 #include "ops/plugin.h"
 
 namespace tetmend::face {
@@ -12,7 +14,10 @@ Registry load_registry(const std::vector<std::filesystem::path>& plugins) {
   Registry registry = Registry::builtin();
   std::vector<std::filesystem::path> known;
   for (const std::filesystem::path& file : plugins) {
-    const std::filesystem::path real = std::filesystem::weakly_canonical(file);
+    if (file.empty()) throw Error("a plugin is to be loaded, but no file is named");
+    std::error_code error;  // of a name that is none, say: load_plugin() tells
+    std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
+    if (error) real = file;
     if (std::find(known.begin(), known.end(), real) != known.end()) continue;
     known.push_back(real);
     load_plugin(file, registry);

@@ -493,8 +493,24 @@ void MeshBuilder::link_vertices() {
       }
     }
   });
-  for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
-  report_.unused_points -= data_.mid_nodes.size();
+  count_unused_points();
+}
+
+/// Those of no tet, no edge of second order and no element of another kind.
+void MeshBuilder::count_unused_points() {
+  const auto is_unused = [](TetHandle t) { return !t.is_valid(); };
+  const auto in_no_tet =
+      std::count_if(mesh_.vertex_tet_.begin(), mesh_.vertex_tet_.end(), is_unused);
+  if (in_no_tet == 0) return;
+  std::vector<char> is_used(mesh_.points_.size());
+  const auto use = [&](std::uint32_t number) { is_used[vertex(number).index()] = 1; };
+  for (const auto& node : data_.mid_nodes) use(node[2]);
+  for (const OtherElements& others : data_.other_elements) {
+    std::for_each(others.vertices.begin(), others.vertices.end(), use);
+  }
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    report_.unused_points += is_used[v] == 0 && is_unused(mesh_.vertex_tet_[v]) ? 1 : 0;
+  }
 }
 
 /// A face of the tet at the edge lies on the boundary or is constrained.

@@ -84,6 +84,7 @@ class MeshBuilder {
   void add_surface_face(HalfFace f, SurfaceTriangle triangle);
   std::vector<HalfFace> unnamed_faces() const;
   void link_vertices();
+  void count_unused_points();
   bool lies_on_face(TetEdge e) const;
   void mark_edges();
   void mark_vertices();

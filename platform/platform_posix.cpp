@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "platform/child.h"
+#include "platform/memory.h"
 #include "platform/platform.h"
 #ifdef __linux__
 #include <link.h>
@@ -392,6 +393,28 @@ std::size_t peak_memory() noexcept {
   constexpr std::size_t kUnit = 1024;
 #endif
   return static_cast<std::size_t>(usage.ru_maxrss) * kUnit;
+}
+
+std::uint64_t memory_for_process() noexcept {
+  std::uint64_t bytes = std::numeric_limits<std::uint64_t>::max();
+  const auto at_most = [&bytes](std::uint64_t limit) { bytes = std::min(bytes, limit); };
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long size = ::sysconf(_SC_PAGESIZE);
+  if (pages > 0 && size > 0) {
+    at_most(static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size));
+  }
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    at_most(limit.rlim_cur);
+  }
+  try {  // a container of Linux; where there is none the file says "max", or is not there
+    std::ifstream file("/sys/fs/cgroup/memory.max");
+    std::uint64_t most = 0;
+    if (file >> most) at_most(most);
+  } catch (...) {
+    return bytes;
+  }
+  return bytes;
 }
 
 void trim_heap() noexcept {

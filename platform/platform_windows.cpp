@@ -6,10 +6,12 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <system_error>
 
 #include "platform/child.h"
+#include "platform/memory.h"
 #include "platform/platform.h"
 
 #define WIN32_LEAN_AND_MEAN
@@ -417,6 +419,13 @@ std::size_t peak_memory() noexcept {
   PROCESS_MEMORY_COUNTERS counters{};
   if (::GetProcessMemoryInfo(::GetCurrentProcess(), &counters, sizeof counters) == 0) return 0;
   return counters.PeakWorkingSetSize;
+}
+
+std::uint64_t memory_for_process() noexcept {
+  MEMORYSTATUSEX status{};
+  status.dwLength = sizeof status;
+  if (::GlobalMemoryStatusEx(&status) == 0) return UINT64_MAX;
+  return status.ullTotalPhys;
 }
 
 void trim_heap() noexcept {}

@@ -176,6 +176,10 @@ const Group& group_of(const tetmend_mesh& handle, std::size_t i) {
 /// @throws Error with the place
 std::vector<std::uint32_t> read_members(const int32_t* members, std::size_t n, std::size_t count,
                                         tetmend_place of, std::int32_t first) {
+  if (n > count) {  // one of them would come twice
+    throw WrongCall(std::to_string(n) + " members of the " + name_of(of) + ", but " +
+                    there_are(count));
+  }
   std::vector<std::uint32_t> made(n);
   std::vector<bool> is_in(count, false);
   for (std::size_t i = 0; i < n; ++i) {
@@ -281,6 +285,7 @@ tetmend_status tetmend_set_required_vertices(tetmend_mesh* mesh, const int32_t* 
   return guarded(mesh, [&](tetmend_mesh& handle) {
     MeshArrays& draft = draft_of(handle);
     need(vertices, "vertices", n > 0);
+    if (n > kMost) throw WrongCall("required vertices: more than 2^31 - 1");
     const std::int32_t first = handle.first_number;
     std::vector<std::uint32_t> made(n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -7,8 +7,11 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -174,15 +177,24 @@ void append(DataArray& joined, const DataArray* array, std::size_t count) {
       joined.values);
 }
 
-const DataArray* find_like(const std::vector<DataArray>& arrays, const DataArray& model) {
-  for (const DataArray& array : arrays) {
-    if (array.name == model.name && array.components == model.components &&
-        array.values.index() == model.values.index()) {
-      return &array;
-    }
+/// Arrays of which the first of a name, a width and a type can be found.
+class ArrayIndex {
+ public:
+  explicit ArrayIndex(const std::vector<DataArray>& arrays) {
+    for (const DataArray& array : arrays) places_.try_emplace(key_of(array), &array);
   }
-  return nullptr;
-}
+  const DataArray* find_like(const DataArray& model) const {
+    const auto found = places_.find(key_of(model));
+    return found == places_.end() ? nullptr : found->second;
+  }
+
+ private:
+  using Key = std::tuple<std::string_view, std::size_t, std::size_t>;
+  static Key key_of(const DataArray& array) {
+    return {array.name, array.components, array.values.index()};
+  }
+  std::map<Key, const DataArray*> places_;
+};
 
 }  // namespace
 
@@ -254,21 +266,29 @@ std::vector<DataArray> join_cell_arrays(const MeshData& mesh) {
   struct Kind {
     std::size_t count;
     const std::vector<DataArray>* arrays;
+    ArrayIndex index;
   };
-  std::vector<Kind> kinds = {{mesh.tets.size(), &mesh.tet_data},
-                             {mesh.triangles.size(), &mesh.triangle_data},
-                             {mesh.edges.size(), &mesh.edge_data}};
-  for (const OtherElements& other : mesh.other_elements) {
-    kinds.push_back({other.labels.size(), &other.data});
-  }
+  std::vector<Kind> kinds;
+  const auto add = [&](std::size_t count, const std::vector<DataArray>& arrays) {
+    kinds.push_back({count, &arrays, ArrayIndex(arrays)});
+  };
+  add(mesh.tets.size(), mesh.tet_data);
+  add(mesh.triangles.size(), mesh.triangle_data);
+  add(mesh.edges.size(), mesh.edge_data);
+  for (const OtherElements& other : mesh.other_elements) add(other.labels.size(), other.data);
   std::vector<DataArray> joined;
-  for (const Kind& source : kinds) {
-    for (const DataArray& model : *source.arrays) {
-      if (find_like(joined, model) != nullptr) continue;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    for (const DataArray& model : *kinds[k].arrays) {
+      const auto is_like = [&](const Kind& kind) { return kind.index.find_like(model) != nullptr; };
+      const auto before = kinds.begin() + static_cast<std::ptrdiff_t>(k);
+      if (kinds[k].index.find_like(model) != &model ||
+          std::any_of(kinds.begin(), before, is_like)) {
+        continue;
+      }
       DataArray& all = joined.emplace_back(DataArray{model.name, model.components, model.values});
       std::visit([](auto& values) { values.clear(); }, all.values);
       for (const Kind& kind : kinds) {
-        append(all, find_like(*kind.arrays, model), kind.count * model.components);
+        append(all, kind.index.find_like(model), kind.count * model.components);
       }
     }
   }

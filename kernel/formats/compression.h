@@ -16,7 +16,7 @@ bool is_gzip(std::string_view bytes);
 /// tenth, and regular ones to a fiftieth.
 constexpr bool is_bomb(std::size_t packed, std::size_t unpacked) {
   constexpr std::size_t kMostRatio = 200;
-  constexpr std::size_t kFree = std::size_t{1} << 26;
+  constexpr std::size_t kFree = std::size_t{1} << 23;
   return unpacked > kFree && unpacked / kMostRatio > packed;
 }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -231,8 +232,7 @@ class Reader {
                                                    in_quotes(line)));
     }
     const int dimension = is_body ? 3 : dimension_of_boundary(number);
-    for (const Group& group : mesh_.groups) {
-      if (group.dimension != dimension || group.number != number) continue;
+    if (!named_.insert({dimension, number}).second) {
       source.text.fail_at(line.data(), fmt::format("the number '{}' has a second name", number));
     }
     mesh_.groups.push_back({dimension, number, std::string(name), {}, {}});
@@ -265,6 +265,7 @@ class Reader {
   std::vector<std::uint32_t> order_;             // in which the numbers of nodes ascend
   GmshTags tags_;
   std::optional<std::map<Label, bool>> surface_labels_;  // false: of edges only
+  std::set<std::pair<int, Label>> named_;                // dimension and number
 };
 
 int elmer_type(int vtk_type) {

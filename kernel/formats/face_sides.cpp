@@ -74,19 +74,40 @@ class Finder {
 
   std::vector<std::vector<FaceSides>> run() {
     for (std::uint32_t k = 0; k < surfaces_.size(); ++k) {
-      sides_.emplace_back(surfaces_[k]->count);
       for (std::uint32_t i = 0; i < surfaces_[k]->count; ++i) {
-        places_.emplace(key_of(corners_of(*surfaces_[k], i)), std::pair{k, i});
+        const Key corners = corners_of(*surfaces_[k], i);
+        places_.try_emplace(key_of(corners), Place{corners, {}});
       }
     }
     std::uint32_t number = 0;
     for (const ElementList* list : volumes_) {
       for (std::size_t i = 0; i < list->count; ++i) look_around(*list, i, number++);
     }
-    return std::move(sides_);
+    return sides_of_surfaces();
   }
 
  private:
+  /// Elements with the same corners share a place.
+  struct Place {
+    Key corners;  // of the first of them
+    FaceSides sides;
+  };
+
+  std::vector<std::vector<FaceSides>> sides_of_surfaces() const {
+    std::vector<std::vector<FaceSides>> all;
+    for (const ElementList* list : surfaces_) {
+      std::vector<FaceSides>& of_list = all.emplace_back();
+      for (std::size_t i = 0; i < list->count; ++i) {
+        const Key corners = corners_of(*list, i);
+        const Place& place = places_.at(key_of(corners));
+        of_list.push_back(place.sides);
+        if (same_sense(place.corners, corners)) continue;
+        std::swap(of_list.back().behind, of_list.back().front);
+      }
+    }
+    return all;
+  }
+
   void look_around(const ElementList& list, std::size_t i, std::uint32_t number) {
     const auto v = list.vertices(i);
     for (const Face& face : faces_of(list.kind)) {
@@ -94,15 +115,12 @@ class Finder {
       for (std::size_t k = 0; k < 4; ++k) {
         corners[k] = face[k] == kNone ? kNoElement : v[face[k]];
       }
-      const auto [begin, end] = places_.equal_range(key_of(corners));
-      if (begin == end) continue;
+      const auto found = places_.find(key_of(corners));
+      if (found == places_.end()) continue;
       const bool outwards = list.kind.corners != 4 || is_positive(v);
-      for (auto at = begin; at != end; ++at) {
-        const auto [k, surface] = at->second;
-        FaceSides& sides = sides_[k][surface];
-        const bool is_behind = same_sense(corners, corners_of(*surfaces_[k], surface)) == outwards;
-        (is_behind ? sides.behind : sides.front) = number;
-      }
+      FaceSides& sides = found->second.sides;
+      const bool is_behind = same_sense(corners, found->second.corners) == outwards;
+      (is_behind ? sides.behind : sides.front) = number;
     }
   }
 
@@ -114,8 +132,7 @@ class Finder {
   const MeshView& mesh_;
   std::vector<const ElementList*> surfaces_;
   std::vector<const ElementList*> volumes_;
-  std::vector<std::vector<FaceSides>> sides_;
-  std::unordered_multimap<Key, std::pair<std::uint32_t, std::uint32_t>, Hash> places_;
+  std::unordered_map<Key, Place, Hash> places_;
 };
 
 }  // namespace

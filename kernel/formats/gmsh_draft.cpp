@@ -23,21 +23,9 @@ class GroupSets {
     if (is_new) at->second = number({group});
     return last_set_ = at->second;
   }
-  std::uint32_t united(std::uint32_t a, std::uint32_t b) {
-    const auto [at, is_new] = united_.try_emplace({a, b}, 0);
-    if (is_new) {
-      std::vector<Label> both;
-      std::set_union(sets_[a].begin(), sets_[a].end(), sets_[b].begin(), sets_[b].end(),
-                     std::back_inserter(both));
-      at->second = number(std::move(both));
-    }
-    return at->second;
-  }
-  bool overlap(std::uint32_t a, std::uint32_t b) const {
-    std::vector<Label> common;
-    std::set_intersection(sets_[a].begin(), sets_[a].end(), sets_[b].begin(), sets_[b].end(),
-                          std::back_inserter(common));
-    return !common.empty();
+  /// Of several, in ascending order.
+  std::uint32_t of(const std::set<Label>& groups) {
+    return number(std::vector<Label>(groups.begin(), groups.end()));
   }
 
  private:
@@ -51,7 +39,6 @@ class GroupSets {
   std::vector<std::vector<Label>> sets_;  // each in ascending order
   std::map<std::vector<Label>, std::uint32_t> number_of_;
   std::unordered_map<Label, std::uint32_t> with_one_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> united_;
   Label last_ = 0;
   std::uint32_t last_set_ = 0;
 };
@@ -67,7 +54,9 @@ class Merger {
   /// The set of groups of each row that is left.
   std::vector<std::uint32_t> run() {
     merge_neighbours();
+    number_merged();
     merge_apart();
+    number_merged();
     drop_merged();
     return std::move(set_of_);
   }
@@ -131,14 +120,33 @@ class Merger {
 
   /// False if row `i` is no repetition: it is of another entity or names a group once more.
   bool merge(std::size_t first, std::size_t i) {
-    if (rows_.parts[first] != rows_.parts[i] || set_of_[first] == 0 || set_of_[i] == 0 ||
-        sets_.overlap(set_of_[first], set_of_[i])) {
+    if (rows_.parts[first] != rows_.parts[i] || rows_.labels[first] == 0 || rows_.labels[i] == 0) {
       return false;
     }
-    set_of_[first] = sets_.united(set_of_[first], set_of_[i]);
+    std::set<Label>& into = merged_groups(first);
+    std::set<Label>& from = merged_groups(i);
+    const bool is_smaller = into.size() < from.size();
+    const std::set<Label>& fewer = is_smaller ? into : from;
+    const std::set<Label>& more = is_smaller ? from : into;
+    const auto is_there = [&](Label group) { return more.contains(group); };
+    if (std::any_of(fewer.begin(), fewer.end(), is_there)) return false;
+    if (is_smaller) into.swap(from);
+    into.merge(from);
+    merged_.erase(i);
     kept_[i] = false;
     any_merged_ = true;
     return true;
+  }
+
+  /// The groups of a row that another may be put to.
+  std::set<Label>& merged_groups(std::size_t row) {
+    std::set<Label>& groups = merged_[row];
+    if (groups.empty()) groups.insert(rows_.labels[row]);
+    return groups;
+  }
+
+  void number_merged() {
+    for (const auto& [row, groups] : merged_) set_of_[row] = sets_.of(groups);
   }
 
   void drop_merged() {
@@ -160,6 +168,7 @@ class Merger {
   GroupSets& sets_;
   std::vector<std::uint32_t> set_of_;
   std::vector<bool> kept_;
+  std::map<std::size_t, std::set<Label>> merged_;  // groups of rows that others were put to
   bool any_merged_ = false;
 };
 

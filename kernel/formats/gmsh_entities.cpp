@@ -5,18 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <unordered_set>
 #include <utility>
+
+#include "kernel/formats/set_chains.h"
 
 namespace tetmend::formats {
 namespace {
 
-bool contains(const std::vector<Label>& groups, Label number) {
-  return std::find(groups.begin(), groups.end(), number) != groups.end();
-}
-
-/// An entity may name a group by its number with the other sign.
-bool belongs_to(const GeometricEntity& entity, Label group) {
-  return contains(entity.groups, group) || (group > 0 && contains(entity.groups, -group));
+/// Puts those of `more` that are not there behind the others.
+void add_missing(std::vector<Label>& groups, std::span<const Label> more) {
+  if (more.empty()) return;
+  std::unordered_set<Label> known(groups.begin(), groups.end());
+  for (const Label group : more) {
+    if (known.insert(group).second) groups.push_back(group);
+  }
 }
 
 }  // namespace
@@ -24,20 +27,25 @@ bool belongs_to(const GeometricEntity& entity, Label group) {
 GmshMembership::GmshMembership(const MeshData* data, int dimension, std::size_t elements)
     : sets_(1) {
   if (data == nullptr) return;
-  std::map<std::pair<std::uint32_t, Label>, std::uint32_t> with;
+  SetChains chains;
+  chains.begin();
+  std::unordered_set<Label> before;
   for (const Group& group : data->groups) {
     if (group.dimension != dimension || group.members.empty()) continue;
     set_of_.resize(elements);
+    const auto number = static_cast<std::uint32_t>(group.number);
+    const bool is_new = before.insert(group.number).second;  // so only a member named twice has it
     for (const std::uint32_t element : group.members) {
       std::uint32_t& set = set_of_[element];
-      if (contains(sets_[set], group.number)) continue;
-      const auto [at, is_new] =
-          with.try_emplace({set, group.number}, static_cast<std::uint32_t>(sets_.size()));
-      if (is_new) {
-        sets_.push_back(sets_[set]);
-        sets_.back().push_back(group.number);
-      }
-      set = at->second;
+      const bool has = set != 0 && (is_new ? chains.last(set) == number : chains.has(set, number));
+      if (!has) set = chains.with(set, number);
+    }
+  }
+  sets_.resize(chains.size());
+  for (const std::uint32_t set : set_of_) {
+    if (set == 0 || !sets_[set].empty()) continue;
+    for (const std::uint32_t number : chains.sets(set)) {
+      sets_[set].push_back(static_cast<Label>(number));
     }
   }
 }
@@ -52,14 +60,23 @@ GmshEntities::GmshEntities(const MeshData* data, int dimension) : dimension_(dim
   for (const GeometricEntity& entity : data->entities) {
     if (entity.dimension != dimension) continue;
     of_tag_[entity.tag] = static_cast<std::uint32_t>(list_.size());
+    const auto number = of_tag_[entity.tag];
     list_.push_back(entity);
+    for (const Label group : entity.groups) members_.insert({number, group});
     const auto groups = groups_of_part_.find(entity.tag);
     if (groups == groups_of_part_.end()) continue;
     for (const Label group : groups->second) {
-      if (!belongs_to(list_.back(), group)) list_.back().groups.push_back(group);
+      if (belongs_to(number, group)) continue;
+      list_.back().groups.push_back(group);
+      members_.insert({number, group});
     }
   }
   listed_ = list_.size();
+}
+
+/// An entity may name a group by its number with the other sign.
+bool GmshEntities::belongs_to(std::uint32_t entity, Label group) const {
+  return members_.contains({entity, group}) || (group > 0 && members_.contains({entity, -group}));
 }
 
 std::uint32_t GmshEntities::look_up(const Key& key, std::span<const Label> member_of) {
@@ -70,24 +87,20 @@ std::uint32_t GmshEntities::look_up(const Key& key, std::span<const Label> membe
 
 std::uint32_t GmshEntities::search(const Key& key, std::span<const Label> member_of) {
   std::vector<Label> groups;
-  const GeometricEntity* listed = nullptr;
+  std::uint32_t listed = kNone;
   if (key.has_part) {
     const auto of_part = groups_of_part_.find(key.part);
     if (of_part != groups_of_part_.end()) groups = of_part->second;
     const auto of_tag = of_tag_.find(key.part);
-    if (of_tag != of_tag_.end()) listed = &list_[of_tag->second];
+    if (of_tag != of_tag_.end()) listed = of_tag->second;
   }
-  for (const Label group : member_of) {
-    if (!contains(groups, group)) groups.push_back(group);
-  }
+  add_missing(groups, member_of);
   // A label alone makes a group, unless the group says itself what it has.
   const bool makes_group = key.label != 0 && !explicit_groups_.contains(key.label) &&
-                           !(listed != nullptr && belongs_to(*listed, key.label));
+                           !(listed != kNone && belongs_to(listed, key.label));
   if (makes_group) groups.push_back(key.label);
-  const auto has = [&](Label group) { return belongs_to(*listed, group); };
-  if (listed != nullptr && std::all_of(groups.begin(), groups.end(), has)) {
-    return of_tag_[key.part];
-  }
+  const auto has = [&](Label group) { return belongs_to(listed, group); };
+  if (listed != kNone && std::all_of(groups.begin(), groups.end(), has)) return listed;
   const auto label = std::find(groups.begin(), groups.end(), key.label);
   if (label != groups.end()) std::rotate(groups.begin(), label, label + 1);
   const auto [at, is_new] =

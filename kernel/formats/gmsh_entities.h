@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -64,11 +65,13 @@ class GmshEntities {
   std::uint32_t look_up(const Key& key, std::span<const Label> member_of);
   std::uint32_t search(const Key& key, std::span<const Label> member_of);
   std::uint32_t create(Label part, std::vector<Label> groups);
+  bool belongs_to(std::uint32_t entity, Label group) const;
 
   int dimension_;
   std::vector<GeometricEntity> list_;
-  std::size_t listed_ = 0;                 // by the data
-  std::map<Label, std::uint32_t> of_tag_;  // those
+  std::size_t listed_ = 0;                             // by the data
+  std::map<Label, std::uint32_t> of_tag_;              // those
+  std::set<std::pair<std::uint32_t, Label>> members_;  // those, and the groups that they are in
   std::map<Label, std::vector<Label>> groups_of_part_;
   std::set<Label> explicit_groups_;  // which name parts or members
   std::map<Key, std::uint32_t> found_;

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -136,6 +138,22 @@ std::array<std::int64_t, N> numbers_of(std::string_view line) {
   skip_blanks();
   require(at == end);
   return numbers;
+}
+
+/// {dimension, number} of entities, with the label of their elements: the first group.
+std::map<std::pair<int, Label>, Label> labels_of_entities(const MeshData& head) {
+  std::set<std::pair<int, Label>> named;
+  for (const Group& group : head.groups) named.insert({group.dimension, group.number});
+  std::map<std::pair<int, Label>, Label> labels;
+  for (const GeometricEntity& entity : head.entities) {
+    const auto group =
+        std::find_if(entity.groups.begin(), entity.groups.end(), [](Label g) { return g != 0; });
+    if (group == entity.groups.end()) continue;
+    const bool is_turned =
+        *group < 0 && *group > INT32_MIN && !named.contains({entity.dimension, *group});
+    labels.try_emplace({entity.dimension, entity.tag}, is_turned ? -*group : *group);
+  }
+  return labels;
 }
 
 class Scanner {
@@ -315,9 +333,10 @@ class Scanner {
       layout_.head += "$" + name + "\n" + nothing + "$End" + name + "\n";
       begin = to;
     }
-    const MeshData head = read_gmsh_head(layout_.head);
+    const auto labels = labels_of_entities(read_gmsh_head(layout_.head));
     for (GmshBlock& block : layout_.blocks) {
-      block.label = gmsh_label(head, block.dimension, block.part);
+      const auto found = labels.find({block.dimension, block.part});
+      block.label = found == labels.end() ? 0 : found->second;
     }
     for (const GmshChunk& chunk : layout_.point_elements) {
       if (layout_.blocks[chunk.block].label == 0) layout_.loose_points += chunk.rows;
@@ -340,23 +359,6 @@ std::optional<GmshLayout> scan_gmsh(const std::filesystem::path& file) {
   } catch (const Error&) {
     return std::nullopt;
   }
-}
-
-Label gmsh_label(const MeshData& head, int dimension, Label entity) {
-  const auto is_named = [&](Label number) {
-    return std::any_of(head.groups.begin(), head.groups.end(), [&](const Group& group) {
-      return group.dimension == dimension && group.number == number;
-    });
-  };
-  const auto found = std::find_if(
-      head.entities.begin(), head.entities.end(),
-      [&](const auto& each) { return each.dimension == dimension && each.tag == entity; });
-  if (found == head.entities.end()) return 0;
-  for (const Label group : found->groups) {
-    const bool is_turned = group < 0 && group > INT32_MIN && !is_named(group);
-    if (group != 0) return is_turned ? -group : group;
-  }
-  return 0;
 }
 
 }  // namespace tetmend::formats

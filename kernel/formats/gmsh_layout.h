@@ -57,7 +57,4 @@ std::optional<GmshLayout> scan_gmsh(const std::filesystem::path& file);
 /// Groups, entities and the like of a file without nodes and elements. @throws Error
 MeshData read_gmsh_head(const std::string& bytes);
 
-/// The label of elements of this entity: its first group, 0 if it is in none.
-Label gmsh_label(const MeshData& head, int dimension, Label entity);
-
 }  // namespace tetmend::formats

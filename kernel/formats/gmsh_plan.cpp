@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "kernel/formats/gmsh_entities.h"
@@ -107,6 +108,9 @@ GmshKind plan_tets(const MeshView& mesh, GmshEntities& table, std::vector<MeshDa
 }  // namespace
 
 GmshPlan::GmshPlan(const MeshView& mesh) : data_(mesh.data()) {
+  if (data_ != nullptr) {
+    for (const Group& group : data_->groups) group_numbers_.insert({group.dimension, group.number});
+  }
   Tables tables(data_);
   tables_ = &tables;
   add_points(mesh);
@@ -252,21 +256,17 @@ std::size_t GmshPlan::entity_count() const {
 }
 
 bool GmshPlan::has_group(int dimension, Label number) const {
-  return data_ != nullptr &&
-         std::any_of(data_->groups.begin(), data_->groups.end(), [&](const Group& group) {
-           return group.dimension == dimension && group.number == number;
-         });
+  return group_numbers_.contains({dimension, number});
 }
 
 std::vector<Label> GmshPlan::groups_of(const GeometricEntity& entity) const {
   std::vector<Label> numbers;
+  std::unordered_set<Label> known;
   for (const Label group : entity.groups) {
     const bool is_turned = group < 0 && group > INT32_MIN && !has_group(entity.dimension, group);
     const bool stands_for_other = is_turned && has_group(entity.dimension, -group);
     const Label number = stands_for_other ? -group : group;
-    if (std::find(numbers.begin(), numbers.end(), number) == numbers.end()) {
-      numbers.push_back(number);
-    }
+    if (known.insert(number).second) numbers.push_back(number);
   }
   return numbers;
 }

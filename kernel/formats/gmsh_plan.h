@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernel/formats/gmsh_elements.h"
@@ -63,7 +65,8 @@ class GmshPlan {
 
   class Tables;
   const MeshData* data_;
-  Tables* tables_ = nullptr;  // while the plan is made
+  Tables* tables_ = nullptr;                       // while the plan is made
+  std::set<std::pair<int, Label>> group_numbers_;  // of all groups of the mesh
   std::vector<std::uint32_t> point_elements_;
   std::vector<MeshData::Tet> own_tets_;
 };

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -129,10 +130,8 @@ class Reader {
 
   void pass_over(std::string_view name) {
     skip_to_end(name);
-    std::string note = fmt::format("section {} is not kept", in_quotes(name));
-    if (std::find(mesh_.notes.begin(), mesh_.notes.end(), note) == mesh_.notes.end()) {
-      mesh_.notes.push_back(std::move(note));
-    }
+    if (!passed_.insert(name).second) return;
+    mesh_.notes.push_back(fmt::format("section {} is not kept", in_quotes(name)));
   }
 
   void skip_to_end(std::string_view name) {
@@ -209,15 +208,13 @@ class Reader {
     for (std::size_t k = 0; k < reals; ++k) entity.box[k] = source_.real("a bound of an entity");
     if (dimension == 0) std::copy_n(entity.box.begin(), 3, entity.box.begin() + 3);
     entity.groups.resize(source_.count("groups of an entity", 2, 4));
+    std::unordered_set<Label> known;
     for (Label& group : entity.groups) {
       group = source_.tag("the number of a group");
       // A negative number stands for the group turned round.
       const bool is_turned = group < 0 && group > INT32_MIN && !is_named(dimension, group);
       const Label number = is_turned ? -group : group;
-      std::vector<Label>& groups = at->second;
-      if (number != 0 && std::find(groups.begin(), groups.end(), number) == groups.end()) {
-        groups.push_back(number);
-      }
+      if (number != 0 && known.insert(number).second) at->second.push_back(number);
     }
     if (dimension > 0) {
       entity.boundary.resize(source_.count("bounds of an entity", 2, 4));
@@ -390,6 +387,7 @@ class Reader {
   bool is_part_;
   bool is_4_ = false;
   std::vector<std::string_view> seen_;
+  std::set<std::string_view> passed_;  // names of sections that are not kept
   std::set<std::pair<int, Label>> named_numbers_;
 };
 

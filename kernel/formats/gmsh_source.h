@@ -82,10 +82,7 @@ class GmshSource {
   /// read_row(text, i) for rows of a text file.
   template <class ReadRow>
   void rows(std::size_t count, const ReadRow& read_row) {
-    // To look for the ends of many lines does not pay for a few.
-    constexpr std::size_t kMany = std::size_t{1} << 14;
-    if (count >= kMany) return read_rows(text_, count, read_row);
-    for (std::size_t i = 0; i < count; ++i) read_row(text_, i);
+    read_rows(text_, count, read_row);
   }
 
  private:

@@ -75,10 +75,7 @@ void GmshViews::read_head(bool of_nodes) {
   if (source_.binary()) text.skip_line();
   view.numbers = text.position();
   if (source_.binary()) text.bytes(view.count * row_size, "the values of a view");
-  const auto same = [&](const View& other) {
-    return other.name == view.name && other.of_nodes == of_nodes;
-  };
-  if (std::none_of(views_.begin(), views_.end(), same)) {
+  if (names_.insert({of_nodes, view.name}).second) {
     views_.push_back(std::move(view));
   } else {
     add_note(fmt::format("of view {} only the first step is kept", in_quotes(view.name)));
@@ -86,9 +83,7 @@ void GmshViews::read_head(bool of_nodes) {
 }
 
 void GmshViews::add_note(std::string note) {
-  if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) {
-    notes_.push_back(std::move(note));
-  }
+  if (known_notes_.insert(note).second) notes_.push_back(std::move(note));
 }
 
 /// Views may have nan for "no value", which TextReader refuses.

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kernel/formats/gmsh_nodes.h"
@@ -50,7 +52,9 @@ class GmshViews {
 
   GmshSource& source_;
   std::vector<View> views_;
+  std::set<std::pair<bool, std::string>> names_;  // of nodes, name
   std::vector<std::string> notes_;
+  std::set<std::string> known_notes_;
 };
 
 }  // namespace tetmend::formats

@@ -144,6 +144,7 @@ class Reader {
     const auto* found = elements(text, block, set);
     bool any = false;
     if (found == nullptr) return any;
+    if (set != nullptr) sets_.add_work(found->size() + set->others.size(), block);
     for (const std::uint32_t element : *found) {
       if (!is_tet(mesh_, element)) continue;
       const std::uint32_t* v = mesh_.vertices_of(element);

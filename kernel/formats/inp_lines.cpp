@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/compression.h"
 
 namespace tetmend::formats {
 namespace {
@@ -183,8 +184,7 @@ std::int64_t InpFields::integer(std::string_view what, bool of_lines) {
   if (!to_integer(text, value)) {
     fail(fmt::format("{} is not an integer: expected {}", in_quotes(text), what));
   }
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;
-  if (value < 0 || value > kMost) {
+  if (value < 0 || value > kInpGreatestNumber) {
     fail(fmt::format("{} is out of range: expected {}", in_quotes(text), what));
   }
   return value;
@@ -238,24 +238,33 @@ void InpFields::fail(std::string_view reason) const {
 InpLines::InpLines(const std::filesystem::path& file) {
   folder_ = file.parent_path();
   includes.push_back({});
-  files_.push_back(std::make_unique<InputFile>(file));
-  read(file, 0);
+  read(open(file, nullptr), file, 0);
 }
 
+/// A file that is included again is not read again.
 const InputFile& InpLines::open(const std::filesystem::path& path, const InpBlock* from) {
-  constexpr std::size_t kMostFiles = 10000;
-  if (files_.size() > kMostFiles) from->fail("more files are included than anybody writes");
+  constexpr int kMostFiles = 10000;
+  if (++inclusions_ > kMostFiles) from->fail("more files are included than anybody writes");
+  std::unique_ptr<InputFile>& file = files_[std::filesystem::weakly_canonical(path)];
   try {
-    files_.push_back(std::make_unique<InputFile>(path));
+    if (file == nullptr) {
+      file = std::make_unique<InputFile>(path);
+      size_of_files_ += file->size_of_file();
+    }
   } catch (const Error& error) {
+    if (from == nullptr) throw;
     from->fail(error.what());
   }
-  return *files_.back();
+  included_ += file->size();
+  if (from != nullptr && is_bomb(size_of_files_, included_)) {
+    from->fail("the same files are included more often than anybody does");
+  }
+  return *file;
 }
 
-void InpLines::read(const std::filesystem::path& path, int number) {
-  const InputFile& file = *files_.back();
-  open_.push_back(std::filesystem::weakly_canonical(path));
+void InpLines::read(const InputFile& file, const std::filesystem::path& path, int number) {
+  const auto canonical = std::filesystem::weakly_canonical(path).native();
+  open_.insert(canonical);
   const char* end = file.end();
   InpBlock block;
   block.file = &file;
@@ -270,20 +279,27 @@ void InpLines::read(const std::filesystem::path& path, int number) {
     add(block, path);
     block.begin = next;
     next = after_line(next, end);
-    // A keyword line that ends in a comma goes on.
-    while (trimmed({block.begin, static_cast<std::size_t>(next - block.begin)}).ends_with(',') &&
-           next != end && !is_keyword(next, line_end(next, end))) {
+    // A keyword line that ends in a comma goes on, if only behind empty lines.
+    bool goes_on =
+        trimmed({block.begin, static_cast<std::size_t>(next - block.begin)}).ends_with(',');
+    while (goes_on && next != end && !is_keyword(next, line_end(next, end))) {
+      const char* line = next;
       next = after_line(next, end);
+      const std::string_view more = trimmed({line, static_cast<std::size_t>(next - line)});
+      goes_on = more.empty() || more.ends_with(',');
     }
     block.data = next;
   }
   block.end = end;
   add(block, path);
-  open_.pop_back();
+  open_.erase(canonical);
 }
 
 void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   if (block.begin == block.end) return;
+  if (is_bomb(size_of_files_, sizeof(InpBlock) * blocks.size())) {  // only where the deck is packed
+    block.fail("the deck has more keywords than so small a file can hold of a mesh");
+  }
   if (block.data != block.begin) read_parameters(block);
   if (block.keyword == "ASSEMBLY") in_assembly_ = true;
   if (block.keyword == "END ASSEMBLY") in_assembly_ = false;
@@ -305,8 +321,7 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   const std::string_view name = block.value("INPUT");
   if (name.empty()) block.fail("*INCLUDE names no file: expected INPUT=FILE");
   const std::filesystem::path target = path.parent_path() / unquoted(name);
-  const auto canonical = std::filesystem::weakly_canonical(target);
-  if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+  if (open_.contains(std::filesystem::weakly_canonical(target).native())) {
     block.fail(fmt::format("{} includes itself: expected another file", in_quotes(name)));
   }
   const InputFile& file = open(target, &block);
@@ -325,7 +340,7 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   block.end = block.data;
   block.included = number;
   blocks.push_back(std::move(block));
-  read(target, number);
+  read(file, target, number);
   if (tail.begin != tail.end) blocks.push_back(std::move(tail));
 }
 

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +19,9 @@ namespace tetmend::formats {
 /// In capitals, without blanks at the ends or quotes: names are compared so.
 std::string inp_key(std::string_view text);
 std::string_view trimmed(std::string_view text);
+
+/// Of nodes and elements, that is read.
+inline constexpr std::int64_t kInpGreatestNumber = std::int64_t{1} << 53;
 
 /// Lines of a file from a keyword to the next one; the first block of a file has none.
 struct InpBlock {
@@ -86,20 +92,26 @@ class InpLines {
  public:
   explicit InpLines(const std::filesystem::path& file);
 
-  std::vector<InpBlock> blocks;
+  std::deque<InpBlock> blocks;
   struct Include {
     int parent = 0;                ///< file that includes it
     bool parent_is_beside = true;  ///< beside the deck: so the line would mean the same there
   };
   std::vector<Include> includes;  ///< by file number; 0 is the deck itself
 
+  /// Bytes of all files, each once however often it is included.
+  std::size_t size_of_files() const { return size_of_files_; }
+
  private:
-  void read(const std::filesystem::path& path, int number);
+  void read(const InputFile& file, const std::filesystem::path& path, int number);
   const InputFile& open(const std::filesystem::path& path, const InpBlock* from);
   void add(InpBlock block, const std::filesystem::path& path);
 
-  std::vector<std::unique_ptr<InputFile>> files_;
-  std::vector<std::filesystem::path> open_;  // one in the other
+  std::map<std::filesystem::path, std::unique_ptr<InputFile>> files_;
+  std::size_t size_of_files_ = 0;
+  std::size_t included_ = 0;  // bytes, as often as they are
+  int inclusions_ = 0;
+  std::set<std::filesystem::path::string_type> open_;  // one in the other
   std::filesystem::path folder_;
   bool in_assembly_ = false;
   int parts_ = 0;

@@ -192,23 +192,25 @@ std::uint32_t InpNumbers::finish() {
   return twice;
 }
 
-void InpNumbers::collect(std::int64_t first, std::int64_t last, std::int64_t step,
-                         std::vector<std::uint32_t>& places) const {
+std::size_t InpNumbers::collect(std::int64_t first, std::int64_t last, std::int64_t step,
+                                std::vector<std::uint32_t>& places) const {
   const auto& all = sorted_.empty() ? numbers_ : sorted_;
   const auto begin = std::lower_bound(all.begin(), all.end(), first);
   const auto end = std::upper_bound(begin, all.end(), last);
-  if ((last - first) / step < end - begin) {
+  const std::int64_t steps = (last - first) / step + 1;
+  if (steps <= end - begin) {
     for (std::int64_t number = first; number <= last; number += step) {
       const std::uint32_t place = find(number);
       if (place != kNone) places.push_back(place);
     }
-    return;
+    return static_cast<std::size_t>(steps);
   }
   for (auto at = begin; at != end; ++at) {
     if ((*at - first) % step != 0) continue;
     const auto place = static_cast<std::uint32_t>(at - all.begin());
     places.push_back(order_.empty() ? place : order_[place]);
   }
+  return static_cast<std::size_t>(end - begin);
 }
 
 const InpElements& InpMesh::block_of(std::uint32_t element) const {

@@ -29,10 +29,10 @@ class InpNumbers {
   }
   std::int64_t most() const { return most_; }
   const std::vector<std::int64_t>& numbers() const { return numbers_; }
-  /// Places of first, first + step, ... to `last`, as far as there are such numbers. Cost: linear in
-  /// their count, or that of all numbers in the range.
-  void collect(std::int64_t first, std::int64_t last, std::int64_t step,
-               std::vector<std::uint32_t>& places) const;
+  /// Places of first, first + step, ... to `last`, as far as there are such numbers.
+  /// @returns how many numbers were looked at: of the range, or those in it
+  std::size_t collect(std::int64_t first, std::int64_t last, std::int64_t step,
+                      std::vector<std::uint32_t>& places) const;
 
  private:
   std::vector<std::int64_t> numbers_;  // in the order of the deck

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "kernel/formats/inp_mesh.h"
 #include "kernel/formats/inp_sets.h"
+#include "kernel/formats/set_chains.h"
 
 namespace tetmend::formats {
 
@@ -22,7 +21,8 @@ struct InpHome {
 struct InpPart {
   std::uint32_t home = 0;  ///< from 1
   int dimension = 2;
-  std::vector<std::uint32_t> sets;  ///< and, behind all sets, uses of faces
+  /// Behind all sets, uses of faces. Of parts that no element has, none.
+  std::vector<std::uint32_t> sets;
 };
 
 /// Parts while sets are added one by one.
@@ -32,21 +32,22 @@ class InpParts {
 
   std::uint32_t of_home(std::uint32_t home, int dimension) {
     all.push_back({home, dimension, {}});
-    return static_cast<std::uint32_t>(all.size() - 1);
+    return chains_.begin();
   }
   std::uint32_t with(std::uint32_t part, std::uint32_t set) {
-    const auto [at, is_new] = next_.try_emplace({part, set}, 0);
-    if (is_new) {
-      InpPart next = all[part];
-      next.sets.push_back(set);
-      at->second = static_cast<std::uint32_t>(all.size());
-      all.push_back(std::move(next));
+    const std::uint32_t next = chains_.with(part, set);
+    if (next == all.size()) all.push_back({all[part].home, all[part].dimension, {}});
+    return next;
+  }
+  /// Lists the sets of the parts that are used.
+  void list_sets(const std::vector<char>& used) {
+    for (std::uint32_t part = 0; part < all.size(); ++part) {
+      if (used[part] != 0) all[part].sets = chains_.sets(part);
     }
-    return at->second;
   }
 
  private:
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> next_;
+  SetChains chains_;
 };
 
 }  // namespace tetmend::formats

@@ -66,11 +66,11 @@ bool is_tet(const InpKind& kind) {
 }  // namespace
 
 bool is_inp_name(std::string_view name) {
-  std::map<std::string, int> none;
+  UniqueNames none(inp_key);
   return inp_name(name, none) == name;
 }
 
-std::string inp_name(std::string_view name, std::map<std::string, int>& taken) {
+std::string inp_name(std::string_view name, UniqueNames& taken) {
   constexpr std::size_t kLongest = 70;
   std::string valid;
   for (const char c : name.substr(0, kLongest)) {
@@ -79,11 +79,7 @@ std::string inp_name(std::string_view name, std::map<std::string, int>& taken) {
   }
   if (valid.empty() || std::isalpha(static_cast<unsigned char>(valid[0])) == 0)
     valid = "S_" + valid;
-  std::string unique = valid;
-  for (int k = 2; !taken.try_emplace(inp_key(unique), 0).second; ++k) {
-    unique = fmt::format("{}_{}", valid, k);
-  }
-  return unique;
+  return taken.make(valid);
 }
 
 InpPlan::InpPlan(const MeshView& mesh) : mesh_(mesh), data_(mesh.data()) {
@@ -175,6 +171,17 @@ void InpPlan::find_owners() {
   if (wanted.empty()) return;
   const auto less = [](const Corners& a, const Corners& b) { return a.sorted < b.sorted; };
   std::stable_sort(wanted.begin(), wanted.end(), less);
+  // Triangles with the same corners share a place, by the sense that they list these in.
+  std::vector<std::array<std::uint32_t, 3>> places;
+  for (const Corners& corners : wanted) {
+    if (places.empty() || places.back() != corners.sorted) places.push_back(corners.sorted);
+  }
+  std::vector<std::array<Owner, 2>> found(places.size());
+  const auto place_of = [&](const Corners& corners) {
+    const auto at = std::lower_bound(places.begin(), places.end(), corners.sorted);
+    const bool is_there = at != places.end() && *at == corners.sorted;
+    return is_there ? &found[static_cast<std::size_t>(at - places.begin())] : nullptr;
+  };
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (!is_tet(kinds[k])) continue;
     for (std::size_t i = 0; i < kinds[k].count; ++i) {
@@ -185,13 +192,17 @@ void InpPlan::find_owners() {
         if (flags[v[c[0]]] + flags[v[c[1]]] + flags[v[c[2]]] < 3) continue;
         // Turned round: seen from outside.
         const Corners face = corners_of(v[c[0]], v[c[2]], v[c[1]]);
-        const auto [begin, end] = std::equal_range(wanted.begin(), wanted.end(), face, less);
-        for (auto at = begin; at != end; ++at) {
-          Owner& owner = owners_[at->kind][at->triangle];
-          if (owner.face == 0 || at->is_odd == face.is_odd) owner = {k, i, f + 1};
+        std::array<Owner, 2>* place = place_of(face);
+        if (place == nullptr) continue;
+        for (const bool is_odd : {false, true}) {
+          Owner& owner = (*place)[is_odd ? 1 : 0];
+          if (owner.face == 0 || is_odd == face.is_odd) owner = {k, i, f + 1};
         }
       }
     }
+  }
+  for (const Corners& corners : wanted) {
+    owners_[corners.kind][corners.triangle] = (*place_of(corners))[corners.is_odd ? 1 : 0];
   }
 }
 
@@ -316,16 +327,31 @@ void InpPlan::place_new(std::vector<InpPiece> pieces) {
 
 // ---- Numbers ------------------------------------------------------------------------------------
 
+/// Numbers of Abaqus have at most nine digits; those of CalculiX have 32 bits, and we read more.
+NewNumbers InpPlan::new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const {
+  constexpr std::array<std::int64_t, 3> kLimits = {999'999'999, INT32_MAX, kInpGreatestNumber};
+  return NewNumbers(most, kLimits, [this, &known] {
+    std::vector<NewNumbers::Range> taken;
+    for (const std::int64_t number : known) taken.emplace_back(number, number);
+    for (const InpPiece& piece : deck.pieces) {
+      add_numbers_of(piece.kind == InpPieceKind::verbatim ? piece.text : piece.more, taken);
+    }
+    return taken;
+  });
+}
+
 void InpPlan::number_points() {
   point_numbers.resize(mesh_.point_count());
   std::int64_t most = deck.most_node;
   const bool given = data_ != nullptr && !data_->point_numbers.empty();
+  std::vector<std::int64_t> known;
   if (given) {
-    point_numbers = data_->point_numbers;
+    known = point_numbers = data_->point_numbers;
     for (const std::int64_t number : point_numbers) most = std::max(most, number);
   }
+  NewNumbers numbers = new_numbers(most, known);
   for (std::int64_t& number : point_numbers) {
-    if (number == 0) number = ++most;
+    if (number == 0) number = numbers.next();
   }
 }
 
@@ -346,17 +372,21 @@ bool InpPlan::has_good_numbers() const {
 void InpPlan::number_elements() {
   const bool keeps = has_good_numbers();
   std::int64_t most = keeps ? deck.most_element : 0;
+  std::vector<std::int64_t> known;
   for (InpKind& kind : kinds) {
     kind.numbers.resize(kind.count);
     const bool given = keeps && kind.given_numbers != nullptr && !kind.given_numbers->empty() &&
                        (has_deck_ || kind.dimension == 3);
     if (!given) continue;
     kind.numbers = *kind.given_numbers;
+    known.insert(known.end(), kind.numbers.begin(), kind.numbers.end());
     for (const std::int64_t number : kind.numbers) most = std::max(most, number);
   }
+  NewNumbers numbers = new_numbers(most, known);
   for (InpKind& kind : kinds) {
     for (std::size_t i = 0; i < kind.count; ++i) {
-      if (classes[kind.class_of[i]].block != 0 && kind.numbers[i] == 0) kind.numbers[i] = ++most;
+      if (classes[kind.class_of[i]].block == 0 || kind.numbers[i] != 0) continue;
+      kind.numbers[i] = numbers.next();
     }
   }
 }

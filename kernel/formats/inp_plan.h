@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "kernel/formats/inp_deck.h"
+#include "kernel/formats/new_numbers.h"
+#include "kernel/formats/unique_names.h"
 #include "kernel/grouping.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
@@ -102,10 +104,13 @@ class InpPlan {
   void number_points();
   void number_elements();
   bool has_good_numbers() const;
+  NewNumbers new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const;
   void add_missing_sets();
   void place_new(std::vector<InpPiece> pieces);
   std::size_t find_group(const InpGroupName& name) const;
-  std::vector<std::int64_t> numbers_of_points(const std::vector<char>& held) const;
+  void index_classes();
+  /// Sorted; none twice. The points may come in any order, and several times.
+  std::vector<std::int64_t> numbers_of_points(std::vector<std::uint32_t> points) const;
 
   const MeshView& mesh_;
   const MeshData* data_;
@@ -120,11 +125,14 @@ class InpPlan {
   std::map<std::pair<int, Label>, std::vector<std::size_t>> groups_of_part_;
   std::map<std::pair<int, Label>, std::size_t> group_of_label_;
   std::map<InpGroupName, std::size_t> group_of_name_;
+  std::vector<std::vector<std::size_t>> classes_of_group_;  // in ascending order
+  std::map<Label, std::vector<std::size_t>> classes_of_block_;
+  std::map<Label, std::vector<std::uint32_t>> points_of_label_;
   std::vector<InpPiece> new_elements_;
   Label next_block_ = 0;
 };
 
 /// A name that Abaqus and CalculiX take, unlike all of `taken` in capitals, to which it is added.
-std::string inp_name(std::string_view name, std::map<std::string, int>& taken);
+std::string inp_name(std::string_view name, UniqueNames& taken);
 
 }  // namespace tetmend::formats

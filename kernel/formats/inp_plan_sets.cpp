@@ -28,8 +28,7 @@ class InpPlan::SetMaker {
         listed_[name] = true;
         const std::size_t g = plan.find_group(name);
         if (g == SIZE_MAX) continue;
-        (name.dimension == 0 ? node_sets_ : element_sets_)
-            .try_emplace(inp_key(plan.groups[g].name), 0);
+        (name.dimension == 0 ? node_sets_ : element_sets_).take(plan.groups[g].name);
       }
     }
     with_elements_.resize(plan.groups.size());
@@ -80,15 +79,18 @@ class InpPlan::SetMaker {
 
   InpPlan& plan_;
   std::map<InpGroupName, bool> listed_;
-  std::map<std::string, int> node_sets_, element_sets_, surfaces_;
+  UniqueNames node_sets_{inp_key}, element_sets_{inp_key}, surfaces_{inp_key};
   std::vector<char> with_elements_, with_faces_;
   std::vector<InpPiece> made_;
 };
 
 void InpPlan::add_missing_sets() {
-  for (std::size_t i = 0; i < mesh_.point_count(); ++i) {
-    if (mesh_.point_label(i) != 0) label_group(0, mesh_.point_label(i));
+  for (std::uint32_t i = 0; i < mesh_.point_count(); ++i) {
+    if (mesh_.point_label(i) == 0) continue;
+    label_group(0, mesh_.point_label(i));
+    points_of_label_[mesh_.point_label(i)].push_back(i);
   }
+  index_classes();
   SetMaker maker(*this);
   if (!mesh_.required_vertices().empty() && !has_deck_) maker.add_required();
   for (std::size_t g = 0; g < groups.size(); ++g) maker.add_group(g);
@@ -98,6 +100,14 @@ void InpPlan::add_missing_sets() {
     piece.text += '\n';
   }
   place_new(maker.take());
+}
+
+void InpPlan::index_classes() {
+  classes_of_group_.resize(groups.size());
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    for (const std::size_t g : classes[c].groups) classes_of_group_[g].push_back(c);
+    classes_of_block_[classes[c].block].push_back(c);
+  }
 }
 
 std::size_t InpPlan::find_group(const InpGroupName& name) const {
@@ -116,13 +126,10 @@ std::vector<std::int64_t> InpPlan::elements_of(const std::vector<InpGroupName>& 
   std::vector<std::int64_t> numbers;
   for (const InpGroupName& name : names) {
     const std::size_t g = find_group(name);
-    for (std::size_t c = 0; c < classes.size(); ++c) {
-      const InpClass& each = classes[c];
-      if (each.block == 0 || is_home(each.block, g) ||
-          !std::binary_search(each.groups.begin(), each.groups.end(), g)) {
-        continue;
-      }
-      const InpKind& kind = kinds[each.kind];
+    if (g == SIZE_MAX) continue;
+    for (const std::size_t c : classes_of_group_[g]) {
+      if (classes[c].block == 0 || is_home(classes[c].block, g)) continue;
+      const InpKind& kind = kinds[classes[c].kind];
       for (const std::uint32_t i : kind.by_class.group(static_cast<std::uint32_t>(c))) {
         numbers.push_back(kind.numbers[i]);
       }
@@ -132,51 +139,47 @@ std::vector<std::int64_t> InpPlan::elements_of(const std::vector<InpGroupName>& 
   return numbers;
 }
 
-std::vector<std::int64_t> InpPlan::numbers_of_points(const std::vector<char>& held) const {
+std::vector<std::int64_t> InpPlan::numbers_of_points(std::vector<std::uint32_t> points) const {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   std::vector<std::int64_t> numbers;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (held[i] != 0) numbers.push_back(point_numbers[i]);
-  }
+  for (const std::uint32_t point : points) numbers.push_back(point_numbers[point]);
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
 
 std::vector<std::int64_t> InpPlan::nodes_of(const InpGroupName& name) const {
-  std::vector<char> held(mesh_.point_count());
   if (name.dimension < 0) {
-    for (const std::uint32_t v : mesh_.required_vertices()) held[v] = 1;
-    return numbers_of_points(held);
+    const auto& required = mesh_.required_vertices();
+    return numbers_of_points({required.begin(), required.end()});
   }
   const std::size_t g = find_group(name);
-  if (name.dimension % 10 == 0 && g != SIZE_MAX) {
+  if (g == SIZE_MAX) return {};
+  std::vector<std::uint32_t> points;
+  if (name.dimension % 10 == 0) {
     const Group* group = groups[g].group;
-    if (group != nullptr) {
-      for (const std::uint32_t v : group->members) held[v] = 1;
-    }
-    for (std::size_t i = 0; i < held.size() && name.number != 0; ++i) {
-      const bool by_label = group == nullptr || (group->members.empty() && group->parts.empty());
-      if (by_label && mesh_.point_label(i) == name.number) held[i] = 1;
-    }
-    return numbers_of_points(held);
+    if (group != nullptr) points = group->members;
+    const bool by_label = group == nullptr || (group->members.empty() && group->parts.empty());
+    const auto found = points_of_label_.find(name.number);
+    if (by_label && found != points_of_label_.end()) points = found->second;
+    return numbers_of_points(std::move(points));
   }
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    const auto& in = classes[c].groups;
-    if (!std::binary_search(in.begin(), in.end(), g)) continue;
+  for (const std::size_t c : classes_of_group_[g]) {
     const InpKind& kind = kinds[classes[c].kind];
     for (const std::uint32_t i : kind.by_class.group(static_cast<std::uint32_t>(c))) {
-      for (std::size_t k = 0; k < kind.width; ++k) held[kind.of(i)[k]] = 1;
+      points.insert(points.end(), kind.of(i), kind.of(i) + kind.width);
     }
   }
-  return numbers_of_points(held);
+  return numbers_of_points(std::move(points));
 }
 
 std::vector<std::pair<std::int64_t, int>> InpPlan::faces_of(const InpGroupName& name) const {
   std::vector<std::pair<std::int64_t, int>> faces;
   const std::size_t g = find_group(name);
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    const auto& in = classes[c].groups;
+  if (g == SIZE_MAX) return faces;
+  for (const std::size_t c : classes_of_group_[g]) {
     const std::size_t k = classes[c].kind;
-    if (!owners_.contains(k) || !std::binary_search(in.begin(), in.end(), g)) continue;
+    if (!owners_.contains(k)) continue;
     for (const std::uint32_t i : kinds[k].by_class.group(static_cast<std::uint32_t>(c))) {
       const Owner& owner = owners(k)[i];
       if (owner.face != 0) faces.emplace_back(kinds[owner.kind].numbers[owner.element], owner.face);
@@ -189,8 +192,9 @@ std::vector<std::pair<std::int64_t, int>> InpPlan::faces_of(const InpGroupName& 
 
 std::vector<InpPlan::Row> InpPlan::rows_of(Label block) const {
   std::vector<Row> rows;
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    if (classes[c].block != block || block == 0) continue;
+  const auto found = classes_of_block_.find(block);
+  if (found == classes_of_block_.end() || block == 0) return rows;
+  for (const std::size_t c : found->second) {
     const auto kind = static_cast<std::uint32_t>(classes[c].kind);
     for (const std::uint32_t i : kinds[kind].by_class.group(static_cast<std::uint32_t>(c))) {
       rows.push_back({kind, i});

@@ -9,10 +9,12 @@
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "kernel/formats/compression.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/inp.h"
 #include "kernel/formats/inp_deck.h"
@@ -214,8 +216,19 @@ class Reader {
         if (part != last) next = parts_.with(last = part, s);
         part = next;
       }
+      refuse_many_parts();
     }
     add_faces();
+    used_.resize(parts_.all.size());
+    for (const std::uint32_t part : part_of_) used_[part] = 1;
+    parts_.list_sets(used_);
+  }
+
+  /// Members that a deck lists one by one are never so many; those of sets of sets may be.
+  void refuse_many_parts() const {
+    constexpr std::size_t kBytesOfPart = 256;
+    if (!is_bomb(lines_.size_of_files(), kBytesOfPart * parts_.all.size())) return;
+    fail("the sets overlap in hundreds of times more ways than the deck has bytes");
   }
 
   /// A shell may lie on a face: then it is the triangle.
@@ -230,6 +243,7 @@ class Reader {
                               static_cast<std::uint32_t>(block.first + i));
       }
     }
+    std::unordered_set<std::uint64_t> uses_of_triangle;
     const std::uint32_t plain = parts_.of_home(0, 2);
     const auto shells = static_cast<std::uint32_t>(part_of_.size());
     const auto sets = static_cast<std::uint32_t>(sets_.all.size());
@@ -240,10 +254,9 @@ class Reader {
         face_corners_.push_back(face.corners);
         part_of_.push_back(plain);
       }
+      if (!uses_of_triangle.insert(std::uint64_t{at->second} << 32 | face.use).second) continue;
       std::uint32_t& part = part_of_[at->second];
-      const auto& known = parts_.all[part].sets;
-      const std::uint32_t use = sets + face.use;
-      if (std::find(known.begin(), known.end(), use) == known.end()) part = parts_.with(part, use);
+      part = parts_.with(part, sets + face.use);
     }
   }
 
@@ -284,7 +297,9 @@ class Reader {
 
   void add_elements() {
     labels_.reserve(parts_.all.size());
-    for (const InpPart& part : parts_.all) labels_.push_back(label_of(part));
+    for (std::size_t p = 0; p < parts_.all.size(); ++p) {
+      labels_.push_back(used_[p] != 0 ? label_of(parts_.all[p]) : 0);
+    }
     std::map<int, OtherElements> others;
     for (const InpElements& block : mesh_.blocks) {
       switch (block.type.vtk_type) {
@@ -340,10 +355,7 @@ class Reader {
   void add_groups() {
     const std::size_t sets = sets_.all.size();
     std::vector<std::map<int, std::vector<Label>>> parts_of(sets + faces_.uses.size());
-    std::vector<char> used(parts_.all.size());
-    for (const std::uint32_t part : part_of_) used[part] = 1;
     for (std::size_t p = 0; p < parts_.all.size(); ++p) {
-      if (used[p] == 0) continue;
       for (const std::uint32_t s : parts_.all[p].sets) {
         parts_of[s][parts_.all[p].dimension].push_back(static_cast<Label>(p + 1));
       }
@@ -400,6 +412,7 @@ class Reader {
   InpParts parts_;
   std::map<std::uint32_t, std::uint32_t> part_of_home_;
   std::vector<std::uint32_t> part_of_;  // of each element, then of each face
+  std::vector<char> used_;              // of each part: an element has it
   std::vector<std::array<std::uint32_t, 3>> face_corners_;
   std::vector<Label> labels_;  // of each part
 };

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+
+#include "kernel/grouping.h"
 
 namespace tetmend::formats {
 namespace {
@@ -136,6 +139,49 @@ void mark_single_members(const InpMesh& mesh, const std::vector<const InpSet*>& 
   }
 }
 
+/// Does what mark_single_members() does for the sets of few points, and drops these: each looks at
+/// the tets at its points alone. Of the corners of a tet the one in the fewest tets has it.
+void mark_members_of_small_sets(const InpMesh& mesh, std::vector<const InpSet*>& sets,
+                                std::vector<char>& marks) {
+  constexpr std::size_t kFew = 64;  // times as many points has the mesh, at least
+  const auto is_large = [&](const InpSet* set) {
+    return kFew * set->members.size() > mesh.points.size();
+  };
+  const auto small = std::stable_partition(sets.begin(), sets.end(), is_large);
+  if (small == sets.end()) return;
+  std::vector<std::uint32_t> tets_at(mesh.points.size());
+  std::vector<std::span<const std::uint32_t>> tets;
+  for_tets(mesh, [&](const std::uint32_t* v, std::size_t width) {
+    tets.emplace_back(v, width);
+    for (std::size_t k = 0; k < 4; ++k) ++tets_at[v[k]];
+  });
+  std::vector<std::uint32_t> owners;
+  for (const auto v : tets) {
+    owners.push_back(*std::min_element(v.begin(), v.begin() + 4,
+                                       [&](auto a, auto b) { return tets_at[a] < tets_at[b]; }));
+  }
+  const Grouping of_owner = group_by_key(owners, static_cast<std::uint32_t>(mesh.points.size()));
+  std::vector<std::uint32_t> held(mesh.points.size());
+  std::vector<std::uint32_t> covered(mesh.points.size());
+  std::uint32_t number = 0;
+  for (auto set = small; set != sets.end(); ++set) {
+    ++number;
+    const auto& members = (*set)->members;
+    for (const std::uint32_t v : members) held[v] = number;
+    for (const std::uint32_t v : members) {
+      for (const std::uint32_t t : of_owner.group(v)) {
+        const auto is_held = [&](std::uint32_t corner) { return held[corner] == number; };
+        if (!std::all_of(tets[t].begin(), tets[t].begin() + 4, is_held)) continue;
+        for (const std::uint32_t node : tets[t]) covered[node] = number;
+      }
+    }
+    for (const std::uint32_t v : members) {
+      if (covered[v] != number) marks[v] = 1;
+    }
+  }
+  sets.erase(small, sets.end());
+}
+
 /// Takes away the marks of points on the surface of the tets, which stays as it is.
 void unmark_surface(const InpMesh& mesh, std::vector<char>& marks) {
   struct Face {
@@ -194,6 +240,7 @@ std::vector<std::uint32_t> points_to_keep(const InpMesh& mesh, const InpSets& se
   for (const InpSet& set : sets.all) {
     if (set.of_nodes && set.members.size() < mesh.points.size()) of_nodes.push_back(&set);
   }
+  mark_members_of_small_sets(mesh, of_nodes, marks);
   mark_single_members(mesh, of_nodes, marks);
   for (const std::uint32_t v : points) marks[v] = 1;
   if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return {};

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/compression.h"
+
 namespace tetmend::formats {
 namespace {
 
@@ -50,7 +52,7 @@ bool is_set_block(const InpBlock& block) {
   return is_set && (!block.is_in_assembly || block.find("INSTANCE") != nullptr);
 }
 
-InpSets::InpSets(const InpLines& lines, const InpMesh& mesh) : mesh_(mesh) {
+InpSets::InpSets(const InpLines& lines, const InpMesh& mesh) : lines_(lines), mesh_(mesh) {
   std::uint32_t nodes = 0;
   for (const InpBlock& block : lines.blocks) {
     if (!is_mesh_block(block, "NODE")) continue;
@@ -88,6 +90,18 @@ InpSets::InpSets(const InpLines& lines, const InpMesh& mesh) : mesh_(mesh) {
   for (InpSet& set : all) make_unique(set.members);
   for (const InpBlock& block : lines.blocks) {
     if (is_set_block(block)) read(block);
+  }
+  for (InpSet& set : all) {
+    make_unique(set.members);
+    make_unique(set.others);
+  }
+}
+
+/// Ranges, and sets of sets, name more than they have characters.
+void InpSets::add_work(std::size_t members, const InpBlock& block) {
+  work_ += members;
+  if (is_bomb(lines_.size_of_files(), work_ * InpSet::kBytesOfMember)) {
+    block.fail("the sets hold hundreds of times the size of the deck, which those of no mesh do");
   }
 }
 
@@ -130,15 +144,18 @@ void InpSets::read(const InpBlock& block) {
   if (set->of_nodes && block.find("ELSET") != nullptr) {
     add_nodes_of(block, *set);
   } else if (block.find("GENERATE") != nullptr) {
-    while (fields.next_line()) read_range(fields, *set);
+    while (fields.next_line()) read_range(fields, block, *set);
   } else {
     while (fields.next_line()) read_members(fields, block, *set);
   }
+  // Not at each of many blocks of one set.
+  if (set->members.size() + set->others.size() < 2 * set->unique) return;
   make_unique(set->members);
   make_unique(set->others);
+  set->unique = set->members.size() + set->others.size();
 }
 
-void InpSets::read_range(InpFields& fields, InpSet& set) {
+void InpSets::read_range(InpFields& fields, const InpBlock& block, InpSet& set) {
   const std::int64_t first = fields.integer("the first number of a range");
   const std::int64_t last = fields.more() ? fields.integer("the last number of a range") : first;
   const std::int64_t step = fields.more() ? fields.integer("the step of a range") : 1;
@@ -148,10 +165,11 @@ void InpSets::read_range(InpFields& fields, InpSet& set) {
     fields.fail(fmt::format("'{}' is not the last number of a range: expected {} to {}", last,
                             first, most));
   }
-  numbers(set).collect(first, last, step, set.members);
+  add_work(numbers(set).collect(first, last, step, set.members), block);
   if (set.of_nodes) return;
   const auto begin = std::lower_bound(mesh_.others.begin(), mesh_.others.end(), first);
   const auto end = std::upper_bound(begin, mesh_.others.end(), last);
+  add_work(static_cast<std::size_t>(end - begin), block);
   std::copy_if(begin, end, std::back_inserter(set.others),
                [&](std::int64_t number) { return (number - first) % step == 0; });
 }
@@ -184,9 +202,11 @@ void InpSets::read_members(InpFields& fields, const InpBlock& block, InpSet& set
                       in_quotes(text)));
     }
     if (other == &set) continue;
+    add_work(other->members.size() + other->others.size(), block);
     set.members.insert(set.members.end(), other->members.begin(), other->members.end());
     set.others.insert(set.others.end(), other->others.begin(), other->others.end());
     if (set.members.size() > 4 * numbers(set).numbers().size()) make_unique(set.members);
+    if (set.others.size() > 4 * mesh_.others.size()) make_unique(set.others);
   }
 }
 
@@ -200,7 +220,9 @@ void InpSets::add_nodes_of(const InpBlock& block, InpSet& set) {
   }
   for (const std::uint32_t element : elements->members) {
     const std::uint32_t* vertices = mesh_.vertices_of(element);
-    set.members.insert(set.members.end(), vertices, vertices + mesh_.block_of(element).type.width);
+    const std::size_t width = mesh_.block_of(element).type.width;
+    add_work(width, block);
+    set.members.insert(set.members.end(), vertices, vertices + width);
   }
 }
 

@@ -17,11 +17,15 @@
 namespace tetmend::formats {
 
 struct InpSet {
+  /// What a member takes, where it becomes part of a mesh: see is_bomb().
+  static constexpr std::size_t kBytesOfMember = 16;
+
   std::string key;
   std::string name;  ///< as it stands there first
   bool of_nodes = false;
   std::vector<std::uint32_t> members;  ///< points, or elements of the mesh; in ascending order
   std::vector<std::int64_t> others;    ///< numbers of elements that are not in the mesh
+  std::size_t unique = 0;              ///< how many of the members differ, as far as that is known
   bool is_listed = false;              ///< by *NSET or *ELSET
   bool is_internal = false;
   bool is_kept = true;
@@ -44,21 +48,25 @@ class InpSets {
   InpSet* find(bool of_nodes, std::string_view name, const InpBlock& where);
   /// The set that a *NSET, *ELSET, *NODE or *ELEMENT block adds to; null if it names none.
   InpSet* of_block(const InpBlock& block);
+  /// Counts members that no number of a line names. @throws Error where they are too many
+  void add_work(std::size_t members, const InpBlock& block);
 
  private:
   using Key = std::pair<std::pair<bool, bool>, std::string>;  // of nodes, in the assembly; name
 
   InpSet& named(bool of_nodes, bool in_assembly, std::string_view name);
   void read(const InpBlock& block);
-  void read_range(InpFields& fields, InpSet& set);
+  void read_range(InpFields& fields, const InpBlock& block, InpSet& set);
   void read_members(InpFields& fields, const InpBlock& block, InpSet& set);
   void add_nodes_of(const InpBlock& block, InpSet& set);
   const InpNumbers& numbers(const InpSet& set) const {
     return set.of_nodes ? mesh_.nodes : mesh_.elements;
   }
 
+  const InpLines& lines_;
   const InpMesh& mesh_;
   std::map<Key, InpSet*> by_key_;
+  std::size_t work_ = 0;  // members that no number of a line names
 };
 
 /// *NSET or *ELSET that lists members of the mesh: not the reference points of an assembly.

@@ -14,6 +14,7 @@
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/standard_stream.h"
+#include "platform/memory.h"
 #include "platform/platform.h"
 
 namespace tetmend::formats {
@@ -23,7 +24,10 @@ namespace {
   throw Error(fmt::format("{}: cannot be read: {}", name, std::generic_category().message(error)));
 }
 
+/// Of a stream nobody knows how long it is. It is copied, grows by doubling and becomes a mesh:
+/// so an endless one is told before it has taken the memory of all other programs.
 std::string read_standard_input(const std::string& name) {
+  const std::uint64_t most = platform::memory_for_process() / 8;
   std::string content;
   std::array<char, 1 << 16> buffer;
   for (;;) {
@@ -31,6 +35,11 @@ std::string read_standard_input(const std::string& name) {
     if (!got) fail_to_read(name, got.error);
     if (got.value == 0) return content;
     content.append(buffer.data(), got.value);
+    if (content.size() <= most) continue;
+    throw Error(fmt::format(
+        "{}: {} bytes came, an eighth of the memory that there is, and no end: expected "
+        "the bytes of a mesh; one so large is read from a file",
+        name, content.size()));
   }
 }
 
@@ -42,11 +51,15 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   } else {
     read_file(path);
   }
+  size_of_file_ = size_;
   if (is_gzip({bytes_.get(), size_})) unpack();
 }
 
 InputFile::InputFile(std::string name, std::string_view bytes)
-    : name_(std::move(name)), bytes_(new char[bytes.size() + 1]), size_(bytes.size()) {
+    : name_(std::move(name)),
+      bytes_(new char[bytes.size() + 1]),
+      size_(bytes.size()),
+      size_of_file_(bytes.size()) {
   std::copy(bytes.begin(), bytes.end(), bytes_.get());
   bytes_[size_] = '\0';
 }

@@ -26,6 +26,8 @@ class InputFile {
   const char* begin() const { return bytes_.get(); }
   const char* end() const { return bytes_.get() + size_; }
   std::size_t size() const { return size_; }
+  /// Of the file itself; of a gzip file fewer than size().
+  std::size_t size_of_file() const { return size_of_file_; }
 
   /// "FILE:LINE" of a pointer into the file. Lines are counted only here, which keeps reading fast.
   std::string line_place(const char* where) const;
@@ -45,6 +47,7 @@ class InputFile {
   std::string name_;
   std::unique_ptr<char[]> bytes_;
   std::size_t size_ = 0;
+  std::size_t size_of_file_ = 0;
 };
 
 /// A word of a file in quotes, fit for a message of one line: clipped, and without bytes that a

@@ -47,36 +47,40 @@ LabelNames::LabelNames(const MeshData& mesh) : mesh_(mesh) {
         kind->dimension, others.labels.size(), [&](std::size_t i) { return others.labels[i]; },
         others.parts);
   }
+  for (std::size_t d = 0; d < counts_.size(); ++d) {
+    for (const auto& [label, parts] : counts_[d]) {
+      for (const auto& [part, size] : parts) {
+        totals_[d][label] += size;
+        labels_of_part_[d][part].push_back(label);
+      }
+    }
+  }
 }
 
 NamedLabel LabelNames::label_of(const Group& group) const {
   if (group.dimension < 1 || group.dimension > 3) return {};
   const auto& counts = counts_[static_cast<std::size_t>(group.dimension)];
   if (group.parts.empty() && group.members.empty()) return {true, group.number};
-  const auto total = [](const std::map<Label, std::size_t>& parts) {
-    std::size_t sum = 0;
-    for (const auto& [part, count] : parts) sum += count;
-    return sum;
-  };
   if (!group.members.empty()) {
     const auto labels = group.dimension == 3   ? labels_of(mesh_.tets, group.members)
                         : group.dimension == 2 ? labels_of(mesh_.triangles, group.members)
                                                : labels_of(mesh_.edges, group.members);
     if (labels.size() != 1) return {};
     const auto [label, count] = *labels.begin();
-    return {total(counts.at(label)) == count, label};
+    return {totals_[static_cast<std::size_t>(group.dimension)].at(label) == count, label};
   }
-  const std::set<Label> parts(group.parts.begin(), group.parts.end());
+  // All parts must have the same label, and only these.
+  const auto& labels_of_part = labels_of_part_[static_cast<std::size_t>(group.dimension)];
   std::optional<Label> label;
-  for (const auto& [of_label, counts_of_parts] : counts) {
-    const auto inside =
-        std::count_if(counts_of_parts.begin(), counts_of_parts.end(),
-                      [&](const auto& entry) { return parts.contains(entry.first); });
-    if (inside == 0) continue;
-    if (label || static_cast<std::size_t>(inside) != counts_of_parts.size()) return {};
-    label = of_label;
+  std::size_t inside = 0;
+  for (const Label part : std::set<Label>(group.parts.begin(), group.parts.end())) {
+    const auto labels = labels_of_part.find(part);
+    if (labels == labels_of_part.end()) continue;
+    if (labels->second.size() > 1 || (label && *label != labels->second[0])) return {};
+    label = labels->second[0];
+    ++inside;
   }
-  return {label.has_value(), label.value_or(0)};
+  return {label && inside == counts.at(*label).size(), label.value_or(0)};
 }
 
 std::map<Label, const Group*> LabelNames::named(int dimension) const {

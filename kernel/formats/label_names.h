@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <vector>
 
 #include "kernel/mesh_data.h"
 
@@ -31,6 +32,8 @@ class LabelNames {
   const MeshData& mesh_;
   /// By dimension: how many elements have this label and this part.
   std::array<std::map<Label, std::map<Label, std::size_t>>, 4> counts_;
+  std::array<std::map<Label, std::size_t>, 4> totals_;  // of each label
+  std::array<std::map<Label, std::vector<Label>>, 4> labels_of_part_;
 };
 
 }  // namespace tetmend::formats

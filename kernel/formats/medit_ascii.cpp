@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
@@ -135,9 +136,18 @@ class Reader {
     // What they mark has been counted now.
     for (const auto& [name, content] : marks_) {
       text_.seek(content);
-      if (const MeditMark* mark = find_mark(name)) read_marks(*mark);
+      const MeditMark* mark = find_mark(name);
+      if (mark == nullptr) continue;
+      if (is_optional(*mark)) {
+        read_or_drop(in_quotes(name), [&] { read_marks(*mark); });
+      } else {
+        read_marks(*mark);
+      }
     }
-    for (const MeditVectors& kind : kMeditVectors) read_vectors(kind);
+    for (const MeditVectors& kind : kMeditVectors) {
+      read_or_drop(fmt::format("'{}' with '{}'", kind.at, kind.vectors),
+                   [&] { read_vectors(kind); });
+    }
     if (!seen("Tetrahedra") && !has_second_order_tets(mesh_)) fail_without("Tetrahedra", end);
     drop_zero_point_labels(mesh_);
     return std::move(mesh_);
@@ -171,7 +181,8 @@ class Reader {
 
   /// False at the end of the mesh.
   bool read_section(std::string_view name) {
-    if (name.empty() || name == "End") return false;
+    has_end_ = name == "End";
+    if (name.empty() || has_end_) return false;
     if (!is_section(name) && !is_unknown_section(name)) {
       text_.fail(
           fmt::format("{} is not expected here: expected the name of a section, such as "
@@ -221,6 +232,17 @@ class Reader {
     const bool is_zero = text_.word() == "0";
     text_.seek(end);
     return is_zero;
+  }
+
+  /// Programs write sections wrong that no mesh needs. But a file without an end may be cut there.
+  template <class Read>
+  void read_or_drop(std::string_view section, const Read& read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      if (!has_end_) throw;
+      mesh_.notes.push_back(fmt::format("the section {} is not kept: {}", section, error.what()));
+    }
   }
 
   void read_marks(const MeditMark& mark) {
@@ -358,6 +380,7 @@ class Reader {
   TextReader text_;
   TetPlace* question_;
   MeshData mesh_;
+  bool has_end_ = false;
   std::vector<std::string_view> seen_;
   // What came before Vertices, of which the number was not known yet.
   std::vector<Section> postponed_;

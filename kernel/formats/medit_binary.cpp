@@ -19,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/byte_reader.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/medit_elements.h"
@@ -162,7 +163,10 @@ class Reader {
     for (const Section& section : sections_) {
       if (!is_kept(section.keyword)) read_marks<Integer>(section);
     }
-    for (const MeditVectors& kind : kMeditVectors) read_vectors<Real, Integer>(kind);
+    for (const MeditVectors& kind : kMeditVectors) {
+      read_or_drop(fmt::format("'{}' with '{}'", kind.at, kind.vectors),
+                   [&] { read_vectors<Real, Integer>(kind); });
+    }
     drop_zero_point_labels(mesh_);
     return std::move(mesh_);
   }
@@ -300,22 +304,9 @@ class Reader {
   void read_marks(const Section& section) {
     for (const MeditMark& mark : kMeditMarks) {
       if (mark.keyword != section.keyword) continue;
-      Group group{mark.dimension, 0, std::string(mark.section), {}, {}};
-      group.members.resize(count_rows<Integer>(section, sizeof(Integer), "marks"));
-      const std::size_t most = count_of_dimension(mesh_, mark.dimension);
-      const char* at = bytes_.here();
-      for (std::uint32_t& member : group.members) {
-        const Integer value = load<Integer>(at, bytes_.swap());
-        if (value < 1 || static_cast<std::uint64_t>(value) > most) {
-          bytes_.fail_at(at, fmt::format("{} is out of range: expected the number of what is "
-                                         "marked, 1 to {}",
-                                         value, most));
-        }
-        member = static_cast<std::uint32_t>(value - 1);
-        at += sizeof(Integer);
-      }
-      if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
-      return;
+      if (!is_optional(mark)) return read_marks_of<Integer>(section, mark);
+      return read_or_drop(fmt::format("'{}'", mark.section),
+                          [&] { read_marks_of<Integer>(section, mark); });
     }
     for (const MeditVectors& kind : kMeditVectors) {
       if (section.keyword == kind.vectors_keyword || section.keyword == kind.at_keyword) return;
@@ -324,6 +315,35 @@ class Reader {
     const bool is_empty = section.size < sizeof(Integer) || bytes_.number<Integer>("a count") == 0;
     if (is_empty) return;
     mesh_.notes.push_back(fmt::format("the section of keyword {} is not kept", section.keyword));
+  }
+
+  /// Programs write sections wrong that no mesh needs.
+  template <class Read>
+  void read_or_drop(std::string_view section, const Read& read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      mesh_.notes.push_back(fmt::format("the section {} is not kept: {}", section, error.what()));
+    }
+  }
+
+  template <class Integer>
+  void read_marks_of(const Section& section, const MeditMark& mark) {
+    Group group{mark.dimension, 0, std::string(mark.section), {}, {}};
+    group.members.resize(count_rows<Integer>(section, sizeof(Integer), "marks"));
+    const std::size_t most = count_of_dimension(mesh_, mark.dimension);
+    const char* at = bytes_.here();
+    for (std::uint32_t& member : group.members) {
+      const Integer value = load<Integer>(at, bytes_.swap());
+      if (value < 1 || static_cast<std::uint64_t>(value) > most) {
+        bytes_.fail_at(at, fmt::format("{} is out of range: expected the number of what is "
+                                       "marked, 1 to {}",
+                                       value, most));
+      }
+      member = static_cast<std::uint32_t>(value - 1);
+      at += sizeof(Integer);
+    }
+    if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
   }
 
   template <class Real, class Integer>

@@ -24,6 +24,11 @@ inline constexpr std::array<MeditMark, 4> kMeditMarks = {{{"Corners", 13, 0},
                                                           {"RequiredEdges", 16, 1},
                                                           {"RequiredTriangles", 17, 2}}};
 
+/// May be lost: no vertex, edge or triangle is kept for it, whatever may move.
+inline bool is_optional(const MeditMark& mark) {
+  return mark.section == "Ridges";
+}
+
 inline std::size_t count_of_dimension(const MeshData& mesh, int dimension) {
   return dimension == 0   ? mesh.points.size()
          : dimension == 1 ? mesh.edges.size()

@@ -14,6 +14,7 @@
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
+#include "kernel/formats/new_numbers.h"
 #include "kernel/formats/output_rows.h"
 
 namespace tetmend::formats {
@@ -109,19 +110,32 @@ class Writer {
   }
 
  private:
+  /// Those of Nastran have at most eight digits; others are read as well.
+  NewNumbers new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const {
+    constexpr std::array<std::int64_t, 3> kLimits = {99'999'999, INT32_MAX, INT64_MAX};
+    return NewNumbers(most, kLimits, [this, &known] {
+      std::vector<NewNumbers::Range> taken;
+      for (const std::int64_t number : known) taken.emplace_back(number, number);
+      if (deck_ != nullptr) add_numbers_of((*deck_)[1], taken);
+      return taken;
+    });
+  }
+
   void number_points() {
-    std::int64_t next = largest_.point;
-    if (mesh_.data() != nullptr) points_ = mesh_.data()->point_numbers;
-    for (const std::int64_t number : points_) next = std::max(next, number);
+    std::int64_t most = largest_.point;
+    std::vector<std::int64_t> known;
+    if (mesh_.data() != nullptr) known = points_ = mesh_.data()->point_numbers;
+    for (const std::int64_t number : points_) most = std::max(most, number);
     points_.resize(mesh_.point_count(), 0);
+    NewNumbers numbers = new_numbers(most, known);
     for (std::int64_t& number : points_) {
-      if (number <= 0) number = ++next;
+      if (number <= 0) number = numbers.next();
     }
   }
 
   /// Elements of all kinds share their numbers.
   void number_elements() {
-    std::int64_t next = largest_.element;
+    std::int64_t most = largest_.element;
     std::vector<std::int64_t> known;
     for (const ElementList& list : lists_.all()) {
       auto& numbers = elements_.emplace_back();
@@ -132,11 +146,13 @@ class Writer {
     }
     std::sort(known.begin(), known.end());
     const bool differ = std::adjacent_find(known.begin(), known.end()) == known.end();
-    if (differ && !known.empty()) next = std::max(next, known.back());
+    if (differ && !known.empty()) most = std::max(most, known.back());
+    if (!differ) known.clear();
+    NewNumbers new_ones = new_numbers(most, known);
     for (std::size_t k = 0; k < elements_.size(); ++k) {
       elements_[k].resize(lists_.all()[k].count, 0);
       for (std::int64_t& number : elements_[k]) {
-        if (number <= 0 || !differ) number = ++next;
+        if (number <= 0 || !differ) number = new_ones.next();
       }
     }
   }

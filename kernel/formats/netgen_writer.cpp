@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/output_rows.h"
+#include "kernel/formats/unique_names.h"
 
 namespace tetmend::formats {
 namespace {
@@ -288,7 +288,8 @@ class Writer {
     std::vector<Segment> segments;
     const Label one = touches.empty() ? 1 : touches.front().face;
     const Label other = touches.empty() ? 1 : touches.back().face;
-    for (const Touch& touch : touches) {
+    for (const Touch& touch :
+         std::span(touches).first(std::min(touches.size(), kMostSegmentsOfEdge))) {
       const double way = touch.from == first ? 1 : -1;
       segments.push_back(
           {double(touch.face), way, 0, 0, double(one), double(other), double(label)});
@@ -390,8 +391,8 @@ class Writer {
     for (const auto& [label, group] : names) last = label <= kGreatestNamed ? label : last;
     if (last < 1) return;
     out_.put(fmt::format("\n{}\n{}\n", section, last));
-    std::set<std::string> taken;
-    for (const auto& [label, group] : names) taken.insert(group->name);
+    UniqueNames taken;
+    for (const auto& [label, group] : names) taken.take(group->name);
     for (Label label = 1; label <= last; ++label) {
       const auto found = names.find(label);
       const std::string name = found == names.end() ? "default" : found->second->name;
@@ -400,15 +401,12 @@ class Writer {
   }
 
   /// Netgen may have a name twice; one that has to be changed is not to become another.
-  static std::string as_word(const std::string& name, std::set<std::string>& taken) {
+  static std::string as_word(const std::string& name, UniqueNames& taken) {
     std::string word = name;
     for (char& c : word) {
       if (c == '#' || static_cast<unsigned char>(c) <= ' ') c = '_';
     }
-    if (word == name) return word;
-    std::string unique = word;
-    for (int i = 2; !taken.insert(unique).second; ++i) unique = fmt::format("{}_{}", word, i);
-    return unique;
+    return word == name ? word : taken.make(word);
   }
 
   OutputFile out_;

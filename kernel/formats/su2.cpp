@@ -19,6 +19,7 @@
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
+#include "kernel/formats/unique_names.h"
 
 namespace tetmend::formats {
 namespace {
@@ -335,11 +336,11 @@ class Writer {
     std::map<Label, std::size_t> marker_of;
     if (mesh_.data() != nullptr) {
       const LabelNames names(*mesh_.data());
-      const std::map<Label, const Group*> named = names.named(2);
+      std::map<const Group*, Label> label_of;
+      for (const auto& [label, group] : names.named(2)) label_of[group] = label;
       for (const Group& group : mesh_.data()->groups) {
-        for (const auto& [label, of_label] : named) {
-          if (of_label == &group) add_marker(marker_of, label, group.name);
-        }
+        const auto found = label_of.find(&group);
+        if (found != label_of.end()) add_marker(marker_of, found->second, group.name);
       }
     }
     for (const ElementList* list : lists_.of_dimension(2)) {
@@ -359,9 +360,7 @@ class Writer {
     for (char& c : tag) {
       if (c == kComment || c == '=' || static_cast<unsigned char>(c) <= ' ') c = '_';
     }
-    std::string unique = tag;
-    for (int i = 2; !tags_.insert(unique).second; ++i) unique = fmt::format("{}_{}", tag, i);
-    markers_.push_back({std::move(unique), {}});
+    markers_.push_back({names_.make(tag), {}});
     return marker_of[label] = markers_.size() - 1;
   }
 
@@ -369,7 +368,7 @@ class Writer {
   const MeshView& mesh_;
   ElementLists lists_;
   std::vector<Marker> markers_;
-  std::set<std::string> tags_;
+  UniqueNames names_;
 };
 
 }  // namespace

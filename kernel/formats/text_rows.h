@@ -56,8 +56,10 @@ inline std::size_t cut_text(const TextReader& text, std::size_t row, std::size_t
 template <class ReadRow>
 void read_rows(TextReader& text, std::size_t count, const ReadRow& read_row) {
   constexpr std::size_t kChunksAtOnce = 32;
+  // To look for the ends of many lines does not pay for a few rows; a file may have many such lists.
+  constexpr std::size_t kMany = std::size_t{1} << 14;
   std::size_t row = 0;
-  bool regular = text.at_line_end();
+  bool regular = count >= kMany && text.at_line_end();
   if (regular) text.skip_line();
   while (regular && row < count && text.bytes_left() > 0) {
     std::array<TextChunk, kChunksAtOnce> chunks;

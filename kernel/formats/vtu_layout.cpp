@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <set>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -227,6 +228,7 @@ class Layouter {
   }
 
   void add_arrays(const pugi::xml_node& parent, std::vector<VtuColumn>& columns) {
+    std::set<std::pair<std::string, std::size_t>> known;
     for (const pugi::xml_node node : parent.children("DataArray")) {
       if (find_vtu_type(node.attribute("type").as_string()) == nullptr) {
         layout_.notes.push_back(fmt::format("the array {} is not kept: it holds no numbers",
@@ -237,10 +239,7 @@ class Layouter {
           node.attribute("NumberOfComponents") && count(node, "NumberOfComponents") == 0;
       if (has_no_values) continue;
       VtuColumn made = column(node);
-      const auto is_same = [&](const VtuColumn& other) {
-        return other.name == made.name && other.components == made.components;
-      };
-      expect(std::none_of(columns.begin(), columns.end(), is_same));
+      expect(known.insert({made.name, made.components}).second);
       columns.push_back(std::move(made));
     }
   }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,22 +58,29 @@ class Reader {
     if (!grid.child("Piece")) fail(grid, "no Piece is here: expected one");
     for (const pugi::xml_node piece : grid.children("Piece")) read_piece(piece);
     const CellNumbers numbers = take_cells().append_to(mesh_, text_, request_.question);
-    const auto fail_in = [this](const std::vector<DataArray>& arrays) {
-      return [this, &arrays](std::size_t which, std::size_t i, std::string_view reason) {
-        file_.fail_at_line(file_.begin(), fmt::format("the array '{}', value {}: {}",
-                                                      arrays[which].name, i, reason));
-      };
-    };
-    const std::vector<DataArray> of_cells = cell_arrays_;
-    adopt_cell_arrays(mesh_, std::move(cell_arrays_), numbers,
-                      {request_.label_array, fail_in(of_cells)});
-    const std::vector<DataArray> of_points = point_arrays_;
-    adopt_point_arrays(mesh_, std::move(point_arrays_), fail_in(of_points));
+    const ArrayFailure fail_in_cells = failure_in(cell_arrays_.all);
+    adopt_cell_arrays(mesh_, std::move(cell_arrays_.all), numbers,
+                      {request_.label_array, fail_in_cells});
+    const ArrayFailure fail_in_points = failure_in(point_arrays_.all);
+    adopt_point_arrays(mesh_, std::move(point_arrays_.all), fail_in_points);
     return std::move(mesh_);
   }
 
  private:
   using Kind = VtuType::Kind;
+  struct Arrays {
+    std::vector<DataArray> all;
+    std::map<std::pair<std::string, std::size_t>, std::size_t> places;  // by name and components
+  };
+
+  ArrayFailure failure_in(const std::vector<DataArray>& arrays) const {
+    std::vector<std::string> names;
+    for (const DataArray& array : arrays) names.push_back(array.name);
+    return [this, names](std::size_t which, std::size_t i, std::string_view reason) {
+      file_.fail_at_line(file_.begin(),
+                         fmt::format("the array '{}', value {}: {}", names[which], i, reason));
+    };
+  }
 
   // ---- The XML ---------------------------------------------------------------------------------
 
@@ -80,6 +88,7 @@ class Reader {
     const std::string_view all(file_.begin(), file_.size());
     if (all.empty()) file_.fail_at_line(all.data(), "the file is empty: expected VTKFile");
     const std::size_t tag = all.find("<AppendedData");
+    refuse_many_nodes(all.substr(0, tag));
     std::string text;
     pugi::xml_parse_result result;
     if (tag == std::string_view::npos) {
@@ -103,6 +112,15 @@ class Reader {
       file_.fail_at_line(file_.begin() + at,
                          fmt::format("the XML is broken: {}", result.description()));
     }
+  }
+
+  /// A node takes more memory than a tag has characters.
+  void refuse_many_nodes(std::string_view xml) const {
+    constexpr std::size_t kNodeAndText = 128;
+    const auto tags = static_cast<std::size_t>(std::count(xml.begin(), xml.end(), '<'));
+    if (!is_bomb(file_.size_of_file(), kNodeAndText * tags)) return;
+    file_.fail_at_line(file_.begin(),
+                       fmt::format("{} tags are in the gzip file, which no mesh has", tags));
   }
 
   const char* place_of(const pugi::xml_node& node) const {
@@ -255,7 +273,7 @@ class Reader {
 
   /// Several pieces have the same arrays.
   void read_arrays(const pugi::xml_node& parent, std::size_t rows, std::size_t rows_before,
-                   bool is_first, std::vector<DataArray>& arrays) {
+                   bool is_first, Arrays& arrays) {
     for (const pugi::xml_node node : parent.children("DataArray")) {
       const std::string name = node.attribute("Name").as_string();
       if (find_type(node) == nullptr) {
@@ -270,13 +288,12 @@ class Reader {
         note(fmt::format("the array '{}' is not kept: it has numbers above {}", name, INT64_MAX));
         continue;
       }
-      const auto same = std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& other) {
-        return other.name == name && other.components == components;
-      });
-      if (same != arrays.end()) {
-        append(*same, made);
+      const auto same = arrays.places.find({name, components});
+      if (same != arrays.places.end()) {
+        append(arrays.all[same->second], made);
       } else if (is_first) {
-        arrays.push_back(std::move(made));
+        arrays.places[{name, components}] = arrays.all.size();
+        arrays.all.push_back(std::move(made));
       } else {
         note(fmt::format("the array {} is not kept: not every piece has it", in_quotes(name)));
       }
@@ -285,11 +302,21 @@ class Reader {
       note(fmt::format("the array {} is not kept: it holds no numbers",
                        in_quotes(node.attribute("Name").as_string())));
     }
-    std::erase_if(arrays, [&](const DataArray& made) {
-      if (made.size() == (rows_before + rows) * made.components) return false;
+    drop_short(arrays, rows_before + rows);
+  }
+
+  /// Drops arrays that a piece has not.
+  void drop_short(Arrays& arrays, std::size_t rows) {
+    const auto dropped = std::erase_if(arrays.all, [&](const DataArray& made) {
+      if (made.size() == rows * made.components) return false;
       note(fmt::format("the array {} is not kept: not every piece has it", in_quotes(made.name)));
       return true;
     });
+    if (dropped == 0) return;
+    arrays.places.clear();
+    for (std::size_t i = 0; i < arrays.all.size(); ++i) {
+      arrays.places[{arrays.all[i].name, arrays.all[i].components}] = i;
+    }
   }
 
   static void append(DataArray& array, const DataArray& more) {
@@ -336,6 +363,11 @@ class Reader {
       fail(node, fmt::format("{} times {} values cannot fit into the file", rows, components));
     }
     const std::size_t size = rows * components;
+    // Arrays may be packed, or name the same bytes of the file.
+    kept_ += size * type->size;
+    if (is_bomb(file_.size_of_file(), kept_)) {
+      fail(node, "the arrays hold hundreds of times the size of the file, which no mesh does");
+    }
     const std::string_view format = node.attribute("format").as_string("ascii");
     if (format == "ascii") return parse(node, *type, size);
     if (format != "binary" && format != "appended") {
@@ -456,9 +488,6 @@ class Reader {
                              blocks, block_size, last, size));
     }
     expect(full * block_size + last);
-    if (is_bomb(file_.size(), size)) {
-      fail(node, "an array of hundreds of times the size of the file, which no mesh has");
-    }
     const std::string sizes = source.next(blocks * header_size_);
     std::string bytes(size, '\0');
     std::size_t done = 0;
@@ -484,13 +513,14 @@ class Reader {
   bool is_packed_ = false;
   bool is_raw_ = false;
   std::size_t header_size_ = 4;
+  mutable std::size_t kept_ = 0;  // bytes of all arrays
   MeshData mesh_;
   std::vector<std::int64_t> offsets_ = {0};
   std::vector<std::int64_t> connectivity_;
   std::vector<std::int64_t> types_;
   const char* cells_place_ = nullptr;
-  std::vector<DataArray> point_arrays_;
-  std::vector<DataArray> cell_arrays_;
+  Arrays point_arrays_;
+  Arrays cell_arrays_;
 };
 
 }  // namespace

@@ -2,9 +2,11 @@
 // Standard input and output in place of files; bad tets one by one.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "contract/zoo.h"
@@ -65,6 +67,17 @@ TEST_CASE("what is wrong with a stream is said") {
             .wait() == 1);
   ::close(err);
   CHECK(contains(read_text(folder / "err"), "standard output: cannot be written"));
+}
+
+TEST_CASE("a stream without an end is told before it has taken all memory") {
+  const TempFolder folder;
+  const std::string command =
+      fmt::format("ulimit -v 800000; yes '1 2 3' | '{}' quality - --format mesh 2>'{}'",
+                  TETMEND_PROGRAM, (folder / "err").string());
+  CHECK(std::system(command.c_str()) == 1 << 8);
+  const std::string said = read_text(folder / "err");
+  CHECK_MESSAGE(contains(said, "standard input: 1024"), said);  // MB, and some
+  CHECK_MESSAGE(contains(said, "an eighth of the memory that there is, and no end"), said);
 }
 
 TEST_CASE("bad tets are listed, and written as a mesh of their own") {

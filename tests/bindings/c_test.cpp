@@ -300,6 +300,16 @@ TEST_CASE(
   CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 2, "p", &point, 1) == TETMEND_WRONG_INPUT);
   CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 2, nullptr, &point, 1) == TETMEND_WRONG_CALL);
   CHECK(tetmend_set_group(mesh.get(), TETMEND_POINTS, 2, "p", nullptr, 1) == TETMEND_WRONG_CALL);
+  // So many cannot be: none of them is looked at.
+  for (const std::size_t n : {std::size_t{3}, std::size_t{1} << 31, SIZE_MAX}) {
+    CHECK(tetmend_set_group(mesh.get(), TETMEND_TETS, 2, "two", same.data(), n) ==
+          TETMEND_WRONG_CALL);
+    CHECK(error_of(mesh) == std::to_string(n) + " members of the tets, but there are 2");
+  }
+  CHECK(tetmend_set_required_vertices(mesh.get(), &point, SIZE_MAX) == TETMEND_WRONG_CALL);
+  CHECK(error_of(mesh) == "required vertices: more than 2^31 - 1");
+  CHECK(tetmend_set_points(mesh.get(), kPoints.data(), SIZE_MAX) == TETMEND_WRONG_CALL);
+  CHECK(tetmend_set_tets(mesh.get(), kTets.data(), SIZE_MAX, nullptr) == TETMEND_WRONG_CALL);
   CHECK(tetmend_group_info(mesh.get(), 1, nullptr, nullptr, nullptr, nullptr) ==
         TETMEND_WRONG_CALL);
   CHECK(error_of(mesh) == "no group 1, there is 1, counted from 0");
@@ -390,6 +400,8 @@ TEST_CASE("in C: a progress function sees the run and stops it") {
 
 TEST_CASE("in C: options are told apart, added to, and reset") {
   const Handle mesh = two_tets_in();
+  CHECK(tetmend_set(mesh.get(), "plugin", "") == TETMEND_WRONG_OPTION);
+  CHECK(error_of(mesh).find("no file is named") != std::string::npos);
   CHECK(tetmend_set(mesh.get(), "time_limit", "5") == TETMEND_WRONG_OPTION);
   CHECK(error_of(mesh).starts_with("there is no option 'time_limit': expected schedule, "));
   CHECK(error_of(mesh).ends_with(", label-array, variant"));

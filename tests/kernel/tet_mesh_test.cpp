@@ -313,6 +313,20 @@ TEST_CASE("the border between two labels is constrained without being named") {
   CHECK(mesh.to_data().triangles.empty());
 }
 
+TEST_CASE("a point of a prism alone is used, though no tet has it") {
+  MeshData data = one_tet();
+  const auto first = static_cast<std::uint32_t>(data.points.size());
+  for (int i = 0; i < 7; ++i) data.points.emplace_back(9 + i, i * i, 9);
+  data.other_elements.push_back({13, 6, {}, {1}, {}, {}, {}});
+  for (std::uint32_t i = 0; i < 6; ++i) data.other_elements[0].vertices.push_back(first + i);
+  BuildReport report;
+  const TetMesh mesh(data, &report);
+  CHECK(report.unused_points == 1);
+  BuildReport sorted;
+  TetMesh::sorted(data, &sorted);
+  CHECK(sorted.unused_points == 1);
+}
+
 TEST_CASE("a vertex of no tet is kept and reported") {
   MeshData data = one_tet();
   data.points.insert(data.points.begin(), {9, 9, 9});

@@ -12,10 +12,12 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "platform/memory.h"
 #include "tests/kernel/formats/fixtures.h"
 
 using namespace tetmend;
@@ -141,6 +143,20 @@ TEST_CASE("peak memory is in bytes") {
   const std::size_t after = platform::peak_memory();
   CHECK(after >= kSize);
   CHECK(after <= before + 2 * kSize);
+}
+
+TEST_CASE("memory for a process is that of the machine, or less by a limit") {
+  const std::uint64_t all = platform::memory_for_process();
+  CHECK(all > std::uint64_t{1} << 28);
+  CHECK(all < std::uint64_t{1} << 60);
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+  rlimit limit = before;
+  limit.rlim_cur = all - 4096;
+  REQUIRE(::setrlimit(RLIMIT_AS, &limit) == 0);
+  const std::uint64_t less = platform::memory_for_process();
+  REQUIRE(::setrlimit(RLIMIT_AS, &before) == 0);
+  CHECK(less == all - 4096);
 }
 
 TEST_CASE("a signal that ends programs calls the handler, one that is ignored stays so") {

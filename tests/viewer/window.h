@@ -39,8 +39,9 @@ class Display {
       const auto out = fmt::format("{}", ends[1]);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDERR_FILENO);
+      // Without -r a key that a busy machine lets go of late counts several times.
       ::execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", screen.c_str(),
-               "-noreset", static_cast<char*>(nullptr));
+               "-noreset", "-r", static_cast<char*>(nullptr));
       ::_exit(127);
     }
     ::close(ends[1]);

@@ -65,6 +65,8 @@ def _sets(groups: Sequence[Group]) -> list[tuple[int, int, str, NDArray[Any] | N
             value = getattr(group, name)
             if not isinstance(value, kind):
                 raise _core.Error(f"groups[{i}].{name} is {value!r}, but {'text' if kind is str else 'an integer'} is wanted")
+            if kind is not str and not -(2**31) <= int(value) < 2**31:
+                raise _core.Error(f"groups[{i}].{name} is {int(value)}, but an integer of 32 bits is wanted")
         sets.append((int(group.dimension), int(group.number), group.name, _array(f"groups[{i}].members", group.members)))
     return sets
 

@@ -480,6 +480,67 @@ TEST_CASE("what a deck says of tets by number and is not a face is noted") {
         "4 pieces of a deck, all that is no mesh, are not kept: .vtk has no place for them");
 }
 
+TEST_CASE("where a deck has the greatest number there is, new ones are those that are free") {
+  const TempFolder folder;
+  for (const std::string greatest : {"9007199254740992", "2147483647", "999999999"}) {
+    CAPTURE(greatest);
+    std::string deck = replaced(kSmall, "4, 0, 0, 1", greatest + ", 0, 0, 1");
+    deck = replaced(deck, "1, 1, 2, 3, 4", greatest + ", 1, 2, 3, " + greatest);
+    MeshData mesh = read_text(folder, deck + "*ELEMENT, TYPE=SPRINGA\n1, 1, 2\n");
+    mesh.points.emplace_back(1, 2, 3);
+    mesh.point_numbers.push_back(0);
+    mesh.tets.push_back({{0, 1, 2, 4}, mesh.tets[0].label});
+    mesh.tet_parts.push_back(mesh.tet_parts[0]);
+    mesh.tet_numbers.push_back(0);
+    write_mesh(folder / "b.inp", mesh);
+    const MeshData again = read_mesh(folder / "b.inp");
+    CHECK(again.point_numbers.back() == 4);
+    CHECK(again.tet_numbers.back() == 3);  // 1 and 2 stand in the line of the spring
+    CHECK(again.tets == mesh.tets);
+  }
+}
+
+TEST_CASE("a deck whose sets hold hundreds of times its size is refused, wherever they are named") {
+  const TempFolder folder;
+  constexpr int kMany = 3000;
+  std::string nodes = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n";
+  std::string tets = "*ELEMENT, TYPE=C3D4, ELSET=ALL\n";
+  for (int i = 1; i <= kMany; ++i) {
+    nodes += fmt::format("{}, 0, 0, {}\n", i + 4, i + 1);
+    tets += fmt::format("{}, 1, 2, 3, {}\n", i, i + 3);
+  }
+  const auto many = [&](std::string_view line, int times) {
+    std::string lines = nodes + tets;
+    for (int i = 0; i < times; ++i) lines += fmt::format(fmt::runtime(line), i);
+    return lines;
+  };
+  write_text(folder / "a.inp", many("*NSET, NSET=N{}, GENERATE\n1, 3004, 1\n", 100));
+  CHECK(error_of_reading(folder / "a.inp") == "no error");
+  for (const std::string_view line :
+       {"*NSET, NSET=N{}, GENERATE\n1, 3004, 1\n", "*ELSET, ELSET=E{}, GENERATE\n1, 3000, 1\n",
+        "*ELSET, ELSET=E{}\nALL\n", "*NSET, NSET=N{}, ELSET=ALL\n", "*SURFACE, NAME=S{}\nALL, S1\n",
+        "*NSET, NSET=N, GENERATE\n1, 3004, 1\n", "*ELSET, ELSET=E\nALL, ALL, ALL, ALL, ALL\n",
+        "*NSET, NSET=N, GENERATE\n2, 3004, 2\n"}) {
+    CAPTURE(line);
+    write_text(folder / "a.inp", many(line, 8000));
+    CHECK(error_of_reading(folder / "a.inp").find("hundreds of times the size of the deck") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("a file that a deck includes again and again counts once") {
+  const TempFolder folder;
+  write_text(folder / "big.inc", "** " + std::string(std::size_t{1} << 16, 'x') + "\n");
+  std::string deck(kSmall);
+  for (int i = 0; i < 100; ++i) deck += "*INCLUDE, INPUT=big.inc\n";
+  write_text(folder / "a.inp", deck);
+  CHECK(read_mesh(folder / "a.inp").tets.size() == 1);
+  for (int i = 0; i < 400; ++i) deck += "*INCLUDE, INPUT=big.inc\n";
+  write_text(folder / "a.inp", deck);
+  CHECK(error_of_reading(folder / "a.inp").find("more often than anybody does") !=
+        std::string::npos);
+}
+
 TEST_CASE("bad decks are refused with line, word and what was expected") {
   const TempFolder folder;
   const auto with = [](std::string_view more) { return std::string(kSmall) + std::string(more); };

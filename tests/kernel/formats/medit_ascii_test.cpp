@@ -84,9 +84,42 @@ TEST_CASE("corners, ridges and what is required survive in MEDIT files of both k
   CHECK(read_mesh(folder / "c.mesh").groups == mesh.groups);
   CHECK(not_written(folder / "c.mesh", mesh).empty());
   CHECK(not_written(folder / "c.vtk", mesh).size() == 1);
-  write_text(folder / "d.mesh", kHead + kPoints + kTets + "Ridges 1\n1\nEnd\n");
+  write_text(folder / "d.mesh", kHead + kPoints + kTets + "RequiredEdges 1\n1\nEnd\n");
   CHECK(error_of_reading(folder / "d.mesh").find("the number of what is marked") !=
         std::string::npos);
+}
+
+TEST_CASE(
+    "sections of a MEDIT file that no mesh needs are dropped with a note where they are wrong") {
+  const TempFolder folder;
+  const std::string vectors = "Normals 2\n0 0 1\n0 1 0\nNormalAtVertices 2\n1 1\n2 2\n";
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      // MMG counts its tangents on from its normals.
+      {"Tangents 1\n1 0 0\nTangentAtVertices 1\n1 3\n", "'3' is out of range"},
+      {"TangentAtVertices 1\n1 1\n", "'1' is out of range"},
+      {"Tangents 2\n1 0 0\nTangentAtVertices 1\n1 1\n", "'TangentAtVertices' is not a number"},
+      {"Tangents 1\n1 0 0\nTangentAtVertices 1\n9 1\n", "'9' is out of range"},
+      {"Ridges 1\n1\n", "'1' is out of range"}};
+  for (const auto& [section, reason] : wrong) {
+    CAPTURE(section);
+    write_text(folder / "a.mesh", kHead + kPoints + vectors + section + kTets + "End\n");
+    const MeshData mesh = read_mesh(folder / "a.mesh");
+    CHECK(mesh.tets.size() == 1);
+    CHECK(mesh.point_data.size() == 1);
+    REQUIRE(mesh.groups.size() == 1);
+    CHECK(mesh.groups[0].name == "NormalAtVertices");
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK_MESSAGE(mesh.notes[0].find(reason) != std::string::npos, mesh.notes[0]);
+    CHECK_MESSAGE(mesh.notes[0].find("a.mesh:") != std::string::npos, mesh.notes[0]);
+  }
+  for (const std::string section :
+       {"Corners 1\n9\n", "RequiredEdges 1\n1\n", "RequiredTriangles 1\n1\n"}) {
+    write_text(folder / "a.mesh", kHead + kPoints + section + kTets + "End\n");
+    CHECK(error_of_reading(folder / "a.mesh").find("is out of range") != std::string::npos);
+  }
+  // The file is cut.
+  write_text(folder / "a.mesh", kHead + kPoints + kTets + "Tangents 1\n1 0");
+  CHECK(error_of_reading(folder / "a.mesh").find("truncated") != std::string::npos);
 }
 
 TEST_CASE("tets of first order beside those of second survive in MEDIT files of both kinds") {

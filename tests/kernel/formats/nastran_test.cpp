@@ -148,6 +148,34 @@ TEST_CASE("new points and elements get numbers above all of a deck of Nastran") 
   CHECK(again.tet_numbers.back() == 901);
 }
 
+TEST_CASE(
+    "where a deck of Nastran has the greatest number there is, new ones are those that are free") {
+  const TempFolder folder;
+  struct Greatest {
+    std::string number;
+    std::int64_t tet;
+  };
+  // 1 and 2 stand in other cards.
+  for (const Greatest& greatest : {Greatest{"9223372036854775807", 3}, Greatest{"2147483647", 3},
+                                   Greatest{"99999999", 3}, Greatest{"99999997", 99999998}}) {
+    CAPTURE(greatest.number);
+    const std::string deck =
+        replaced(replaced(text(), "CTRIA3  15      4       10      20      40      45.",
+                          "CTRIA3,15,4,10,20,40\nCTRIA3," + greatest.number + ",4,10,20,40"),
+                 "PSOLID,3,1\n", "CBAR,1,1,10,20,0.,0.,1.\n");
+    MeshData mesh = read(folder, replaced(deck, "GRID,7000,", "GRID,9223372036854775807,"));
+    mesh.points.emplace_back(1, 2, 3);
+    mesh.point_numbers.push_back(0);
+    mesh.tets.push_back({{1, 2, 3, 12}, 3});
+    mesh.tet_numbers.push_back(0);
+    write_mesh(folder / "b.bdf", mesh);
+    const MeshData again = read_mesh(folder / "b.bdf");
+    CHECK(again.tet_numbers.back() == greatest.tet);
+    CHECK(again.point_numbers.back() == 3);
+    CHECK(again.tets == mesh.tets);
+  }
+}
+
 TEST_CASE("labels below 1 become other properties of Nastran, and that is said") {
   const TempFolder folder;
   MeshData mesh = awkward_mesh();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // VTK XML files made by hand, files packed by gzip, and how bad ones are refused.
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "contract/zoo.h"
 #include "kernel/formats/base64.h"
@@ -204,7 +206,8 @@ TEST_CASE("files are read and written packed by gzip, and damaged ones refused")
 }
 
 TEST_CASE("a file that was packed to use memory up is refused before it has") {
-  CHECK_FALSE(formats::is_bomb(1, std::size_t{1} << 26));
+  CHECK_FALSE(formats::is_bomb(1, std::size_t{1} << 23));
+  CHECK(formats::is_bomb(1, (std::size_t{1} << 23) + 1));
   CHECK_FALSE(formats::is_bomb(std::size_t{1} << 20, std::size_t{200} << 20));
   CHECK(formats::is_bomb(std::size_t{1} << 20, std::size_t{202} << 20));
   const TempFolder folder;
@@ -217,6 +220,48 @@ TEST_CASE("a file that was packed to use memory up is refused before it has") {
   write_text(folder / "bomb.mesh", packed);
   CHECK(error_of_reading(folder / "bomb.mesh").find("hundreds of times its size") !=
         std::string::npos);
+}
+
+TEST_CASE("a packed VTU file of tags, and one whose arrays are the same bytes, are refused") {
+  const TempFolder folder;
+  const auto packed = [](const std::string& text) {
+    std::string bytes;
+    formats::GzipWriter writer([&](std::string_view some) { bytes += some; });
+    writer.put(text);
+    writer.finish();
+    return bytes;
+  };
+  std::string tags = "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>";
+  for (int i = 0; i < 1000000; ++i) tags += "<a/>";
+  tags += "</UnstructuredGrid></VTKFile>";
+  write_text(folder / "a.vtu", packed(tags));
+  CHECK(error_of_reading(folder / "a.vtu").find("tags are in the gzip file") != std::string::npos);
+  write_text(folder / "a.vtu", tags);  // takes twenty times its size, and is no mesh
+  CHECK(error_of_reading(folder / "a.vtu").find("no Piece is here") != std::string::npos);
+
+  constexpr std::uint64_t kPoints = 20000;
+  constexpr std::uint64_t kBytes = kPoints * 3 * sizeof(double);
+  std::string size(sizeof kBytes, '\0');
+  std::memcpy(size.data(), &kBytes, sizeof kBytes);
+  const auto sharing = [&](int arrays) {
+    const auto array = [](int i) {
+      return fmt::format(
+          "<DataArray type=\"Float64\" Name=\"x{}\" NumberOfComponents=\"3\" "
+          "format=\"appended\" offset=\"0\"/>",
+          i);
+    };
+    std::string text = fmt::format(
+        "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\"><UnstructuredGrid>"
+        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"0\"><Points>{}</Points><PointData>",
+        kPoints, array(0));
+    for (int i = 1; i < arrays; ++i) text += array(i);
+    text += "</PointData></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_" + size;
+    return text + std::string(kBytes, '\0') + "</AppendedData></VTKFile>";
+  };
+  write_text(folder / "b.vtu", sharing(20));
+  CHECK(error_of_reading(folder / "b.vtu").find("hundreds") == std::string::npos);
+  write_text(folder / "b.vtu", sharing(400));
+  CHECK(error_of_reading(folder / "b.vtu").find("hundreds of times the size") != std::string::npos);
 }
 
 TEST_CASE("base64 goes there and back, over padding and white space") {

@@ -106,7 +106,7 @@ TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, rin
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
     type(fmt::format("mousemove {} {}", place.x, place.y));
-    for (int i = 0; i < 2; ++i) take_picture(".");  // so there was a layout with the mouse there
+    wait_until_still();  // with the mouse there
     const auto state = viewer.quit();
     CHECK(state["trace"]["position"] == 8);
     CHECK(state["pointed"] == nlohmann::json(place.vertices));
