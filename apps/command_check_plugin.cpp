@@ -38,9 +38,12 @@ bool check_operator(const Registry& registry, std::string_view name,
                     const std::vector<contract::Ground>& grounds) {
   fmt::print("{}\n", name);
   const auto print_line = [](std::string_view mesh, const contract::Outcome& outcome) {
+    const std::string_view what = !outcome.complaint.empty() ? "   BROKEN: "
+                                  : !outcome.note.empty()    ? "   NOTE: "
+                                                             : "";
     fmt::print("  {:<28} {:>8} attempts {:>7} accepted{}{}\n", mesh, grouped(outcome.attempts),
-               grouped(outcome.accepted),
-               outcome.complaint.empty() ? "" : "   BROKEN: ", outcome.complaint);
+               grouped(outcome.accepted), what,
+               outcome.complaint.empty() ? outcome.note : outcome.complaint);
     std::fflush(stdout);
   };
   contract::Outcome total;
@@ -52,7 +55,7 @@ bool check_operator(const Registry& registry, std::string_view name,
   const bool kept = total.complaint.empty();
   fmt::print("{} {} its contract: {} attempts, {} accepted{}{}\n\n", name,
              kept ? "keeps" : "BREAKS", grouped(total.attempts), grouped(total.accepted),
-             kept ? "" : "; ", total.complaint);
+             kept && total.note.empty() ? "" : "; ", kept ? total.note : total.complaint);
   return kept;
 }
 
@@ -104,11 +107,14 @@ their defaults and at the ends of their ranges:
   an accepted attempt leaves a sound mesh with the same surface, volume, labels
   and constraints, and better qualities
   the same attempt always ends the same way, and can be undone
-  nothing outside the part of the mesh given to a thread changes
+  nothing outside the part of the mesh given to a thread changes, nor does the
+  operator ask for that
   no exceptions
   some attempts are accepted
 
-One line for each mesh: attempts, accepted, the first breach.
+One line for each mesh: attempts, accepted, the first breach. The line
+"territory" is of all meshes once more, those of --mesh too, in parts as threads
+get them; it says so where nothing was accepted there.
 
 Example:
   tetmend check-plugin ./my_operator.so --mesh part.mesh

@@ -17,6 +17,7 @@
 #include "apps/standard_streams.h"
 #include "kernel/formats/output_file.h"
 #include "pieces/folder_run.h"
+#include "pieces/improve.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -96,6 +97,11 @@ int split(PiecesOptions& options, Invocation& invocation) {
   invocation.wrote_files = true;
   const pieces::FolderRun run(options.folder);
   write_plan(options.folder, run);
+  const pieces::SavedRun& saved = run.saved();
+  if (saved.division.pieces < division.pieces) {
+    complain(kSuccess, pieces::why_fewer_pieces(division.pieces, saved.division.pieces,
+                                                saved.before.statistics.tets));
+  }
   if (!improve.quiet) say_round(run);
   return kSuccess;
 }

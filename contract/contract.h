@@ -19,8 +19,8 @@ struct Ground {
   TetMesh mesh;
 };
 
-/// The zoo, a mesh with constraints of all kinds, one with frozen tets, one with free slots between
-/// the live ones, and some with a surface that may change.
+/// The zoo, two rough cubes, a mesh with constraints of all kinds, one with frozen tets, one with free
+/// slots between the live ones, and some with a surface that may change.
 std::vector<Ground> grounds();
 /// A cube of cells^3 cells, each of six tets, all vertices but the corners moved from their places,
 /// those of sides and edges along them. Its surface may change where that changes no shape.
@@ -34,13 +34,14 @@ Candidate with_defaults(const Registry& registry, std::string_view name);
 /// One for each end of the range of each parameter, where that is not the default.
 std::vector<Candidate> at_its_limits(const Registry& registry, std::string_view name);
 
-/// Told what came of each mesh, and whether all went well there. "territory" is a mesh of its own.
+/// Told what came of each mesh, and whether all went well there. "territory" is all of them once more.
 using Listener = std::function<void(std::string_view mesh, const Outcome&)>;
 
 /// Tries an operator, with its defaults and at the ends of its parameters, alone and in turns with
-/// those of tetmend itself, on all meshes and in a territory. Stops at a mesh with the first
+/// those of tetmend itself, on all meshes, and on each of them in territories. Stops at a mesh with the first
 /// breach, and goes on with the next. An operator that was never accepted breaks the contract as
-/// well, for then nothing was shown: the total says so.
+/// well, for then nothing was shown: the total says so. So does its note where nothing was accepted in
+/// a territory.
 /// @throws Error if the operator cannot be made. Cost: some seconds for the grounds(); on a large
 /// mesh fewer targets are tried.
 Outcome check_contract(const Registry& registry, std::string_view name,

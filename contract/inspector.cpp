@@ -11,6 +11,7 @@
 
 #include "contract/changed_tets.h"
 #include "contract/portrait.h"
+#include "contract/trials.h"
 
 namespace tetmend::contract {
 
@@ -53,6 +54,7 @@ bool lies_in(const Territory& territory, const std::vector<NamedTet>& tets) {
 Verdict Inspector::attempt(const Operator& op, OperatorContext& context, Target target) {
   if (op.origin().empty()) return op.attempt(context, target);
   before_ = context.mesh;
+  context.workspace.take_reached_out();
   Verdict verdict{};
   try {
     verdict = op.attempt(context, target);
@@ -61,7 +63,9 @@ Verdict Inspector::attempt(const Operator& op, OperatorContext& context, Target 
     throw breach(op, target, fmt::format("the error left a trace: {}", error.what()));
   }
   std::string complaint;
-  if (verdict == Verdict::accepted) {
+  if (context.workspace.take_reached_out()) {
+    complaint = kReachedOut;
+  } else if (verdict == Verdict::accepted) {
     complaint = complaint_about_accepted(op, context);
   } else if (!(context.mesh == before_)) {
     complaint = "the refusal left a trace";

@@ -17,6 +17,7 @@ class Breach : public std::runtime_error {
 };
 
 /// Lets attempts of tetmend's own operators pass. Of one of a plugin:
+///   in any case: no edit was asked for that reaches out of the territory
 ///   refused, or ended by an exception: the mesh is what it was, bit for bit
 ///   accepted: sound, with the same surface, volumes, labels and constraints; nothing changed that
 ///   the judge did not see, or outside the territory; better, if a strict or fair judge says so

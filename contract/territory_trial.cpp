@@ -38,6 +38,7 @@ class Side {
                        [this](VertexHandle v) { return holds(v); });
   }
   Verdict attempt(const Operator& op, Target target) { return op.attempt(context_, target); }
+  bool reached_out() { return workspace_.take_reached_out(); }
   void leave() {
     workspace_.leave(slots_);
     workspace_.settle(mesh);
@@ -132,12 +133,39 @@ bool is_same_inside(const Side& a, const Side& b) {
   return true;
 }
 
+/// At most so many tets of the territory. First those beside tets that nobody owns: what reaches out
+/// does so there.
+std::vector<TetHandle> choose_tets(const Side& side, std::size_t count) {
+  std::vector<TetHandle> at_border;
+  std::vector<TetHandle> inside;
+  for (const TetHandle t : live_tets(side.mesh)) {
+    if (!side.holds_all(side.mesh.vertices(t))) continue;
+    const auto& faces = side.mesh.neighbours(t);
+    const bool is_at_border = std::any_of(faces.begin(), faces.end(), [&](HalfFace twin) {
+      return !twin.is_outside() && !side.holds_all(side.mesh.vertices(twin.tet()));
+    });
+    (is_at_border ? at_border : inside).push_back(t);
+  }
+  const auto thin_out = [](std::vector<TetHandle>& tets, std::size_t most) {
+    const std::size_t all = tets.size();
+    if (all <= most) return;
+    for (std::size_t i = 0; i < most; ++i) tets[i] = tets[i * all / most];
+    tets.resize(most);
+  };
+  thin_out(at_border, std::max(count / 2, count - std::min(count, inside.size())));
+  thin_out(inside, count - at_border.size());
+  at_border.insert(at_border.end(), inside.begin(), inside.end());
+  std::sort(at_border.begin(), at_border.end());
+  return at_border;
+}
+
 /// One attempt; what was wrong with it.
 std::string attempt_and_judge(Side& side, const Operator& op, Target target, Outcome& outcome) {
   const TetMesh before = side.mesh;
   ++outcome.attempts;
   try {
     const Verdict verdict = side.attempt(op, target);
+    if (side.reached_out()) return std::string(kReachedOut);
     if (verdict == Verdict::accepted) {
       ++outcome.accepted;
       return is_outside_untouched(side, before) ? "" : "something outside the territory changed";
@@ -151,12 +179,23 @@ std::string attempt_and_judge(Side& side, const Operator& op, Target target, Out
 
 }  // namespace
 
-Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound) {
+double bound_below(const TetMesh& mesh, double share) {
+  std::vector<double> places;
+  for (const VertexHandle v : live_vertices(mesh)) places.push_back(mesh.point(v).x());
+  const auto at = std::min(places.size() - 1,
+                           static_cast<std::size_t>(share * static_cast<double>(places.size())));
+  const auto nth = places.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(places.begin(), nth, places.end());
+  return *nth;
+}
+
+Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound,
+                         std::size_t count) {
   Outcome outcome;
   Side side(start, bound);
   Side elsewhere(with_other_points_beyond(start, bound), bound);
   Outcome unseen;
-  for (const TetHandle t : live_tets(side.mesh)) {
+  for (const TetHandle t : choose_tets(side, count)) {
     const TetVertices at_first = side.mesh.vertices(t);
     const auto is_there = [&] {
       return !side.mesh.is_deleted(t) && side.mesh.vertices(t) == at_first;

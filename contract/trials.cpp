@@ -72,6 +72,7 @@ Outcome& Outcome::operator+=(const Outcome& other) {
   accepted += other.accepted;
   deferred += other.deferred;
   if (complaint.empty()) complaint = other.complaint;
+  if (note.empty()) note = other.note;
   return *this;
 }
 

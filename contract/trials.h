@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ops/operator.h"
@@ -23,13 +24,18 @@ struct Candidate {
 /// What came of a trial.
 struct Outcome {
   std::string complaint;  ///< the first breach of the contract: where and what; empty if none
+  std::string note;       ///< what was not shown, though nothing was broken
   std::size_t attempts = 0;
   std::size_t accepted = 0;
   std::size_t deferred = 0;  ///< only in a territory
 
-  /// Adds the counts; keeps the first complaint.
+  /// Adds the counts; keeps the first complaint and the first note.
   Outcome& operator+=(const Outcome& other);
 };
+
+/// The complaint about who asks for an edit without asking where its territory ends.
+inline constexpr std::string_view kReachedOut =
+    "it asked for an edit that reaches out of the territory";
 
 /// All live entities of a kind; an edge or face once for each of its tets.
 std::vector<Target> targets(const TetMesh& mesh, TargetKind kind);
@@ -53,8 +59,11 @@ Outcome try_under_judges(const Operator& op, const TetMesh& start, std::size_t c
 Outcome try_in_turns(std::span<const Candidate> candidates, const TetMesh& start, unsigned rounds,
                      std::size_t count);
 
-/// Every target in a territory, the part of the mesh where x is below `bound`. Nothing outside may
-/// change. Nor may anything depend on points outside that no tet of the territory touches.
-Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound);
+/// Targets in a territory, the part of the mesh where x is below `bound`: of at most `count` tets, those
+/// at its border first. Nothing outside may change, and no edit be asked for that reaches out. Nor may
+/// anything depend on points outside that no tet of the territory touches.
+Outcome try_in_territory(const Operator& op, const TetMesh& start, double bound, std::size_t count);
+/// A bound that has about so much of the vertices below it, from 0 to 1.
+double bound_below(const TetMesh& mesh, double share);
 
 }  // namespace tetmend::contract

@@ -36,6 +36,7 @@
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
+#include "kernel/volume_rounding.h"
 #include "platform/platform.h"
 #include "schedule/limit/surface_limit.h"
 
@@ -410,7 +411,6 @@ void Improvement::give_back_input() noexcept {
 
 /// A broken promise would be a bug of tetmend. Nobody is to work on with such a mesh.
 void Improvement::check_promises() const {
-  constexpr double kMostVolumeChange = 1e-9;
   std::string_view broken;
   if (plan_.surface.is_fixed() &&
       (result_.surface_fingerprint != surface_before_ ||
@@ -420,7 +420,8 @@ void Improvement::check_promises() const {
   if (result_.not_positive_after > result_.not_positive_before) broken = "a tet got inverted";
   const bool keeps_volume = plan_.surface.is_fixed() || plan_.surface.is_flat();
   if (keeps_volume && result_.not_positive_before == 0 &&
-      !(result_.volume_change() <= kMostVolumeChange)) {
+      !is_rounding(result_.volume_change(), result_.before.scaled_volume,
+                   [&] { return longest_side(input_.points); })) {
     broken = "the volume changed";
   }
   if (broken.empty()) return;

@@ -28,7 +28,7 @@ TARGETS = {
     "bdf": "Nastran files", "header": "folders of Elmer", "trace": "traces, byte for byte",
     "trace_events": "traces with sound checksums", "lesson": "lessons", "schedule": "Lua scripts",
     "options": "options and regions", "parameters": "settings of operators", "plugin": "descriptions of plugins",
-    "improve": "the whole improver, with a judge",
+    "improve": "the whole improver, with a judge", "checkpoint": "damaged folders of runs in pieces",
 }
 
 

@@ -124,6 +124,9 @@ def seeds(target, build, source):
     if target == "parameters":
         return [bytes([mesh, op, 0]) + struct.pack("<d", value)
                 for mesh in range(0, 40, 5) for op in range(12) for value in (0, 0.5, 3)]
+    if target == "checkpoint":  # file, how, where it is cut, changes
+        return [bytes([file, how]) + bytes(chance.randrange(256) for _ in range(2 + 3 * changes))
+                for file in range(7) for how in range(4) for changes in (0, 1, 5)]
     if target == "improve":
         return [bytes(chance.randrange(256) for _ in range(size)) for size in range(8, 200, 4)]
     with tempfile.TemporaryDirectory() as folder:

@@ -51,9 +51,10 @@ struct TETMEND_API Shell {
 
 /// Walks around an edge. The ring begins at the tet that names the edge: tets[0] is that tet. Fills
 /// `shell` completely only for ShellKind::closed. Precondition: the tet of the edge lies in the
-/// territory. Cost: one step for each tet, no memory.
+/// territory, which is that of the workspace, or Territory() for the whole mesh where nobody else works.
+/// Cost: one step for each tet, no memory.
 TETMEND_API ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell,
-                                 const Territory& territory = {});
+                                 const Territory& territory);
 
 /// A tet that contains the edge between two vertices, searched in the star of the first. Nothing
 /// when there is none, or when the search leaves the territory of the workspace, which notes it.

@@ -36,6 +36,6 @@ struct TETMEND_API SurfaceShell {
 /// names is an edge like others. Precondition: the tet of the edge lies in the territory. Cost: one
 /// step for each tet.
 TETMEND_API ShellKind find_surface_shell(const TetMesh& mesh, TetEdge edge, SurfaceShell& shell,
-                                         const Territory& territory = {});
+                                         const Territory& territory);
 
 }  // namespace tetmend

@@ -17,6 +17,7 @@
 #include "kernel/make_room.h"
 #include "kernel/property_values.h"
 #include "kernel/star.h"
+#include "kernel/territory_check.h"
 
 namespace tetmend {
 
@@ -32,6 +33,32 @@ void add_to_batch(const TetMesh& mesh, const TetVertices& tet, TetBatch& batch) 
 }
 
 }  // namespace
+
+bool holds_all(const TetMesh& mesh, std::span<const TetHandle> tets, Workspace& workspace) {
+  const bool holds = workspace.territory().is_whole() ||
+                     std::all_of(tets.begin(), tets.end(),
+                                 [&](TetHandle t) { return workspace.holds(mesh.vertices(t)); });
+  if (!holds) workspace.note_reached_out();
+  return holds;
+}
+
+bool holds_all(const TetMesh& mesh, std::span<const VertexMove> moves, Workspace& workspace) {
+  const auto holds_link = [&](const VertexMove& move) {
+    return workspace.holds(move.vertex) &&
+           std::all_of(move.link.begin(), move.link.end(),
+                       [&](HalfFace f) { return workspace.holds(mesh.vertices(f.tet())); });
+  };
+  const bool holds =
+      workspace.territory().is_whole() || std::all_of(moves.begin(), moves.end(), holds_link);
+  if (!holds) workspace.note_reached_out();
+  return holds;
+}
+
+bool holds_new(VertexHandle v, Workspace& workspace) {
+  const bool holds = workspace.holds(v);
+  if (!holds) workspace.note_reached_out();
+  return holds;
+}
 
 Transaction::Transaction(TetMesh& mesh, Workspace& workspace)
     : mesh_(mesh),
@@ -76,9 +103,10 @@ void Transaction::note(const Edit& edit) {
 
 // --- replace_cavity ------------------------------------------------------------------------------
 
-/// Fills cavity_set_ and constrained_edges_; refuses a cavity with a frozen tet, or with a
-/// constrained face or a label border inside.
+/// Fills cavity_set_ and constrained_edges_; refuses a cavity that another worker may be changing,
+/// one with a frozen tet, or with a constrained face or a label border inside.
 EditResult Transaction::check_old(std::span<const TetHandle> old) {
+  if (!holds_all(mesh_, old, workspace_)) return EditResult::no_room;
   workspace_.cavity_set_.clear();
   workspace_.constrained_edges_.clear();
   for (const TetHandle t : old) workspace_.cavity_set_.insert(t.index());
@@ -104,8 +132,8 @@ EditResult Transaction::check_old(std::span<const TetHandle> old) {
   return EditResult::made;
 }
 
-/// A vertex that vanishes must not be fixed; one that appears must not have tets elsewhere. Leaves
-/// all vertices in vertex_set_.
+/// A vertex that vanishes must not be fixed; one that appears must be this worker's, and not have tets
+/// elsewhere. Leaves all vertices in vertex_set_.
 EditResult Transaction::check_vertices(std::span<const TetHandle> old,
                                        std::span<const TetVertices> created) {
   IndexSet& set = workspace_.vertex_set_;
@@ -124,7 +152,9 @@ EditResult Transaction::check_vertices(std::span<const TetHandle> old,
   }
   for (const TetVertices& tet : created) {
     for (const VertexHandle v : tet) {
-      if (set.insert(v.index()) && mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
+      if (!set.insert(v.index())) continue;
+      if (!holds_new(v, workspace_)) return EditResult::no_room;
+      if (mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
     }
   }
   return EditResult::made;
@@ -495,6 +525,7 @@ EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
 
 EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
   assert(!kept_);
+  if (!holds_all(mesh_, moves, workspace_)) return EditResult::no_room;
   if (has_fixed(moves)) return EditResult::constrained;
   place(moves);
   evaluate(moves);
@@ -512,6 +543,7 @@ EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {
 
 EditResult Transaction::rearrange_vertices(std::span<const VertexMove> moves) {
   assert(!kept_);
+  if (!holds_all(mesh_, moves, workspace_)) return EditResult::no_room;
   const auto count = [&](const auto& is_positive) {
     IndexSet& seen = workspace_.touched_set_;
     seen.clear();

@@ -22,7 +22,7 @@ enum class EditResult : std::uint8_t {
   /// A constrained face, edge or vertex, a frozen tet, or a border between labels would vanish. Or
   /// a fixed vertex would move.
   constrained,
-  no_room,    ///< no free slot left in the territory of the workspace
+  no_room,  ///< no free slot left in the territory of the workspace, or the edit reaches out of it
   not_closed  ///< old and new tets do not have the same outer surface (a mistake of the caller)
 };
 
@@ -36,7 +36,7 @@ struct TETMEND_API VertexMove {
 /// A scope for edits. Transactions nest: one opened while another is open on the same workspace is
 /// its child. Undo restores every slot of the mesh bit for bit, handle numbers included. The
 /// outermost keep() writes the workspace's date to the vertices around all changes and forgets the
-/// journal. Tets and vertices given to a transaction must lie in the territory of the workspace.
+/// journal. Whatever reaches out of the territory of the workspace is refused: `no_room`.
 ///
 /// An edit takes all memory that it and its undo need before its first write. So one that throws,
 /// which is std::bad_alloc, has changed nothing, and neither keep() nor undo() can fail.

@@ -13,6 +13,7 @@
 
 #include "kernel/make_room.h"
 #include "kernel/property_values.h"
+#include "kernel/territory_check.h"
 #include "kernel/transaction.h"
 
 namespace tetmend {
@@ -107,6 +108,7 @@ EditResult Transaction::replace_at_surface(std::span<const TetHandle> old,
 
 /// As check_old(), but faces between labels may lie inside.
 EditResult Transaction::check_old_at_surface(std::span<const TetHandle> old) {
+  if (!holds_all(mesh_, old, workspace_)) return EditResult::no_room;
   workspace_.cavity_set_.clear();
   workspace_.constrained_edges_.clear();
   for (const TetHandle t : old) workspace_.cavity_set_.insert(t.index());
@@ -144,7 +146,9 @@ EditResult Transaction::check_vertices_at_surface(std::span<const TetHandle> old
   }
   for (const TetVertices& tet : created) {
     for (const VertexHandle v : tet) {
-      if (set.insert(v.index()) && mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
+      if (!set.insert(v.index())) continue;
+      if (!holds_new(v, workspace_)) return EditResult::no_room;
+      if (mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
     }
   }
   return EditResult::made;
@@ -327,6 +331,7 @@ void Transaction::list_new_flags() {
 
 EditResult Transaction::move_at_surface(std::span<const VertexMove> moves) {
   assert(!kept_);
+  if (!holds_all(mesh_, moves, workspace_)) return EditResult::no_room;
   SurfaceGuard* const guard = mesh_.surface_guard();
   for (const VertexMove& move : moves) {
     if (!mesh_.is_fixed(move.vertex)) continue;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <tetmend/api.h>
@@ -55,6 +56,10 @@ class TETMEND_API Workspace {
   bool mesh_may_overlap() const { return may_overlap_; }
   void note_border() { met_border_ = true; }
   void forget_border() { met_border_ = false; }
+  /// A transaction has refused an edit that reaches out of the territory, since the last call. Whoever
+  /// asks for one has not asked where the territory ends.
+  bool take_reached_out() { return std::exchange(reached_out_, false); }
+  void note_reached_out() { met_border_ = reached_out_ = true; }
 
   /// Slots without a tet or vertex, of which a mesh makes new ones.
   struct FreeSlots {
@@ -121,6 +126,7 @@ class TETMEND_API Workspace {
   FreeSlots free_;
   Territory territory_;
   bool met_border_ = false;
+  bool reached_out_ = false;
   // What a territory's work changes the counts of the mesh by; modulo 2^64.
   std::size_t more_tets_ = 0;
   std::size_t more_vertices_ = 0;

@@ -27,12 +27,7 @@ std::string linker_message(const std::string& file) {
 
 void* find(const SharedLibrary& library, const std::string& file, const char* symbol) {
   void* found = library.find(symbol);
-  if (found == nullptr) {
-    throw Error(
-        fmt::format("{}: not a plugin of tetmend: it has no symbol {} (see "
-                    "TETMEND_PLUGIN in ops/plugin.h)",
-                    file, symbol));
-  }
+  if (found == nullptr) throw_no_symbol(file, symbol);
   return found;
 }
 
@@ -51,7 +46,7 @@ SharedLibrary open(const std::string& file) {
   if (!library.is_open()) {
     throw Error(fmt::format("{}: cannot be loaded as a plugin: {}", file, linker_message(file)));
   }
-  check_abi(*static_cast<const PluginAbi*>(find(library, file, "tetmend_plugin_abi")), file);
+  check_abi(*static_cast<const PluginAbi*>(find(library, file, kPluginAbiSymbol)), file);
   return library;
 }
 

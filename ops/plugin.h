@@ -33,7 +33,7 @@ struct TETMEND_API PluginAbi {
 /// To be raised when plugins must be built again although no size has changed: when virtual
 /// functions of Operator or TraceSink are added, removed or moved, or when members change places or
 /// meaning.
-inline constexpr std::uint32_t kPluginAbiVersion = 7;
+inline constexpr std::uint32_t kPluginAbiVersion = 8;
 
 /// Checksum of the sizes of all that host and plugin share: it differs between versions of tetmend
 /// whose classes differ, and between standard libraries, also by their debugging modes.

@@ -45,6 +45,13 @@ void take(std::string_view& bytes, Value& value) {
   std::memcpy(static_cast<void*>(&value), front.data(), sizeof(value));
 }
 
+/// @throws Error also for a byte that is no truth value
+inline void take(std::string_view& bytes, bool& value) {
+  const std::string_view front = take_front(bytes, 1);
+  if (front[0] != 0 && front[0] != 1) throw Error("a truth value is none");
+  value = front[0] != 0;
+}
+
 template <class Value>
 void take(std::string_view& bytes, std::vector<Value>& values) {
   std::uint64_t count = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -24,13 +25,14 @@ std::string gathered_name(std::size_t part) {
   return fmt::format("gathered-{}", part);
 }
 
-/// Of what was not sent in a division, while its parts are worked on; kept when they are stored.
-std::string rest_name(std::size_t part) {
-  return fmt::format("rest-{}", part);
-}
-
+/// Of what was not sent, when the parts are stored.
 std::string kept_name(std::size_t part) {
   return fmt::format("kept-{}", part);
+}
+
+/// The same while the parts are worked on: it is renamed then.
+std::string rest_name(std::size_t part) {
+  return kept_name(part) + ".next";
 }
 
 /// In the order of their sources, whoever brought them.
@@ -100,6 +102,17 @@ DivisionState take_state(std::string_view& bytes) {
     take(bytes, ball.cluster);
     take(bytes, ball.rank);
   }
+  const std::vector<std::uint64_t>& cuts = state.parting.cuts;
+  const auto is_among = [&](std::uint32_t number) { return number < balls.size(); };
+  const bool fits = state.low.allFinite() && state.high.allFinite() &&
+                    state.parting.low.allFinite() && std::isfinite(state.parting.side) &&
+                    state.first_added.size() == state.stored && !cuts.empty() &&
+                    std::is_sorted(cuts.begin(), cuts.end()) &&
+                    std::all_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+                      return ball.centre.allFinite() && std::isfinite(ball.radius) &&
+                             is_among(ball.zone) && is_among(ball.cluster) && is_among(ball.rank);
+                    });
+  if (!fits) throw Error("a division contradicts itself");
   state.parting.zones = ZoneMap(std::move(balls));
   return state;
 }
@@ -210,7 +223,7 @@ void DividedMesh::each_point(const std::function<void(const Point&)>& use) const
 }
 
 Parting DividedMesh::cut(std::size_t pieces, unsigned shift) const {
-  const double side = (state_.high - state_.low).maxCoeff();
+  const double side = state_.side();
   Parting parting{state_.low, side, shift};
   if (pieces == 1) return parting;
   const HilbertCurve curve = shifted_curve(state_.low, side, shift);
@@ -297,6 +310,10 @@ void DividedMesh::send_all(Parting parting, unsigned rings, Shelf* next) {
   }
   shelf_ = &to;
   own_those_of(owners);
+  for (const std::size_t part : own_) {
+    to.end(gathered_name(part));
+    to.end(rest_name(part));
+  }
   state_.stored = 0;
   state_.first_added.clear();
   traffic_.back().seconds =
@@ -410,8 +427,10 @@ std::vector<Piece> DividedMesh::all_of(std::size_t part) const {
 }
 
 std::vector<VertexId> DividedMesh::stored_ids(std::size_t part) const {
-  std::vector<VertexId> ids =
-      read_ids([&](auto begin, auto size) { return shelf_->read(stored_name(part), begin, size); });
+  const std::string name = stored_name(part);
+  const auto read = [&](auto begin, auto size) { return shelf_->read(name, begin, size); };
+  std::vector<VertexId> ids;
+  shelf_->parse(name, [&] { ids = read_ids(read); });
   number(part, ids);
   return ids;
 }
@@ -419,38 +438,34 @@ std::vector<VertexId> DividedMesh::stored_ids(std::size_t part) const {
 Piece DividedMesh::stored_vertices(std::size_t part, std::size_t begin, std::size_t end) const {
   const std::string name = stored_name(part);
   const auto read = [&](auto from, auto size) { return shelf_->read(name, from, size); };
-  Piece piece = read_vertices(read, begin, end);
+  Piece piece;
+  shelf_->parse(name, [&] { piece = read_vertices(read, begin, end); });
   number(part, piece.ids);
   return piece;
 }
 
 namespace {
 
-void copy(const Shelf& from, const std::string& name, Shelf& to) {
+/// @param even_nothing  who looks for it misses what is not there
+void copy(const Shelf& from, const std::string& name, Shelf& to, bool even_nothing) {
   std::string bytes = from.read(name);
-  if (!bytes.empty()) to.put(name, std::move(bytes));
+  if (even_nothing || !bytes.empty()) to.put(name, std::move(bytes));
 }
 
 }  // namespace
 
 void DividedMesh::copy_stored(Shelf& to) const {
   for (const std::size_t part : own_) {
-    copy(*shelf_, stored_name(part), to);
-    copy(*shelf_, kept_name(part), to);
+    copy(*shelf_, stored_name(part), to, true);
+    copy(*shelf_, kept_name(part), to, true);
   }
 }
 
-void DividedMesh::take_from(const FolderShelf& from) {
+void DividedMesh::take_from(const SealedShelf& from) {
   for (const std::size_t part : own_) {
-    if (state_.stored > 0 && !from.has(stored_name(part))) {
-      throw Error(fmt::format("there is no {}", stored_name(part)));
-    }
-    for (const auto& name : {stored_name(part), kept_name(part)}) {
-      if (state_.stored > 0) copy(from, name, *shelf_);
-    }
-    for (const auto& name : {gathered_name(part), rest_name(part)}) {
-      if (state_.stored == 0) copy(from, name, *shelf_);
-    }
+    const bool is_stored = state_.stored > 0;
+    copy(from, is_stored ? stored_name(part) : gathered_name(part), *shelf_, false);
+    copy(from, is_stored ? kept_name(part) : rest_name(part), *shelf_, false);
   }
 }
 

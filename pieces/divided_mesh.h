@@ -13,7 +13,7 @@
 #include "pieces/piece.h"
 #include "pieces/piece_task.h"
 #include "pieces/ranks.h"
-#include "pieces/shelf.h"
+#include "pieces/sealed_shelf.h"
 
 namespace tetmend::pieces {
 
@@ -28,10 +28,12 @@ struct DivisionState {
   /// By stored piece: the id of the first vertex that it has added.
   std::vector<VertexId> first_added;
   Parting parting;  ///< of the gathered pieces
+
+  double side() const { return (high - low).maxCoeff(); }
 };
 
 void append(const DivisionState& state, std::string& bytes);
-/// @throws Error when the bytes end too early.
+/// @throws Error when the bytes end too early, or contradict themselves.
 DivisionState take_state(std::string_view& bytes);
 
 /// What one division took.
@@ -103,8 +105,8 @@ class DividedMesh {
   /// Copies the stored pieces of this rank.
   void copy_stored(Shelf& to) const;
   /// Copies the pieces of this rank, stored or gathered, from a shelf that has those of all.
-  /// @throws Error when one is not there.
-  void take_from(const FolderShelf& from);
+  /// @throws Error when one is not there, or damaged.
+  void take_from(const SealedShelf& from);
   /// All ranks: vertices of the whole mesh by the ball of the zones that they lie in; last, how many
   /// there are in all. Precondition: its pieces are stored.
   std::vector<std::int64_t> count_vertices(const ZoneMap& zones) const;

@@ -34,16 +34,10 @@ void add_shares(const MeshStatistics& part, MeshStatistics& all) {
                bad;
 }
 
-void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
-  if (part.tets == 0) return;
-  if (all.tets == 0) {
-    all = part;
-    return;
-  }
+/// Both have tets.
+void add_tets(const MeshStatistics& part, MeshStatistics& all) {
   add_shares(part, all);
   all.tets += part.tets;
-  all.vertices += part.vertices;
-  all.boundary_triangles += part.boundary_triangles;
   all.inverted += part.inverted;
   all.flat += part.flat;
   all.volume += part.volume;
@@ -57,6 +51,19 @@ void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
   all.q_worst = std::min(all.q_worst, part.q_worst);
   all.n_bad += part.n_bad;
   for (std::size_t i = 0; i < all.histogram.size(); ++i) all.histogram[i] += part.histogram[i];
+}
+
+/// A part may own vertices and faces, and no tet.
+void add_statistics(const MeshStatistics& part, MeshStatistics& all) {
+  const std::size_t vertices = all.vertices + part.vertices;
+  const std::size_t boundary_triangles = all.boundary_triangles + part.boundary_triangles;
+  if (all.tets == 0) {
+    all = part;
+  } else if (part.tets > 0) {
+    add_tets(part, all);
+  }
+  all.vertices = vertices;
+  all.boundary_triangles = boundary_triangles;
 }
 
 /// @param numbers of the tets in the piece, by slot
@@ -112,7 +119,7 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
   Figures figures;
   const Piece own = own_part(gathered, parting, number);
   const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
-  {
+  if (!gathered.tets.empty()) {
     BuildReport report;
     MeshData data = to_data(gathered);
     const TetMesh mesh = TetMesh::build(data, {.report = &report});

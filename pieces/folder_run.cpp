@@ -23,8 +23,6 @@ namespace tetmend::pieces {
 
 namespace {
 
-constexpr auto kLasts = FolderShelf::Lasts::beyond_a_crash;
-
 std::string outcome_name(std::size_t part) {
   return fmt::format("outcome-{}", part);
 }
@@ -69,8 +67,14 @@ class Tools {
 FolderRun::FolderRun(const std::filesystem::path& folder, const ArrayFiles* array_files)
     : folder_(folder), saved_(folder_.load()), array_files_(array_files) {}
 
-FolderShelf FolderRun::shelf() const {
-  return FolderShelf(folder_.pieces_of(saved_.run), kLasts);
+/// Others may have gone on since the state was loaded.
+void FolderRun::load_again() {
+  SavedRun now = folder_.load();
+  if (RunFolder::step_of(now.run) != RunFolder::step_of(saved_.run) ||
+      now.is_finished != saved_.is_finished) {
+    throw Error(fmt::format("{}: another program has ended this round", folder_.path().string()));
+  }
+  saved_ = std::move(now);
 }
 
 void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folder,
@@ -78,14 +82,16 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
   check_for_files(options);
   check(options, division);
   if (division.pieces < 2) throw OptionError("pieces", "pieces: at least 2 are needed");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_empty(folder, error)) {
-    throw Error(fmt::format("{}: {}", folder.string(),
-                            error ? error.message() : "is not empty: a new folder is needed"));
-  }
+  const RunFolder run_folder(folder);
+  const auto check_empty = [&] {
+    std::error_code ignored;
+    if (run_folder.is_empty() || !std::filesystem::exists(folder, ignored)) return;
+    throw Error(fmt::format("{}: is not empty: a new folder is needed", folder.string()));
+  };
+  check_empty();
+  const FolderLock lock(folder, platform::Sharing::none);
+  check_empty();  // what another program has made meanwhile
   face::on_threads(options.threads, [&] {
-    const RunFolder run_folder(folder);
     Tools tools(options);
     OneRank ranks;
     SavedRun saved;
@@ -99,21 +105,21 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
     try {
       InputMesh mesh_file(files.input, ranks, files.array_files, files.label_array);
       if (!tools.plan().surface.is_fixed()) mesh_file.set_surface_moves();
-      std::error_code several_files;
-      saved.input_size = std::filesystem::file_size(files.input, several_files);
+      saved.division.pieces = limited_pieces(division.pieces, mesh_file.tets());
+      saved.input_content = identify(files.input, ranks);
       saved.vertices = mesh_file.vertices();
       saved.holds_more = mesh_file.holds_more(files.output);
       mesh_file.check_conserve(options.conserve);
       if (files.tell_lost) files.tell_lost(mesh_file.lost_in(files.output));
       FolderShelf slices(run_folder.make_step(0));
-      FolderShelf first(run_folder.make_step(1), kLasts);
       DividedMesh mesh(slices, ranks, saved.vertices);
-      add_protected(mesh_file, options, mesh, division.pieces);
+      add_protected(mesh_file, options, mesh, saved.division.pieces);
       PieceRun steps(mesh, saved.division, tools.task());
+      SealedShelf first = run_folder.new_step(1, saved);
       saved.before = steps.measure_before(&first);
       if (!tools.plan().surface.is_fixed()) {
         run_folder.save_surface(
-            steps.hold_surface(tools.plan().surface.envelope_options(), &first));
+            saved, steps.hold_surface(tools.plan().surface.envelope_options(), &first));
       }
       check_before(saved.before, options, files.input);
       const MeshStatistics& before = saved.before.statistics;
@@ -123,7 +129,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       saved.mesh = mesh.state();
       run_folder.save(saved);
     } catch (...) {
-      run_folder.remove();
+      run_folder.clear();
       throw;
     }
   });
@@ -141,8 +147,8 @@ void FolderRun::open() {
   const Options options = options_of_run({});
   Tools tools(options);
   OneRank ranks;
-  FolderShelf from = shelf();
-  FolderShelf to(folder_.make_step(RunFolder::step_of(saved_.run) + 1), kLasts);
+  SealedShelf from = folder_.pieces_of(saved_);
+  SealedShelf to = folder_.new_step(RunFolder::step_of(saved_.run) + 1, saved_);
   DividedMesh mesh(from, ranks, saved_.mesh);
   PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
   if (!steps.begin_step(&to)) return;
@@ -158,7 +164,7 @@ Round FolderRun::round() const {
   round.name = round.number <= divisions ? fmt::format("division {}", round.number)
                                          : fmt::format("zones {}", round.number - divisions);
   if (!saved_.run.is_divided) return round;
-  const FolderShelf pieces = shelf();
+  const SealedShelf pieces = folder_.pieces_of(saved_);
   for (std::size_t part = 0; part < saved_.mesh.parting.parts(); ++part) {
     round.pieces.push_back(part);
     if (!pieces.has(outcome_name(part))) round.open.push_back(part);
@@ -176,13 +182,15 @@ void FolderRun::check_trace(const std::vector<std::size_t>& pieces) const {
         fmt::format("trace: piece {} is not worked on in this round: its zones count from {}", part,
                     stretches));
   }
-  if (shelf().has(outcome_name(part))) {
+  if (folder_.pieces_of(saved_).has(outcome_name(part))) {
     throw Error(fmt::format("trace: piece {} is finished already", part));
   }
 }
 
 std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Options& options,
                                std::string* trace_trouble) {
+  const FolderLock lock(folder_.path(), platform::Sharing::others);
+  load_again();
   const std::size_t parts = saved_.run.is_divided ? saved_.mesh.parting.parts() : 0;
   for (const std::size_t part : pieces) {
     if (part < parts) continue;
@@ -194,7 +202,7 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
     Tools tools(all);
     tools.watcher().begin(Stage::improving);
     OneRank ranks;
-    FolderShelf from = shelf();
+    SealedShelf from = folder_.pieces_of(saved_);
     DividedMesh mesh(from, ranks, saved_.mesh);
     PieceTrace trace(all, tools.plan(), saved_.input);
     if (trace.is_wanted()) {
@@ -225,6 +233,8 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
 }
 
 std::optional<Result> FolderRun::join(const Options& options) {
+  const FolderLock lock(folder_.path(), platform::Sharing::none);
+  load_again();
   const Round now = round();
   if (!now.open.empty()) {
     throw Error(fmt::format("{}: {} of {} pieces are not finished yet: {}", now.name,
@@ -235,14 +245,17 @@ std::optional<Result> FolderRun::join(const Options& options) {
     if (saved_.run.is_divided) {
       Tools tools(all);
       OneRank ranks;
-      FolderShelf from = shelf();
+      SealedShelf from = folder_.pieces_of(saved_);
       DividedMesh mesh(from, ranks, saved_.mesh);
       PieceRun steps(mesh, saved_.division, tools.task(), saved_.run);
       std::vector<PartOutcome> outcomes;
       for (const std::size_t part : now.pieces) {
         const std::string bytes = from.read(outcome_name(part));
-        std::string_view rest = bytes;
-        outcomes.push_back(take_outcome(rest));
+        from.parse(outcome_name(part), [&] {
+          std::string_view rest = bytes;
+          outcomes.push_back(take_outcome(rest));
+          if (!rest.empty() || outcomes.back().part != part) throw Error("it is of another piece");
+        });
       }
       std::optional<StepRecord> record = steps.begin_step();
       steps.end_step(std::move(*record), std::move(outcomes));
@@ -257,13 +270,13 @@ std::optional<Result> FolderRun::join(const Options& options) {
 
 void FolderRun::hold_surface(const face::SurfaceTolerance& surface, PieceRun& steps) const {
   if (surface.is_fixed()) return;
-  steps.hold_surface(surface.envelope_options(), folder_.load_surface());
+  steps.hold_surface(surface.envelope_options(), folder_.load_surface(saved_));
 }
 
 Result FolderRun::finish(const Options& options) {
   Tools tools(options);
   OneRank ranks;
-  FolderShelf from = shelf();
+  SealedShelf from = folder_.pieces_of(saved_);
   const std::size_t last = RunFolder::step_of(saved_.run) + 1;
   FolderShelf to(folder_.make_step(last));
   DividedMesh mesh(from, ranks, saved_.mesh);
@@ -274,7 +287,7 @@ Result FolderRun::finish(const Options& options) {
   hold_surface(tools.plan().surface, steps);
   const Figures after = steps.measure_after(&to);
   result.surface_change = steps.surface_change();
-  check_after(saved_.before, after, kept_by(tools.plan().surface), result);
+  check_after(saved_.before, after, kept_by(tools.plan().surface), saved_.mesh.side(), result);
   const std::filesystem::path output = saved_.output;
   WriteDetails details = {.vertices = saved_.vertices,
                           .array_files = array_files_,

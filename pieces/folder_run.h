@@ -29,10 +29,10 @@ class FolderRun {
   /// @param array_files of formats that only they know; null: none
   explicit FolderRun(const std::filesystem::path& folder, const ArrayFiles* array_files = nullptr);
 
-  /// Divides the input for the first round. Of `files` input, output, their formats and what is said
-  /// of them count.
-  /// @throws Error as improve_files(), and for a folder that has something already; OptionError for
-  /// less than two pieces.
+  /// Divides the input for the first round, in so many pieces or fewer: see limited_pieces(). Of
+  /// `files` input, output, their formats and what is said of them count.
+  /// @throws Error as improve_files(), for a folder that has something already, and while another
+  /// program works there; OptionError for less than two pieces.
   static void split(const OutOfCore& files, const std::filesystem::path& folder,
                     const Options& options, const Division& division);
 
@@ -46,24 +46,24 @@ class FolderRun {
   /// @param options threads, progress, note, cancel, check_operators and what belongs to a trace; the
   /// rest is that of the run
   /// @param trace_trouble null, or takes why there is no trace, as "FILE: reason"; empty: it is whole
-  /// @throws Error for a number that is not of the round, and for a trace of another number of pieces
-  /// than one, or of one that is finished or not worked on
+  /// @throws Error when another program begins the next round; for a number that is not of the round;
+  /// for a trace of another number of pieces than one, or of one that is finished or not worked on
   /// @return how many were finished; less when it was told to stop
   std::size_t improve(const std::vector<std::size_t>& pieces, const Options& options,
                       std::string* trace_trouble = nullptr);
   /// When all pieces of the round are finished: divides anew for the next one, or checks all and
   /// writes the output. Killed on the way, it can be called again.
-  /// @throws Error when a piece is missing; it names them
+  /// @throws Error when a piece is missing, it names them; and when another program works here
   /// @return what the run did, when it is finished now
   std::optional<Result> join(const Options& options);
 
  private:
+  void load_again();
   void open();
   void check_trace(const std::vector<std::size_t>& pieces) const;
   void hold_surface(const face::SurfaceTolerance& surface, PieceRun& steps) const;
   Options options_of_run(const Options& options) const;
   Result finish(const Options& options);
-  FolderShelf shelf() const;
 
   RunFolder folder_;
   SavedRun saved_;

@@ -134,10 +134,21 @@ SurfaceShare take_share(std::string_view& bytes) {
   take(bytes, share.walls);
   take(bytes, share.kept);
   take(bytes, share.volumes);
+  const std::size_t count = share.ids.size();
+  const bool fits =
+      share.points.size() == count && (share.labels.empty() || share.labels.size() == count) &&
+      (share.kinds.empty() || share.kinds.size() == share.faces.size()) &&
+      std::is_sorted(share.ids.begin(), share.ids.end()) &&
+      std::all_of(share.faces.begin(), share.faces.end(), [&](const MeshData::Triangle& face) {
+        return std::all_of(face.vertices.begin(), face.vertices.end(),
+                           [&](std::uint32_t v) { return v < count; });
+      });
+  if (!fits) throw Error("a share of a surface contradicts itself");
   return share;
 }
 
 SurfaceShare share_of_input(const Piece& gathered, const Parting& parting, std::uint32_t number) {
+  if (gathered.tets.empty()) return {};
   const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   MeshData data = to_data(gathered);
   const TetMesh mesh = TetMesh::build(data, {.report = nullptr});

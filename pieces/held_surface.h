@@ -40,7 +40,7 @@ struct SurfaceShare {
 };
 
 void append(const SurfaceShare& share, std::string& bytes);
-/// @throws Error when the bytes end too early.
+/// @throws Error when the bytes end too early, or contradict themselves.
 SurfaceShare take_share(std::string_view& bytes);
 
 /// Of a piece of the mesh as it was read.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -21,11 +22,13 @@
 #include "face/regions.h"
 #include "face/surface_marks.h"
 #include "face/watcher.h"
+#include "kernel/grouped.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
+#include "kernel/volume_rounding.h"
 #include "pieces/piece_trace.h"
 #include "pieces/slices.h"
 #include "schedule/limit/surface_limit.h"
@@ -78,6 +81,10 @@ class Improvement {
     watcher_.rethrow();
     return std::move(result_);
   }
+  void note(const std::string& text) {
+    watcher_.noted(text);
+    result_.notes.push_back(text);
+  }
   /// After run(). Null: nothing was recorded.
   std::unique_ptr<TraceRecorder> take_trace(std::string& trouble) {
     return trace_.take_recorder(trouble);
@@ -94,11 +101,6 @@ class Improvement {
   void map(const Joined& joined);
   void check_promises() const;
   void give_back(Joined& joined);
-  void note(const std::string& text) {
-    watcher_.noted(text);
-    result_.notes.push_back(text);
-  }
-
   Mesh& user_mesh_;
   const Options& options_;
   const Division& division_;
@@ -321,14 +323,14 @@ void Improvement::map(const Joined& joined) {
 
 /// A broken promise would be a bug. Nobody is to work on with such a mesh.
 void Improvement::check_promises() const {
-  constexpr double kMostVolumeChange = 1e-9;
   const bool keeps_surface =
       !plan_.surface.is_fixed() ||
       (result_.surface_fingerprint == surface_before_ &&
        result_.after.boundary_triangles == result_.before.boundary_triangles);
-  const bool keeps_volume = (!plan_.surface.is_fixed() && !plan_.surface.is_flat()) ||
-                            result_.not_positive_before > 0 ||
-                            result_.volume_change() <= kMostVolumeChange;
+  const bool keeps_volume =
+      (!plan_.surface.is_fixed() && !plan_.surface.is_flat()) || result_.not_positive_before > 0 ||
+      is_rounding(result_.volume_change(), result_.before.scaled_volume,
+                  [&] { return std::ldexp(longest_side(input_.points), -result_.before.scale); });
   const bool is_kept =
       keeps_surface && keeps_volume && result_.not_positive_after <= result_.not_positive_before;
   if (!is_kept) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
@@ -377,6 +379,16 @@ void check(const Options& options, const Division& division) {
   check_trace_piece(options, division.pieces, division.divisions, division.zone_rounds);
 }
 
+std::size_t limited_pieces(std::size_t pieces, std::size_t tets) {
+  constexpr std::size_t kLeastTets = 300;
+  return std::min(pieces, std::max<std::size_t>(2, tets / kLeastTets));
+}
+
+std::string why_fewer_pieces(std::size_t asked, std::size_t pieces, std::size_t tets) {
+  return fmt::format("{} pieces, not {}: the mesh has no more than {} tets", grouped(pieces),
+                     grouped(asked), grouped(tets));
+}
+
 std::size_t usual_pieces(std::size_t tets) {
   constexpr std::size_t kTetsOfPiece = 4'000'000;
   return std::max<std::size_t>(1, (tets + kTetsOfPiece - 1) / kTetsOfPiece);
@@ -395,11 +407,18 @@ Result improve(Mesh& mesh, const Options& options, const Division& division,
                std::unique_ptr<TraceRecorder>* trace) {
   check(options, division);
   if (division.pieces <= 1) return tetmend::improve(mesh, options);
+  const std::size_t tets = MeshAccess::data(mesh).tets.size();
+  Division limited = division;
+  limited.pieces = limited_pieces(division.pieces, tets);
+  check(options, limited);
   return face::on_threads(options.threads, [&] {
     MemoryShelf memory;
     FolderShelf folder(scratch);
     Shelf& shelf = scratch.empty() ? static_cast<Shelf&>(memory) : folder;
-    Improvement improvement(mesh, options, division, shelf, portrait);
+    Improvement improvement(mesh, options, limited, shelf, portrait);
+    if (limited.pieces < division.pieces) {
+      improvement.note(why_fewer_pieces(division.pieces, limited.pieces, tets));
+    }
     Result result = improvement.run();
     std::unique_ptr<TraceRecorder> made = improvement.take_trace(result.trace_trouble);
     if (trace != nullptr) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include <tetmend/improve.h>
 
@@ -17,7 +18,8 @@
 namespace tetmend::pieces {
 
 /// improve(), but with the mesh divided. The result depends on the mesh, the options and the number
-/// of pieces, not on threads or on where the pieces lie. One piece: the same as improve().
+/// of pieces, not on threads or on where the pieces lie. One piece: the same as improve(). For the number
+/// see limited_pieces().
 /// @param portrait null, or empty; filled for a picture of the run
 /// @param scratch folder in which pieces lie that are not worked on; empty: they stay in memory
 /// @param trace null, or takes the trace, which is not finished then: see face/recorded.h
@@ -32,6 +34,12 @@ Pass to_pass(const StepRecord& record);
 
 /// @throws OptionError for options that pieces cannot have.
 void check(const Options& options, const Division& division);
+
+/// So many pieces, or fewer where they would be too small: of less than 300 tets. At least 2, unless
+/// it is one.
+std::size_t limited_pieces(std::size_t pieces, std::size_t tets);
+/// For the user, where there are fewer than were asked for.
+std::string why_fewer_pieces(std::size_t asked, std::size_t pieces, std::size_t tets);
 
 /// How many pieces a mesh has when nobody says how many. At least 1.
 std::size_t usual_pieces(std::size_t tets);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -17,6 +18,7 @@
 #include "face/surface_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/volume_rounding.h"
 #include "pieces/bytes.h"
 #include "pieces/rows.h"
 #include "pieces/slices.h"
@@ -294,7 +296,8 @@ Kept kept_by(const face::SurfaceTolerance& surface) {
   return surface.is_fixed() ? Kept::all : surface.is_flat() ? Kept::shape : Kept::nearness;
 }
 
-void check_after(const Figures& before, const Figures& after, Kept kept, Result& result) {
+void check_after(const Figures& before, const Figures& after, Kept kept, double side,
+                 Result& result) {
   result.before = before.statistics;
   result.not_positive_before = before.not_positive;
   result.protected_tets = before.protected_tets;
@@ -304,13 +307,14 @@ void check_after(const Figures& before, const Figures& after, Kept kept, Result&
   result.surface_fingerprint_before = before.surface;
   result.surface_fingerprint = after.surface;
   result.not_positive_after = after.not_positive;
-  constexpr double kMostVolumeChange = 1e-9;
   const bool keeps_surface =
       kept != Kept::all || (after.surface == before.surface &&
                             result.after.boundary_triangles == result.before.boundary_triangles);
   const bool fits = keeps_surface && after.misfits == 0 &&
                     result.not_positive_after <= result.not_positive_before &&
-                    (kept == Kept::nearness || result.volume_change() <= kMostVolumeChange);
+                    (kept == Kept::nearness ||
+                     is_rounding(result.volume_change(), result.before.scaled_volume,
+                                 [&] { return std::ldexp(side, -result.before.scale); }));
   if (!fits) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
 }
 

@@ -78,8 +78,10 @@ void check_before(const Figures& before, const Options& options, const std::file
 enum class Kept { all, shape, nearness };
 Kept kept_by(const face::SurfaceTolerance& surface);
 
-/// Puts the figures into the result. @throws Error when the pieces do not fit.
-void check_after(const Figures& before, const Figures& after, Kept kept, Result& result);
+/// Puts the figures into the result. @param side  of the box around the mesh
+/// @throws Error when the pieces do not fit.
+void check_after(const Figures& before, const Figures& after, Kept kept, double side,
+                 Result& result);
 /// What a run says when the mesh would have become worse, and stays.
 std::string why_as_it_was(const Result& result);
 

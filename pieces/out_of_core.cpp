@@ -66,6 +66,7 @@ class FileRun {
   bool read();
   void measure_before();
   void hold_surface();
+  void lock();
   bool go_on();
   SavedRun saved() const;
   void save() const;
@@ -78,7 +79,15 @@ class FileRun {
     if (division_.pieces == 0) {
       division_.pieces = files_.memory > 0 ? pieces_for(tets, files_.memory) : usual_pieces(tets);
     }
+    limit_pieces(tets);
     return division_.pieces > 1;
+  }
+  void limit_pieces(std::size_t tets) {
+    const std::size_t asked =
+        std::exchange(division_.pieces, limited_pieces(division_.pieces, tets));
+    if (asked == division_.pieces) return;
+    result_.notes.push_back(why_fewer_pieces(asked, division_.pieces, tets));
+    watcher_.noted(result_.notes.back());
   }
 
   const OutOfCore& files_;
@@ -88,6 +97,8 @@ class FileRun {
   face::Plan plan_;
   face::Watcher watcher_;
   RunFolder checkpoint_;
+  std::optional<FolderLock> lock_;  // of the first rank, where there is a checkpoint
+  FileIdentity input_content_;      // likewise
   PieceTrace trace_;
   std::unique_ptr<Shelf> shelf_;
   std::optional<DividedMesh> mesh_;
@@ -115,10 +126,12 @@ Result FileRun::run() {
   };
   task.unwatch = [&] { watcher_.watch(nullptr, now_); };
   watcher_.begin(Stage::building);
+  if (!files_.checkpoint.empty()) lock();
   if (go_on()) {
-    steps_.emplace(*mesh_, division_, task, checkpoint_.load().run);
+    const SavedRun found = checkpoint_.load();
+    steps_.emplace(*mesh_, division_, task, found.run);
     if (!plan_.surface.is_fixed()) {
-      steps_->hold_surface(plan_.surface.envelope_options(), checkpoint_.load_surface());
+      steps_->hold_surface(plan_.surface.envelope_options(), checkpoint_.load_surface(found));
       unchanged_surface_ = steps_->surface()->unchanged();
     }
   } else {
@@ -197,7 +210,7 @@ void FileRun::hold_surface() {
   if (plan_.surface.is_fixed()) return;
   const std::string held = steps_->hold_surface(plan_.surface.envelope_options());
   unchanged_surface_ = steps_->surface()->unchanged();
-  if (!files_.checkpoint.empty() && ranks_.is_first()) checkpoint_.save_surface(held);
+  if (!files_.checkpoint.empty() && ranks_.is_first()) checkpoint_.save_surface(saved(), held);
 }
 
 /// What a checkpoint must be of to be gone on from.
@@ -205,8 +218,7 @@ SavedRun FileRun::saved() const {
   SavedRun run;
   run.input = std::filesystem::absolute(files_.input).string();
   run.output = std::filesystem::absolute(files_.output).string();
-  std::error_code several_files;
-  run.input_size = std::filesystem::file_size(files_.input, several_files);
+  run.input_content = input_content_;
   run.vertices = vertices_;
   run.holds_more = holds_more_;
   run.label_array = files_.label_array;
@@ -217,12 +229,26 @@ SavedRun FileRun::saved() const {
   return run;
 }
 
+/// All ranks, or none.
+void FileRun::lock() {
+  std::string trouble;
+  try {
+    if (ranks_.is_first()) lock_.emplace(files_.checkpoint, platform::Sharing::none);
+  } catch (const Error& error) {
+    trouble = error.what();
+  }
+  const std::string told = ranks_.gather(trouble).front();
+  if (!told.empty()) throw Error(told);
+  input_content_ = identify(files_.input, ranks_);
+}
+
 /// False: there is nothing to go on from.
 bool FileRun::go_on() {
   if (files_.checkpoint.empty() || ranks_.any(!checkpoint_.has_run())) return false;
   const SavedRun found = checkpoint_.load();
+  limit_pieces(found.before.statistics.tets);
   const SavedRun mine = saved();
-  if (found.input != mine.input || found.input_size != mine.input_size ||
+  if (found.input != mine.input || found.input_content != mine.input_content ||
       found.options != mine.options || found.label_array != mine.label_array || found.is_finished ||
       (division_.pieces != 0 && division_.pieces != found.division.pieces)) {
     throw Error(fmt::format("{}: has a run of another mesh, or with other options",
@@ -236,7 +262,7 @@ bool FileRun::go_on() {
   for (const StepRecord& record : found.run.records) result_.passes.push_back(to_pass(record));
   if (!found.run.records.empty()) now_ = found.run.records.back().after.indicators;
   mesh_.emplace(*shelf_, ranks_, found.mesh);
-  mesh_->take_from(FolderShelf(checkpoint_.pieces_of(found.run)));
+  mesh_->take_from(checkpoint_.pieces_of(found));
   if (trace_.is_wanted() && trace_.round() <= found.run.records.size()) trace_.skip(ranks_);
   trace_.locate(*mesh_);
   return true;
@@ -247,11 +273,11 @@ void FileRun::save() const {
   const std::size_t step = RunFolder::step_of(steps_->state());
   if (ranks_.is_first()) checkpoint_.make_step(step);
   ranks_.meet();
-  FolderShelf shelf(checkpoint_.step(step), FolderShelf::Lasts::beyond_a_crash);
+  SavedRun run = saved();
+  SealedShelf shelf = checkpoint_.step(step, run);
   mesh_->copy_stored(shelf);
   ranks_.meet();
   if (!ranks_.is_first()) return;
-  SavedRun run = saved();
   run.run = steps_->state();
   run.mesh = mesh_->state();
   checkpoint_.save(run);
@@ -285,7 +311,7 @@ void FileRun::measure_after() {
   const Stopwatch watch(result_.measuring);
   const Figures after = steps_->measure_after();
   result_.surface_change = steps_->surface_change();
-  check_after(before_, after, kept_by(plan_.surface), result_);
+  check_after(before_, after, kept_by(plan_.surface), mesh_->state().side(), result_);
 }
 
 void FileRun::note_costs() const {
@@ -336,7 +362,7 @@ void FileRun::write() {
                                   .surface_moves = !plan_.surface.is_fixed(),
                                   .shelf = shelf_.get(),
                                   .pieces = division_.pieces});
-  if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.remove();
+  if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.clear();
 }
 
 }  // namespace

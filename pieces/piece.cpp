@@ -153,10 +153,12 @@ class PlacedArray {
   std::vector<Value> values(std::uint64_t begin, std::uint64_t end) const {
     begin = std::min(begin, count_);
     end = std::min(end, count_);
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max() / sizeof(Value);
+    if (end > kMost) throw Error("a piece ends too early");
     const std::string bytes =
         read_(place_ + sizeof(count_) + begin * sizeof(Value), (end - begin) * sizeof(Value));
+    if (bytes.size() != (end - begin) * sizeof(Value)) throw Error("a piece ends too early");
     std::vector<Value> taken(end - begin);
-    if (bytes.size() != taken.size() * sizeof(Value)) throw Error("a piece ends too early");
     if (!taken.empty()) std::memcpy(static_cast<void*>(taken.data()), bytes.data(), bytes.size());
     return taken;
   }
@@ -179,6 +181,9 @@ Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t en
   const PlacedArray<Point> points(read, ids.end());
   const PlacedArray<Label> labels(read, points.end());
   const PlacedArray<std::uint8_t> marks(read, labels.end());
+  const bool fits = points.count() == ids.count() && marks.count() == ids.count() &&
+                    (labels.count() == 0 || labels.count() == ids.count());
+  if (!fits) throw Error("a piece contradicts itself");
   Piece piece;
   piece.ids = ids.values(begin, end);
   piece.points = points.values(begin, end);

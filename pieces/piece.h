@@ -77,7 +77,7 @@ std::size_t byte_count(const Piece& piece);
 Piece take_piece(std::string_view& bytes);
 
 /// Of an appended piece, some of whose bytes can be read, the vertices from `begin` to `end`, as far as
-/// there are so many; nothing else.
+/// there are so many; nothing else. @throws Error when they end too early, or contradict themselves
 using ReadBytes = std::function<std::string(std::uint64_t begin, std::uint64_t size)>;
 Piece read_vertices(const ReadBytes& read, std::uint64_t begin, std::uint64_t end);
 /// The ids alone, of all vertices.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "pieces/run_folder.h"
 
-#include <fstream>
-#include <iterator>
+#include <array>
+#include <cerrno>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <tetmend/catalogue.h>
 
-#include "kernel/formats/output_file.h"
+#include "kernel/formats/compression.h"
 #include "pieces/bytes.h"
-#include "pieces/shelf.h"
 
 namespace tetmend::pieces {
 
@@ -18,17 +18,21 @@ namespace {
 
 constexpr const char* kName = "run";
 constexpr const char* kSurface = "surface";
+constexpr const char* kLock = "lock";
 constexpr std::string_view kStep = "step-";
+/// What the lock says where the folder was not there before.
+constexpr std::string_view kMadeFolder = "tetmend made this folder\n";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 8\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 9\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {
   put(saved.input, bytes);
   put(saved.output, bytes);
-  put(saved.input_size, bytes);
+  put(saved.input_content.size, bytes);
+  put(saved.input_content.checksum, bytes);
   put(saved.vertices, bytes);
   put(saved.holds_more, bytes);
   put(saved.label_array, bytes);
@@ -45,11 +49,59 @@ void append(const SavedRun& saved, std::string& bytes) {
   put(saved.is_finished, bytes);
 }
 
+bool is_likely(const SavedRun& saved) {
+  constexpr unsigned kMostSteps = 64;
+  constexpr std::size_t kMostPieces = 65'535;
+  const Division& division = saved.division;
+  return division.pieces >= 1 && division.pieces <= kMostPieces && division.divisions >= 1 &&
+         division.divisions <= kMostSteps && division.zone_rounds <= kMostSteps &&
+         saved.run.records.size() <= division.divisions + division.zone_rounds;
+}
+
+}  // namespace
+
+std::uint32_t number_of(const SavedRun& saved) {
+  std::string bytes;
+  put(saved.input, bytes);
+  put(saved.input_content.size, bytes);
+  put(saved.input_content.checksum, bytes);
+  put(saved.label_array, bytes);
+  for (const auto& [name, value] : saved.options) {
+    put(name, bytes);
+    put(value, bytes);
+  }
+  put(std::uint64_t{saved.division.pieces}, bytes);
+  return formats::checksum(bytes);
+}
+
+FileIdentity identify(const std::filesystem::path& file, Ranks& ranks) {
+  FileIdentity identity;
+  const auto opened = ranks.is_first() ? platform::open_to_read(file)
+                                       : platform::Answer<platform::Descriptor>{{}, ENOENT};
+  std::string block(opened ? std::size_t{1} << 18 : 0, '\0');
+  for (bool is_at_end = !opened; !is_at_end;) {
+    const auto got = platform::read_some(opened.value.number(), block);
+    is_at_end = !got || got.value == 0;
+    identity.checksum =
+        formats::checksum(std::string_view(block).substr(0, got.value), identity.checksum);
+    identity.size += got.value;
+  }
+  std::string mine;
+  put(identity.size, mine);
+  put(identity.checksum, mine);
+  const std::vector<std::string> all = ranks.gather(mine);
+  std::string_view first = all.front();
+  take(first, identity.size);
+  take(first, identity.checksum);
+  return identity;
+}
+
 SavedRun take_run(std::string_view bytes) {
   SavedRun saved;
   take(bytes, saved.input);
   take(bytes, saved.output);
-  take(bytes, saved.input_size);
+  take(bytes, saved.input_content.size);
+  take(bytes, saved.input_content.checksum);
   take(bytes, saved.vertices);
   take(bytes, saved.holds_more);
   take(bytes, saved.label_array);
@@ -66,61 +118,111 @@ SavedRun take_run(std::string_view bytes) {
   saved.run = take_run_state(bytes);
   saved.mesh = take_state(bytes);
   take(bytes, saved.is_finished);
+  if (!bytes.empty() || !is_likely(saved)) throw Error("a run contradicts itself");
   return saved;
+}
+
+namespace {
+
+std::string content_of(const platform::Descriptor& file) {
+  std::array<char, 64> content{};
+  const auto got = platform::read_at(file.number(), 0, content);
+  return got ? std::string(content.data(), got.value) : std::string();
 }
 
 }  // namespace
 
-bool RunFolder::has_run() const {
+FolderLock::FolderLock(const std::filesystem::path& folder, platform::Sharing sharing)
+    : folder_(folder) {
+  std::error_code error;
+  const bool made = std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  }
+  auto locked = platform::open_locked(folder / kLock, sharing);
+  if (locked.error == EWOULDBLOCK) {
+    throw Error(
+        fmt::format("{}: another program works on the run of this folder", folder.string()));
+  }
+  if (!locked && locked.error != ENOLCK) {
+    throw Error(fmt::format("{}: cannot be locked: {}", folder.string(),
+                            std::generic_category().message(locked.error)));
+  }
+  file_ = std::move(locked.value);
+  if (made) static_cast<void>(platform::write_fully(file_.number(), kMadeFolder));
+  made_folder_ = content_of(file_) == kMadeFolder;
+}
+
+FolderLock::~FolderLock() {
+  if (!RunFolder(folder_).is_empty()) return;
+  platform::remove_file((folder_ / kLock).c_str());
   std::error_code ignored;
-  return std::filesystem::exists(folder_ / kName, ignored);
+  if (made_folder_) std::filesystem::remove(folder_, ignored);
+}
+
+bool RunFolder::has_run() const {
+  return root(0).has(kName);
+}
+
+bool RunFolder::is_empty() const {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+    if (entry.path().filename() != kLock) return false;
+  }
+  return !error;
+}
+
+SealedShelf RunFolder::root(std::uint32_t run) const {
+  return {folder_, "", run};
 }
 
 SavedRun RunFolder::load() const {
-  const std::filesystem::path file = folder_ / kName;
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad()) {
+  const SealedShelf shelf = root(0);
+  if (!shelf.has(kName)) {
     throw Error(fmt::format("{}: there is no run in pieces", folder_.string()));
   }
   const std::string begin = signature();
-  if (!bytes.starts_with(begin)) {
-    throw Error(fmt::format("{}: was not written by tetmend {}", file.string(), version()));
+  if (shelf.first_bytes(kName, begin.size()) != begin) {
+    throw Error(fmt::format("{}: is damaged, or was not written by tetmend {}",
+                            (folder_ / kName).string(), version()));
   }
-  try {
-    return take_run(std::string_view(bytes).substr(begin.size()));
-  } catch (const Error&) {
-    throw Error(fmt::format("{}: the file ends too early", file.string()));
-  }
+  const std::string bytes = shelf.read(kName);
+  SavedRun saved;
+  shelf.parse(kName, [&] { saved = take_run(std::string_view(bytes).substr(begin.size())); });
+  return saved;
 }
 
 void RunFolder::save(const SavedRun& run) const {
   std::string bytes = signature();
   append(run, bytes);
-  OutputFile out(folder_ / kName);
-  out.put(bytes);
-  out.commit();
+  root(0).put(kName, std::move(bytes));
   remove_steps_but(run.is_finished ? std::numeric_limits<std::size_t>::max() : step_of(run.run));
 }
 
-void RunFolder::save_surface(const std::string& bytes) const {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  FolderShelf(folder_, FolderShelf::Lasts::beyond_a_crash).put(kSurface, bytes);
+void RunFolder::save_surface(const SavedRun& run, const std::string& bytes) const {
+  root(number_of(run)).put(kSurface, bytes);
 }
 
-std::string RunFolder::load_surface() const {
-  std::string bytes = FolderShelf(folder_).read(kSurface);
-  if (bytes.empty()) throw Error(fmt::format("there is no {}", (folder_ / kSurface).string()));
+std::string RunFolder::load_surface(const SavedRun& run) const {
+  const SealedShelf shelf = root(number_of(run));
+  const std::string bytes = shelf.read(kSurface);
+  shelf.parse(kSurface, [&] {
+    for (std::string_view rest = bytes; !rest.empty();) take_share(rest);
+  });
   return bytes;
 }
 
-std::filesystem::path RunFolder::step(std::size_t number) const {
-  return folder_ / fmt::format("{}{}", kStep, number);
+SealedShelf RunFolder::step(std::size_t number, const SavedRun& run) const {
+  return {folder_, fmt::format("{}{}", kStep, number), number_of(run)};
+}
+
+SealedShelf RunFolder::new_step(std::size_t number, const SavedRun& run) const {
+  make_step(number);
+  return step(number, run);
 }
 
 std::filesystem::path RunFolder::make_step(std::size_t number) const {
-  const std::filesystem::path made = step(number);
+  const std::filesystem::path made = folder_ / fmt::format("{}{}", kStep, number);
   std::error_code error;
   std::filesystem::remove_all(made, error);
   std::filesystem::create_directories(made, error);
@@ -141,12 +243,9 @@ void RunFolder::remove_steps_but(std::size_t number) const {
   for (const std::filesystem::path& other : others) std::filesystem::remove_all(other, ignored);
 }
 
-void RunFolder::remove() const {
+void RunFolder::clear() const {
   remove_steps_but(std::numeric_limits<std::size_t>::max());
-  std::error_code ignored;
-  std::filesystem::remove(folder_ / kName, ignored);
-  std::filesystem::remove(folder_ / kSurface, ignored);
-  std::filesystem::remove(folder_, ignored);  // fails where a user has put something
+  for (const char* name : {kName, kSurface}) platform::remove_file((folder_ / name).c_str());
 }
 
 }  // namespace tetmend::pieces

@@ -2,6 +2,7 @@
 #include "pieces/shelf.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <limits>
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
-#include "kernel/formats/output_file.h"
 #include "platform/platform.h"
 
 namespace tetmend::pieces {
@@ -86,13 +86,8 @@ void FolderShelf::append(const std::string& name, std::string bytes) {
 }
 
 void FolderShelf::put(const std::string& name, std::string bytes) {
-  if (lasts_ == Lasts::until_the_end) {
-    remove(name);
-    return append(name, std::move(bytes));
-  }
-  OutputFile out(folder_ / name);
-  out.put(bytes);
-  out.commit();
+  remove(name);
+  append(name, std::move(bytes));
 }
 
 void FolderShelf::visit(const std::string& name,
@@ -138,16 +133,61 @@ void FolderShelf::rename(const std::string& from, const std::string& to) {
   if (error) fail("cannot rename", folder_ / from, error.value());
 }
 
-ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
-  for (unsigned i = 0;; ++i) {
-    path_ = parent / fmt::format(".tetmend-pieces-{}-{}", platform::process_number(), i);
-    std::error_code error;
-    if (std::filesystem::create_directory(path_, error)) return;
-    if (error) fail("cannot make the folder", path_, error.value());
+namespace {
+
+constexpr std::string_view kScratch = ".tetmend-pieces-";
+constexpr const char* kScratchLock = "lock";
+
+/// Whether the owner of a folder, a process of this host, is there no more: nobody has the lock. Where
+/// a file system knows no locks, or other hosts none of this one's, nobody can tell.
+bool is_left_behind(const std::filesystem::path& folder, platform::Descriptor& lock) {
+  const std::filesystem::path file = folder / kScratchLock;
+  if (!platform::look_at_name(file)) return false;  // it is just being made
+  auto locked = platform::open_locked(file, platform::Sharing::none);
+  if (!locked) return false;
+  std::array<char, 512> host{};
+  const auto got = platform::read_at(locked.value.number(), 0, host);
+  lock = std::move(locked.value);
+  return got && got.value > 0 && std::string_view(host.data(), got.value) == platform::host_name();
+}
+
+/// What killed processes of this host have left in a folder.
+void remove_left_behind(const std::filesystem::path& parent) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(parent, ignored)) {
+    if (entry.path().filename().string().starts_with(kScratch)) found.push_back(entry.path());
+  }
+  for (const std::filesystem::path& folder : found) {
+    platform::Descriptor lock;
+    if (is_left_behind(folder, lock)) std::filesystem::remove_all(folder, ignored);
   }
 }
 
+}  // namespace
+
+ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
+  remove_left_behind(parent);
+  for (unsigned i = 0;; ++i) {
+    path_ = parent / fmt::format("{}{}-{}", kScratch, platform::process_number(), i);
+    std::error_code error;
+    if (std::filesystem::create_directory(path_, error)) break;
+    if (error) fail("cannot make the folder", path_, error.value());
+  }
+  lock();
+}
+
+/// Others see the file when it is locked. Without a lock the folder stays if the process is killed.
+void ScratchFolder::lock() {
+  const std::filesystem::path made = path_ / "making";
+  auto locked = platform::open_locked(made, platform::Sharing::none);
+  if (!locked) return platform::remove_file(made.c_str());
+  static_cast<void>(platform::write_fully(locked.value.number(), platform::host_name()));
+  if (platform::rename(made, path_ / kScratchLock) == 0) lock_ = std::move(locked.value);
+}
+
 ScratchFolder::~ScratchFolder() {
+  lock_.close();  // a system may keep a file that is open
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }

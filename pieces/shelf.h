@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "platform/platform.h"
+
 namespace tetmend::pieces {
 
 /// Bytes by name.
@@ -18,6 +20,8 @@ class Shelf {
   virtual ~Shelf() = default;
   /// Behind what has that name; the name is new otherwise. @throws Error for a full disk.
   virtual void append(const std::string& name, std::string bytes) = 0;
+  /// Nothing more will be appended: what was, or nothing, is complete.
+  virtual void end(const std::string& /*name*/) {}
   /// In the place of what has that name.
   virtual void put(const std::string& name, std::string bytes) = 0;
   /// Calls `use` with all of it, in its order: at once, or with what each append() has brought.
@@ -28,6 +32,10 @@ class Shelf {
   /// Some of it, as far as there is so much.
   virtual std::string read(const std::string& name, std::uint64_t begin,
                            std::uint64_t size) const = 0;
+  /// Calls read(), which takes apart what has that name: a shelf may say of whom an Error is.
+  virtual void parse(const std::string& /*name*/, const std::function<void()>& read) const {
+    read();
+  }
   virtual void remove(const std::string& name) = 0;
   /// In the place of what has the new name. Does nothing where there is none of the old one.
   virtual void rename(const std::string& from, const std::string& to) = 0;
@@ -49,15 +57,11 @@ class MemoryShelf final : public Shelf {
   std::map<std::string, std::vector<std::string>> bytes_;
 };
 
-/// Each name is a file.
+/// Each name is a file. For a run that ends with the process: see SealedShelf for others.
 class FolderShelf final : public Shelf {
  public:
-  enum class Lasts { until_the_end, beyond_a_crash };
-
   /// @param folder is there
-  /// @param lasts beyond a crash: what is put has its name when it is complete and on the disk
-  explicit FolderShelf(std::filesystem::path folder, Lasts lasts = Lasts::until_the_end)
-      : folder_(std::move(folder)), lasts_(lasts) {}
+  explicit FolderShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   void append(const std::string& name, std::string bytes) override;
   void put(const std::string& name, std::string bytes) override;
@@ -67,14 +71,15 @@ class FolderShelf final : public Shelf {
   std::string read(const std::string& name, std::uint64_t begin, std::uint64_t size) const override;
   void remove(const std::string& name) override;
   void rename(const std::string& from, const std::string& to) override;
-  bool has(const std::string& name) const;
 
  private:
+  bool has(const std::string& name) const;
+
   std::filesystem::path folder_;
-  Lasts lasts_;
 };
 
-/// A folder of its own for a run; goes with all that is in it.
+/// A folder of its own for a run; goes with all that is in it. Where its process was killed, the next
+/// one that is made beside it on the same host removes it.
 class ScratchFolder {
  public:
   /// Inside of `parent`. @throws Error when it cannot be made.
@@ -86,7 +91,10 @@ class ScratchFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  void lock();
+
   std::filesystem::path path_;
+  platform::Descriptor lock_;  // while it is there
 };
 
 }  // namespace tetmend::pieces

@@ -64,11 +64,16 @@ struct FileFacts {
   std::uint32_t permissions = 0;  ///< of owner, group and others, nine bits
 };
 
-/// Never waits for the other side of a pipe. Of a folder: opens it, or EISDIR.
-Answer<Descriptor> open_to_read(const std::filesystem::path& file);
+/// Of the last name of a path.
+enum class Links : unsigned char { followed, refused };
+/// Never waits for the other side of a pipe. Of a folder: opens it, or EISDIR. Of a link that is
+/// refused: ELOOP.
+Answer<Descriptor> open_to_read(const std::filesystem::path& file, Links links = Links::followed);
 /// A new file to be written. What is there already, even a link, is EEXIST.
 enum class Access : unsigned char { as_usual, owner_only };
 Answer<Descriptor> create(const std::filesystem::path& file, Access access);
+/// Likewise, but what is there already is written on at its end. A link is ELOOP.
+Answer<Descriptor> open_to_append(const std::filesystem::path& file);
 /// A file without a name, to be written and then read by read_at(). It goes with its descriptor.
 Answer<Descriptor> create_nameless();
 
@@ -89,8 +94,16 @@ int write_fully(int file, std::string_view bytes) noexcept;
 /// What was written is on the disk when it returns. The error number, or 0, also where the file system
 /// cannot tell.
 int synchronise(int file);
-/// The same for the names in a folder, as far as possible.
-void synchronise_folder(const std::filesystem::path& folder);
+/// The same for the names in a folder; 0 also where this user may not read it.
+int synchronise_folder(const std::filesystem::path& folder);
+
+/// Who else may have the lock of a file.
+enum class Sharing : unsigned char { none, others };
+/// Opens a file to be read and written, made where there is none, and locks it: until the descriptor
+/// goes, or its process, however that ends. Never waits: EWOULDBLOCK where another one has it, in this
+/// process or in any other. ENOLCK, with the file open, where the file system knows no locks. A link
+/// is ELOOP.
+Answer<Descriptor> open_locked(const std::filesystem::path& file, Sharing sharing);
 
 /// Which properties of an older file a new one could not be given.
 struct OwnerLoss {
@@ -126,6 +139,8 @@ extern const char kPathSeparator;
 /// The file of this program; empty if that cannot be told.
 std::filesystem::path program_file();
 unsigned process_number() noexcept;
+/// Of this machine in its network; empty if that cannot be told.
+std::string host_name();
 
 // ---- signals. Handlers may call what says so, here and elsewhere.
 
@@ -183,12 +198,17 @@ class SharedLibrary {
 std::string loading_error();
 /// Whether a library's file has a name like this one, by the extension.
 bool is_library_name(const std::filesystem::path& file);
-/// Reads the value of a constant from a library's file, without loading it. False if the file cannot be
-/// read, is no library for this machine, has no such symbol with a value of that size, or if this
-/// system's files are not understood.
-/// Cost: reads the head, the table of dynamic symbols and the value.
-bool read_constant(const std::filesystem::path& file, std::string_view symbol,
-                   std::span<std::byte> value);
+/// What a library's file says of a constant, before the library is loaded.
+enum class ConstantSearch : unsigned char {
+  found,
+  absent,    ///< the library has none of that name with a value of that size
+  cut_off,   ///< the file is shorter than its own head says: whoever loads it may crash
+  no_answer  ///< no library for this machine, or none that can be understood here
+};
+/// Reads the value of a constant from a library's file. Precondition: the file is a regular one.
+/// Cost: reads the heads, the table of dynamic symbols and the value.
+ConstantSearch read_constant(const std::filesystem::path& file, std::string_view symbol,
+                             std::span<std::byte> value);
 /// Shows the names of the library that has this address to libraries that are loaded later.
 void show_names_of_library(const void* address);
 

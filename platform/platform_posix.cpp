@@ -4,17 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <initializer_list>
-#include <limits>
 #include <memory>
 
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -69,13 +70,19 @@ int Descriptor::close() noexcept {
   return ::close(std::exchange(number_, kNone)) == 0 ? 0 : errno;
 }
 
-Answer<Descriptor> open_to_read(const std::filesystem::path& file) {
-  return opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+Answer<Descriptor> open_to_read(const std::filesystem::path& file, Links links) {
+  const int follow = links == Links::refused ? O_NOFOLLOW : 0;
+  return opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | follow));
 }
 
 Answer<Descriptor> create(const std::filesystem::path& file, Access access) {
   constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
   return opened(::open(file.c_str(), kFlags, access == Access::owner_only ? 0600 : 0666));
+}
+
+Answer<Descriptor> open_to_append(const std::filesystem::path& file) {
+  constexpr int kFlags = O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  return opened(::open(file.c_str(), kFlags, 0666));
 }
 
 Answer<Descriptor> create_nameless() {
@@ -151,9 +158,30 @@ int synchronise(int file) {
   return 0;
 }
 
-void synchronise_folder(const std::filesystem::path& folder) {
-  const Descriptor open(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (open.is_open()) static_cast<void>(synchronise(open.number()));
+int synchronise_folder(const std::filesystem::path& folder) {
+  const auto open = opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!open) return open.error == EACCES ? 0 : open.error;
+  return synchronise(open.value.number());
+}
+
+Answer<Descriptor> open_locked(const std::filesystem::path& file, Sharing sharing) {
+  constexpr int kFlags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  for (;;) {
+    auto open = opened(::open(file.c_str(), kFlags, 0666));
+    if (!open) return open;
+    const int kind = sharing == Sharing::none ? LOCK_EX : LOCK_SH;
+    int result = 0;
+    do {
+      result = ::flock(open.value.number(), kind | LOCK_NB);
+    } while (result != 0 && errno == EINTR);
+    if (result != 0) {
+      open.error = errno == EWOULDBLOCK ? EWOULDBLOCK : ENOLCK;
+      return open;
+    }
+    const auto facts = look_at(open.value.number());
+    if (!facts || facts.value.names > 0) return open;
+    // Who had it before has removed the file meanwhile: this lock keeps nobody away.
+  }
 }
 
 OwnerLoss keep_owner(int file, const FileFacts& now, const FileFacts& older) {
@@ -231,6 +259,12 @@ std::filesystem::path program_file() {
 
 unsigned process_number() noexcept {
   return static_cast<unsigned>(::getpid());
+}
+
+std::string host_name() {
+  constexpr std::size_t kLongest = 256;
+  std::array<char, kLongest> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
 // ---- signals
@@ -470,7 +504,8 @@ void show_names_of_library(const void* address) {
 namespace {
 
 using Head = ElfW(Ehdr);
-using Section = ElfW(Shdr);
+using Segment = ElfW(Phdr);
+using Fact = ElfW(Dyn);
 using Symbol = ElfW(Sym);
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of a table; a larger one is none
@@ -478,25 +513,41 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of a table; a large
 /// Whether the file is for a program like this one.
 bool is_library_of_this_machine(const Head& head) {
   constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+  constexpr unsigned char kOrder =
+      std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
   const auto* ident = reinterpret_cast<const char*>(head.e_ident);
   return std::string_view(ident, SELFMAG) == ELFMAG && head.e_ident[EI_CLASS] == kClass &&
-         head.e_type == ET_DYN && head.e_shentsize == sizeof(Section);
+         head.e_ident[EI_DATA] == kOrder && head.e_type == ET_DYN &&
+         head.e_phentsize == sizeof(Segment);
 }
 
-///   head -> section headers -> table of dynamic symbols -> its names -> the symbol -> the section
-///   that holds its value
+/// As the dynamic linker sees it:
+///   head -> segments -> facts of the dynamic segment -> symbols and their names -> the value
 class ElfFile {
  public:
-  explicit ElfFile(const std::filesystem::path& file) : in_(file, std::ios::binary) {}
+  explicit ElfFile(const std::filesystem::path& file) : in_(file, std::ios::binary) {
+    std::error_code error;
+    size_ = std::filesystem::file_size(file, error);
+    if (error) size_ = 0;
+  }
 
-  bool read_constant(std::string_view name, std::span<std::byte> value) {
+  ConstantSearch read_constant(std::string_view name, std::span<std::byte> value) {
     const std::vector<Head> head = read<Head>(0, 1);
-    if (head.empty() || !is_library_of_this_machine(head[0])) return false;
-    sections_ = read<Section>(head[0].e_shoff, head[0].e_shnum);
-    for (const Section& section : sections_) {
-      if (section.sh_type == SHT_DYNSYM) return read_among(section, name, value);
+    if (head.empty() || !is_library_of_this_machine(head[0])) return ConstantSearch::no_answer;
+    segments_ = read<Segment>(head[0].e_phoff, head[0].e_phnum);
+    if (segments_.size() != head[0].e_phnum) return ConstantSearch::cut_off;
+    for (const Segment& segment : segments_) {
+      const bool is_there =
+          segment.p_type != PT_LOAD ||
+          (segment.p_offset <= size_ && segment.p_filesz <= size_ - segment.p_offset);
+      if (!is_there) return ConstantSearch::cut_off;
     }
-    return false;
+    for (const Segment& segment : segments_) {
+      if (segment.p_type != PT_DYNAMIC) continue;
+      read_facts(segment);
+      if (read_among(name, value)) return ConstantSearch::found;
+    }
+    return ConstantSearch::absent;
   }
 
  private:
@@ -504,7 +555,7 @@ class ElfFile {
   template <class Row>
   std::vector<Row> read(std::uint64_t at, std::uint64_t count) {
     std::vector<Row> rows;
-    if (count > kMostBytes / sizeof(Row) || at > std::numeric_limits<std::int64_t>::max())
+    if (count > kMostBytes / sizeof(Row) || at > size_ || count * sizeof(Row) > size_ - at)
       return {};
     rows.resize(count);
     in_.clear();
@@ -514,45 +565,89 @@ class ElfFile {
     if (!in_) rows.clear();
     return rows;
   }
+  /// Of what is at an address when the library is loaded.
+  template <class Row>
+  std::vector<Row> read_at_address(std::uint64_t address, std::uint64_t count) {
+    for (const Segment& segment : segments_) {
+      if (segment.p_type != PT_LOAD || address < segment.p_vaddr) continue;
+      const std::uint64_t inside = address - segment.p_vaddr;
+      if (inside > segment.p_filesz || count > (segment.p_filesz - inside) / sizeof(Row)) continue;
+      return read<Row>(segment.p_offset + inside, count);
+    }
+    return {};
+  }
 
-  bool read_among(const Section& table, std::string_view name, std::span<std::byte> value) {
-    if (table.sh_link >= sections_.size()) return false;
-    const Section& strings = sections_[table.sh_link];
-    const std::vector<char> names = read<char>(strings.sh_offset, strings.sh_size);
-    for (const Symbol& symbol : read<Symbol>(table.sh_offset, table.sh_size / sizeof(Symbol))) {
-      if (symbol.st_name >= names.size() || symbol.st_shndx >= sections_.size()) continue;
+  void read_facts(const Segment& segment) {
+    facts_ = {};
+    for (const Fact& fact : read<Fact>(segment.p_offset, segment.p_filesz / sizeof(Fact))) {
+      if (fact.d_tag == DT_NULL) break;
+      if (fact.d_tag == DT_SYMTAB) facts_.symbols = fact.d_un.d_ptr;
+      if (fact.d_tag == DT_STRTAB) facts_.names = fact.d_un.d_ptr;
+      if (fact.d_tag == DT_STRSZ) facts_.size_of_names = fact.d_un.d_val;
+      if (fact.d_tag == DT_HASH) facts_.hash = fact.d_un.d_ptr;
+      if (fact.d_tag == DT_GNU_HASH) facts_.gnu_hash = fact.d_un.d_ptr;
+    }
+  }
+
+  /// How many symbols there are, by the table in which the dynamic linker looks for them.
+  std::uint64_t count_symbols() {
+    if (facts_.gnu_hash == 0) {  // buckets, symbols
+      const auto counts = read_at_address<std::uint32_t>(facts_.hash, 2);
+      return facts_.hash == 0 || counts.empty() ? 0 : counts[1];
+    }
+    // buckets, first symbol, words of a filter; the filter, the first symbol of each bucket; for each
+    // symbol a word that is odd at the end of its bucket
+    const auto head = read_at_address<std::uint32_t>(facts_.gnu_hash, 4);
+    if (head.empty()) return 0;
+    const std::uint64_t buckets =
+        facts_.gnu_hash + 4 * sizeof(std::uint32_t) + std::uint64_t{head[2]} * sizeof(ElfW(Addr));
+    std::uint32_t last = 0;
+    for (const std::uint32_t first : read_at_address<std::uint32_t>(buckets, head[0])) {
+      last = std::max(last, first);
+    }
+    if (last < head[1]) return head[1];
+    const std::uint64_t chains = buckets + std::uint64_t{head[0]} * sizeof(std::uint32_t);
+    for (std::uint64_t i = last; i < kMostBytes; ++i) {
+      const auto word =
+          read_at_address<std::uint32_t>(chains + (i - head[1]) * sizeof(std::uint32_t), 1);
+      if (word.empty()) return 0;
+      if ((word[0] & 1U) != 0) return i + 1;
+    }
+    return 0;
+  }
+
+  bool read_among(std::string_view name, std::span<std::byte> value) {
+    const std::vector<char> names = read_at_address<char>(facts_.names, facts_.size_of_names);
+    for (const Symbol& symbol : read_at_address<Symbol>(facts_.symbols, count_symbols())) {
+      if (symbol.st_name >= names.size() || symbol.st_shndx == SHN_UNDEF) continue;
       const std::string_view rest(names.data() + symbol.st_name, names.size() - symbol.st_name);
       if (rest.substr(0, rest.find('\0')) != name) continue;
-      return read_value(symbol, value);
+      const std::vector<std::byte> bytes =
+          read_at_address<std::byte>(symbol.st_value, value.size());
+      std::copy(bytes.begin(), bytes.end(), value.begin());
+      return !bytes.empty();
     }
     return false;
   }
 
-  bool read_value(const Symbol& symbol, std::span<std::byte> value) {
-    const Section& home = sections_[symbol.st_shndx];
-    if (home.sh_type != SHT_PROGBITS || symbol.st_value < home.sh_addr) return false;
-    const std::uint64_t inside = symbol.st_value - home.sh_addr;
-    if (home.sh_size < value.size() || inside > home.sh_size - value.size()) return false;
-    const std::vector<std::byte> bytes = read<std::byte>(home.sh_offset + inside, value.size());
-    if (bytes.empty()) return false;
-    std::copy(bytes.begin(), bytes.end(), value.begin());
-    return true;
-  }
-
   std::ifstream in_;
-  std::vector<Section> sections_;
+  std::uint64_t size_ = 0;
+  std::vector<Segment> segments_;
+  struct {  // addresses, but for the size
+    std::uint64_t symbols = 0, names = 0, size_of_names = 0, hash = 0, gnu_hash = 0;
+  } facts_;
 };
 
 }  // namespace
 
-bool read_constant(const std::filesystem::path& file, std::string_view symbol,
-                   std::span<std::byte> value) {
+ConstantSearch read_constant(const std::filesystem::path& file, std::string_view symbol,
+                             std::span<std::byte> value) {
   return ElfFile(file).read_constant(symbol, value);
 }
 #else
 // Files of macOS are not ELF: what they say is found out when they are loaded.
-bool read_constant(const std::filesystem::path&, std::string_view, std::span<std::byte>) {
-  return false;
+ConstantSearch read_constant(const std::filesystem::path&, std::string_view, std::span<std::byte>) {
+  return ConstantSearch::no_answer;
 }
 #endif
 

@@ -76,6 +76,11 @@ bool is_folder(const std::filesystem::path& file) {
   return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
 }
 
+bool is_link(const std::filesystem::path& file) {
+  const DWORD attributes = ::GetFileAttributesW(file.c_str());
+  return attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_REPARSE_POINT) != 0;
+}
+
 /// Others may delete or rename it meanwhile, as elsewhere: a signal removes a file that is open.
 Answer<Descriptor> open(const std::filesystem::path& file, DWORD access, DWORD disposition,
                         DWORD flags, int mode) {
@@ -125,8 +130,9 @@ int Descriptor::close() noexcept {
   return ::_close(std::exchange(number_, kNone)) == 0 ? 0 : errno;
 }
 
-Answer<Descriptor> open_to_read(const std::filesystem::path& file) {
+Answer<Descriptor> open_to_read(const std::filesystem::path& file, Links links) {
   if (is_folder(file)) return {Descriptor(), EISDIR};
+  if (links == Links::refused && is_link(file)) return {Descriptor(), ELOOP};
   return open(file, GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_RDONLY);
 }
 
@@ -134,6 +140,11 @@ Answer<Descriptor> open_to_read(const std::filesystem::path& file) {
 Answer<Descriptor> create(const std::filesystem::path& file, Access) {
   return open(file, GENERIC_WRITE | DELETE, CREATE_NEW,
               FILE_ATTRIBUTE_NORMAL | FILE_FLAG_OPEN_REPARSE_POINT, _O_WRONLY);
+}
+
+Answer<Descriptor> open_to_append(const std::filesystem::path& file) {
+  if (is_link(file)) return {Descriptor(), ELOOP};
+  return open(file, FILE_APPEND_DATA, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_WRONLY | _O_APPEND);
 }
 
 Answer<Descriptor> create_nameless() {
@@ -206,7 +217,26 @@ int synchronise(int file) {
 }
 
 // A rename waits until the disk has the name.
-void synchronise_folder(const std::filesystem::path&) {}
+int synchronise_folder(const std::filesystem::path&) {
+  return 0;
+}
+
+/// Of a byte far behind the end: what a lock covers, nobody else may read.
+Answer<Descriptor> open_locked(const std::filesystem::path& file, Sharing sharing) {
+  if (is_link(file)) return {Descriptor(), ELOOP};
+  auto opened =
+      open(file, GENERIC_READ | GENERIC_WRITE, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_RDWR);
+  if (!opened) return opened;
+  OVERLAPPED place{};
+  place.OffsetHigh = 1;
+  const DWORD kind =
+      LOCKFILE_FAIL_IMMEDIATELY | (sharing == Sharing::none ? LOCKFILE_EXCLUSIVE_LOCK : 0);
+  const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(opened.value.number()));
+  if (::LockFileEx(handle, kind, 0, 1, 0, &place) == 0) {
+    opened.error = ::GetLastError() == ERROR_LOCK_VIOLATION ? EWOULDBLOCK : ENOLCK;
+  }
+  return opened;
+}
 
 // A new file has those of its folder, which is what Windows users expect.
 OwnerLoss keep_owner(int, const FileFacts&, const FileFacts&) {
@@ -277,6 +307,13 @@ std::filesystem::path program_file() {
 
 unsigned process_number() noexcept {
   return ::GetCurrentProcessId();
+}
+
+std::string host_name() {
+  std::wstring name(MAX_COMPUTERNAME_LENGTH + 1, L'\0');
+  auto size = static_cast<DWORD>(name.size());
+  if (::GetComputerNameW(name.data(), &size) == 0) return {};
+  return in_utf8(std::wstring_view(name).substr(0, size));
 }
 
 // ---- signals
@@ -459,8 +496,8 @@ bool is_library_name(const std::filesystem::path& file) {
 }
 
 // What a library says of itself is found out when it is loaded.
-bool read_constant(const std::filesystem::path&, std::string_view, std::span<std::byte>) {
-  return false;
+ConstantSearch read_constant(const std::filesystem::path&, std::string_view, std::span<std::byte>) {
+  return ConstantSearch::no_answer;
 }
 
 // A library names the one that it takes a symbol from.

@@ -35,7 +35,7 @@ std::vector<Flip> independent_flips(const TetMesh& start) {
   std::vector<Flip> flips;
   for (const TetEdge edge : bench::edges_of_degree(mesh, 3)) {
     Flip flip;
-    find_shell(mesh, edge, flip.shell);
+    find_shell(mesh, edge, flip.shell, Territory());
     const auto& [p, q, r] = std::array{flip.shell.ring[0], flip.shell.ring[1], flip.shell.ring[2]};
     const std::array around = {flip.shell.a, flip.shell.b, p, q, r};
     if (std::ranges::any_of(around, [&used](VertexHandle v) { return used[v.index()]; })) continue;

@@ -36,7 +36,8 @@ std::vector<TetEdge> edges_of_degree(const TetMesh& mesh, unsigned degree) {
   for (std::uint32_t t = 0; t < mesh.tet_slots(); ++t) {
     for (unsigned e = 0; e < 6; ++e) {
       const TetEdge edge(TetHandle(t), e);
-      if (find_shell(mesh, edge, shell) != ShellKind::closed || shell.degree != degree) continue;
+      if (find_shell(mesh, edge, shell, Territory()) != ShellKind::closed || shell.degree != degree)
+        continue;
       // The first tet of a shell lists its edge.
       if (*std::min_element(shell.tets.begin(), shell.tets.begin() + degree) == edge.tet())
         edges.push_back(edge);

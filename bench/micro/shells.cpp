@@ -29,7 +29,7 @@ void shell_walk(benchmark::State& state) {
   Shell shell;
   std::size_t next = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(find_shell(mesh, edges[next], shell));
+    benchmark::DoNotOptimize(find_shell(mesh, edges[next], shell, Territory()));
     benchmark::ClobberMemory();
     next = next + 1 == edges.size() ? 0 : next + 1;
   }

@@ -87,6 +87,10 @@ Inflated inflate_gzip(std::string_view bytes) {
   return result;
 }
 
+std::uint32_t checksum(std::string_view bytes, std::uint32_t before) {
+  return static_cast<std::uint32_t>(::crc32_z(before, as_bytes(bytes.data()), bytes.size()));
+}
+
 bool inflate_block(std::string_view block, char* to, std::size_t size) {
   const std::size_t packed = block.size();
   // zlib's numbers have 32 bits on Windows.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -31,6 +32,9 @@ Inflated inflate_gzip(std::string_view bytes);
 /// A zlib block of `size` bytes to `to`. False if it is damaged or has another size.
 bool inflate_block(std::string_view block, char* to, std::size_t size);
 std::string deflate_block(std::string_view bytes);
+
+/// CRC-32, as in gzip's format. @param before  that of the bytes before these
+std::uint32_t checksum(std::string_view bytes, std::uint32_t before = 0);
 
 /// Packs a stream into gzip's format; the same bytes give the same file.
 class GzipWriter {

@@ -17,11 +17,6 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-/// The new names survive a loss of power. As far as possible: the files have their names already.
-void sync_folder(const std::filesystem::path& file) {
-  platform::synchronise_folder(folder_of(file));
-}
-
 /// The name does not contain the target's, which may have the greatest length allowed.
 std::filesystem::path beside(const std::filesystem::path& target, std::string_view suffix,
                              int attempt) {
@@ -138,7 +133,15 @@ void PendingFile::commit() {
     const EndDelay delay;
     take_name();
   }
-  sync_folder(target_);
+  const int error = platform::synchronise_folder(folder_of(target_));
+  if (error == 0) return;
+  throw Error(fmt::format("{}: was written, but its folder cannot be put on the disk: {}", name_,
+                          std::generic_category().message(error)));
+}
+
+/// The new names survive a loss of power.
+void PendingFile::synchronise_folder() const {
+  if (const int error = platform::synchronise_folder(folder_of(target_)); error != 0) fail(error);
 }
 
 /// One name of several: its older file is kept aside until all are as they shall be.
@@ -245,8 +248,8 @@ void PendingFile::commit_all(std::span<PendingFile* const> files) {
   made.reserve(files.size());
   Replacement::all_or_none(made, [&] {
     for (PendingFile* file : files) made.emplace_back(*file).make();
+    for (const PendingFile* file : files) file->synchronise_folder();
   });
-  for (const PendingFile* file : files) sync_folder(file->target_);
 }
 
 void PendingFile::commit_behind(PendingFile& index, std::span<PendingFile* const> files,
@@ -258,13 +261,13 @@ void PendingFile::commit_behind(PendingFile& index, std::span<PendingFile* const
   made.reserve(1 + files.size() + gone.size());
   Replacement::all_or_none(made, [&] {
     made.emplace_back(index).clear_name();
-    sync_folder(index.target_);
+    index.synchronise_folder();
     for (PendingFile* file : files) made.emplace_back(*file).make();
     for (const std::filesystem::path& file : gone) made.emplace_back(file).clear_name();
-    for (const PendingFile* file : files) sync_folder(file->target_);
+    for (const PendingFile* file : files) file->synchronise_folder();
     made.front().make();
+    index.synchronise_folder();
   });
-  sync_folder(index.target_);
 }
 
 void PendingFile::fail(int error) const {

@@ -48,7 +48,8 @@ class PendingFile {
   /// @throws Error
   void finish();
   /// Finishes, then gives the file its name.
-  /// @throws Error; then an older file is as it was.
+  /// @throws Error; then an older file is as it was, but where its text says that the new one was
+  /// written: then a loss of power may take that back.
   void commit();
   /// The same for files that belong together: all get their names, or the older ones are as they
   /// were. In between, some are new: only a loss of power or SIGKILL shows that.
@@ -67,6 +68,7 @@ class PendingFile {
   void make_temporary(Name name);
   void keep_owner();
   void take_name();
+  void synchronise_folder() const;
   [[noreturn]] void fail(int error) const;
 
   std::string name_;  // as the user gave it, for messages

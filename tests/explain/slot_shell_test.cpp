@@ -22,7 +22,7 @@ TEST_CASE("every shell of a mesh is the one that the kernel finds, in the same s
       const auto ends = mesh.vertices(edge);
       const SlotShell found = find_slot_shell(slots, ends[0], ends[1]);
       Shell truth;
-      const bool is_closed = find_shell(mesh, edge, truth) == ShellKind::closed;
+      const bool is_closed = find_shell(mesh, edge, truth, Territory()) == ShellKind::closed;
       REQUIRE(found.closed == is_closed);
       if (!is_closed) continue;
       ++closed;

@@ -136,6 +136,7 @@ def failing_system_calls():
                 content = work.mesh.read_bytes()
                 check(done.returncode == 0 or content in (work.old, work.new), "whole: " + what)
                 check(done.returncode != 0 or content == work.new, "a status of 0 means written: " + what)
+                check(call != "fsync" or done.returncode != 0, "what is not on the disk is said: " + what)
                 left = [entry.name for entry in work.folder.iterdir() if entry != work.mesh]
                 check(not left or call == "unlink", "nothing else stays: " + what, left)
                 for name in left:

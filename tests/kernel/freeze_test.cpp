@@ -117,13 +117,13 @@ TEST_CASE("a vertex of a frozen tet does not move") {
 TEST_CASE("a shell with a frozen tet is constrained from wherever it is looked at") {
   TetMesh mesh = shell_of_six();
   Shell shell;
-  REQUIRE(find_shell(mesh, *edge_in(mesh, TetHandle(0), VertexHandle(0), VertexHandle(1)), shell) ==
-          ShellKind::closed);
+  REQUIRE(find_shell(mesh, *edge_in(mesh, TetHandle(0), VertexHandle(0), VertexHandle(1)), shell,
+                     Territory()) == ShellKind::closed);
   mesh.freeze([](TetHandle t) { return t == TetHandle(4); });
   for (const TetHandle t : live_tets(mesh)) {
     const auto edge = edge_in(mesh, t, VertexHandle(0), VertexHandle(1));
     REQUIRE(edge);
-    CHECK(find_shell(mesh, *edge, shell) == ShellKind::constrained);
+    CHECK(find_shell(mesh, *edge, shell, Territory()) == ShellKind::constrained);
   }
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("an edge whose ends lie on the boundary is dropped where it runs insid
   Shell shell;
   const auto edge = edge_in(mesh, TetHandle(0), VertexHandle(0), VertexHandle(1));
   REQUIRE(edge);
-  CHECK(find_shell(mesh, *edge, shell) == ShellKind::closed);
+  CHECK(find_shell(mesh, *edge, shell, Territory()) == ShellKind::closed);
 }
 
 TEST_CASE("an edge is constrained in each of two parts that touch at its end") {

@@ -250,7 +250,7 @@ TEST_CASE("a judge compares all that a transaction changed, and refuses one with
   Shell shell;
   const auto edge = find_edge(mesh, VertexHandle(0), VertexHandle(1), workspace, TetHandle(0));
   REQUIRE(edge.has_value());
-  REQUIRE(find_shell(mesh, *edge, shell) == ShellKind::closed);
+  REQUIRE(find_shell(mesh, *edge, shell, Territory()) == ShellKind::closed);
   const std::vector<TetVertices> created = {{shell.a, shell.ring[0], shell.ring[1], shell.ring[2]},
                                             {shell.ring[0], shell.ring[1], shell.ring[2], shell.b}};
   REQUIRE(transaction.replace_cavity(old, created) == EditResult::made);

@@ -49,7 +49,7 @@ TEST_CASE("a closed shell is found from each of its tets, its ring in positive s
       Shell shell;
       const auto edge = edge_in(mesh, start, VertexHandle(0), VertexHandle(1));
       REQUIRE(edge);
-      REQUIRE(find_shell(mesh, *edge, shell) == ShellKind::closed);
+      REQUIRE(find_shell(mesh, *edge, shell, Territory()) == ShellKind::closed);
       CHECK(shell.degree == m);
       CHECK(shell.tets[0] == start);
       std::set<VertexHandle> ring;
@@ -82,7 +82,8 @@ TEST_CASE("find_shell tells closed from boundary on every edge of a mesh") {
     for (const auto& [edge, tets] : shells_of(mesh)) {
       for (const TetHandle t : tets) {
         Shell shell;
-        const ShellKind kind = find_shell(mesh, *edge_in(mesh, t, edge.first, edge.second), shell);
+        const ShellKind kind =
+            find_shell(mesh, *edge_in(mesh, t, edge.first, edge.second), shell, Territory());
         REQUIRE(kind == (boundary.contains(edge) ? ShellKind::boundary : ShellKind::closed));
         if (kind != ShellKind::closed) continue;
         CHECK(std::set<TetHandle>(shell.tets.begin(), shell.tets.begin() + shell.degree) == tets);
@@ -121,7 +122,7 @@ TEST_CASE("a shell with a constrained edge or face is constrained from wherever 
     for (const TetHandle t : live_tets(mesh)) {
       Shell shell;
       const auto edge = edge_in(mesh, t, VertexHandle(0), VertexHandle(1));
-      CHECK(find_shell(mesh, *edge, shell) == ShellKind::constrained);
+      CHECK(find_shell(mesh, *edge, shell, Territory()) == ShellKind::constrained);
     }
   }
 }
@@ -129,12 +130,12 @@ TEST_CASE("a shell with a constrained edge or face is constrained from wherever 
 TEST_CASE("a shell of the largest degree is closed and one more is too large") {
   Shell shell;
   const TetMesh largest = make_mesh(shell_mesh({.degree = kMaxDegree}));
-  CHECK(find_shell(largest, edge_between(largest, VertexHandle(0), VertexHandle(1)), shell) ==
-        ShellKind::closed);
+  CHECK(find_shell(largest, edge_between(largest, VertexHandle(0), VertexHandle(1)), shell,
+                   Territory()) == ShellKind::closed);
   CHECK(shell.degree == kMaxDegree);
   const TetMesh larger = make_mesh(shell_mesh({.degree = kMaxDegree + 1}));
-  CHECK(find_shell(larger, edge_between(larger, VertexHandle(0), VertexHandle(1)), shell) ==
-        ShellKind::too_large);
+  CHECK(find_shell(larger, edge_between(larger, VertexHandle(0), VertexHandle(1)), shell,
+                   Territory()) == ShellKind::too_large);
 }
 
 TEST_CASE("find_edge answers the same with a good, a useless, a deleted and no hint") {
@@ -144,8 +145,8 @@ TEST_CASE("find_edge answers the same with a good, a useless, a deleted and no h
   TetHandle deleted;
   for (const auto& [edge, tets] : shells_of(mesh)) {
     Shell shell;
-    if (find_shell(mesh, *edge_in(mesh, *tets.begin(), edge.first, edge.second), shell) !=
-            ShellKind::closed ||
+    if (find_shell(mesh, *edge_in(mesh, *tets.begin(), edge.first, edge.second), shell,
+                   Territory()) != ShellKind::closed ||
         shell.degree != 3) {
       continue;
     }

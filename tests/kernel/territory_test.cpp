@@ -113,7 +113,7 @@ TEST_CASE("a shell is closed only if all of it lies in the territory") {
     if (!halves.inside(t)) continue;
     for (unsigned e = 0; e < 6; ++e) {
       Shell shell;
-      if (find_shell(halves.mesh, TetEdge(t, e), shell) != ShellKind::closed) continue;
+      if (find_shell(halves.mesh, TetEdge(t, e), shell, Territory()) != ShellKind::closed) continue;
       const bool own = std::all_of(shell.tets.begin(), shell.tets.begin() + shell.degree,
                                    [&](TetHandle s) { return halves.inside(s); });
       Shell found;
@@ -134,6 +134,52 @@ TEST_CASE("an edge beyond the border is not found, and the border is noted") {
     CHECK(!find_edge(in.halves.mesh, v[0], v[1], in.workspace).has_value());
     CHECK(in.workspace.met_border());
   }
+}
+
+TEST_CASE("an edit that reaches out of the territory is refused, whatever it is, and noted") {
+  Halves halves;
+  Workspace workspace(halves.mesh);
+  workspace.provide(halves.mesh, 100, 1);  // it is not for want of slots
+  halves.blocks.resize(halves.mesh.vertex_slots(), 1);
+  Workspace::FreeSlots slots = std::exchange(workspace.free_slots(), {});
+  const Workspace everywhere(halves.mesh);
+  const TetMesh before = halves.mesh;
+  workspace.enter(halves.left(), slots);
+  const auto is_inside = [&](TetHandle t) { return halves.inside(t); };
+  std::size_t shells = 0;
+  for (const TetHandle t : live_tets(halves.mesh)) {
+    for (unsigned e = 0; e < 6 && is_inside(t); ++e) {
+      Shell shell;
+      const ShellKind kind = find_shell(halves.mesh, TetEdge(t, e), shell, Territory());
+      const std::span<const TetHandle> old(shell.tets.data(), shell.degree);
+      if (kind != ShellKind::closed || std::all_of(old.begin(), old.end(), is_inside)) continue;
+      ++shells;
+      Transaction transaction(halves.mesh, workspace);
+      const VertexHandle middle =
+          transaction.add_vertex(0.5 * (halves.mesh.point(shell.a) + halves.mesh.point(shell.b)));
+      REQUIRE(middle.is_valid());
+      workspace.forget_border();
+      CHECK(transaction.replace_cavity(old, split(shell, middle)) == EditResult::no_room);
+      CHECK(workspace.met_border());
+    }
+  }
+  CHECK(shells > 0);
+  std::size_t moves = 0;
+  for (const VertexHandle v : live_vertices(halves.mesh)) {
+    Workspace whole = everywhere;
+    std::vector<HalfFace> all;
+    if (halves.mesh.is_fixed(v) || !collect_link(halves.mesh, v, whole, all)) continue;
+    if (std::all_of(all.begin(), all.end(), [&](HalfFace f) { return is_inside(f.tet()); }))
+      continue;
+    ++moves;
+    Transaction transaction(halves.mesh, workspace);
+    const VertexMove move{v, halves.mesh.point(v), all};
+    CHECK(transaction.move_vertex(v, move.point, all) == EditResult::no_room);
+    CHECK(transaction.move_at_surface({&move, 1}) == EditResult::no_room);
+    CHECK(transaction.rearrange_vertices({&move, 1}) == EditResult::no_room);
+  }
+  CHECK(moves > 0);
+  CHECK(halves.mesh == before);
 }
 
 TEST_CASE("without a free slot an edit that needs one is refused, and nothing changes") {

@@ -44,7 +44,7 @@ std::optional<SurfaceShell> find_shell(const TetMesh& mesh,
   for (const TetHandle t : live_tets(mesh)) {
     for (unsigned e = 0; e < 6; ++e) {
       SurfaceShell shell;
-      const ShellKind kind = find_surface_shell(mesh, TetEdge(t, e), shell);
+      const ShellKind kind = find_surface_shell(mesh, TetEdge(t, e), shell, Territory());
       if (kind == ShellKind::closed && wanted(shell)) return shell;
     }
   }
@@ -302,7 +302,8 @@ TEST_CASE("the shell of an edge inside a region, or where walls meet the boundar
       SurfaceShell shell;
       const auto ends = mesh.vertices(TetEdge(t, e));
       const bool on_surface = mesh.is_fixed(ends[0]) && mesh.is_fixed(ends[1]);
-      if (find_surface_shell(mesh, TetEdge(t, e), shell) != ShellKind::closed) continue;
+      if (find_surface_shell(mesh, TetEdge(t, e), shell, Territory()) != ShellKind::closed)
+        continue;
       CHECK(on_surface);
       (shell.side_count == 2 ? walls : outer) += 1;
       for (unsigned s = 0; s < shell.side_count; ++s) {

@@ -218,7 +218,7 @@ class RandomEditor {
       case 2: {
         for (unsigned e = 0; e < 6; ++e) {
           Shell shell;
-          if (find_shell(mesh_, TetEdge(t, e), shell) != ShellKind::too_large &&
+          if (find_shell(mesh_, TetEdge(t, e), shell, Territory()) != ShellKind::too_large &&
               shell.degree == 3 && !mesh_.is_boundary(HalfFace(t, 0)) && closes(shell)) {
             return logged(tx, flip_32(shell));
           }
@@ -365,8 +365,8 @@ TEST_CASE("a 2-3 flip and its way back over a 3-2 flip keep the mesh sound") {
   CHECK(tx.created().size() == 3);
   CHECK(to_string(check_integrity(mesh)) == "");
   Shell shell;
-  REQUIRE(find_shell(mesh, *edge_in(mesh, TetHandle(0), VertexHandle(3), VertexHandle(4)), shell) ==
-          ShellKind::closed);
+  REQUIRE(find_shell(mesh, *edge_in(mesh, TetHandle(0), VertexHandle(3), VertexHandle(4)), shell,
+                     Territory()) == ShellKind::closed);
   REQUIRE(replace(tx, flip_32(shell)) == EditResult::made);
   CHECK(mesh.tet_count() == 2);
   CHECK(mesh.tet_slots() == 3);

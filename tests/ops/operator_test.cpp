@@ -142,7 +142,7 @@ Verdict remove_edge_of_three(OperatorContext& context, Transaction& transaction)
   Shell shell;
   const auto edge = find_edge(context.mesh, VertexHandle(0), VertexHandle(1), context.workspace, t);
   REQUIRE(edge.has_value());
-  REQUIRE(find_shell(context.mesh, *edge, shell) == ShellKind::closed);
+  REQUIRE(find_shell(context.mesh, *edge, shell, Territory()) == ShellKind::closed);
   const std::vector<TetHandle> old(shell.tets.begin(), shell.tets.begin() + 3);
   const std::vector<TetVertices> created = {{shell.a, shell.ring[0], shell.ring[1], shell.ring[2]},
                                             {shell.ring[0], shell.ring[1], shell.ring[2], shell.b}};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include "contract/contract.h"
 #include "contract/zoo.h"
@@ -108,6 +109,39 @@ TEST_CASE("a relative name is a file of the current folder, not of the linker's"
   const auto relative = std::filesystem::proximate(plugin_file("sound"));
   REQUIRE(relative.is_relative());
   CHECK(load_plugin(relative, registry).operators.size() == 1);
+}
+
+TEST_CASE("a library that was cut is refused, or sound: loading it does not crash") {
+  const TempFolder folder;
+  const std::string whole = read_text(plugin_file("sound"));
+  std::size_t refused = 0;
+  constexpr std::size_t kCuts = 40;
+  for (std::size_t i = 0; i < kCuts; ++i) {
+    CAPTURE(i);
+    const std::string file =
+        (folder / (std::to_string(i) + ".so")).string();  // what is loaded stays
+    write_text(file, std::string_view(whole).substr(0, whole.size() * i / kCuts));
+    Registry registry;
+    try {
+      load_plugin(file, registry);  // its segments are there
+    } catch (const Error& error) {
+      CHECK(contains(error.what(), file + ": cannot be loaded as a plugin: "));
+      ++refused;
+    }
+    if (2 * i <= kCuts) CHECK(refused == i + 1);
+  }
+  const std::string half = (folder / "half.so").string();
+  write_text(half, std::string_view(whole).substr(0, whole.size() / 2));
+  CHECK(contains(complaint_about(half), "the end of the file is missing"));
+}
+
+TEST_CASE("a pipe, a device or a folder is refused as a plugin at once") {
+  const TempFolder folder;
+  const std::string pipe = (folder / "pipe.so").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(contains(complaint_about(pipe), "not a regular file"));
+  CHECK(contains(complaint_about("/dev/zero"), "not a regular file"));
+  CHECK(contains(complaint_about("/tmp"), "not a regular file"));
 }
 
 TEST_CASE("what is no plugin is refused with the reason") {
@@ -218,7 +252,7 @@ TEST_CASE("an operator that lies cannot harm the mesh") {
 
 TEST_CASE("the contract tells what is wrong with each operator, and finds nothing in a sound one") {
   Registry registry = Registry::builtin();
-  for (const std::string name : {"sound", "odt_smoothing", "throwing", "lying"}) {
+  for (const std::string name : {"sound", "odt_smoothing", "throwing", "lying", "careless"}) {
     load_plugin(plugin_file(name), registry);
   }
   std::vector<contract::Ground> grounds = contract::grounds();
@@ -240,5 +274,17 @@ TEST_CASE("the contract tells what is wrong with each operator, and finds nothin
   CHECK(contains(verdict("changes_its_mind"), "the second attempt answers differently"));
   CHECK(contains(verdict("does_nothing"), "attempts was accepted"));
   CHECK(contains(verdict("looks_around"), "depend on what lies outside"));
-  CHECK(contains(verdict("trespasses"), "something outside the territory changed"));
+  CHECK(contains(verdict("trespasses"), "an edit that reaches out of the territory"));
+  CHECK(contains(verdict("careless"), "an edit that reaches out of the territory"));
+}
+
+TEST_CASE("where nothing is accepted in a territory, the contract says so and is not broken") {
+  Registry registry = Registry::builtin();
+  load_plugin(plugin_file("sound"), registry);
+  std::vector<contract::Ground> grounds;  // too small for a territory
+  grounds.push_back({"two_tets", TetMesh(contract::two_tets())});
+  grounds.push_back({"shell", TetMesh(contract::shell_mesh({.degree = 5, .height = 1}))});
+  const auto total = contract::check_contract(registry, "flip_2_3", grounds, [](auto&&...) {});
+  CHECK(total.complaint == "");
+  CHECK(contains(total.note, "nothing was accepted in a territory"));
 }

@@ -160,7 +160,8 @@ TEST_CASE("a covering that puts a new face around the edge to be removed is not 
   // Seen from the link edge alone, without an ancestor, the covering is fine.
   unsigned grown = 0;
   Shell shell;
-  REQUIRE(find_shell(worker.mesh, worker.edge(0, 1).edge(), shell) == ShellKind::closed);
+  REQUIRE(find_shell(worker.mesh, worker.edge(0, 1).edge(), shell, Territory()) ==
+          ShellKind::closed);
   for (unsigned i = 0; i < shell.degree; ++i) {
     for (const std::uint32_t end : {0u, 1u}) {
       Worker alone(shell_that_would_grow());

@@ -112,7 +112,8 @@ TEST_CASE("a partial reduction keeps the edge with a smaller shell where removal
   CHECK(worker.mesh.tet_count() == 6);
   REQUIRE(worker.has_edge(0, 1));
   Shell shell;
-  REQUIRE(find_shell(worker.mesh, worker.edge(0, 1).edge(), shell) == ShellKind::closed);
+  REQUIRE(find_shell(worker.mesh, worker.edge(0, 1).edge(), shell, Territory()) ==
+          ShellKind::closed);
   CHECK(shell.degree == 4);
   // Of the three tets that were replaced.
   const Comparison& comparison = worker.states.comparison;

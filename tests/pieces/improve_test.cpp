@@ -167,6 +167,85 @@ TEST_CASE("threads, folders and files do not show in the result") {
   CHECK(!equal(improved(data, {}, 4), expected));
 }
 
+TEST_CASE("a mesh of few tets has fewer pieces than were asked for, and a note") {
+  CHECK(pieces::limited_pieces(7, 1'000'000) == 7);
+  CHECK(pieces::limited_pieces(7, 1'500) == 5);
+  CHECK(pieces::limited_pieces(7, 2) == 2);
+  CHECK(pieces::limited_pieces(1, 2) == 1);
+  const MeshData data = lattice(7);  // 2,058 tets
+  Result result;
+  const MeshData made = improved(data, {}, 24, &result);
+  REQUIRE(!result.notes.empty());
+  CHECK(result.notes[0] == "6 pieces, not 24: the mesh has no more than 2,058 tets");
+  CHECK(equal(made, improved(data, {}, 6, &result)));
+  for (const std::string& note : result.notes) CHECK(note.find("not 24") == std::string::npos);
+}
+
+TEST_CASE("a mesh of a few tets can be divided, whatever it is") {
+  for (const contract::NamedMesh& named : contract::zoo()) {
+    Mesh whole = MeshAccess::make(named.data);
+    Result alone;
+    try {
+      alone = tetmend::improve(whole);
+    } catch (const Error&) {
+      continue;  // no mesh for anybody
+    }
+    if (alone.not_positive_before > 0 || named.data.tets.size() > 60) continue;
+    CAPTURE(named.name);
+    for (const char* surface : {"", "5%"}) {
+      Result result;
+      Options options;
+      options.surface = surface;
+      CHECK_NOTHROW(improved(named.data, options, 7, &result));
+      CHECK(result.before.boundary_triangles == alone.before.boundary_triangles);
+      CHECK(result.worse().empty());
+    }
+  }
+}
+
+TEST_CASE("pieces may be empty: nearly all of a mesh may lie in one place of its box") {
+  MeshData data = lattice(8);
+  for (Point& p : data.points) p *= 1e-5;
+  const auto first = static_cast<std::uint32_t>(data.points.size());
+  for (const Point& p : {Point(9, 9, 9), Point(9.1, 9, 9), Point(9, 9.1, 9), Point(9, 9, 9.1)}) {
+    data.points.push_back(p);
+  }
+  data.tets.push_back({{first, first + 1, first + 2, first + 3}, 3});
+  for (const std::size_t count : {2, 5, 9}) {
+    CAPTURE(count);
+    Result result;
+    const MeshData made = improved(data, {}, count, &result);
+    CHECK(result.after.tets == made.tets.size());
+    CHECK(result.after.n_bad < result.before.n_bad);
+    CHECK(result.worse().empty());
+    const Folder folder;
+    const auto in = folder.path() / "in.meshb";
+    const auto out = folder.path() / "out.meshb";
+    const auto in_core = folder.path() / "in_core.meshb";
+    save(in, MeshAccess::make(data));
+    CHECK(improve_files({.input = in, .output = out, .scratch = {}}, count) == "");
+    save(in_core, MeshAccess::make(made));
+    CHECK(bytes_of(out) == bytes_of(in_core));
+  }
+}
+
+TEST_CASE("a part that owns faces and vertices but no tet counts") {
+  pieces::Figures all;
+  pieces::Figures faces;
+  faces.statistics.vertices = 3;
+  faces.statistics.boundary_triangles = 4;
+  pieces::Figures tets;
+  tets.statistics.tets = 10;
+  tets.statistics.vertices = 5;
+  tets.statistics.boundary_triangles = 20;
+  tets.statistics.volume = 2;
+  for (const pieces::Figures* part : {&faces, &tets, &faces, &tets}) all.add(*part);
+  CHECK(all.statistics.tets == 20);
+  CHECK(all.statistics.vertices == 16);
+  CHECK(all.statistics.boundary_triangles == 48);
+  CHECK(all.statistics.volume == 4);
+}
+
 TEST_CASE("memory decides on the number of pieces, and enough of it is one piece") {
   CHECK(pieces::pieces_for(1'000'000, 1'000'000'000) == 1);
   CHECK(pieces::pieces_for(10'000'000, 200'000'000) == 9);

@@ -329,6 +329,130 @@ TEST_CASE("a checkpoint of another run is an error, and stays") {
   CHECK(std::filesystem::exists(files.checkpoint / "run"));
 }
 
+TEST_CASE("damage of any file of a checkpoint is an error that names the file, before any work") {
+  const Files files;
+  OutOfCore saved = files.all();
+  saved.checkpoint = files.checkpoint;
+  std::atomic<int> calls = 0;
+  pieces::OneRank alone;
+  CHECK_THROWS_AS(improve(with_crash(saved, calls, 2 * kPieces + 2), alone), Error);
+  const std::filesystem::path good = files.folder.path() / "good";
+  std::filesystem::copy(files.checkpoint, good, std::filesystem::copy_options::recursive);
+  std::size_t damaged = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(good)) {
+    const std::filesystem::path file = entry.path().lexically_relative(good);
+    if (!entry.is_regular_file() || file == "lock") continue;
+    CAPTURE(file.string());
+    const std::string content = bytes_of(entry.path());
+    const auto complaint_after = [&](const std::string& bytes) -> std::string {
+      std::filesystem::remove_all(files.checkpoint);
+      std::filesystem::copy(good, files.checkpoint, std::filesystem::copy_options::recursive);
+      const std::filesystem::path changed = files.checkpoint / file;
+      if (bytes.empty()) std::filesystem::remove(changed);
+      if (!bytes.empty()) std::ofstream(changed, std::ios::binary) << bytes;
+      try {
+        std::atomic<int> none = 0;
+        improve(with_crash(saved, none, 0), alone);  // any work is another error
+      } catch (const Error& error) {
+        return error.what();
+      }
+      return "no error";
+    };
+    for (const std::size_t place : {std::size_t{40}, content.size() / 2, content.size() - 1}) {
+      std::string bytes = content;
+      char& byte = bytes[place % bytes.size()];
+      byte = static_cast<char>(byte ^ 16);
+      CHECK(complaint_after(bytes) == (files.checkpoint / file).string() + " is damaged: delete " +
+                                          files.checkpoint.string());
+    }
+    const std::string lost = complaint_after("");
+    const bool is_run = file == "run";  // without it there is no run: it begins anew
+    CHECK((lost.find(" is missing: delete ") != std::string::npos) == !is_run);
+    ++damaged;
+  }
+  CHECK(damaged == 1 + 2 * kPieces);  // the state, stored pieces and what was kept
+  CHECK(!std::filesystem::exists(files.out));
+}
+
+TEST_CASE("a checkpoint of a mesh that has other bytes by now is one of another mesh") {
+  const Files files;
+  OutOfCore saved = files.all();
+  saved.checkpoint = files.checkpoint;
+  std::atomic<int> calls = 0;
+  pieces::OneRank alone;
+  CHECK_THROWS_AS(improve(with_crash(saved, calls, 7), alone), Error);
+  MeshData moved = lattice(9);
+  moved.points[500].x() += 1e-6;
+  save(files.in, MeshAccess::make(std::move(moved)));  // as many bytes
+  CHECK_THROWS_WITH_AS(improve(saved, alone), doctest::Contains("has a run of another mesh"),
+                       Error);
+}
+
+TEST_CASE(
+    "while a program works on the run of a folder, others are refused; tasks work side by side") {
+  const Files files;
+  OutOfCore saved = files.all();
+  saved.checkpoint = files.checkpoint;
+  pieces::OneRank alone;
+  const std::string message =
+      files.checkpoint.string() + ": another program works on the run of this folder";
+  {
+    const pieces::FolderLock other(files.checkpoint, platform::Sharing::none);
+    CHECK(other.made_folder());
+    CHECK_THROWS_WITH_AS(improve(saved, alone), message.c_str(), Error);
+    CHECK_THROWS_WITH_AS(on_ranks(3, [&](Ranks& ranks) { improve(saved, ranks); }), message.c_str(),
+                         Error);
+  }
+  CHECK(!std::filesystem::exists(files.checkpoint));
+  Division division;
+  division.pieces = kPieces;
+  FolderRun::split(files.all(), files.checkpoint, {}, division);
+  FolderRun run(files.checkpoint);
+  {
+    const pieces::FolderLock other(files.checkpoint, platform::Sharing::others);
+    CHECK(run.improve({0, 1, 2, 3, 4}, {}) == 5);
+    CHECK_THROWS_WITH_AS(run.join({}), message.c_str(), Error);
+  }
+  FolderRun late(files.checkpoint);
+  run.join({});
+  CHECK_THROWS_WITH_AS(late.join({}), doctest::Contains("another program has ended this round"),
+                       Error);
+  CHECK_THROWS_WITH_AS(late.improve({1}, {}), doctest::Contains("has ended this round"), Error);
+}
+
+TEST_CASE("a folder that was there before a run stays, and so does a link") {
+  const Files files;
+  const std::filesystem::path behind = files.folder.path() / "behind";
+  OutOfCore saved = files.all();
+  saved.checkpoint = files.checkpoint;
+  pieces::OneRank alone;
+  const auto run_to_its_end = [&] {
+    std::atomic<int> calls = 0;
+    CHECK_THROWS_AS(improve(with_crash(saved, calls, 7), alone), Error);
+    CHECK(std::filesystem::exists(files.checkpoint / "run"));
+    improve(saved, alone);
+    CHECK(bytes_of(files.out) == files.expected);
+  };
+  std::filesystem::create_directory(files.checkpoint);
+  run_to_its_end();
+  CHECK(std::filesystem::is_directory(files.checkpoint));
+  CHECK(std::filesystem::is_empty(files.checkpoint));
+  std::filesystem::remove(files.checkpoint);
+  std::filesystem::create_directory(behind);
+  std::filesystem::create_directory_symlink(behind, files.checkpoint);
+  run_to_its_end();
+  CHECK(std::filesystem::is_symlink(files.checkpoint));
+  CHECK(std::filesystem::is_empty(behind));
+  // A run that fails before its first checkpoint leaves nothing, and takes nothing away.
+  OutOfCore missing = saved;
+  missing.input = files.folder.path() / "none.meshb";
+  CHECK_THROWS_AS(improve(missing, alone), Error);
+  CHECK(std::filesystem::is_empty(behind));
+  std::filesystem::remove(files.checkpoint);
+  CHECK_THROWS_AS(improve(missing, alone), Error);
+  CHECK(!std::filesystem::exists(files.checkpoint));
+}
+
 TEST_CASE("a run that was told to stop leaves the last whole division to go on from") {
   const Files files;
   OutOfCore saved = files.all();

@@ -50,7 +50,7 @@ class LoneWorker {
   unsigned degree(std::uint32_t a, std::uint32_t b) {
     if (!has_edge(a, b)) return 0;
     Shell shell;
-    REQUIRE(find_shell(mesh, edge(a, b).edge(), shell) == ShellKind::closed);
+    REQUIRE(find_shell(mesh, edge(a, b).edge(), shell, Territory()) == ShellKind::closed);
     return shell.degree;
   }
   Target edge(std::uint32_t a, std::uint32_t b) {

@@ -209,7 +209,7 @@ class Teller {
   void tell(TetEdge edge) {
     const auto ends = mesh_.vertices(edge);
     Shell found;
-    const ShellKind kind = find_shell(mesh_, edge, found);
+    const ShellKind kind = find_shell(mesh_, edge, found, Territory());
     list("supporting edge", ends);
     row("length", fmt::format("{:.4g}", mesh_.scale().to_file(glm::distance(at(mesh_, ends[0]),
                                                                             at(mesh_, ends[1])))));
@@ -384,7 +384,7 @@ std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selectio
     const auto ends = mesh.vertices(*e);
     names = {{ends[0], "a"}, {ends[1], "b"}};
     Shell found;
-    if (find_shell(mesh, *e, found) == ShellKind::closed) {
+    if (find_shell(mesh, *e, found, Territory()) == ShellKind::closed) {
       for (unsigned i = 0; i < found.degree; ++i) {
         names.push_back({found.ring[i], fmt::format("p{}", i + 1)});
       }
