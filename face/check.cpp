@@ -3,14 +3,16 @@
 //
 //   of one mesh: thresholds of angles and rulers, inverted tets, as asked for or as a preset says
 //   of two: the same surface, walls, labels, volumes, groups, and nothing worse; computed from the
-//   two meshes alone
+//   two meshes alone, tets listed in positive order and groups by their names
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -20,9 +22,12 @@
 #include <tetmend/check.h>
 #include <tetmend/measure.h>
 
+#include "face/arena.h"
 #include "face/mesh_access.h"
 #include "kernel/curved.h"
 #include "kernel/exact_orientation.h"
+#include "kernel/formats/inp.h"
+#include "kernel/formats/su2.h"
 #include "kernel/geometry.h"
 #include "kernel/grouped.h"
 #include "kernel/statistics.h"
@@ -244,6 +249,90 @@ std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh, con
   return contents;
 }
 
+/// Names that only one group of this dimension has.
+std::map<std::string, Label> numbers_by_name(const MeshData& mesh, int dimension) {
+  std::map<std::string, Label> numbers;
+  std::set<std::string> twice;
+  for (const Group& group : mesh.groups) {
+    if (group.dimension != dimension || group.name.empty()) continue;
+    if (!numbers.try_emplace(group.name, group.number).second) twice.insert(group.name);
+  }
+  for (const std::string& name : twice) numbers.erase(name);
+  return numbers;
+}
+
+/// For each number of a group in `after` the one in `before`, where their names say so. A number
+/// that would mean two things then gets a new one.
+std::map<Label, Label> renumbering(const MeshData& before, const MeshData& after, int dimension) {
+  const std::map<std::string, Label> then = numbers_by_name(before, dimension);
+  std::map<Label, Label> to;
+  std::set<Label> taken;
+  for (const auto& [name, number] : numbers_by_name(after, dimension)) {
+    const auto found = then.find(name);
+    if (found == then.end()) continue;
+    to[number] = found->second;
+    taken.insert(found->second);
+  }
+  Label free = std::numeric_limits<Label>::min();
+  for (const Label number : taken) {
+    if (!to.contains(number)) to[number] = free++;
+  }
+  std::erase_if(to, [](const auto& pair) { return pair.first == pair.second; });
+  return to;
+}
+
+/// Of a format that has names alone: numbers are given by the place in the file.
+bool numbers_by_place(const MeshData& mesh) {
+  return mesh.variant == formats::kInp || mesh.variant == formats::kSu2;
+}
+
+/// Where numbers are given by place, the names count.
+/// @return `after`, or `own` with the numbers that `before` has
+const MeshData& numbered_as(const MeshData& before, const MeshData& after, MeshData& own) {
+  const MeshData* result = &after;
+  if (!numbers_by_place(before) && !numbers_by_place(after)) return after;
+  for (int dimension = 0; dimension <= 3; ++dimension) {
+    const std::map<Label, Label> to = renumbering(before, after, dimension);
+    if (to.empty()) continue;
+    if (result != &own) own = after;
+    result = &own;
+    const auto renumber = [&](Label& number) {
+      if (const auto found = to.find(number); found != to.end()) number = found->second;
+    };
+    for (Group& group : own.groups) {
+      if (group.dimension == dimension) renumber(group.number);
+    }
+    const auto renumber_all = [&](auto& elements) {
+      for (auto& element : elements) renumber(element.label);
+    };
+    if (dimension == 1) renumber_all(own.edges);
+    if (dimension == 2) renumber_all(own.triangles);
+    if (dimension == 3) renumber_all(own.tets);
+  }
+  return *result;
+}
+
+/// A mesh may list the vertices of its tets in either sense: as it is put right before any work.
+/// @return the mesh, or `own` where that differs
+const MeshData& put_right(const Mesh& mesh, MeshData& own) {
+  const MeshData& data = MeshAccess::data(mesh);
+  if (no_inverted(data).holds) return data;
+  MeshData bare;
+  bare.points = data.points;
+  bare.tets = data.tets;
+  BuildReport report;
+  const TetMesh built =
+      face::build_located(mesh.file(), bare, {.sorted = false, .report = &report});
+  if (!report.mirrored && report.reordered_tets == 0) return data;
+  own = data;
+  for (std::uint32_t t = 0; t < own.tets.size(); ++t) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      own.tets[t].vertices[k] = built.origin(built.vertices(TetHandle(t))[k]);
+    }
+  }
+  return own;
+}
+
 /// One fact for all groups, which names the first that differs.
 Fact same_groups(const MeshData& before, const MeshData& after, const Scale& scale) {
   constexpr double kRounding = 1e-9;
@@ -412,10 +501,15 @@ std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
 }
 
 std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
-  const MeshData& before = MeshAccess::data(first);
-  const MeshData& after = MeshAccess::data(second);
   const Scale scale = scale_of(first);
   scale_of(second);  // or an error
+  MeshData own_before, own_after, numbered_after;
+  const auto put_both_right = [&] {
+    return std::pair(&put_right(first, own_before), &put_right(second, own_after));
+  };
+  const auto [right_before, right_after] = face::on_threads(threads, put_both_right);
+  const MeshData& before = *right_before;
+  const MeshData& after = numbered_as(before, *right_after, numbered_after);
   std::vector<Fact> facts = same_walls(before, after);
   facts.push_back(same("triangles", "named triangles with labels", named_triangles(before),
                        named_triangles(after)));

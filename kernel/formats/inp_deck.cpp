@@ -47,6 +47,7 @@ std::vector<std::string> pack_deck(const InpDeck& deck) {
   put(head, deck.most_node);
   put(head, deck.most_element);
   put(head, deck.folder);
+  put(head, deck.remarks);
   put(head, static_cast<std::int64_t>(deck.block_of_part.size()));
   for (const auto& [part, block] : deck.block_of_part) {
     put(head, part);
@@ -84,6 +85,7 @@ InpDeck unpack_deck(const std::vector<std::string>& packed) {
   deck.most_node = head.number();
   deck.most_element = head.number();
   deck.folder = head.text();
+  deck.remarks = head.text();
   for (std::int64_t left = head.number(); left > 0; --left) {
     const auto part = static_cast<Label>(head.number());
     deck.block_of_part.emplace_back(part, static_cast<Label>(head.number()));

@@ -15,9 +15,11 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/degenerate.h"
 #include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/inp.h"
+#include "kernel/formats/inp_deck.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
@@ -170,6 +172,7 @@ std::span<const MeshFormat> mesh_formats() {
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
   try {
     MeshData mesh = find_codec(file).read(file, {nullptr, label_array});
+    formats::drop_degenerate(mesh);
     try {
       take_second_order(mesh);
     } catch (const Error& error) {
@@ -183,6 +186,11 @@ MeshData read_mesh(const std::filesystem::path& file, const std::string& label_a
 
 std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
   formats::TetPlace question{tet, file.string()};
+  MeshData mesh = find_codec(file).read(file, {&question, {}});
+  std::size_t number = tet;  // in the file, where those that were dropped count
+  for (const std::uint32_t dropped : formats::drop_degenerate(mesh)) number += dropped <= number;
+  if (number == tet) return question.place;
+  question = {number, file.string()};
   find_codec(file).read(file, {&question, {}});
   return question.place;
 }
@@ -193,6 +201,22 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   if (codec.lost == nullptr) return notes;
   for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
   return notes;
+}
+
+std::vector<std::string> deck_remarks(const MeshData& mesh) {
+  std::string text;
+  if (mesh.variant == formats::kNastran && mesh.deck.size() == formats::nastran_pieces) {
+    text = mesh.deck[formats::nastran_remarks];
+  } else if (mesh.variant == formats::kInp && formats::is_inp_deck(mesh.deck)) {
+    text = formats::unpack_deck(mesh.deck).remarks;
+  }
+  std::vector<std::string> remarks;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    remarks.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return remarks;
 }
 
 std::span<const std::string_view> mesh_variants(const std::filesystem::path& file) {
