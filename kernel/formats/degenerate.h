@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -16,5 +17,10 @@ namespace tetmend::formats {
 /// @return the numbers of those of MeshData::tets that went, ascending
 /// Cost: linear; 12 bytes a tet meanwhile.
 std::vector<std::uint32_t> drop_degenerate(MeshData& mesh);
+
+/// True for such a note: of a mesh that is only measured, other notes are of no account.
+inline bool tells_of_dropped(std::string_view note) {
+  return note.ends_with(": dropped");
+}
 
 }  // namespace tetmend::formats

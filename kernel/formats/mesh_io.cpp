@@ -19,7 +19,6 @@
 #include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/inp.h"
-#include "kernel/formats/inp_deck.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
@@ -201,22 +200,6 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
   if (codec.lost == nullptr) return notes;
   for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
   return notes;
-}
-
-std::vector<std::string> deck_remarks(const MeshData& mesh) {
-  std::string text;
-  if (mesh.variant == formats::kNastran && mesh.deck.size() == formats::nastran_pieces) {
-    text = mesh.deck[formats::nastran_remarks];
-  } else if (mesh.variant == formats::kInp && formats::is_inp_deck(mesh.deck)) {
-    text = formats::unpack_deck(mesh.deck).remarks;
-  }
-  std::vector<std::string> remarks;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    remarks.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return remarks;
 }
 
 std::span<const std::string_view> mesh_variants(const std::filesystem::path& file) {

@@ -28,13 +28,12 @@ std::span<const MeshFormat> mesh_formats();
 /// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.inp` a deck of Abaqus or
 /// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer.
 /// What the file holds beyond MeshData is named in its `notes`. Volume elements that cannot be kept
-/// are an error. Tets, triangles and edges with a vertex twice, and tets that are there already, are
-/// dropped with a note.
+/// are an error.
 /// @param label_array the array of cells that holds the labels; empty: the one with a name that
 /// mesh tools use, else the only one of integers if it has few different ones
 /// @throws Error for a missing, empty or truncated file and for an unknown extension (with the
 /// valid ones). Also for wrong content: a wrong count, or one that cannot fit into the file (before
-/// memory is taken for it); a vertex number out of range; text in a
+/// memory is taken for it); a vertex number out of range or repeated within an element; text in a
 /// number; a coordinate that is not finite; a label beyond 32 bits. The message begins with
 /// "FILE:LINE: " (ASCII) or "FILE: byte N: " (binary) when it is about the content, and has the
 /// offending word and what was expected.
@@ -49,10 +48,6 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 /// What of `mesh` the format of `file` cannot hold, one sentence each; empty: it holds all.
 /// @throws Error for an unknown extension
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh);
-
-/// What the user should know of a deck though nothing of it is lost, one sentence each: which of its
-/// lines keep how many points of the mesh where they are.
-std::vector<std::string> deck_remarks(const MeshData& mesh);
 
 /// The names of the ways in which the format of `file` can be written, MeshView::variant(); empty if
 /// there is only one.
