@@ -193,15 +193,6 @@ void add_second_order(const CurvedStatistics& was, const CurvedStatistics& is,
                            was.worst.bound));
 }
 
-std::vector<std::string> group_names(const MeshData& mesh) {
-  std::vector<std::string> names;
-  for (const Group& group : mesh.groups) {
-    names.push_back(fmt::format("{} {} '{}'", group.dimension, group.number, group.name));
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 /// Numbers of the elements of a group, for one kind of element.
 template <class Element>
 std::vector<std::size_t> members_of(const Group& group, const std::vector<Element>& elements,
@@ -216,6 +207,42 @@ std::vector<std::size_t> members_of(const Group& group, const std::vector<Elemen
     if (is_in) members.push_back(i);
   }
   return members;
+}
+
+/// A group without a name is what its elements make it.
+bool has_elements(const MeshData& mesh, const Group& group) {
+  switch (group.dimension) {
+    case 1:
+      if (!members_of(group, mesh.edges, mesh.edge_parts).empty()) return true;
+      break;
+    case 2:
+      if (!members_of(group, mesh.triangles, mesh.triangle_parts).empty()) return true;
+      break;
+    case 3:
+      if (!members_of(group, mesh.tets, mesh.tet_parts).empty()) return true;
+      break;
+    default:
+      return true;
+  }
+  return std::any_of(
+      mesh.other_elements.begin(), mesh.other_elements.end(), [&](const OtherElements& others) {
+        const auto& of_elements = others.parts.empty() ? others.labels : others.parts;
+        return std::any_of(of_elements.begin(), of_elements.end(), [&](Label number) {
+          return group.parts.empty() ? number == group.number
+                                     : std::find(group.parts.begin(), group.parts.end(), number) !=
+                                           group.parts.end();
+        });
+      });
+}
+
+std::vector<std::string> group_names(const MeshData& mesh) {
+  std::vector<std::string> names;
+  for (const Group& group : mesh.groups) {
+    if (group.name.empty() && !has_elements(mesh, group)) continue;
+    names.push_back(fmt::format("{} {} '{}'", group.dimension, group.number, group.name));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 /// What a named group has: its triangles or edges by their corners, or the volume of its tets.

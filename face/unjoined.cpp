@@ -167,9 +167,10 @@ std::vector<std::string> describe(const UnjoinedPoints& points, std::size_t of_a
   std::vector<std::string> notes;
   const auto lie = [](std::size_t count) { return count == 1 ? "lies" : "lie"; };
   if (points.coincident > 0) {
-    notes.push_back(fmt::format(
-        "{} of {} points {} on others and are not joined: what meets there is surface to both sides",
-        grouped(points.coincident), grouped(of_all), lie(points.coincident)));
+    notes.push_back(
+        fmt::format("{} of {} points {} on others and are not joined: what meets there is surface "
+                    "to both sides",
+                    grouped(points.coincident), grouped(of_all), lie(points.coincident)));
   }
   if (points.hanging > 0) {
     notes.push_back(fmt::format(

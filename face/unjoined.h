@@ -11,7 +11,8 @@
 namespace tetmend::face {
 
 struct UnjoinedPoints {
-  std::size_t coincident = 0;  ///< vertices with the coordinates of another one: all but one of each
+  std::size_t coincident =
+      0;  ///< vertices with the coordinates of another one: all but one of each
   /// Vertices on a face or an edge of the boundary that does not have them, to 1e-7 of its length.
   std::size_t hanging = 0;
 };

@@ -50,8 +50,8 @@ bool has_corner_twice(std::span<const std::uint32_t> v) {
 }
 
 std::vector<std::uint32_t> find_collapsed(const Corners& all) {
-  const auto parts = map_chunks<std::vector<std::uint32_t>>(
-      all.count, [&](std::size_t begin, std::size_t end) {
+  const auto parts =
+      map_chunks<std::vector<std::uint32_t>>(all.count, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> found;
         for (std::size_t i = begin; i < end; ++i) {
           if (has_corner_twice(all.of(i))) found.push_back(static_cast<std::uint32_t>(i));
@@ -216,11 +216,10 @@ class Dropping {
   void note_collapsed(const Elements& elements, const std::vector<std::uint32_t>& found) {
     if (found.empty()) return;
     const std::string first = describe(elements, found[0]);
-    mesh_.notes.push_back(
-        found.size() == 1
-            ? fmt::format("{} has a vertex twice: dropped", first)
-            : fmt::format("{} {}s have a vertex twice, the first is {}: dropped",
-                          grouped(found.size()), elements.name, first));
+    mesh_.notes.push_back(found.size() == 1
+                              ? fmt::format("{} has a vertex twice: dropped", first)
+                              : fmt::format("{} {}s have a vertex twice, the first is {}: dropped",
+                                            grouped(found.size()), elements.name, first));
   }
 
   void note_repeated(const Elements& elements, const std::vector<Repeated>& found) {
@@ -231,11 +230,10 @@ class Dropping {
     if (const Label other = elements.label(found[0].first); label != other) {
       first += fmt::format(", with label {} instead of {}", label, other);
     }
-    mesh_.notes.push_back(
-        found.size() == 1
-            ? first + ": dropped"
-            : fmt::format("{} tets are there already, {} and so on: dropped",
-                          grouped(found.size()), first));
+    mesh_.notes.push_back(found.size() == 1
+                              ? first + ": dropped"
+                              : fmt::format("{} tets are there already, {} and so on: dropped",
+                                            grouped(found.size()), first));
   }
 
   /// The rows that stay, of so many.

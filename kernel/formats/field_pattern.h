@@ -12,8 +12,7 @@ namespace tetmend::formats {
 class FieldPattern {
  public:
   constexpr explicit FieldPattern(std::string_view text)
-      : head_(text.substr(0, text.find('('))),
-        rest_(text.substr(head_.size())) {
+      : head_(text.substr(0, text.find('('))), rest_(text.substr(head_.size())) {
     if (rest_.empty()) return;
     rest_.remove_prefix(1);
     rest_.remove_suffix(1);

@@ -67,9 +67,8 @@ class Reader {
     add_required_set();
     add_elements();
     add_groups();
-    data_.deck =
-        make_inp_deck({file_, lines_, mesh_, sets_, faces_, parts_, homes_, home_of_block_,
-                       pins.remarks});
+    data_.deck = make_inp_deck(
+        {file_, lines_, mesh_, sets_, faces_, parts_, homes_, home_of_block_, pins.remarks});
     data_.point_numbers = mesh_.nodes.numbers();
     data_.points = std::move(mesh_.points);
     drop_zero_point_labels(data_);

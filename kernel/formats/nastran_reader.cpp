@@ -348,10 +348,11 @@ class Reader {
   /// Says which cards keep how many points, in the order of the file.
   void remark(std::vector<std::pair<const std::string*, std::size_t>> counts) {
     constexpr std::size_t kMostRemarks = 20;
-    const auto pins_of = [this](const auto& entry) -> const Pins& { return pins_.at(*entry.first); };
-    std::sort(counts.begin(), counts.end(), [&](const auto& a, const auto& b) {
-      return pins_of(a).first < pins_of(b).first;
-    });
+    const auto pins_of = [this](const auto& entry) -> const Pins& {
+      return pins_.at(*entry.first);
+    };
+    std::sort(counts.begin(), counts.end(),
+              [&](const auto& a, const auto& b) { return pins_of(a).first < pins_of(b).first; });
     std::string& text = mesh_.deck[nastran_remarks];
     for (std::size_t i = 0; i < std::min(counts.size(), kMostRemarks); ++i) {
       const auto& [name, count] = counts[i];
@@ -359,7 +360,7 @@ class Reader {
       const auto line = 1 + std::count(file_.begin(), pins.first, '\n');
       text += fmt::format("line {}{}: {}{} {} {} {} where {}\n", line,
                           pins.cards == 1 ? "" : fmt::format(" and {} more", pins.cards - 1), *name,
-                          *name == "GRID"  ? " with constraints in field 8"
+                          *name == "GRID" ? " with constraints in field 8"
                           : pins.is_known ? ""
                                           : ", a card whose fields are not known,",
                           pins.cards == 1 ? "keeps" : "keep", grouped(count),

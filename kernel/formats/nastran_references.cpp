@@ -183,22 +183,23 @@ constexpr std::array kWithPoints = std::to_array<Row>({
 
 // These begin their names: properties, materials, tables, what is of frequencies or of flows.
 constexpr std::array kPointlessBeginnings = std::to_array<std::string_view>(
-    {"MAT",    "TABLE",  "TABD",   "TABR",   "PAABSF", "PACABS", "PACBAR", "PAERO",  "PBAR",
-     "PBCOMP", "PBEAM",  "PBEND",  "PBUSH",  "PCOMP",  "PCONEAX", "PCONV",  "PDAMP",  "PELAS",
-     "PFAST",  "PGAP",   "PHBDY",  "PINTC",  "PLCOMP", "PLPLANE", "PLSOLID", "PMASS", "PRAC",
-     "PROD",   "PSHEAR", "PSHELL", "PSHL",   "PSLDN",  "PSOLID", "PTUBE",  "PVAL",   "PVISC",
-     "PWELD",  "FREQ",   "CORD2",  "CORD3",  "TSTEP",  "AE",     "CAERO",  "NSM",    "DVCREL",
-     "DVMREL", "DVPREL", "DCON",   "EIGRL",  "RAD",    "VIEW",   "TEMPP",  "TEMPD",  "TEMPRB"});
+    {"MAT",    "TABLE",  "TABD",   "TABR",  "PAABSF", "PACABS",  "PACBAR",  "PAERO", "PBAR",
+     "PBCOMP", "PBEAM",  "PBEND",  "PBUSH", "PCOMP",  "PCONEAX", "PCONV",   "PDAMP", "PELAS",
+     "PFAST",  "PGAP",   "PHBDY",  "PINTC", "PLCOMP", "PLPLANE", "PLSOLID", "PMASS", "PRAC",
+     "PROD",   "PSHEAR", "PSHELL", "PSHL",  "PSLDN",  "PSOLID",  "PTUBE",   "PVAL",  "PVISC",
+     "PWELD",  "FREQ",   "CORD2",  "CORD3", "TSTEP",  "AE",      "CAERO",   "NSM",   "DVCREL",
+     "DVMREL", "DVPREL", "DCON",   "EIGRL", "RAD",    "VIEW",    "TEMPP",   "TEMPD", "TEMPRB"});
 constexpr std::array kPointless = std::to_array<std::string_view>(
-    {"ACCEL",  "BAROR",  "BCBODY", "BCONP",  "BCPARA", "BCPROP",  "BCTABLE", "BCTADD", "BCTPARM",
-     "BCTSET", "BEAMOR", "BFRIC",  "BGADD",  "BGPARM", "BGSET",   "BSURF",   "CBARAO", "CHBDYE",
-     "CLOAD",  "CREEP",  "CYSYM",  "DDVAL",  "DEFORM", "DESVAR",  "DEQATN",  "DLINK",  "DLOAD",
-     "DMI",    "DMIJ",   "DOPTPRM", "DSCREEN", "DTABLE", "DTI",   "DVBSHAP", "DVSHAP", "ELIST",
-     "EPOINT", "FLFACT", "FLUTTER", "GRAV",  "GRDSET", "GUST",    "INCLUDE", "ITER",   "LOAD",
-     "LOADCYH", "LOADCYN", "LSEQ", "MASSSET", "MDLPRM", "MFLUID", "MKAERO1", "MKAERO2", "MPCADD",
-     "NLADAPT", "NLPARM", "NLPCI",  "PLOAD1", "PLOAD2",  "QBDY1",   "QBDY2",  "QBDY3",
-     "QBDY4",  "QVECT",  "RANDPS", "RANDT1", "RLOAD1", "RLOAD2",  "SET2",    "SPCADD", "SPLINE1",
-     "SPLINE2", "SPOINT", "TEMPE4", "TLOAD1", "TLOAD2", "TRIM"});
+    {"ACCEL",   "BAROR",   "BCBODY",  "BCONP",   "BCPARA",  "BCPROP",  "BCTABLE", "BCTADD",
+     "BCTPARM", "BCTSET",  "BEAMOR",  "BFRIC",   "BGADD",   "BGPARM",  "BGSET",   "BSURF",
+     "CBARAO",  "CHBDYE",  "CLOAD",   "CREEP",   "CYSYM",   "DDVAL",   "DEFORM",  "DESVAR",
+     "DEQATN",  "DLINK",   "DLOAD",   "DMI",     "DMIJ",    "DOPTPRM", "DSCREEN", "DTABLE",
+     "DTI",     "DVBSHAP", "DVSHAP",  "ELIST",   "EPOINT",  "FLFACT",  "FLUTTER", "GRAV",
+     "GRDSET",  "GUST",    "INCLUDE", "ITER",    "LOAD",    "LOADCYH", "LOADCYN", "LSEQ",
+     "MASSSET", "MDLPRM",  "MFLUID",  "MKAERO1", "MKAERO2", "MPCADD",  "NLADAPT", "NLPARM",
+     "NLPCI",   "PLOAD1",  "PLOAD2",  "QBDY1",   "QBDY2",   "QBDY3",   "QBDY4",   "QVECT",
+     "RANDPS",  "RANDT1",  "RLOAD1",  "RLOAD2",  "SET2",    "SPCADD",  "SPLINE1", "SPLINE2",
+     "SPOINT",  "TEMPE4",  "TLOAD1",  "TLOAD2",  "TRIM"});
 
 /// Collects what the fields of a card name.
 class Collector {
@@ -313,9 +314,9 @@ bool read_special(const NastranCardText& card, Collector& to) {
   } else if (card.name == "SET3") {
     if (!is_one_of(card.field(1), {"ELEM", "PROP"})) by("--(p)");
   } else if (card.name == "DRESP1") {
-    if (is_one_of(card.field(2), {"DISP",   "VELO",   "ACCL",   "SPCFORCE", "GPFORCE",
-                                  "FRDISP", "FRVELO", "FRACCL", "FRSPCF",   "TDISP",
-                                  "TVELO",  "TACCL",  "TSPCF",  "PRES"})) {
+    if (is_one_of(card.field(2),
+                  {"DISP", "VELO", "ACCL", "SPCFORCE", "GPFORCE", "FRDISP", "FRVELO", "FRACCL",
+                   "FRSPCF", "TDISP", "TVELO", "TACCL", "TSPCF", "PRES"})) {
       by("-------(p)");
     }
   } else {
