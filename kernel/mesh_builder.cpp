@@ -288,6 +288,21 @@ std::vector<std::uint32_t> MeshBuilder::match(const FaceBuckets& buckets) {
   return trouble;
 }
 
+/// Of the sides of one face two that are of the same tet, listed twice.
+std::pair<HalfFace, HalfFace> MeshBuilder::repeated(const std::vector<Entry>& entries,
+                                                    std::size_t begin, std::size_t end) const {
+  constexpr std::size_t kMost = 8;  // of more, some others will do
+  const auto apex = [&](const Entry& entry) {
+    return mesh_.vertices(entry.face.tet())[entry.face.face()];
+  };
+  for (std::size_t i = begin + 1; i < std::min(end, begin + kMost); ++i) {
+    for (std::size_t k = begin; k < i; ++k) {
+      if (apex(entries[k]) == apex(entries[i])) return {entries[k].face, entries[i].face};
+    }
+  }
+  return {};
+}
+
 /// Throws for the first tet, as the file counts them, that is one too many at a face or lies on the
 /// same side of it as another tet.
 void MeshBuilder::check_buckets(const FaceBuckets& buckets,
@@ -311,7 +326,10 @@ void MeshBuilder::check_buckets(const FaceBuckets& buckets,
     for (std::size_t i = 0; i < entries.size();) {
       std::size_t j = i + 1;
       while (j < entries.size() && entries[j].same_face(entries[i])) ++j;
-      if (j - i > 2) {
+      if (const auto [first_of, again] = repeated(entries, i, j); again != HalfFace()) {
+        blame(again,
+              fmt::format(" is tet {} again", file_tet(first_of.tet().index()) + first_number_));
+      } else if (j - i > 2) {
         blame(entries[i + 2].face, ": a face of it has more than two tets");
       } else if (senses && j - i == 2 && entries[i].even == entries[i + 1].even) {
         blame(entries[i + 1].face, fmt::format(" and {} lie on the same side of their common face",

@@ -78,6 +78,8 @@ class MeshBuilder {
   void reorder_tets();
   void check_buckets(const FaceBuckets& buckets, const std::vector<std::uint32_t>& vertices,
                      bool senses) const;
+  std::pair<HalfFace, HalfFace> repeated(const std::vector<Entry>& entries, std::size_t begin,
+                                         std::size_t end) const;
   void find_border();
   bool is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const;
   void build_surface(const FaceBuckets& buckets);

@@ -387,8 +387,6 @@ TEST_CASE("a bad MSH file is refused with line and reason") {
        "18: ", "the number '70' of a node appears for the second time"},
       {"no node", replaced(four, "13 2 30 70 40", "13 2 30 71 40"),
        "51: ", "'71' is not the number of a node: expected one of $Nodes"},
-      {"repeated", replaced(four, "13 2 30 70 40", "13 2 30 70 2"),
-       "51: ", "a vertex is repeated in the tetrahedron '1 2 4 1'"},
       {"few nodes", replaced(four, "4 5 2 900", "4 6 2 900"),
        "36: ", "the blocks hold 5 nodes: expected 6"},
       {"many in a block", replaced(four, "3 1 0 2\n", "3 1 0 3\n"),

@@ -496,8 +496,6 @@ TEST_CASE("bad decks are refused with line, word and what was expected") {
        "'0' is out of range: expected the number of an"},
       {"vertex missing", replaced(kSmall, "1, 1, 2, 3, 4", "1, 1, 2, 3, 5"), ":7",
        "'5' is not the number of a node"},
-      {"vertex repeated", replaced(kSmall, "1, 1, 2, 3, 4", "1, 1, 2, 3, 3"), ":7",
-       "the node '3' is repeated"},
       {"too few", replaced(kSmall, "1, 1, 2, 3, 4\n", "1, 1, 2, 3\n"), "", "the data lines end"},
       {"too many", replaced(kSmall, "1, 1, 2, 3, 4\n", "1, 1, 2, 3, 4, 5\n"), ":7",
        "'5' is too much"},

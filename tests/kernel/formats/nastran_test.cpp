@@ -225,8 +225,6 @@ TEST_CASE("a bad deck of Nastran is refused with line and reason") {
        "the file ends where ENDDATA is expected"},
       {"no point", replaced(good, "CTETRA,5,,20", "CTETRA,5,,21"),
        "15: ", "'21' is not the number of a point: expected one of GRID"},
-      {"repeated", replaced(good, "CTETRA,5,,20", "CTETRA,5,,30"),
-       "15: ", "the point '30' is repeated in the tetrahedron"},
       {"few", replaced(good, "CTETRA,5,,20,30,40,110", "CTETRA,5,,20,30,40"),
        "15: ", "'' is not an integer: expected the number of a point"},
       {"order", replaced(good, "CTETRA,5,,20,30,40,110", "CTETRA,5,,20,30,40,110,10"),
