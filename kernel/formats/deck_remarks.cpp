@@ -10,7 +10,7 @@ namespace tetmend {
 
 std::vector<std::string> deck_remarks(const MeshData& mesh) {
   std::string text;
-  if (mesh.variant == formats::kNastran && mesh.deck.size() == formats::nastran_pieces) {
+  if (mesh.variant == formats::kNastran && mesh.deck.size() > formats::nastran_remarks) {
     text = mesh.deck[formats::nastran_remarks];
   } else if (mesh.variant == formats::kInp && formats::is_inp_deck(mesh.deck)) {
     text = formats::unpack_deck(mesh.deck).remarks;

@@ -47,7 +47,6 @@ std::vector<std::string> pack_deck(const InpDeck& deck) {
   put(head, deck.most_node);
   put(head, deck.most_element);
   put(head, deck.folder);
-  put(head, deck.remarks);
   put(head, static_cast<std::int64_t>(deck.block_of_part.size()));
   for (const auto& [part, block] : deck.block_of_part) {
     put(head, part);
@@ -71,6 +70,9 @@ std::vector<std::string> pack_deck(const InpDeck& deck) {
     }
     packed.push_back(std::move(text));
   }
+  if (!deck.remarks.empty()) {
+    packed.push_back(static_cast<char>(InpPieceKind::remarks) + deck.remarks);
+  }
   return packed;
 }
 
@@ -85,7 +87,6 @@ InpDeck unpack_deck(const std::vector<std::string>& packed) {
   deck.most_node = head.number();
   deck.most_element = head.number();
   deck.folder = head.text();
-  deck.remarks = head.text();
   for (std::int64_t left = head.number(); left > 0; --left) {
     const auto part = static_cast<Label>(head.number());
     deck.block_of_part.emplace_back(part, static_cast<Label>(head.number()));
@@ -94,6 +95,10 @@ InpDeck unpack_deck(const std::vector<std::string>& packed) {
     InpPiece piece;
     piece.kind = static_cast<InpPieceKind>(packed[i].at(0));
     const std::string_view rest = std::string_view(packed[i]).substr(1);
+    if (piece.kind == InpPieceKind::remarks) {
+      deck.remarks = rest;
+      continue;
+    }
     if (piece.kind == InpPieceKind::verbatim) {
       piece.text = rest;
     } else {

@@ -30,6 +30,7 @@ enum class InpPieceKind : char {
   element_set = 'T',
   surface = 'S',
   face_load = 'F',
+  remarks = 'R',  ///< the last, if there are any: not of the deck, but about it
 };
 
 struct InpPiece {

@@ -24,8 +24,8 @@ enum NastranPiece : std::size_t {
   nastran_end,       ///< from ENDDATA on
   nastran_points,    ///< GRID cards that say more than MeshData can hold
   nastran_elements,  ///< likewise, those of elements
-  nastran_remarks,   ///< see deck_remarks(), each with a line break
-  nastran_pieces
+  nastran_remarks,   ///< the last, if there are any: see deck_remarks(), each with a line break
+  nastran_pieces = nastran_remarks
 };
 
 struct NastranCard {

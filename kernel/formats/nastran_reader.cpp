@@ -81,7 +81,7 @@ class Reader {
     read_rest();
     check_numbers();
     require_points();
-    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n", "", "", ""}) {
+    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n", "", ""}) {
       mesh_.deck.clear();  // the writer's own
     }
     mesh_.variant = kNastran;
@@ -353,7 +353,8 @@ class Reader {
     };
     std::sort(counts.begin(), counts.end(),
               [&](const auto& a, const auto& b) { return pins_of(a).first < pins_of(b).first; });
-    std::string& text = mesh_.deck[nastran_remarks];
+    if (counts.empty()) return;
+    std::string& text = mesh_.deck.emplace_back();  // nastran_remarks
     for (std::size_t i = 0; i < std::min(counts.size(), kMostRemarks); ++i) {
       const auto& [name, count] = counts[i];
       const Pins& pins = pins_of(counts[i]);

@@ -88,7 +88,7 @@ class Writer {
   Writer(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {
     const MeshData* data = mesh.data();
-    if (data != nullptr && data->variant == kNastran && data->deck.size() == nastran_pieces) {
+    if (data != nullptr && data->variant == kNastran && data->deck.size() >= nastran_pieces) {
       deck_ = &data->deck;
       points_of_deck_ = WholeCards((*deck_)[nastran_points]);
       elements_of_deck_ = WholeCards((*deck_)[nastran_elements]);
