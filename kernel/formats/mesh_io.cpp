@@ -78,7 +78,11 @@ constexpr Room kMeditRoom = {.others = true,
                              .holds = formats::medit_holds};
 constexpr Room kTetgenRoom = {.second_order = true, .own_arrays = formats::kTetgenArrays};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
-constexpr Room kGmshRoom = {.data = true, .groups = true, .others = true, .second_order = true};
+constexpr Room kGmshRoom = {.data = true,
+                            .groups = true,
+                            .others = true,
+                            .second_order = true,
+                            .takes_name = formats::is_gmsh_name};
 constexpr Room kInpRoom = {.groups = true,
                            .others = true,
                            .required_vertices = true,

@@ -132,6 +132,30 @@ const Group* find_group(const MeshData& mesh, int dimension, Label number) {
 
 }  // namespace
 
+TEST_CASE("names of groups and views survive in .msh whatever their signs; of line breaks a note") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  const std::vector<std::string> names = {"5\" pipe\"", "\x1b]0;x\x07", std::string("a\0b", 3),
+                                          "'"};
+  mesh.groups.clear();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    mesh.groups.push_back({3, static_cast<Label>(i + 1), names[i], {}, {}});
+    mesh.tets[i % mesh.tets.size()].label = static_cast<Label>(i + 1);
+  }
+  CHECK(not_written(folder / "a.msh", mesh) == not_written(folder / "a.msh", awkward_mesh()));
+  write_mesh(folder / "a.msh", mesh);
+  const MeshData again = read_mesh(folder / "a.msh");
+  for (const std::string& name : names) {
+    CHECK(std::any_of(again.groups.begin(), again.groups.end(),
+                      [&](const Group& group) { return group.name == name; }));
+  }
+  mesh.groups[0].name = "a\nb";
+  const auto notes = not_written(folder / "a.msh", mesh);
+  CHECK(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.find(".msh has other rules for 1 of them") != std::string::npos;
+  }));
+}
+
 TEST_CASE("an MSH file of version 4.1 is read with its groups, entities, links and views") {
   const TempFolder folder;
   const MeshData mesh = read_text(folder, text_4());
