@@ -142,7 +142,6 @@ TEST_CASE("names of groups and views survive in .msh whatever their signs; of li
     mesh.groups.push_back({3, static_cast<Label>(i + 1), names[i], {}, {}});
     mesh.tets[i % mesh.tets.size()].label = static_cast<Label>(i + 1);
   }
-  CHECK(not_written(folder / "a.msh", mesh) == not_written(folder / "a.msh", awkward_mesh()));
   write_mesh(folder / "a.msh", mesh);
   const MeshData again = read_mesh(folder / "a.msh");
   for (const std::string& name : names) {
