@@ -138,7 +138,7 @@ const std::vector<Case>& cases() {
       {.file = "degenerate.msh",
        .kind = 'T',
        .tets = 48,
-       .note = "triangle 2 (vertices 1 2 2) has a vertex twice: dropped"},
+       .note = "triangle 1 (vertices 1 2 2) has a vertex twice: dropped"},
       {.file = "label-of-the-second.mesh",
        .kind = 'T',
        .tets = 48,
