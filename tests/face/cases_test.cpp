@@ -33,18 +33,18 @@ namespace {
 /// What is not given is not asked. Of each case, the improved mesh, written and read again, keeps
 /// all that compare() looks at.
 struct Case {
-  std::string_view file;
+  std::string_view file = {};
   char kind = ' ';
-  std::optional<std::size_t> tets;      ///< as read
-  std::optional<std::size_t> required;  ///< vertices that must stay, as read
-  std::optional<std::size_t> inverted;  ///< or flat, before; afterwards there is none
-  std::optional<std::size_t> bad;       ///< before
-  std::optional<std::size_t> bad_after;
-  std::string_view note;                    ///< part of a note of the file or of the run
-  bool has_notes = true;                    ///< false: there must be none
-  std::map<std::int32_t, double> volumes;   ///< by label, afterwards
-  std::string_view array;                   ///< of the tets
-  std::map<std::int32_t, double> of_label;  ///< its value in every tet of a label, afterwards
+  std::optional<std::size_t> tets = {};      ///< as read
+  std::optional<std::size_t> required = {};  ///< vertices that must stay, as read
+  std::optional<std::size_t> inverted = {};  ///< or flat, before; afterwards there is none
+  std::optional<std::size_t> bad = {};       ///< before
+  std::optional<std::size_t> bad_after = {};
+  std::string_view note = {};                    ///< part of a note of the file or of the run
+  bool has_notes = true;                         ///< false: there must be none
+  std::map<std::int32_t, double> volumes = {};   ///< by label, afterwards
+  std::string_view array = {};                   ///< of the tets
+  std::map<std::int32_t, double> of_label = {};  ///< its value in every tet of a label, afterwards
 };
 
 const std::vector<Case>& cases() {
