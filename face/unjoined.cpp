@@ -2,8 +2,8 @@
 // Where parts of a mesh touch without being joined.
 //
 //   vertices of the boundary, by their coordinates: those that lie on others
-//   triangles of the boundary along a curve, boxes around each eight of them, boxes around each eight
-//   of these, and so on; then each vertex down the boxes that hold it, to triangles it is no corner of
+//   triangles of the boundary along a curve, boxes around each eight of them, around each eight of
+//   these, and so on; then each vertex down the boxes that hold it, to triangles of other corners
 #include "face/unjoined.h"
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 //          neighbours in memory; the arrays of the file are released on the way
 //   orient: swap two vertices of every tet if most are negative, and so is their sum
 //   match faces: vertex by vertex, those of which it is the smallest; where that fails, or tets are
-//                negative, walk over faces, so that all tets of a component are listed in one sense,
-//                that of its volume, and match again
+//                negative, walk over faces: all tets of a component get one sense, that of its
+//                volume; then match again
 //   surface: named triangles in file order, then boundary faces and label interfaces that no
 //            triangle names
 //   constraints: face bits, edge bits, fixed vertices; without those inside regions, if so asked

@@ -9,8 +9,8 @@
 
 namespace tetmend {
 
-/// What the user should know of a deck though nothing of it is lost, one sentence each: which of its
-/// lines keep how many points of the mesh where they are. Empty for a mesh that is of no deck.
+/// What the user should know of a deck though nothing of it is lost, one sentence each: which of
+/// its lines keep how many points of the mesh where they are. Empty for a mesh of no deck.
 std::vector<std::string> deck_remarks(const MeshData& mesh);
 
 }  // namespace tetmend

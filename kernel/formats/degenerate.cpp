@@ -24,7 +24,7 @@ namespace tetmend::formats {
 namespace {
 
 /// Elements of one kind, each by its corners.
-struct Corners {
+struct CornerRows {
   const std::uint32_t* first = nullptr;
   std::size_t stride = 0;  // in numbers
   std::size_t count = 0;
@@ -34,7 +34,7 @@ struct Corners {
 };
 
 template <class Element>
-Corners corners_of(const std::vector<Element>& elements) {
+CornerRows corner_rows(const std::vector<Element>& elements) {
   static_assert(sizeof(Element) % sizeof(std::uint32_t) == 0);
   if (elements.empty()) return {};
   return {elements[0].vertices.data(), sizeof(Element) / sizeof(std::uint32_t), elements.size(),
@@ -49,7 +49,7 @@ bool has_corner_twice(std::span<const std::uint32_t> v) {
   return found;
 }
 
-std::vector<std::uint32_t> find_collapsed(const Corners& all) {
+std::vector<std::uint32_t> find_collapsed(const CornerRows& all) {
   const auto parts =
       map_chunks<std::vector<std::uint32_t>>(all.count, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> found;
@@ -82,7 +82,7 @@ std::uint64_t hash_of(std::span<const std::uint32_t> v) {
 /// Looks at the tets with one smallest corner.
 class Comparison {
  public:
-  explicit Comparison(const Corners& all) : all_(all) {}
+  explicit Comparison(const CornerRows& all) : all_(all) {}
 
   void look_at(std::span<const std::uint32_t> tets) {
     if (tets.size() < 2 || !has_equal_hashes(tets)) return;
@@ -123,14 +123,14 @@ class Comparison {
     return found;
   }
 
-  const Corners& all_;
+  const CornerRows& all_;
   std::vector<std::uint64_t> hashes_;
   std::vector<std::pair<std::array<std::uint32_t, 4>, std::uint32_t>> rows_;
   std::vector<Repeated> found_;
 };
 
 /// In ascending order.
-std::vector<Repeated> find_repeated(const Corners& all, std::size_t points) {
+std::vector<Repeated> find_repeated(const CornerRows& all, std::size_t points) {
   constexpr std::size_t kVerticesOfChunk = 2048;
   std::vector<std::uint32_t> smallest(all.count);
   for_chunks(all.count, [&](std::size_t begin, std::size_t end) {
@@ -159,7 +159,7 @@ std::vector<Repeated> find_repeated(const Corners& all, std::size_t points) {
 
 /// What a list has, whatever it is called where it comes from.
 struct Elements {
-  Corners corners;
+  CornerRows corners;
   std::string_view name;
   const std::vector<std::int64_t>& numbers;
   std::function<Label(std::size_t)> label;
@@ -182,7 +182,7 @@ class Dropping {
   template <class Lists>
   static Elements list_of(std::string_view name, const Lists& lists) {
     const auto& elements = lists.elements;
-    return {corners_of(elements), name, lists.numbers,
+    return {corner_rows(elements), name, lists.numbers,
             [&elements](std::size_t i) { return elements[i].label; }};
   }
 

@@ -10,9 +10,9 @@
 
 namespace tetmend::formats {
 
-/// Takes out of a mesh tets, triangles and edges, of first or second order, that have a corner twice,
-/// whose content is 0 wherever their vertices lie; and tets with the corners of an earlier one. A
-/// note names them. Other elements stay: a hexahedron may be collapsed to a prism.
+/// Takes out of a mesh tets, triangles and edges, of first or second order, that have a corner
+/// twice: their content is 0 wherever their vertices lie. And tets with the corners of an earlier
+/// one. A note names them. Other elements stay: a hexahedron may be collapsed to a prism.
 /// Precondition: the corners are points; those of second order are among the other elements.
 /// @return the numbers of those of MeshData::tets that went, ascending
 /// Cost: linear; 12 bytes a tet meanwhile.

@@ -18,11 +18,11 @@ namespace tetmend::formats {
 namespace {
 
 // What Abaqus and CalculiX have about nodes; the fields count within each data line.
-struct Row {
+struct KeywordRow {
   std::string_view keyword;
   std::string_view pattern;
 };
-constexpr std::array kWithNodes = std::to_array<Row>({
+constexpr std::array kWithNodes = std::to_array<KeywordRow>({
     {"BOUNDARY", "p"},
     {"CECHARGE", "p"},
     {"CECURRENT", "p"},
@@ -247,8 +247,9 @@ std::optional<NodesOfBlock> by_parameter(const InpBlock& block) {
 
 NodesOfBlock nodes_of(const InpBlock& block) {
   if (const auto nodes = by_parameter(block)) return *nodes;
-  const auto* row = std::find_if(kWithNodes.begin(), kWithNodes.end(),
-                                 [&](const Row& each) { return each.keyword == block.keyword; });
+  const auto* row = std::find_if(kWithNodes.begin(), kWithNodes.end(), [&](const KeywordRow& each) {
+    return each.keyword == block.keyword;
+  });
   if (row != kWithNodes.end()) return {FieldPattern(row->pattern)};
   const bool ends = std::any_of(kEndingsWithoutNodes.begin(), kEndingsWithoutNodes.end(),
                                 [&](std::string_view end) { return block.keyword.ends_with(end); });

@@ -179,7 +179,7 @@ class Reader {
     places_.push_back(card_.text.data());
     if (is_blank(5)) return;
     mesh_.deck[nastran_points] += lines_of(card_.text);
-    // Of output coordinates, constraints and the superelement only the constraints are of the place.
+    // Output coordinates, constraints, superelement: only constraints mean the place.
     std::int64_t components = 0;
     const bool is_held = !card_.field(6).empty() &&
                          !(nastran_integer(card_.field(6), components) && components == 0);

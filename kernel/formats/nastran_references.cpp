@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which fields of the cards of Nastran's bulk data are numbers of points.
 //
-// Fields count from behind the name, and a line has eight, so field 8 is the first of the second line.
+// Fields count from behind the name, and a line has eight: field 8 is the first of the second line.
 // Who knows a card that is not here takes its row from the Quick Reference Guide. An unknown card
 // must not lose a point: all of its integers count.
 #include "kernel/formats/nastran_references.h"
@@ -18,12 +18,12 @@
 namespace tetmend::formats {
 namespace {
 
-struct Row {
+struct CardRow {
   std::string_view name;
   std::string_view pattern;
 };
 
-constexpr std::array kWithPoints = std::to_array<Row>({
+constexpr std::array kWithPoints = std::to_array<CardRow>({
     // loads, displacements, temperatures
     {"FORCE", "-p"},
     {"FORCE1", "-p-pp"},
@@ -281,12 +281,12 @@ class Collector {
 };
 
 template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
+bool lists(const std::array<std::string_view, N>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool is_pointless(std::string_view name) {
-  return contains(kPointless, name) ||
+  return lists(kPointless, name) ||
          std::any_of(kPointlessBeginnings.begin(), kPointlessBeginnings.end(),
                      [&](std::string_view beginning) { return name.starts_with(beginning); });
 }
@@ -331,7 +331,7 @@ NastranReferences nastran_references(const NastranCardText& card) {
   Collector collector(card);
   if (read_special(card, collector)) return collector.take();
   const auto* row = std::find_if(kWithPoints.begin(), kWithPoints.end(),
-                                 [&](const Row& each) { return each.name == card.name; });
+                                 [&](const CardRow& each) { return each.name == card.name; });
   if (row != kWithPoints.end()) {
     collector.by(FieldPattern(row->pattern));
   } else if (!is_pointless(card.name)) {

@@ -6,8 +6,8 @@
 
 namespace tetmend::test {
 
-/// Eight tets in a ring, each joined to the next by a face, the last to the first turned round, as in
-/// a Moebius strip. Tet 5, from 0, is found to lie on the same side of a face as tet 4.
+/// Eight tets in a ring, each joined to the next by a face, the last to the first turned round, as
+/// in a Moebius strip. Tet 5, from 0, is found to lie on the same side of a face as tet 4.
 inline MeshData turned_ring() {
   MeshData mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
