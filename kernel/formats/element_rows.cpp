@@ -3,9 +3,6 @@
 #include "kernel/formats/element_rows.h"
 
 #include <algorithm>
-#include <string>
-
-#include <fmt/format.h>
 
 namespace tetmend::formats {
 namespace {
