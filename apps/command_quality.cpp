@@ -16,6 +16,7 @@
 #include "apps/mesh_formats.h"
 #include "apps/report.h"
 #include "apps/threads.h"
+#include "kernel/formats/degenerate.h"
 
 namespace tetmend::apps {
 namespace {
@@ -53,6 +54,7 @@ void print_json(const QualityOptions& options, const Measurement& measured) {
   nlohmann::json result = tetmend::to_json(measured.statistics);
   result["file"] = shown(options.file);
   result["build"] = to_json(measured.build);
+  result["notes"] = measured.notes;
   if (measured.rulers) result["rulers"] = tetmend::to_json(*measured.rulers);
   if (measured.curved) result["second_order"] = tetmend::to_json(*measured.curved);
   if (measured.limit) result["limit"] = tetmend::to_json(*measured.limit);
@@ -83,8 +85,11 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
     throw UsageError(fmt::format("--{}", error.what()));
   }
   Mesh mesh = load_whole(options.file, options.threads, parts);
-  const Measurement measured =
+  std::vector<std::string> dropped = mesh.notes();
+  std::erase_if(dropped, [](const auto& note) { return !formats::tells_of_dropped(note); });
+  Measurement measured =
       in_parts(options.file, parts, [&] { return measure(std::move(mesh), wanted); });
+  measured.notes.insert(measured.notes.begin(), dropped.begin(), dropped.end());
   if (!options.cells.empty()) {
     write_bad_tets(read_whole(options.file, parts), options.cells, measured.bad_tets);
   }
@@ -93,9 +98,9 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
     return 0;
   }
   fmt::print("{}\n\n", shown(options.file));
-  if (const std::string notes = format_build(measured.build); !notes.empty()) {
-    fmt::print("{}\n", notes);
-  }
+  std::string notes = format_build(measured.build);
+  for (const std::string& note : measured.notes) notes += fmt::format("note: {}\n", note);
+  if (!notes.empty()) fmt::print("{}\n", notes);
   fmt::print("{}\n{}", format_statistics(measured.statistics, measured.measures),
              format_histogram(measured.statistics, nullptr));
   if (measured.rulers) fmt::print("\n{}", format_rulers(*measured.rulers, nullptr));

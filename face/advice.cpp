@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "face/unjoined.h"
 #include "kernel/chunks.h"
 #include "kernel/grouped.h"
 #include "kernel/stretching.h"
@@ -168,7 +169,7 @@ std::string reasons_of_inverted(const InvertedTets& count) {
 }  // namespace
 
 std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result) {
-  std::vector<std::string> texts;
+  std::vector<std::string> texts = describe(find_unjoined(mesh), mesh.vertex_count());
   if (result.layer_tets > 0) {
     texts.push_back(fmt::format("{} of boundary layers kept; --layers improve works on them too",
                                 counted(result.layer_tets, "tet", "tets")));

@@ -11,9 +11,9 @@
 
 namespace tetmend::face {
 
-/// Says which boundary layers are kept, and warns of a mesh that is stretched throughout. Reads the
-/// statistics before the run and the numbers of layers. Cost: none unless a third of the tets is
-/// bad, else linear.
+/// Says where points touch without being joined and which boundary layers are kept, and warns of a
+/// mesh that is stretched throughout. Reads the statistics before the run and the numbers of layers.
+/// Cost: that of find_unjoined(); linear where a third of the tets is bad.
 std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result);
 
 /// Says how many tets are inverted or flat and why, unless the run was cancelled; which constraints

@@ -3,14 +3,16 @@
 //
 //   of one mesh: thresholds of angles and rulers, inverted tets, as asked for or as a preset says
 //   of two: the same surface, walls, labels, volumes, groups, and nothing worse; computed from the
-//   two meshes alone
+//   two meshes alone, tets listed in positive order and groups by their names
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -20,9 +22,12 @@
 #include <tetmend/check.h>
 #include <tetmend/measure.h>
 
+#include "face/arena.h"
 #include "face/mesh_access.h"
 #include "kernel/curved.h"
 #include "kernel/exact_orientation.h"
+#include "kernel/formats/inp.h"
+#include "kernel/formats/su2.h"
 #include "kernel/geometry.h"
 #include "kernel/grouped.h"
 #include "kernel/statistics.h"
@@ -188,15 +193,6 @@ void add_second_order(const CurvedStatistics& was, const CurvedStatistics& is,
                            was.worst.bound));
 }
 
-std::vector<std::string> group_names(const MeshData& mesh) {
-  std::vector<std::string> names;
-  for (const Group& group : mesh.groups) {
-    names.push_back(fmt::format("{} {} '{}'", group.dimension, group.number, group.name));
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 /// Numbers of the elements of a group, for one kind of element.
 template <class Element>
 std::vector<std::size_t> members_of(const Group& group, const std::vector<Element>& elements,
@@ -211,6 +207,42 @@ std::vector<std::size_t> members_of(const Group& group, const std::vector<Elemen
     if (is_in) members.push_back(i);
   }
   return members;
+}
+
+/// A group without a name is what its elements make it.
+bool has_elements(const MeshData& mesh, const Group& group) {
+  switch (group.dimension) {
+    case 1:
+      if (!members_of(group, mesh.edges, mesh.edge_parts).empty()) return true;
+      break;
+    case 2:
+      if (!members_of(group, mesh.triangles, mesh.triangle_parts).empty()) return true;
+      break;
+    case 3:
+      if (!members_of(group, mesh.tets, mesh.tet_parts).empty()) return true;
+      break;
+    default:
+      return true;
+  }
+  return std::any_of(
+      mesh.other_elements.begin(), mesh.other_elements.end(), [&](const OtherElements& others) {
+        const auto& of_elements = others.parts.empty() ? others.labels : others.parts;
+        return std::any_of(of_elements.begin(), of_elements.end(), [&](Label number) {
+          return group.parts.empty() ? number == group.number
+                                     : std::find(group.parts.begin(), group.parts.end(), number) !=
+                                           group.parts.end();
+        });
+      });
+}
+
+std::vector<std::string> group_names(const MeshData& mesh) {
+  std::vector<std::string> names;
+  for (const Group& group : mesh.groups) {
+    if (group.name.empty() && !has_elements(mesh, group)) continue;
+    names.push_back(fmt::format("{} {} '{}'", group.dimension, group.number, group.name));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 /// What a named group has: its triangles or edges by their corners, or the volume of its tets.
@@ -242,6 +274,90 @@ std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh, con
     std::sort(content.elements.begin(), content.elements.end());
   }
   return contents;
+}
+
+/// Names that only one group of this dimension has.
+std::map<std::string, Label> numbers_by_name(const MeshData& mesh, int dimension) {
+  std::map<std::string, Label> numbers;
+  std::set<std::string> twice;
+  for (const Group& group : mesh.groups) {
+    if (group.dimension != dimension || group.name.empty()) continue;
+    if (!numbers.try_emplace(group.name, group.number).second) twice.insert(group.name);
+  }
+  for (const std::string& name : twice) numbers.erase(name);
+  return numbers;
+}
+
+/// For each number of a group in `after` the one in `before`, where their names say so. A number
+/// that would mean two things then gets a new one.
+std::map<Label, Label> renumbering(const MeshData& before, const MeshData& after, int dimension) {
+  const std::map<std::string, Label> then = numbers_by_name(before, dimension);
+  std::map<Label, Label> to;
+  std::set<Label> taken;
+  for (const auto& [name, number] : numbers_by_name(after, dimension)) {
+    const auto found = then.find(name);
+    if (found == then.end()) continue;
+    to[number] = found->second;
+    taken.insert(found->second);
+  }
+  Label free = std::numeric_limits<Label>::min();
+  for (const Label number : taken) {
+    if (!to.contains(number)) to[number] = free++;
+  }
+  std::erase_if(to, [](const auto& pair) { return pair.first == pair.second; });
+  return to;
+}
+
+/// Of a format that has names alone: numbers are given by the place in the file.
+bool numbers_by_place(const MeshData& mesh) {
+  return mesh.variant == formats::kInp || mesh.variant == formats::kSu2;
+}
+
+/// Where numbers are given by place, the names count.
+/// @return `after`, or `own` with the numbers that `before` has
+const MeshData& numbered_as(const MeshData& before, const MeshData& after, MeshData& own) {
+  const MeshData* result = &after;
+  if (!numbers_by_place(before) && !numbers_by_place(after)) return after;
+  for (int dimension = 0; dimension <= 3; ++dimension) {
+    const std::map<Label, Label> to = renumbering(before, after, dimension);
+    if (to.empty()) continue;
+    if (result != &own) own = after;
+    result = &own;
+    const auto renumber = [&](Label& number) {
+      if (const auto found = to.find(number); found != to.end()) number = found->second;
+    };
+    for (Group& group : own.groups) {
+      if (group.dimension == dimension) renumber(group.number);
+    }
+    const auto renumber_all = [&](auto& elements) {
+      for (auto& element : elements) renumber(element.label);
+    };
+    if (dimension == 1) renumber_all(own.edges);
+    if (dimension == 2) renumber_all(own.triangles);
+    if (dimension == 3) renumber_all(own.tets);
+  }
+  return *result;
+}
+
+/// A mesh may list the vertices of its tets in either sense: as it is put right before any work.
+/// @return the mesh, or `own` where that differs
+const MeshData& put_right(const Mesh& mesh, MeshData& own) {
+  const MeshData& data = MeshAccess::data(mesh);
+  if (no_inverted(data).holds) return data;
+  MeshData bare;
+  bare.points = data.points;
+  bare.tets = data.tets;
+  BuildReport report;
+  const TetMesh built =
+      face::build_located(mesh.file(), bare, {.sorted = false, .report = &report});
+  if (!report.mirrored && report.reordered_tets == 0) return data;
+  own = data;
+  for (std::uint32_t t = 0; t < own.tets.size(); ++t) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      own.tets[t].vertices[k] = built.origin(built.vertices(TetHandle(t))[k]);
+    }
+  }
+  return own;
 }
 
 /// One fact for all groups, which names the first that differs.
@@ -412,10 +528,15 @@ std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
 }
 
 std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
-  const MeshData& before = MeshAccess::data(first);
-  const MeshData& after = MeshAccess::data(second);
   const Scale scale = scale_of(first);
   scale_of(second);  // or an error
+  MeshData own_before, own_after, numbered_after;
+  const auto put_both_right = [&] {
+    return std::pair(&put_right(first, own_before), &put_right(second, own_after));
+  };
+  const auto [right_before, right_after] = face::on_threads(threads, put_both_right);
+  const MeshData& before = *right_before;
+  const MeshData& after = numbered_as(before, *right_after, numbered_after);
   std::vector<Fact> facts = same_walls(before, after);
   facts.push_back(same("triangles", "named triangles with labels", named_triangles(before),
                        named_triangles(after)));

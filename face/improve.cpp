@@ -32,6 +32,7 @@
 #include "kernel/bounds.h"
 #include "kernel/chunks.h"
 #include "kernel/curved.h"
+#include "kernel/formats/deck_remarks.h"
 #include "kernel/integrity.h"
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
@@ -243,6 +244,7 @@ void Improvement::measure_before() {
   if (!plan_.surface.is_fixed())
     result_.surface_change = face::SurfaceTolerance::measure_before(mesh_);
   result_.not_positive_before = count_not_positive(mesh_);
+  note(deck_remarks(input_));
   note(face::advice_before(mesh_, result_));
   if (const auto most = plan_.growth.most(result_.before.tets);
       most && *most < result_.before.tets) {

@@ -12,6 +12,7 @@
 
 #include "fuzz/judge.h"
 #include "fuzz/target.h"
+#include "kernel/tet_mesh.h"
 
 using namespace tetmend;
 using namespace tetmend::fuzz;
@@ -65,6 +66,19 @@ void change(MeshArrays& mesh, Bytes& bytes) {
   }
 }
 
+/// Lists the vertices of all tets as they are listed before any work.
+void put_right(MeshArrays& mesh) {
+  MeshData data;
+  for (const auto& p : mesh.points) data.points.emplace_back(p[0], p[1], p[2]);
+  for (const auto& tet : mesh.tets) data.tets.push_back({tet, 0});
+  const TetMesh built = TetMesh::build(data, {.sorted = false});
+  for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
+    for (unsigned k = 0; k < 4; ++k) {
+      mesh.tets[t][k] = built.origin(built.vertices(TetHandle(t))[k]);
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -76,9 +90,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Mesh mesh(before);
     const Result result = improve(mesh, options);
     require(result.worse().empty(), "no figure is worse");
-    if (result.build.mirrored) {  // as promised where most tets are negative
-      for (auto& tet : before.tets) std::swap(tet[2], tet[3]);
-    }
+    if (result.build.mirrored || result.build.reordered_tets > 0) put_right(before);
     require_promises(before, mesh.arrays(), result.goal);
   } catch (const Error& error) {
     require_one_line(error.what());

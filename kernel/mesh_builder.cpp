@@ -5,10 +5,10 @@
 //   bring the coordinates to a scale that can be worked with
 //   slots: as the file has vertices and tets, or along a curve, so that all that follows works on
 //          neighbours in memory; the arrays of the file are released on the way
-//   orient: swap two vertices of every tet if most are negative
-//   match faces: vertex by vertex, those of which it is the smallest; where that fails, swap two
-//                vertices of single tets that are not positive, if their neighbours ask for it, and
-//                match again
+//   orient: swap two vertices of every tet if most are negative, and so is their sum
+//   match faces: vertex by vertex, those of which it is the smallest; where that fails, or tets are
+//                negative, walk over faces: all tets of a component get one sense, that of its
+//                volume; then match again
 //   surface: named triangles in file order, then boundary faces and label interfaces that no
 //            triangle names
 //   constraints: face bits, edge bits, fixed vertices; without those inside regions, if so asked
@@ -23,6 +23,7 @@
 #include <fmt/format.h>
 
 #include "kernel/chunks.h"
+#include "kernel/compensated_sum.h"
 #include "kernel/edge_tets.h"
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
@@ -219,26 +220,40 @@ MeshBuilder::Signs MeshBuilder::evaluate() {
   return sum;
 }
 
-void MeshBuilder::orient() {
+/// In rounded numbers.
+double MeshBuilder::volume6_of_all() const {
+  const auto parts =
+      map_chunks<CompensatedSum>(mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {
+        CompensatedSum sum;
+        for (std::size_t t = begin; t < end; ++t) sum.add(tet_volume6(t));
+        return sum;
+      });
+  CompensatedSum sum;
+  for (const CompensatedSum& part : parts) sum.add(part);
+  return sum.value();
+}
+
+/// True if negative tets are left.
+bool MeshBuilder::orient() {
   const Signs signs = evaluate();
-  if (signs.negative <= signs.positive) return;
+  if (signs.negative <= signs.positive || volume6_of_all() > 0) return signs.negative > 0;
   report_.mirrored = true;
   for_chunks(mesh_.cells_.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) swap_orientation(t);
   });
-  evaluate();
+  return evaluate().negative > 0;
 }
 
-void MeshBuilder::match_faces(const FaceBuckets& buckets) {
+void MeshBuilder::match_faces(const FaceBuckets& buckets, bool has_negative) {
   std::vector<std::uint32_t> trouble = match(buckets);
-  if (trouble.empty()) return;
-  check_buckets(buckets, trouble, false);
-  // A negative tet is folded over, or it lists its vertices the other way round. Only the latter
-  // clashes with its neighbours.
+  if (trouble.empty() && !has_negative) return;
+  if (!trouble.empty()) check_buckets(buckets, trouble, false);
+  // A negative tet is folded over, or it lists its vertices the other way round. Its neighbours
+  // know, and of all tets that hang together the sum of their volumes.
   reorder_tets();
-  trouble = match(buckets);
-  check_buckets(buckets, trouble, true);
-  evaluate();
+  if (report_.reordered_tets > 0) trouble = match(buckets);
+  if (!trouble.empty()) check_buckets(buckets, trouble, true);
+  if (report_.reordered_tets > 0) evaluate();
 }
 
 /// Makes neighbours of the tets that share a face. Gives the vertices where two tets lie on the
@@ -273,6 +288,21 @@ std::vector<std::uint32_t> MeshBuilder::match(const FaceBuckets& buckets) {
   return trouble;
 }
 
+/// Of the sides of one face two that are of the same tet, listed twice.
+std::pair<HalfFace, HalfFace> MeshBuilder::repeated(const std::vector<Entry>& entries,
+                                                    std::size_t begin, std::size_t end) const {
+  constexpr std::size_t kMost = 8;  // of more, some others will do
+  const auto apex = [&](const Entry& entry) {
+    return mesh_.vertices(entry.face.tet())[entry.face.face()];
+  };
+  for (std::size_t i = begin + 1; i < std::min(end, begin + kMost); ++i) {
+    for (std::size_t k = begin; k < i; ++k) {
+      if (apex(entries[k]) == apex(entries[i])) return {entries[k].face, entries[i].face};
+    }
+  }
+  return {};
+}
+
 /// Throws for the first tet, as the file counts them, that is one too many at a face or lies on the
 /// same side of it as another tet.
 void MeshBuilder::check_buckets(const FaceBuckets& buckets,
@@ -296,7 +326,10 @@ void MeshBuilder::check_buckets(const FaceBuckets& buckets,
     for (std::size_t i = 0; i < entries.size();) {
       std::size_t j = i + 1;
       while (j < entries.size() && entries[j].same_face(entries[i])) ++j;
-      if (j - i > 2) {
+      if (const auto [first_of, again] = repeated(entries, i, j); again != HalfFace()) {
+        blame(again,
+              fmt::format(" is tet {} again", file_tet(first_of.tet().index()) + first_number_));
+      } else if (j - i > 2) {
         blame(entries[i + 2].face, ": a face of it has more than two tets");
       } else if (senses && j - i == 2 && entries[i].even == entries[i + 1].even) {
         blame(entries[i + 1].face, fmt::format(" and {} lie on the same side of their common face",
@@ -308,8 +341,8 @@ void MeshBuilder::check_buckets(const FaceBuckets& buckets,
   if (!message.empty()) throw BuildError(message, first);
 }
 
-/// Gives each tet that is not certainly positive the sense that its neighbours ask for, from the
-/// positive tets inwards. Forgets the neighbours.
+/// Lists the tets of each component, which are joined by faces, in one sense: that in which their
+/// volumes have a positive sum. Forgets the neighbours if any is listed anew.
 void MeshBuilder::reorder_tets() {
   const auto n = static_cast<std::uint32_t>(mesh_.cells_.size());
   const auto is_even = [&](HalfFace f) {
@@ -319,41 +352,36 @@ void MeshBuilder::reorder_tets() {
   };
   std::vector<std::uint32_t> slots(n);  // in the order of the file
   for (std::uint32_t t = 0; t < n; ++t) slots[file_tet(t)] = t;
-  std::vector<char> settled(n, 0);
+  std::vector<char> reached(n, 0);
   swapped_.assign(n, 0);
-  std::vector<std::uint32_t> queue;
-  const auto settle = [&](std::uint32_t t, bool swap) {
-    settled[t] = 1;
-    swapped_[t] = swap;
-    queue.push_back(t);
-  };
-  const auto spread = [&] {
-    while (!queue.empty()) {
-      const std::uint32_t t = queue.back();
-      queue.pop_back();
+  std::vector<std::uint32_t> component;
+  for (const std::uint32_t first : slots) {
+    if (reached[first]) continue;
+    reached[first] = 1;
+    component.assign(1, first);
+    CompensatedSum volume;
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      const std::uint32_t t = component[i];
+      volume.add(swapped_[t] ? -tet_volume6(t) : tet_volume6(t));
       for (unsigned f = 0; f < 4; ++f) {
         const HalfFace here(TetHandle(t), f);
         const HalfFace twin = mesh_.twin(here);
-        if (twin.is_outside()) continue;
+        if (twin.is_outside() || reached[twin.tet().index()]) continue;
         const std::uint32_t u = twin.tet().index();
-        if (!settled[u]) settle(u, (swapped_[t] != 0) != (is_even(here) == is_even(twin)));
+        reached[u] = 1;
+        swapped_[u] = (swapped_[t] != 0) != (is_even(here) == is_even(twin)) ? 1 : 0;
+        component.push_back(u);
       }
     }
-  };
-  for (const std::uint32_t t : slots) {
-    if (mesh_.is_certified_positive(mesh_.cells_[t].vertices)) settle(t, false);
+    if (volume.value() >= 0) continue;
+    for (const std::uint32_t t : component) swapped_[t] ^= 1;
   }
-  spread();
-  for (const std::uint32_t t : slots) {  // parts without a positive tet
-    if (settled[t]) continue;
-    settle(t, tet_volume6(t) < 0);
-    spread();
-  }
+  report_.reordered_tets =
+      static_cast<std::size_t>(std::count(swapped_.begin(), swapped_.end(), 1));
+  if (report_.reordered_tets == 0) return;
   for (std::uint32_t t = 0; t < n; ++t) {
     mesh_.cells_[t].neighbours = {};
-    if (!swapped_[t]) continue;
-    swap_orientation(t);
-    ++report_.reordered_tets;
+    if (swapped_[t]) swap_orientation(t);
   }
 }
 

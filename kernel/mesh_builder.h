@@ -34,8 +34,7 @@ class MeshBuilder {
     place_vertices(sorted);
     const FaceBuckets buckets(mesh_, place_tets(sorted));
     check_lengths();
-    orient();
-    match_faces(buckets);
+    match_faces(buckets, orient());
     if (drops_interior_) find_border();
     build_surface(buckets);
     link_vertices();
@@ -72,12 +71,15 @@ class MeshBuilder {
   Signs evaluate();
   Signs evaluate(std::size_t begin, std::size_t end);
   void add_sign(std::size_t t, bool certified, Signs& signs) const;
-  void orient();
-  void match_faces(const FaceBuckets& buckets);
+  bool orient();
+  double volume6_of_all() const;
+  void match_faces(const FaceBuckets& buckets, bool has_negative);
   std::vector<std::uint32_t> match(const FaceBuckets& buckets);
   void reorder_tets();
   void check_buckets(const FaceBuckets& buckets, const std::vector<std::uint32_t>& vertices,
                      bool senses) const;
+  std::pair<HalfFace, HalfFace> repeated(const std::vector<Entry>& entries, std::size_t begin,
+                                         std::size_t end) const;
   void find_border();
   bool is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const;
   void build_surface(const FaceBuckets& buckets);

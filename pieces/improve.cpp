@@ -22,6 +22,7 @@
 #include "face/regions.h"
 #include "face/surface_marks.h"
 #include "face/watcher.h"
+#include "kernel/formats/deck_remarks.h"
 #include "kernel/grouped.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
@@ -174,9 +175,8 @@ void Improvement::measure_before(const TetMesh& mesh) {
   result_.not_positive_before = count_not_positive(mesh);
   if (portrait_ != nullptr) portrait_->draw_before(mesh, result_.rulers_before);
   watcher_.watch(nullptr, quality_indicators(mesh));
-  for (const std::string& text : face::advice_before(mesh, result_)) {
-    note(text);
-  }
+  for (const std::string& text : deck_remarks(input_)) note(text);
+  for (const std::string& text : face::advice_before(mesh, result_)) note(text);
 }
 
 /// What the pieces are made of: tets in the order of the file, with their vertices in positive

@@ -49,6 +49,7 @@ struct Measurement {
   std::vector<MeasureSummary> measures;    ///< in the order asked for
   std::optional<SurfaceLimit> limit;       ///< if asked for
   std::vector<BadTet> bad_tets;            ///< the worst first
+  std::vector<std::string> notes;          ///< where points touch without being joined
 };
 
 /// Measures a mesh, and finds out whether its topology is sound. Move it in where it is not needed

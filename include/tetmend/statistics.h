@@ -58,7 +58,7 @@ struct MeasureSummary {
 struct BuildReport {
   /// Most tets were negative: the order of two vertices was swapped in every tet.
   bool mirrored = false;
-  /// Negative tets that only listed their vertices the other way round: corrected.
+  /// Tets that only listed their vertices the other way round: corrected.
   std::size_t reordered_tets = 0;
   std::size_t inverted_tets = 0;  ///< tets of negative volume that were kept
   std::size_t flat_tets = 0;      ///< tets of zero volume (or too close to tell) that were kept

@@ -3,9 +3,6 @@
 #include "kernel/formats/element_rows.h"
 
 #include <algorithm>
-#include <string>
-
-#include <fmt/format.h>
 
 namespace tetmend::formats {
 namespace {
@@ -20,21 +17,6 @@ void append(std::vector<Element>& elements, std::vector<std::int64_t>& numbers,
 }
 
 }  // namespace
-
-void check_corners(const TextReader& text, const ElementRow& row, std::int64_t base) {
-  bool repeated = false;
-  for (std::size_t i = 1; i < row.kind->corners; ++i) {
-    for (std::size_t j = 0; j < i; ++j) repeated |= row.vertices[i] == row.vertices[j];
-  }
-  if (!repeated) return;
-  std::string numbers;
-  for (std::size_t i = 0; i < row.kind->corners; ++i) {
-    numbers += fmt::format("{}{}", i > 0 ? " " : "", row.vertices[i] + base);
-  }
-  text.fail_at(row.place, fmt::format("a vertex is repeated in the {} '{}': expected different "
-                                      "vertices",
-                                      row.kind->name, numbers));
-}
 
 OtherElements& ElementSorter::others(const ElementKind& kind) {
   std::size_t& place =

@@ -27,10 +27,6 @@ struct ElementRow {
   std::array<std::uint32_t, kMostVerticesOfElement> vertices{};
 };
 
-/// Refuses a corner that is repeated; the file counts vertices from `base`.
-/// @throws Error about where `row.place` is
-void check_corners(const TextReader& text, const ElementRow& row, std::int64_t base);
-
 /// Puts elements where MeshData has their kind.
 class ElementSorter {
  public:

@@ -165,7 +165,6 @@ class Reader {
       }
       row.vertices[k] = order_[found];
     }
-    check_corners(text, row, 1);
   }
 
   void check_types() const {

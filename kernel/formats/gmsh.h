@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
@@ -22,6 +23,11 @@ MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question = nullp
 /// group. Required vertices have no place in the format. @throws Error also for more elements than
 /// 31 bits count in version 2.2
 void write_gmsh(const std::filesystem::path& file, const MeshView& mesh);
+
+/// A name that the format takes as it is.
+inline bool is_gmsh_name(std::string_view name) {
+  return name.find('\n') == std::string_view::npos;
+}
 
 /// read_gmsh() of a file that is one of several of a mesh: `point_numbers` are those of the file, which
 /// the others have, too, and there may be no tets. @throws Error

@@ -87,20 +87,6 @@ std::uint32_t GmshElementReader::vertex_at(const char* at) const {
   return found;
 }
 
-/// Refuses a vertex that is repeated in an edge, a triangle or a tet.
-void GmshElementReader::check(TextReader& text, const char* at, int type,
-                              const std::uint32_t* vertices) const {
-  const auto check_element = [&](auto element) {
-    std::copy_n(vertices, element.vertices.size(), element.vertices.begin());
-    if (has_repeated_vertex(element.vertices)) {
-      text.fail_at(at, repeated_vertex_message(element, 1));
-    }
-  };
-  if (type == gmsh_tet) check_element(MeshData::Tet{});
-  if (type == gmsh_triangle) check_element(MeshData::Triangle{});
-  if (type == gmsh_edge) check_element(MeshData::Edge{});
-}
-
 void GmshElementReader::read_4() {
   source_.begin_numbers();
   const std::size_t blocks = source_.count("blocks of elements", 8, 20);
@@ -156,7 +142,6 @@ void GmshElementReader::read_block(int type, std::size_t count, Label label, Lab
       const char* place = line.last_word();
       std::uint32_t* v = rows.vertices.data() + (first + i) * width;
       for (std::size_t k = 0; k < width; ++k) v[k] = vertex(line);
-      check(line, place, type, v);
       if (!rows.places.empty()) rows.places[first + i] = place;
     });
   }
@@ -168,7 +153,6 @@ void GmshElementReader::read_block(int type, std::size_t count, Label label, Lab
     for (std::size_t k = 0; k < width; ++k) {
       v[k] = vertex_at<std::int64_t>(row + (k + 1) * sizeof(std::int64_t));
     }
-    check(text, row, type, v);
     if (!rows.places.empty()) rows.places[i] = row;
   }
 }
@@ -221,7 +205,6 @@ GmshElementReader::Row GmshElementReader::read_row(TextReader& text) const {
     const std::uint32_t v = vertex(text);
     if (k < row.vertices.size()) row.vertices[k] = v;
   }
-  check(text, row.place, row.type, row.vertices.data());
   return row;
 }
 
@@ -274,7 +257,6 @@ void GmshElementReader::read_run(int type, std::size_t count, std::size_t tags) 
     for (std::size_t k = 0; k < width; ++k) {
       v[k] = vertex_at<std::int32_t>(row + (1 + tags + k) * kSize);
     }
-    check(text, row, type, v);
     if (!rows.places.empty()) rows.places[i] = row;
   }
 }

@@ -34,7 +34,6 @@ class GmshElementReader {
   template <class Integer>
   std::uint32_t vertex_at(const char* at) const;
   [[noreturn]] void fail_without_node(const char* at, std::int64_t tag) const;
-  void check(TextReader& text, const char* at, int type, const std::uint32_t* vertices) const;
 
   void read_block(int type, std::size_t count, Label label, Label part);
   void read_text_2(std::size_t count);

@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/degenerate.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/gmsh_draft.h"
@@ -400,7 +401,9 @@ MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question) {
 
 MeshData read_gmsh_part(const std::filesystem::path& file) {
   const InputFile input(file);
-  return Reader(input, nullptr, true).read();
+  MeshData part = Reader(input, nullptr, true).read();
+  drop_degenerate(part);
+  return part;
 }
 
 MeshData read_gmsh_head(const std::string& bytes) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "kernel/formats/gmsh_rows.h"
 
-#include <cctype>
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,10 +14,7 @@ namespace {
 /// Without what would end the name in a file.
 std::string clean_name(std::string_view name) {
   std::string clean(name);
-  for (char& c : clean) {
-    if (c == '"') c = '\'';
-    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
-  }
+  std::replace(clean.begin(), clean.end(), '\n', ' ');
   return clean;
 }
 

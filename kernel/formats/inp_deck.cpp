@@ -70,6 +70,9 @@ std::vector<std::string> pack_deck(const InpDeck& deck) {
     }
     packed.push_back(std::move(text));
   }
+  if (!deck.remarks.empty()) {
+    packed.push_back(static_cast<char>(InpPieceKind::remarks) + deck.remarks);
+  }
   return packed;
 }
 
@@ -92,6 +95,10 @@ InpDeck unpack_deck(const std::vector<std::string>& packed) {
     InpPiece piece;
     piece.kind = static_cast<InpPieceKind>(packed[i].at(0));
     const std::string_view rest = std::string_view(packed[i]).substr(1);
+    if (piece.kind == InpPieceKind::remarks) {
+      deck.remarks = rest;
+      continue;
+    }
     if (piece.kind == InpPieceKind::verbatim) {
       piece.text = rest;
     } else {

@@ -30,6 +30,7 @@ enum class InpPieceKind : char {
   element_set = 'T',
   surface = 'S',
   face_load = 'F',
+  remarks = 'R',  ///< the last, if there are any: not of the deck, but about it
 };
 
 struct InpPiece {
@@ -47,7 +48,8 @@ struct InpPiece {
 struct InpDeck {
   std::int64_t most_node = 0;  ///< greatest numbers that the deck knew
   std::int64_t most_element = 0;
-  std::string folder;  ///< that the deck lay in, if it names other files; else empty
+  std::string folder;   ///< that the deck lay in, if it names other files; else empty
+  std::string remarks;  ///< see deck_remarks(), each with a line break
   std::vector<std::pair<Label, Label>> block_of_part;  ///< {part, block}
   std::vector<InpPiece> pieces;
 };

@@ -117,17 +117,6 @@ class Reader {
       fields.fail(fmt::format("{} is too much: expected {} nodes of an element of type {}",
                               in_quotes(fields.field()), width, elements.name));
     }
-    const bool may_repeat =
-        elements.type.vtk_type != kVtkTet && elements.type.vtk_type != kVtkTet10 &&
-        elements.type.vtk_type != kVtkTriangle && elements.type.vtk_type != kVtkEdge;
-    if (may_repeat) return;  // a hexahedron may be collapsed to a prism
-    for (std::size_t i = 0; i < width; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (vertices[i] != vertices[j]) continue;
-        fields.fail(fmt::format("the node '{}' is repeated in an element: expected different nodes",
-                                mesh_.nodes.numbers()[vertices[i]]));
-      }
-    }
   }
 
   /// What is without a number gets one when it is written, and loads and sets may mean another then.

@@ -32,6 +32,7 @@ class Maker {
     find_inlined();
     deck_.most_node = in_.mesh.nodes.most();
     deck_.most_element = in_.mesh.most_element();
+    deck_.remarks = in_.remarks;
     for (std::size_t p = 0; p < in_.parts.all.size(); ++p) {
       deck_.block_of_part.emplace_back(static_cast<Label>(p + 1),
                                        static_cast<Label>(in_.parts.all[p].home));

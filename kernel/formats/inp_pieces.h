@@ -27,6 +27,7 @@ struct InpContent {
   const InpParts& parts;
   const std::vector<InpHome>& homes;
   const std::vector<std::uint32_t>& home_of_block;  ///< from 1
+  const std::string& remarks;
 };
 
 /// Groups of the sets and uses have their numbers.

@@ -64,12 +64,13 @@ class Reader {
     find_homes();
     number_sets();
     make_parts();
-    data_.required_vertices = points_to_keep(mesh_, sets_, references.points);
+    InpPins pins = find_pins(lines_, mesh_, sets_, faces_, references, part_of_);
+    data_.required_vertices = std::move(pins.points);
     add_required_set();
     add_elements();
     add_groups();
-    data_.deck =
-        make_inp_deck({file_, lines_, mesh_, sets_, faces_, parts_, homes_, home_of_block_});
+    data_.deck = make_inp_deck(
+        {file_, lines_, mesh_, sets_, faces_, parts_, homes_, home_of_block_, pins.remarks});
     data_.point_numbers = mesh_.nodes.numbers();
     data_.points = std::move(mesh_.points);
     drop_zero_point_labels(data_);

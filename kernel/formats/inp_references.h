@@ -4,24 +4,41 @@
 
 #include <cstdint>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "kernel/formats/inp_faces.h"
+#include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_mesh.h"
 #include "kernel/formats/inp_sets.h"
 
 namespace tetmend::formats {
 
-struct InpReferences {
-  std::vector<std::uint32_t> points;  ///< that are named by number, in ascending order
-  std::set<std::string> names;        ///< all words, as inp_key() has them
+/// A point that a block names by its number.
+struct InpReference {
+  std::uint32_t point = 0;
+  const InpBlock* block = nullptr;
 };
 
+struct InpReferences {
+  std::vector<InpReference> points;  ///< in the order of the deck
+  std::set<std::string> names;       ///< all words, as inp_key() has them
+};
+
+/// Of each keyword only the fields that are nodes count; of an unknown one all that could be.
 InpReferences find_references(const std::vector<const InpBlock*>& kept, const InpMesh& mesh);
 
-/// Of these points and of those of the sets, the ones that must be kept: points inside the mesh that
-/// are named by number, or that are in a set which holds no tet around them wholly.
-std::vector<std::uint32_t> points_to_keep(const InpMesh& mesh, const InpSets& sets,
-                                          const std::vector<std::uint32_t>& points);
+/// Points that must be kept, and who says so.
+struct InpPins {
+  std::vector<std::uint32_t> points;  ///< ascending
+  std::string remarks;                ///< see deck_remarks(), each with a line break
+};
+
+/// Of the points that are named by number, and of those in a set which holds no tet around them
+/// wholly, the ones that would not stay anyhow: those on no face that stays.
+/// @param part_of of each element of the mesh: faces between two parts stay, and so do `faces`
+InpPins find_pins(const InpLines& lines, const InpMesh& mesh, InpSets& sets, const InpFaces& faces,
+                  const InpReferences& references, std::span<const std::uint32_t> part_of);
 
 }  // namespace tetmend::formats

@@ -85,6 +85,8 @@ class Writer {
         return write_surface(piece);
       case InpPieceKind::face_load:
         return write_load(piece);
+      case InpPieceKind::remarks:
+        return;  // unpack_deck() takes them out
     }
   }
 

@@ -354,9 +354,6 @@ class Reader {
     read_rows(text_, elements.size(), [&](TextReader& text, std::size_t i) {
       Element& element = elements[i];
       for (std::uint32_t& vertex : element.vertices) vertex = read_vertex_number(text);
-      if (has_repeated_vertex(element.vertices)) {
-        text.fail(repeated_vertex_message(element, 1));
-      }
       if (is_asked_for(question_, elements, element)) {
         question_->place = text.place_of(text.last_word());
       }

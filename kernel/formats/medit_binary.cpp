@@ -262,9 +262,6 @@ class Reader {
         vertex = read_vertex_number<Integer>(at);
         at += sizeof(Integer);
       }
-      if (has_repeated_vertex(element.vertices)) {
-        bytes_.fail_at(row, repeated_vertex_message(element, 1));
-      }
       if (is_asked_for(question_, elements, element)) question_->place = bytes_.place_of(row);
       element.label = read_label<Integer>(at);
       row += kNumbers * sizeof(Integer);

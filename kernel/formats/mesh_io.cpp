@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/degenerate.h"
 #include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/inp.h"
@@ -77,7 +78,11 @@ constexpr Room kMeditRoom = {.others = true,
                              .holds = formats::medit_holds};
 constexpr Room kTetgenRoom = {.second_order = true, .own_arrays = formats::kTetgenArrays};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
-constexpr Room kGmshRoom = {.data = true, .groups = true, .others = true, .second_order = true};
+constexpr Room kGmshRoom = {.data = true,
+                            .groups = true,
+                            .others = true,
+                            .second_order = true,
+                            .takes_name = formats::is_gmsh_name};
 constexpr Room kInpRoom = {.groups = true,
                            .others = true,
                            .required_vertices = true,
@@ -170,6 +175,7 @@ std::span<const MeshFormat> mesh_formats() {
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
   try {
     MeshData mesh = find_codec(file).read(file, {nullptr, label_array});
+    formats::drop_degenerate(mesh);
     try {
       take_second_order(mesh);
     } catch (const Error& error) {
@@ -183,6 +189,11 @@ MeshData read_mesh(const std::filesystem::path& file, const std::string& label_a
 
 std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
   formats::TetPlace question{tet, file.string()};
+  MeshData mesh = find_codec(file).read(file, {&question, {}});
+  std::size_t number = tet;  // in the file, where those that were dropped count
+  for (const std::uint32_t dropped : formats::drop_degenerate(mesh)) number += dropped <= number;
+  if (number == tet) return question.place;
+  question = {number, file.string()};
   find_codec(file).read(file, {&question, {}});
   return question.place;
 }

@@ -27,14 +27,14 @@ std::span<const MeshFormat> mesh_formats();
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1,
 /// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.inp` a deck of Abaqus or
 /// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer.
-/// What the file holds beyond MeshData is named in its `notes`. Volume elements that cannot be kept
-/// are an error.
+/// What the file holds beyond MeshData is named in its `notes`, and so are degenerate elements, see
+/// formats/degenerate.h. Volume elements that cannot be kept are an error.
 /// @param label_array the array of cells that holds the labels; empty: the one with a name that
 /// mesh tools use, else the only one of integers if it has few different ones
 /// @throws Error for a missing, empty or truncated file and for an unknown extension (with the
 /// valid ones). Also for wrong content: a wrong count, or one that cannot fit into the file (before
-/// memory is taken for it); a vertex number out of range or repeated within an element; text in a
-/// number; a coordinate that is not finite; a label beyond 32 bits. The message begins with
+/// memory is taken for it); a vertex number out of range; text in a number; a coordinate that is not
+/// finite; a label beyond 32 bits. The message begins with
 /// "FILE:LINE: " (ASCII) or "FILE: byte N: " (binary) when it is about the content, and has the
 /// offending word and what was expected.
 /// Cost: linear in the size of the file, which is held in memory while it is read.

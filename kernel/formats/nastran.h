@@ -14,11 +14,19 @@
 
 namespace tetmend::formats {
 
-/// MeshData::variant of such a mesh. Its deck: what stands up to BEGIN BULK, the cards of the bulk
-/// that are not ours, what stands behind ENDDATA; then, each by itself, cards of points and elements
-/// that say more than MeshData can hold.
+/// MeshData::variant of such a mesh.
 inline constexpr std::string_view kNastran = "Nastran";
-inline constexpr std::size_t kNastranPieces = 3;
+
+/// The pieces of its MeshData::deck.
+enum NastranPiece : std::size_t {
+  nastran_front,     ///< what stands up to BEGIN BULK
+  nastran_cards,     ///< of the bulk, that are not ours
+  nastran_end,       ///< from ENDDATA on
+  nastran_points,    ///< GRID cards that say more than MeshData can hold
+  nastran_elements,  ///< likewise, those of elements
+  nastran_remarks,   ///< the last, if there are any: see deck_remarks(), each with a line break
+  nastran_pieces = nastran_remarks
+};
 
 struct NastranCard {
   std::string_view name;
@@ -59,8 +67,8 @@ inline bool nastran_holds(int vtk_type) {
   return false;
 }
 
-/// Fields are small, large or free. Property numbers are labels. Points whose numbers stand in
-/// cards that are kept word for word become required vertices. @throws Error
+/// Fields are small, large or free. Property numbers are labels. Points that cards which are kept
+/// word for word name, or that have permanent constraints, become required vertices. @throws Error
 MeshData read_nastran(const std::filesystem::path& file, TetPlace* question = nullptr);
 
 /// Writes free fields, large ones for points: a coordinate has all its digits, of which solvers

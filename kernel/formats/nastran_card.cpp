@@ -3,6 +3,7 @@
 #include "kernel/formats/nastran_card.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -22,9 +23,7 @@ std::string_view without_comment(std::string_view line) {
 }
 
 void add(NastranCardText& card, std::string_view field) {
-  if (card.field_count < NastranCardText::kMostFields) {
-    card.fields[card.field_count++] = trimmed_field(field);
-  }
+  card.fields.push_back(trimmed_field(field));
 }
 
 /// Fields between commas: eight, or four large ones; the next names the continuation.
@@ -102,7 +101,7 @@ bool NastranLines::continues() const {
 
 void NastranLines::read(NastranCardText& card) {
   const char* begin = next_;
-  card.field_count = 0;
+  card.fields.clear();
   const std::string_view first = line();
   card.name = nastran_name(first);
   split(card, first);

@@ -2,11 +2,11 @@
 // One card of Nastran's bulk data: its fields, in whichever of the three forms they stand.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/formats/input_file.h"
 
@@ -14,14 +14,11 @@ namespace tetmend::formats {
 
 /// A card with its continuations. Fields are views into the file.
 struct NastranCardText {
-  static constexpr std::size_t kMostFields = 256;  ///< further ones are not looked at
+  std::string name;                      ///< in capitals, without '*'
+  std::string_view text;                 ///< all lines, with the last line break
+  std::vector<std::string_view> fields;  ///< behind the name, trimmed
 
-  std::string name;                                  ///< in capitals, without '*'
-  std::string_view text;                             ///< all lines, with the last line break
-  std::array<std::string_view, kMostFields> fields;  ///< behind the name, trimmed
-  std::size_t field_count = 0;
-
-  std::string_view field(std::size_t i) const { return i < field_count ? fields[i] : ""; }
+  std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : ""; }
 };
 
 /// Goes through the bulk card by card.

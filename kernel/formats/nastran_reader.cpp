@@ -2,6 +2,7 @@
 // Reads Nastran's bulk data in two passes: points, then all that names points.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,23 +17,39 @@
 #include "kernel/formats/input_file.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
+#include "kernel/formats/nastran_references.h"
 #include "kernel/formats/text_reader.h"
+#include "kernel/grouped.h"
 
 namespace tetmend::formats {
 namespace {
 
-/// Cards that name no points.
-bool names_no_points(std::string_view name) {
-  constexpr std::array<std::string_view, 12> kNames = {"PSOLID", "PSHELL", "PBAR",  "PBARL",
-                                                       "PBEAM",  "PBEAML", "PROD",  "PARAM",
-                                                       "MAT1",   "CORD2R", "EIGRL", "CORD2C"};
-  return std::find(kNames.begin(), kNames.end(), name) != kNames.end() || name.starts_with("MAT") ||
-         name.starts_with("TABLE");
-}
-
 /// Cards that name volume elements, or faces of them.
 bool names_elements(std::string_view name) {
   return name == "PLOAD4" || name == "BSURFS" || name == "TEMPE4" || name == "QBDY4";
+}
+
+/// The points that cards of one name keep.
+struct Pins {
+  const char* first = nullptr;  ///< place of the first of these cards
+  std::size_t cards = 0;
+  bool is_known = true;
+  std::vector<std::pair<std::int64_t, std::int64_t>> ranges;  ///< of numbers
+};
+
+/// Sorted, and without overlaps.
+template <class Number>
+std::vector<std::pair<Number, Number>> merged(std::vector<std::pair<Number, Number>> ranges) {
+  std::sort(ranges.begin(), ranges.end());
+  std::vector<std::pair<Number, Number>> all;
+  for (const auto& range : ranges) {
+    if (all.empty() || range.first > all.back().second) {
+      all.push_back(range);
+    } else {
+      all.back().second = std::max(all.back().second, range.second);
+    }
+  }
+  return all;
 }
 
 class Reader {
@@ -48,23 +65,23 @@ class Reader {
   MeshData read() {
     if (text_.at_end()) text_.fail("the file is empty: expected bulk data");
     find_bulk();
-    mesh_.deck.resize(kNastranPieces);
-    mesh_.deck[0].assign(file_.begin(), begin_);
-    mesh_.deck[2].assign(end_, file_.end());
-    if (mesh_.deck[2].empty()) {
-      if (!mesh_.deck[0].empty()) {
+    mesh_.deck.resize(nastran_pieces);
+    mesh_.deck[nastran_front].assign(file_.begin(), begin_);
+    mesh_.deck[nastran_end].assign(end_, file_.end());
+    if (mesh_.deck[nastran_end].empty()) {
+      if (!mesh_.deck[nastran_front].empty()) {
         file_.fail_at_line(end_, "the file ends where ENDDATA is expected");
       }
       mesh_.notes.emplace_back("the bulk data have no ENDDATA: is the file complete?");
     }
     read_points();
-    if (mesh_.points.empty() && mesh_.deck[2].empty()) {
+    if (mesh_.points.empty() && mesh_.deck[nastran_end].empty()) {
       file_.fail_at_line(end_, "the file has no points: expected GRID");
     }
     read_rest();
     check_numbers();
     require_points();
-    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n"}) {
+    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n", "", ""}) {
       mesh_.deck.clear();  // the writer's own
     }
     mesh_.variant = kNastran;
@@ -111,7 +128,7 @@ class Reader {
   }
 
   bool is_blank(std::size_t first) const {
-    for (std::size_t i = first; i < card_.field_count; ++i) {
+    for (std::size_t i = first; i < card_.fields.size(); ++i) {
       if (!card_.fields[i].empty()) return false;
     }
     return true;
@@ -140,7 +157,6 @@ class Reader {
     }
     places_ = {};
     tags_ = GmshTags(std::move(ascending));
-    is_required_.resize(mesh_.points.size());
   }
 
   static bool is_point(NastranLines lines) { return nastran_name(lines.line()) == "GRID"; }
@@ -161,9 +177,15 @@ class Reader {
       }
     }
     places_.push_back(card_.text.data());
-    if (!is_blank(5)) {
-      mesh_.deck.push_back(lines_of(card_.text));
-      required_.push_back(static_cast<std::uint32_t>(mesh_.points.size() - 1));
+    if (is_blank(5)) return;
+    mesh_.deck[nastran_points] += lines_of(card_.text);
+    // Output coordinates, constraints, superelement: only constraints mean the place.
+    std::int64_t components = 0;
+    const bool is_held = !card_.field(6).empty() &&
+                         !(nastran_integer(card_.field(6), components) && components == 0);
+    if (is_held) {
+      const std::int64_t number = mesh_.point_numbers.back();
+      add_pins({{{number, number}}, true});
     }
   }
 
@@ -184,7 +206,7 @@ class Reader {
     while (!lines.at_end()) {
       const char first = *lines.position();
       if (first == '$') {
-        mesh_.deck[1] += lines_of(lines.line());
+        mesh_.deck[nastran_cards] += lines_of(lines.line());
         continue;
       }
       if ((first == 'G' || first == 'g') && is_point(lines)) {
@@ -222,7 +244,6 @@ class Reader {
                      ? static_cast<Label>(integer(0, "the number of a property", 1, INT32_MAX))
                      : static_cast<Label>(integer(1, "the number of a property", 0, INT32_MAX));
     read_nodes();
-    check_nodes();
     if (is_volume && !is_blank(2 + nodes)) {
       fail(card_.field(2 + nodes),
            fmt::format("{} has more than {} points: expected none of higher order", card_.name,
@@ -231,7 +252,7 @@ class Reader {
     sorter_.add(row_, true);
     elements_.emplace_back(row_.number, row_.place);
     answer(question_, mesh_, text_, row_);
-    if (!is_blank(2 + nodes)) mesh_.deck.push_back(lines_of(card_.text));
+    if (!is_blank(2 + nodes)) mesh_.deck[nastran_elements] += lines_of(card_.text);
     return true;
   }
 
@@ -245,16 +266,6 @@ class Reader {
         fail(card_.field(field),
              fmt::format("'{}' is not the number of a point: expected one of GRID", number));
       }
-    }
-  }
-
-  void check_nodes() const {
-    const auto* begin = row_.vertices.begin();
-    const auto* end = begin + row_.kind->corners;
-    for (const auto* v = begin; v != end; ++v) {
-      if (std::find(v + 1, end, *v) == end) continue;
-      fail({}, fmt::format("the point '{}' is repeated in the {}: expected different points",
-                           mesh_.point_numbers[*v], row_.kind->name));
     }
   }
 
@@ -280,51 +291,85 @@ class Reader {
       mesh_.notes.push_back(
           fmt::format("what {} includes is not read", in_quotes(trimmed_field(card_.text))));
     }
-    mesh_.deck[1] += lines_of(card_.text);
+    mesh_.deck[nastran_cards] += lines_of(card_.text);
     if (names_elements(card_.name) && element_cards_.insert(card_.name).second) {
       mesh_.notes.push_back(fmt::format(
           "the card {} names elements: where improving replaces them it must be made anew",
           card_.name));
     }
-    if (names_no_points(card_.name)) return;
-    std::int64_t before = 0;
-    bool is_range = false;
-    for (std::size_t i = 0; i < card_.field_count; ++i) {
-      std::int64_t number = 0;
-      const std::string_view field = card_.fields[i];
-      if (nastran_integer(field, number)) {
-        require(is_range ? before : number, number);
-        before = number;
-        is_range = false;
-      } else if (field == "THRU" || field == "thru") {
-        is_range = true;
-      }
-    }
+    NastranReferences references = nastran_references(card_);
+    std::erase_if(references.ranges, [this](const auto& range) {
+      return range.first > range.second ||
+             (range.first == range.second && find_point(range.first) == GmshTags::kNone);
+    });
+    if (!references.ranges.empty()) add_pins(references);
   }
 
-  /// All points with numbers from `first` to `last`.
-  void require(std::int64_t first, std::int64_t last) {
-    if (first == last) {
-      const std::uint32_t point = find_point(first);
-      if (point != GmshTags::kNone) is_required_[point] = true;
-      return;
-    }
-    ranges_.emplace_back(first, last);
+  void add_pins(const NastranReferences& references) {
+    Pins& pins = pins_[card_.name];
+    if (pins.first == nullptr) pins.first = card_.text.data();
+    ++pins.cards;
+    pins.is_known = references.is_known;
+    pins.ranges.insert(pins.ranges.end(), references.ranges.begin(), references.ranges.end());
+  }
+
+  /// Where in ascending order the numbers from `number` on begin.
+  std::size_t place_from(std::int64_t number) const {
+    const auto at = std::partition_point(order_.begin(), order_.end(), [&](std::uint32_t i) {
+      return mesh_.point_numbers[i] < number;
+    });
+    return static_cast<std::size_t>(at - order_.begin());
   }
 
   void require_points() {
-    for (const std::uint32_t point : required_) is_required_[point] = true;
-    std::sort(ranges_.begin(), ranges_.end());
-    std::size_t next = 0;  // in the order of numbers
-    const auto number = [&](std::size_t i) { return mesh_.point_numbers[order_[i]]; };
-    for (const auto& [first, last] : ranges_) {
-      while (next < order_.size() && number(next) < first) ++next;
-      for (; next < order_.size() && number(next) <= last; ++next) {
-        is_required_[order_[next]] = true;
+    std::vector<std::pair<std::size_t, std::size_t>> all;  // places, the last is behind
+    std::vector<std::pair<const std::string*, std::size_t>> counts;
+    for (auto& [name, pins] : pins_) {
+      std::size_t count = 0;
+      for (const auto& [first, last] : merged(std::move(pins.ranges))) {
+        const std::size_t begin = place_from(first);
+        const std::size_t end = last == INT64_MAX ? order_.size() : place_from(last + 1);
+        if (begin == end) continue;
+        all.emplace_back(begin, end);
+        count += end - begin;
       }
+      if (count > 0) counts.emplace_back(&name, count);
     }
-    for (std::uint32_t i = 0; i < is_required_.size(); ++i) {
-      if (is_required_[i]) mesh_.required_vertices.push_back(i);
+    std::vector<bool> is_required(order_.size(), false);
+    for (const auto& [begin, end] : merged(std::move(all))) {
+      for (std::size_t i = begin; i < end; ++i) is_required[order_[i]] = true;
+    }
+    for (std::uint32_t i = 0; i < is_required.size(); ++i) {
+      if (is_required[i]) mesh_.required_vertices.push_back(i);
+    }
+    remark(std::move(counts));
+  }
+
+  /// Says which cards keep how many points, in the order of the file.
+  void remark(std::vector<std::pair<const std::string*, std::size_t>> counts) {
+    constexpr std::size_t kMostRemarks = 20;
+    const auto pins_of = [this](const auto& entry) -> const Pins& {
+      return pins_.at(*entry.first);
+    };
+    std::sort(counts.begin(), counts.end(),
+              [&](const auto& a, const auto& b) { return pins_of(a).first < pins_of(b).first; });
+    if (counts.empty()) return;
+    std::string& text = mesh_.deck.emplace_back();  // nastran_remarks
+    for (std::size_t i = 0; i < std::min(counts.size(), kMostRemarks); ++i) {
+      const auto& [name, count] = counts[i];
+      const Pins& pins = pins_of(counts[i]);
+      const auto line = 1 + std::count(file_.begin(), pins.first, '\n');
+      text += fmt::format("line {}{}: {}{} {} {} {} where {}\n", line,
+                          pins.cards == 1 ? "" : fmt::format(" and {} more", pins.cards - 1), *name,
+                          *name == "GRID" ? " with constraints in field 8"
+                          : pins.is_known ? ""
+                                          : ", a card whose fields are not known,",
+                          pins.cards == 1 ? "keeps" : "keep", grouped(count),
+                          count == 1 ? "point" : "points", count == 1 ? "it is" : "they are");
+    }
+    if (counts.size() > kMostRemarks) {
+      text += fmt::format("{} more kinds of cards keep points where they are\n",
+                          counts.size() - kMostRemarks);
     }
   }
 
@@ -341,9 +386,7 @@ class Reader {
   std::vector<std::pair<std::int64_t, const char*>> elements_;  // number and place
   std::vector<std::uint32_t> order_;                            // in which their numbers ascend
   GmshTags tags_;
-  std::vector<bool> is_required_;
-  std::vector<std::uint32_t> required_;
-  std::vector<std::pair<std::int64_t, std::int64_t>> ranges_;
+  std::map<std::string, Pins> pins_;  // by the name of the card
   std::set<std::string> element_cards_;
 };
 

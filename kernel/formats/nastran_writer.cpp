@@ -31,33 +31,32 @@ void put_nastran_real(OutputBuffer& buffer, double value) {
   buffer.put(digits.substr(exponent));
 }
 
-/// Cards that stand in the deck by themselves, by the number of their point or element.
+/// Cards of points or elements that are kept word for word, by number. The text must outlive it.
 class WholeCards {
  public:
-  explicit WholeCards(const std::vector<std::string>& deck) {
+  WholeCards() = default;
+  explicit WholeCards(const std::string& text) {
+    NastranLines lines(text.data(), text.data() + text.size());
     NastranCardText card;
-    for (std::size_t i = kNastranPieces; i < deck.size(); ++i) {
-      NastranLines lines(deck[i].data(), deck[i].data() + deck[i].size());
+    while (!lines.at_end()) {
       lines.read(card);
       std::int64_t number = 0;
-      if (!nastran_integer(card.field(0), number)) continue;
-      (card.name == "GRID" ? points_ : elements_).emplace(number, &deck[i]);
+      if (nastran_integer(card.field(0), number)) cards_.emplace_back(number, card.text);
     }
+    std::stable_sort(cards_.begin(), cards_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
   }
-  WholeCards() = default;
 
-  /// Null if there is none.
-  const std::string* of_point(std::int64_t number) const { return find(points_, number); }
-  const std::string* of_element(std::int64_t number) const { return find(elements_, number); }
+  /// Empty if there is none.
+  std::string_view of(std::int64_t number) const {
+    const auto found =
+        std::lower_bound(cards_.begin(), cards_.end(), number,
+                         [](const auto& card, std::int64_t of) { return card.first < of; });
+    return found == cards_.end() || found->first != number ? std::string_view() : found->second;
+  }
 
  private:
-  using Cards = std::map<std::int64_t, const std::string*>;
-  static const std::string* find(const Cards& cards, std::int64_t number) {
-    if (cards.empty()) return nullptr;
-    const auto found = cards.find(number);
-    return found == cards.end() ? nullptr : found->second;
-  }
-  Cards points_, elements_;
+  std::vector<std::pair<std::int64_t, std::string_view>> cards_;
 };
 
 /// The largest numbers of points and of elements in the cards that are kept.
@@ -74,7 +73,7 @@ Largest largest_of_cards(const std::string& cards) {
     lines.read(card);
     const bool has_points = card.name == "SPOINT" || card.name == "EPOINT";
     const bool is_element = card.name.starts_with('C') || card.name.starts_with('R');
-    for (std::size_t i = 0; i < card.field_count && (has_points || is_element); ++i) {
+    for (std::size_t i = 0; i < card.fields.size() && (has_points || is_element); ++i) {
       std::int64_t number = 0;
       if (!nastran_integer(card.fields[i], number)) continue;
       std::int64_t& most = has_points ? largest.point : largest.element;
@@ -90,10 +89,11 @@ class Writer {
   Writer(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {
     const MeshData* data = mesh.data();
-    if (data != nullptr && data->variant == kNastran && data->deck.size() >= kNastranPieces) {
+    if (data != nullptr && data->variant == kNastran && data->deck.size() >= nastran_pieces) {
       deck_ = &data->deck;
-      cards_ = WholeCards(*deck_);
-      largest_ = largest_of_cards((*deck_)[1]);
+      points_of_deck_ = WholeCards((*deck_)[nastran_points]);
+      elements_of_deck_ = WholeCards((*deck_)[nastran_elements]);
+      largest_ = largest_of_cards((*deck_)[nastran_cards]);
     }
   }
 
@@ -101,11 +101,11 @@ class Writer {
     number_points();
     number_elements();
     number_properties();
-    out_.put(deck_ == nullptr ? "BEGIN BULK\n" : (*deck_)[0]);
+    out_.put(deck_ == nullptr ? "BEGIN BULK\n" : (*deck_)[nastran_front]);
     write_points();
     for (std::size_t k = 0; k < lists_.all().size(); ++k) write_elements(k);
-    if (deck_ != nullptr) out_.put((*deck_)[1]);
-    out_.put(deck_ == nullptr ? "ENDDATA\n" : (*deck_)[2]);
+    if (deck_ != nullptr) out_.put((*deck_)[nastran_cards]);
+    out_.put(deck_ == nullptr ? "ENDDATA\n" : (*deck_)[nastran_end]);
     out_.commit();
   }
 
@@ -178,7 +178,10 @@ class Writer {
 
   void write_points() {
     put_rows(out_, mesh_.point_count(), [this](std::size_t i, OutputBuffer& buffer) {
-      if (const std::string* card = cards_.of_point(points_[i])) return buffer.put(*card);
+      const std::string_view known = points_of_deck_.of(points_[i]);
+      NastranCardText card;
+      if (!known.empty()) NastranLines(known.data(), known.data() + known.size()).read(card);
+      if (!known.empty() && stands_at(card, mesh_.point(i))) return buffer.put(known);
       buffer.put("GRID*,");
       buffer.put_integer(points_[i]);
       buffer.put(",,");
@@ -187,8 +190,24 @@ class Writer {
       put_nastran_real(buffer, mesh_.point(i)[1]);
       buffer.put("\n*,");
       put_nastran_real(buffer, mesh_.point(i)[2]);
+      // What else the card of a point that moved says: fields 7 to 9.
+      for (std::size_t k = 5; k < 8 && !known.empty(); ++k) {
+        buffer.put(',');
+        buffer.put(card.field(k));
+      }
       buffer.put('\n');
     });
+  }
+
+  /// True if the card says just this place.
+  static bool stands_at(const NastranCardText& card, const Point& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view field = card.field(2 + static_cast<std::size_t>(axis));
+      double value = 0;
+      if (!field.empty() && !nastran_real(field, value)) return false;
+      if (value != point[axis]) return false;
+    }
+    return true;
   }
 
   void write_elements(std::size_t k) {
@@ -199,7 +218,8 @@ class Writer {
     if (card == kNastranCards.end()) return;
     put_rows(out_, list.count, [&](std::size_t i, OutputBuffer& buffer) {
       const std::int64_t number = elements_[k][i];
-      if (const std::string* whole = cards_.of_element(number)) return buffer.put(*whole);
+      const std::string_view whole = elements_of_deck_.of(number);
+      if (!whole.empty()) return buffer.put(whole);
       buffer.put(card->name);
       buffer.put(',');
       buffer.put_integer(number);
@@ -227,7 +247,7 @@ class Writer {
   const MeshView& mesh_;
   ElementLists lists_;
   const std::vector<std::string>* deck_ = nullptr;  // null: not ours
-  WholeCards cards_;
+  WholeCards points_of_deck_, elements_of_deck_;
   Largest largest_;
   std::vector<std::int64_t> points_;                 // their numbers
   std::vector<std::vector<std::int64_t>> elements_;  // of each list

@@ -195,7 +195,6 @@ class Reader {
     for (std::size_t k = 0; k < row.kind->width; ++k) {
       row.vertices[k] = listed[order == nullptr ? k : order[k]];
     }
-    check_corners(text, row, 1);
   }
 
   void read_volumes() {
@@ -281,14 +280,10 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) {
       Segment segment{};
       segment[0] = text_.label("the number of a surface");
-      const char* place = text_.last_word();
       text_.label("a number");
       std::array<std::uint32_t, 2> ends{};
       for (std::uint32_t& end : ends) {
         end = static_cast<std::uint32_t>(text_.integer("a point number", 1, last_point_) - 1);
-      }
-      if (ends[0] == ends[1]) {
-        text_.fail_at(place, repeated_vertex_message(MeshData::Edge{ends, 0}, 1));
       }
       for (std::size_t k = 2; k < segment.size() && is_full; ++k) {
         segment[k] = text_.real("a number of an edge");

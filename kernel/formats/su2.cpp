@@ -219,7 +219,6 @@ class Reader {
       for (std::size_t k = 0; k < row.kind->width; ++k) {
         row.vertices[k] = static_cast<std::uint32_t>(text.integer("a vertex number", 0, last));
       }
-      check_corners(text, row, 0);
       if (!text.at_line_end()) text.integer("the number of an element", INT64_MIN, INT64_MAX);
     };
     read_element_rows(text_, count, read, [this](const ElementRow& row) {

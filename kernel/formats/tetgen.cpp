@@ -260,9 +260,6 @@ class Reader {
     for (std::uint32_t& vertex : element.vertices) {
       vertex = static_cast<std::uint32_t>(table.integer("a vertex number", base_, last) - base_);
     }
-    if (has_repeated_vertex(element.vertices)) {
-      table.text().fail(repeated_vertex_message(element, static_cast<std::uint32_t>(base_)));
-    }
   }
 
   std::filesystem::path file_;

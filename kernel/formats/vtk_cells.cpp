@@ -163,9 +163,6 @@ class Assembly {
                                 element_name(element), element.vertices.size()));
     }
     for (std::size_t i = 0; i < size; ++i) element.vertices[i] = vertex_at(begin + i);
-    if (has_repeated_vertex(element.vertices)) {
-      text_.fail_at(locate_vertex(begin), repeated_vertex_message(element, 0));
-    }
     elements.push_back(element);
     if (is_asked_for(question_, elements, elements.back())) {
       question_->place = text_.place_of(locate_vertex(begin));

@@ -16,6 +16,7 @@
 #include "schedule/limit/surface_limit.h"
 #include "tests/apps/program.h"
 #include "tests/support/text.h"
+#include "tests/support/turned_ring.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -102,14 +103,6 @@ MeshData jittered_cube(std::uint32_t n) {
       if (odd) std::swap(mesh.tets.back().vertices[2], mesh.tets.back().vertices[3]);
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
-  return mesh;
-}
-
-/// Two tets on the same side of their common face; the second is the one to complain about.
-MeshData folded_mesh() {
-  MeshData mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}};
-  mesh.tets = {{{0, 1, 2, 3}, 0}, {{0, 1, 2, 4}, 0}};
   return mesh;
 }
 
@@ -427,7 +420,8 @@ TEST_CASE("a bad file gives one line with its place, status 1, and leaves an old
   check_complaint(run_program({"quality", (folder / "missing.mesh").string()}), 1);
 }
 
-TEST_CASE("two tets on the same side of a face are located in every format") {
+TEST_CASE(
+    "tets that no order of vertices puts on two sides of a face are located in every format") {
   const TempFolder folder;
   const auto check_place = [&folder](const std::string& name, const std::string& place) {
     CAPTURE(name);
@@ -436,25 +430,26 @@ TEST_CASE("two tets on the same side of a face are located in every format") {
     CHECK(contains(outcome.err, place));
     CHECK(contains(outcome.err, "same side"));
   };
-  write_mesh(folder / "a.mesh", folded_mesh());
-  check_place("a.mesh", "a.mesh:13: ");
+  write_mesh(folder / "a.mesh", turned_ring());
+  check_place("a.mesh", "a.mesh:20: ");
   for (const std::string name : {"a.meshb", "a.vtk", "a.ele"}) {
     CAPTURE(name);  // a mesh of broken topology converts
     CHECK(run_program({"convert", (folder / "a.mesh").string(), (folder / name).string()}).status ==
           0);
   }
-  check_place("a.meshb", "a.meshb: byte 204: ");
-  check_place("a.ele", "a.ele:3: ");
-  check_place("a.node", "a.ele:3: ");
+  check_place("a.meshb", "a.meshb: byte 368: ");
+  check_place("a.ele", "a.ele:7: ");
+  check_place("a.node", "a.ele:7: ");
   const std::string vtk = read_text(folder / "a.vtk");
-  constexpr std::size_t kFirstCells = 6 * 4;  // 4 0 1 2 3, then the 4 of the second tet
+  constexpr std::size_t kFirstCells = 26 * 4;  // five times 4 0 1 2 3, then the 4 of the sixth tet
   check_place("a.vtk", "a.vtk: byte " +
                            std::to_string(vtk.find('\n', vtk.find("CELLS ")) + 1 + kFirstCells));
   write_text(folder / "b.vtk",
-             "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
-             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 2\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 0 1 2 4\n"
-             "CELL_TYPES 3\n5\n10\n10\n");
-  check_place("b.vtk", "b.vtk:14: ");
+             "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n2 0 1\n0 2 1\n1 1 3\nCELLS 9 44\n3 0 1 2\n"
+             "4 0 1 2 3\n4 1 2 3 4\n4 2 3 4 5\n4 3 4 5 6\n4 4 5 6 7\n4 5 6 7 1\n4 6 7 1 0\n"
+             "4 7 1 0 2\nCELL_TYPES 9\n5\n10\n10\n10\n10\n10\n10\n10\n10\n");
+  check_place("b.vtk", "b.vtk:21: ");
 }
 
 TEST_CASE("an output that cannot be written is found out before the work begins") {

@@ -17,6 +17,7 @@
 #include "schedule/schedule.h"
 #include "tests/face/meshes.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/turned_ring.h"
 
 using namespace tetmend;
 using namespace tetmend::contract;
@@ -32,17 +33,17 @@ bool equal(const Mesh& a, const Mesh& b) {
          a.arrays().triangles == b.arrays().triangles;
 }
 
-/// Tets 0 and 1 lie on the same side of their common face; tet 2 lists its vertices the other way
-/// round. A mirrored mesh has all of them so.
-Mesh folded_mesh(bool mirrored) {
+/// With one of each kind of element. A mirrored one lists all tets the other way round.
+Mesh turned_mesh(bool mirrored) {
   MeshArrays arrays;
-  arrays.points = {{0, 0, 2}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-  arrays.point_labels = {1, 2, 3, 4, 5, 6};
-  arrays.tets = {{1, 2, 3, 4}, {1, 2, 3, 0}, {3, 2, 4, 5}};
+  const MeshData ring = turned_ring();
+  for (const Point& p : ring.points) arrays.points.push_back({p.x(), p.y(), p.z()});
+  arrays.point_labels = {1, 2, 3, 4, 5, 6, 7, 8};
+  for (const MeshData::Tet& tet : ring.tets) arrays.tets.push_back(tet.vertices);
   for (auto& tet : arrays.tets) {
     if (mirrored) std::swap(tet[0], tet[1]);
   }
-  arrays.tet_labels = {3, 4, 5};
+  arrays.tet_labels = {3, 4, 5, 3, 4, 5, 3, 4};
   arrays.triangles = {{1, 2, 3}};
   arrays.edges = {{0, 1}};
   arrays.required_vertices = {4};
@@ -170,13 +171,13 @@ TEST_CASE("a mesh that nothing is done to keeps all its vertices and tets") {
 TEST_CASE("a mesh of broken topology is told with its place and stays as it was") {
   for (const bool mirrored : {false, true}) {
     CAPTURE(mirrored);
-    const Mesh old = folded_mesh(mirrored);
+    const Mesh old = turned_mesh(mirrored);
     Mesh mesh = old;
     CHECK(message_of([&] { improve(mesh); }) ==
           (mirrored
-               ? "tet 1 (vertices 2 1 3 0) and tet 0 (vertices 2 1 3 4) lie on the same side of "
+               ? "tet 5 (vertices 6 5 7 1) and tet 4 (vertices 5 4 6 7) lie on the same side of "
                  "their common face, counted from 0"
-               : "tet 1 (vertices 1 2 3 0) and tet 0 (vertices 1 2 3 4) lie on the same side of "
+               : "tet 5 (vertices 5 6 7 1) and tet 4 (vertices 4 5 6 7) lie on the same side of "
                  "their common face, counted from 0"));
     CHECK(equal(mesh, old));
     CHECK(mesh.arrays().point_labels == old.arrays().point_labels);
@@ -188,17 +189,17 @@ TEST_CASE("a mesh of broken topology is told with its place and stays as it was"
 TEST_CASE("a mesh of broken topology from a file is told with its line, as often as one asks") {
   const TempFolder folder;
   const auto file = folder / "a.mesh";
-  save(file, folded_mesh(false));
+  save(file, turned_mesh(false));
   const std::string text = read_text(file);
   const auto line =
       1 + std::count(text.begin(),
-                     text.begin() + static_cast<std::ptrdiff_t>(text.find("\n2 3 4 1 4\n") + 1),
+                     text.begin() + static_cast<std::ptrdiff_t>(text.find("\n6 7 8 2 5\n") + 1),
                      '\n');
   Mesh mesh = load(file);
   for (int i = 0; i < 2; ++i) {
     CHECK(message_of([&] { improve(mesh); })
               .starts_with(
-                  fmt::format("{}:{}: tet 2 (vertices 2 3 4 1) and tet 1 ", file.string(), line)));
+                  fmt::format("{}:{}: tet 6 (vertices 6 7 8 2) and tet 5 ", file.string(), line)));
   }
   mesh = Mesh();
   CHECK(message_of([&] { improve(mesh); }) == "the mesh has no tetrahedra");

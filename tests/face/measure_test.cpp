@@ -9,6 +9,7 @@
 #include "schedule/limit/surface_limit.h"
 #include "tests/face/meshes.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/turned_ring.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -42,18 +43,18 @@ TEST_CASE("a measure that is unknown is found out, and each that is listed is kn
 }
 
 TEST_CASE("broken topology is told with the line of the file, or the number in the arrays") {
-  MeshArrays folded;
-  folded.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 2}};
-  folded.tets = {{0, 1, 2, 3}, {0, 1, 2, 4}};
-  const Mesh mesh(folded);
+  MeshArrays turned;
+  for (const Point& p : turned_ring().points) turned.points.push_back({p.x(), p.y(), p.z()});
+  for (const MeshData::Tet& tet : turned_ring().tets) turned.tets.push_back(tet.vertices);
+  const Mesh mesh(turned);
   CHECK(
       message_of([&] { measure(mesh); }) ==
-      "tet 1 (vertices 0 1 2 4) and tet 0 (vertices 0 1 2 3) lie on the same side of their common "
+      "tet 5 (vertices 5 6 7 1) and tet 4 (vertices 4 5 6 7) lie on the same side of their common "
       "face, counted from 0");
   const TempFolder folder;
   save(folder / "a.mesh", mesh);
   CHECK(message_of([&] {
           measure(load(folder / "a.mesh"));
-        }).starts_with((folder / "a.mesh").string() + ":13: tet 2 (vertices 1 2 3 5) and tet 1"));
+        }).starts_with((folder / "a.mesh").string() + ":20: tet 6 (vertices 6 7 8 2) and tet 5"));
   CHECK(message_of([] { measure(Mesh()); }) == "the mesh has no tetrahedra");
 }

@@ -181,7 +181,6 @@ TEST_CASE("bad files of Elmer are refused with file, line and reason") {
       {&Files::nodes, "5 -1 1 1 1", "5 -1 1 inf 1", "mesh.nodes:5: ", "not a finite number"},
       {&Files::elements, "504 2 3 4 5", "504 2 3 4 12",
        "mesh.elements:2: ", "'12' is not the number of a node"},
-      {&Files::elements, "504 2 3 4 5", "504 2 3 4 2", "mesh.elements:2: ", "a vertex is repeated"},
       {&Files::elements, "504 2 3 4 5", "303 2 3 4",
        "mesh.elements:2: ", "elements of type 303 cannot be read here"},
       {&Files::elements, "2 2 504", "2 9999999999 504",

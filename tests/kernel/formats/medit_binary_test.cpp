@@ -207,7 +207,6 @@ TEST_CASE("a bad binary MEDIT file is refused with byte and reason") {
        "60: ", "4294967299 is out of range"},
       {"label of 64 bits", with_tets(4, 1, {1, 2, 3, 4, INT64_C(2147483648)}),
        "76: ", "the reference 2147483648"},
-      {"repeated", int32_at(36, 1), "32: ", "a vertex is repeated in the tetrahedron '1 1 3 4'"},
       {"not finite", with_bytes(good, 64, Bytes().add(nan)), "64: ", "nan is not a finite number"},
       {"no vertices", Meshb(2, std::endian::little).rows(8, 0, {}).end(),
        "40: ", "the section Vertices is missing"},

@@ -2,8 +2,11 @@
 // Nastran's bulk data: three forms of fields, numbers that stay, and the rest of the deck.
 #include "kernel/formats/nastran.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
+#include "kernel/formats/deck_remarks.h"
 #include "kernel/formats/nastran_card.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
@@ -58,10 +61,17 @@ std::string replaced(std::string text, std::string_view what, std::string_view w
   return text.replace(at, what.size(), with);
 }
 
+/// Without the remarks, which have lines of the file.
+std::vector<std::string> deck_of(const MeshData& mesh) {
+  std::vector<std::string> deck = mesh.deck;
+  deck.resize(std::min<std::size_t>(deck.size(), formats::nastran_pieces));
+  return deck;
+}
+
 bool same_extras(const MeshData& a, const MeshData& b) {
-  return a.other_elements == b.other_elements && a.deck == b.deck && a.variant == b.variant &&
-         a.point_numbers == b.point_numbers && a.tet_numbers == b.tet_numbers &&
-         a.triangle_numbers == b.triangle_numbers;
+  return a.other_elements == b.other_elements && deck_of(a) == deck_of(b) &&
+         a.variant == b.variant && a.point_numbers == b.point_numbers &&
+         a.tet_numbers == b.tet_numbers && a.triangle_numbers == b.triangle_numbers;
 }
 
 }  // namespace
@@ -95,9 +105,12 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
       "FORCE   2       90      0       1.0     0.0     0.0     1.0\n",
       "ENDDATA\n$ behind\n", "GRID,50,,1,0,0,2\n",
       "CTRIA3  15      4       10      20      40      45.\n"};
-  CHECK(mesh.deck == deck);
-  // 50 for its own coordinates, 60 to 80 for SPC1, 90 for FORCE.
-  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{4, 5, 6, 7, 8});
+  CHECK(deck_of(mesh) == deck);
+  // 60 to 80 for SPC1, 90 for FORCE. The coordinates of 50 are no constraint.
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 6, 7, 8});
+  CHECK(deck_remarks(mesh) ==
+        std::vector<std::string>{"line 31: SPC1 keeps 3 points where they are",
+                                 "line 32: FORCE keeps 1 point where it is"});
 }
 
 TEST_CASE("a deck of Nastran survives writing, and the second time with the same bytes") {
@@ -112,6 +125,76 @@ TEST_CASE("a deck of Nastran survives writing, and the second time with the same
   CHECK(same_extras(again, mesh));
   write_mesh(folder / "c.nas", again);
   CHECK(test::read_text(folder / "b.nas") == test::read_text(folder / "c.nas"));
+}
+
+TEST_CASE("a card of Nastran keeps the points that it names, and no other number") {
+  const std::vector<std::pair<std::string, std::vector<std::uint32_t>>> cards = {
+      {"GRAV,10,,9.8,20.", {}},
+      {"LOAD,10,1.,1.,20,1.,30", {}},
+      {"PLOAD4,10,20,1.", {}},
+      {"PLOAD4,10,20,1.,,,,30,40", {2, 3}},
+      {"PLOAD4,10,20,1.,,,,THRU,40", {}},
+      {"MOMENT,10,20,30,1.,0.,0.,1.", {1}},
+      {"SPC,10,20,30,0.,40,50,0.", {1, 3}},
+      {"SPC1,10,20,30,THRU,60", {2, 3, 4, 5}},
+      {"MPC,10,20,30,1.,40,50,-1.,,+\n+,,60,70,1.,80,90,1.", {1, 3, 5, 7}},
+      {"RBE2,10,20,30,40,50", {1, 3, 4}},
+      {"RBE3,10,,20,30,1.,40,50,60,+\n+,70,2.,80,90,UM,100,10", {1, 4, 5, 6, 8, 9}},
+      {"CBAR,10,20,30,40,50", {2, 3, 4}},
+      {"CBAR,10,20,30,40,0.,0.,1.", {2, 3}},
+      {"CONM2,10,20,30,40.", {1}},
+      {"CELAS1,10,20,30,40,50,60", {2, 4}},
+      {"TEMP,10,20,30.,40,50.", {1, 3}},
+      {"CORD1R,10,20,30,40", {1, 2, 3}},
+      {"ASET,10,20,30,40", {0, 2}},
+      {"ASET1,10,20,30", {1, 2}},
+      {"DMIG,10,0,20,30", {}},
+      {"DMIG,A,10,20,,30,40,1.", {0, 2}},
+      {"SET3,10,ELEM,20,30", {}},
+      {"SET3,10,GRID,20,30", {1, 2}},
+      {"PARAM,GRDPNT,20", {1}},
+      {"TSTEP,10,20,30.,40", {}},
+      {"DESVAR,10,A,20.", {}},
+      {"GRDSET,,,,,,,20", {}},
+      {"UNHEARD,10,20", {0, 1}}};
+  std::string base = text();
+  for (const char* line : {"SPC1,1,123,60,THRU,85\n",
+                           "FORCE   2       90      0       1.0     0.0     0.0     1.0\n"}) {
+    base = replaced(base, line, "");
+  }
+  const TempFolder folder;
+  for (const auto& [card, expected] : cards) {
+    CAPTURE(card);
+    CHECK(read(folder, replaced(base, "ENDDATA", card + "\nENDDATA")).required_vertices ==
+          expected);
+  }
+}
+
+TEST_CASE("the last of a thousand fields of a card of Nastran keeps its point as the first does") {
+  std::string card = "SPC1,1,123,10,10,10,10,10,10,+\n";
+  for (int i = 0; i < 120; ++i) card += "+,10,10,10,10,10,10,10,10,+\n";
+  const TempFolder folder;
+  const MeshData mesh = read(folder, replaced(text(), "SPC1,1,123,60,THRU,85\n", card + "+,20\n"));
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 8});
+}
+
+TEST_CASE("fields 7 to 9 of a GRID go where the point goes, and field 8 alone keeps it in place") {
+  const TempFolder folder;
+  const std::string base = replaced(text(), "SPC1,1,123,60,THRU,85\n", "");
+  MeshData mesh = read(folder, replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,3,456,2\n"));
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 8});
+  CHECK(deck_remarks(mesh)[0] ==
+        "line 24: GRID with constraints in field 8 keeps 1 point where it is");
+  mesh.points[4].x() = 1.5;
+  write_mesh(folder / "b.bdf", mesh);
+  const std::string written = test::read_text(folder / "b.bdf");
+  CHECK(written.find("GRID*,50,,1.5,0.\n*,0.,2,,\n") != std::string::npos);  // moved
+  CHECK(written.find("GRID,60,,1,.5,0,3,456,2\n") != std::string::npos);     // as it was
+  const MeshData again = read_mesh(folder / "b.bdf");
+  CHECK(again.points == mesh.points);
+  CHECK(again.required_vertices == mesh.required_vertices);
+  const MeshData zero = read(folder, replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,0,0\n"));
+  CHECK(zero.required_vertices == std::vector<std::uint32_t>{8});
 }
 
 TEST_CASE("middle nodes of Nastran's bricks and wedges come in another order than VTK's") {
@@ -253,8 +336,6 @@ TEST_CASE("a bad deck of Nastran is refused with line and reason") {
        "the file ends where ENDDATA is expected"},
       {"no point", replaced(good, "CTETRA,5,,20", "CTETRA,5,,21"),
        "15: ", "'21' is not the number of a point: expected one of GRID"},
-      {"repeated", replaced(good, "CTETRA,5,,20", "CTETRA,5,,30"),
-       "15: ", "the point '30' is repeated in the tetrahedron"},
       {"few", replaced(good, "CTETRA,5,,20,30,40,110", "CTETRA,5,,20,30,40"),
        "15: ", "'' is not an integer: expected the number of a point"},
       {"order", replaced(good, "CTETRA,5,,20,30,40,110", "CTETRA,5,,20,30,40,110,10"),

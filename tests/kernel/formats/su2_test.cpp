@@ -186,8 +186,6 @@ TEST_CASE("a bad SU2 file is refused with line and reason") {
       {"zones", "NZONE= 2\n" + good, "1: ", "several zones cannot be read"},
       {"range", replaced(good, "10\t1 2 3 4", "10\t1 2 3 11"),
        "5: ", "'11' is out of range: expected a vertex number, 0 to 10"},
-      {"repeated", replaced(good, "10\t1 2 3 4", "10\t1 2 3 2"),
-       "5: ", "a vertex is repeated in the tetrahedron '1 2 3 2'"},
       {"type", replaced(good, "10\t1 2 3 4", "5\t1 2 3 4"),
        "5: ", "elements of type 5 cannot be read here: expected 10"},
       {"type", replaced(good, "5 0 1 2\n", "3 0 1\n"),

@@ -263,8 +263,6 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
       {"index behind one of 64 bits",
        replaced(good, "2 9\n4 0 1 2 3\n3 0 1 2\n", "2 9\n4 0 1 2 3\n2 4294967298 1 7\n"),
        ":10: ", "'2' is not the number of vertices of a triangle: expected 3"},
-      {"repeated", replaced(good, "4 0 1 2 3", "4 0 1 1 3"),
-       ":9: ", "repeated in the tetrahedron '0 1 1 3'"},
       {"tet of 3", replaced(good, "10\n5", "5\n10"),
        ":9: ", "'4' is not the number of vertices of a triangle: expected 3"},
       {"size too great", replaced(good, "3 0 1 2\n", "9 0 1 2\n"),

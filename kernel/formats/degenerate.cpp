@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+// Elements that no mesh can have: with a vertex twice, or listed a second time.
+#include "kernel/formats/degenerate.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "kernel/chunks.h"
+#include "kernel/formats/cell_arrays.h"
+#include "kernel/formats/element_kinds.h"
+#include "kernel/grouped.h"
+#include "kernel/grouping.h"
+#include "kernel/lists_of_kind.h"
+
+namespace tetmend::formats {
+namespace {
+
+/// Elements of one kind, each by its corners.
+struct CornerRows {
+  const std::uint32_t* first = nullptr;
+  std::size_t stride = 0;  // in numbers
+  std::size_t count = 0;
+  std::size_t width = 0;
+
+  std::span<const std::uint32_t> of(std::size_t i) const { return {first + i * stride, width}; }
+};
+
+template <class Element>
+CornerRows corner_rows(const std::vector<Element>& elements) {
+  static_assert(sizeof(Element) % sizeof(std::uint32_t) == 0);
+  if (elements.empty()) return {};
+  return {elements[0].vertices.data(), sizeof(Element) / sizeof(std::uint32_t), elements.size(),
+          std::tuple_size_v<decltype(Element::vertices)>};
+}
+
+bool has_corner_twice(std::span<const std::uint32_t> v) {
+  bool found = false;
+  for (std::size_t i = 1; i < v.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) found |= v[i] == v[j];
+  }
+  return found;
+}
+
+std::vector<std::uint32_t> find_collapsed(const CornerRows& all) {
+  const auto parts =
+      map_chunks<std::vector<std::uint32_t>>(all.count, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> found;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (has_corner_twice(all.of(i))) found.push_back(static_cast<std::uint32_t>(i));
+        }
+        return found;
+      });
+  std::vector<std::uint32_t> found;
+  for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
+  return found;
+}
+
+/// A tet that is there already, and the first with its corners.
+struct Repeated {
+  std::uint32_t tet = 0;
+  std::uint32_t first = 0;
+};
+
+/// The same whatever the order of the corners.
+std::uint64_t hash_of(std::span<const std::uint32_t> v) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t i : v) {
+    const std::uint64_t mixed = (i + 1) * 0x9E3779B97F4A7C15u;
+    sum += mixed ^ (mixed >> 29);
+  }
+  return sum;
+}
+
+/// Looks at the tets with one smallest corner.
+class Comparison {
+ public:
+  explicit Comparison(const CornerRows& all) : all_(all) {}
+
+  void look_at(std::span<const std::uint32_t> tets) {
+    if (tets.size() < 2 || !has_equal_hashes(tets)) return;
+    rows_.clear();
+    for (const std::uint32_t t : tets) {
+      auto& [corners, number] = rows_.emplace_back();
+      const auto v = all_.of(t);
+      std::copy(v.begin(), v.end(), corners.begin());
+      std::sort(corners.begin(), corners.end());
+      number = t;
+    }
+    std::sort(rows_.begin(), rows_.end());
+    std::uint32_t first = rows_[0].second;
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+      if (rows_[i].first != rows_[i - 1].first) {
+        first = rows_[i].second;
+      } else if (!has_corner_twice(rows_[i].first)) {
+        found_.push_back({rows_[i].second, first});
+      }
+    }
+  }
+  std::vector<Repeated> take() { return std::move(found_); }
+
+ private:
+  /// Most meshes end here, so it must cost next to nothing.
+  bool has_equal_hashes(std::span<const std::uint32_t> tets) {
+    constexpr std::size_t kFew = 16;
+    hashes_.clear();
+    for (const std::uint32_t t : tets) hashes_.push_back(hash_of(all_.of(t)));
+    if (hashes_.size() > kFew) {
+      std::sort(hashes_.begin(), hashes_.end());
+      return std::adjacent_find(hashes_.begin(), hashes_.end()) != hashes_.end();
+    }
+    bool found = false;
+    for (std::size_t i = 1; i < hashes_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) found |= hashes_[i] == hashes_[j];
+    }
+    return found;
+  }
+
+  const CornerRows& all_;
+  std::vector<std::uint64_t> hashes_;
+  std::vector<std::pair<std::array<std::uint32_t, 4>, std::uint32_t>> rows_;
+  std::vector<Repeated> found_;
+};
+
+/// In ascending order.
+std::vector<Repeated> find_repeated(const CornerRows& all, std::size_t points) {
+  constexpr std::size_t kVerticesOfChunk = 2048;
+  std::vector<std::uint32_t> smallest(all.count);
+  for_chunks(all.count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto v = all.of(i);
+      smallest[i] = std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
+    }
+  });
+  const Grouping groups = group_by_key(smallest, static_cast<std::uint32_t>(points));
+  const auto parts = map_chunks<std::vector<Repeated>>(
+      points,
+      [&](std::size_t begin, std::size_t end) {
+        Comparison comparison(all);
+        for (std::size_t v = begin; v < end; ++v) {
+          comparison.look_at(groups.group(static_cast<std::uint32_t>(v)));
+        }
+        return comparison.take();
+      },
+      kVerticesOfChunk);
+  std::vector<Repeated> found;
+  for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
+  std::sort(found.begin(), found.end(),
+            [](const Repeated& a, const Repeated& b) { return a.tet < b.tet; });
+  return found;
+}
+
+/// What a list has, whatever it is called where it comes from.
+struct Elements {
+  CornerRows corners;
+  std::string_view name;
+  const std::vector<std::int64_t>& numbers;
+  std::function<Label(std::size_t)> label;
+};
+
+class Dropping {
+ public:
+  explicit Dropping(MeshData& mesh) : mesh_(mesh) {}
+
+  std::vector<std::uint32_t> run() {
+    const std::vector<std::uint32_t> tets = find(list_of("tet", tets_of(mesh_)));
+    erase(tets, tets_of(mesh_), 3);
+    erase(find(list_of("triangle", triangles_of(mesh_))), triangles_of(mesh_), 2);
+    erase(find(list_of("edge", edges_of(mesh_))), edges_of(mesh_), 1);
+    for (OtherElements& others : mesh_.other_elements) drop_others(others);
+    return tets;
+  }
+
+ private:
+  template <class Lists>
+  static Elements list_of(std::string_view name, const Lists& lists) {
+    const auto& elements = lists.elements;
+    return {corner_rows(elements), name, lists.numbers,
+            [&elements](std::size_t i) { return elements[i].label; }};
+  }
+
+  /// Numbers of those to be dropped, ascending; they are noted.
+  std::vector<std::uint32_t> find(const Elements& elements) {
+    std::vector<std::uint32_t> found = find_collapsed(elements.corners);
+    note_collapsed(elements, found);
+    if (elements.corners.width < 4) return found;
+    const std::vector<Repeated> repeated = find_repeated(elements.corners, mesh_.points.size());
+    note_repeated(elements, repeated);
+    for (const Repeated& each : repeated) found.push_back(each.tet);
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  static std::int64_t number_of(const Elements& elements, std::size_t i) {
+    return elements.numbers.empty() ? static_cast<std::int64_t>(i) + 1 : elements.numbers[i];
+  }
+
+  /// "tet 49 (vertices 3 3 17 4)"
+  std::string describe(const Elements& elements, std::size_t i) const {
+    std::vector<std::int64_t> vertices;
+    for (const std::uint32_t v : elements.corners.of(i)) {
+      vertices.push_back(mesh_.point_numbers.empty() ? std::int64_t{v} + 1
+                                                     : mesh_.point_numbers[v]);
+    }
+    return fmt::format("{} {} (vertices {})", elements.name, number_of(elements, i),
+                       fmt::join(vertices, " "));
+  }
+
+  void note_collapsed(const Elements& elements, const std::vector<std::uint32_t>& found) {
+    if (found.empty()) return;
+    const std::string first = describe(elements, found[0]);
+    mesh_.notes.push_back(found.size() == 1
+                              ? fmt::format("{} has a vertex twice: dropped", first)
+                              : fmt::format("{} {}s have a vertex twice, the first is {}: dropped",
+                                            grouped(found.size()), elements.name, first));
+  }
+
+  void note_repeated(const Elements& elements, const std::vector<Repeated>& found) {
+    if (found.empty()) return;
+    std::string first = fmt::format("tet {} is tet {} again", number_of(elements, found[0].tet),
+                                    number_of(elements, found[0].first));
+    const Label label = elements.label(found[0].tet);
+    if (const Label other = elements.label(found[0].first); label != other) {
+      first += fmt::format(", with label {} instead of {}", label, other);
+    }
+    mesh_.notes.push_back(found.size() == 1
+                              ? first + ": dropped"
+                              : fmt::format("{} tets are there already, {} and so on: dropped",
+                                            grouped(found.size()), first));
+  }
+
+  /// The rows that stay, of so many.
+  static std::vector<std::uint32_t> others_than(const std::vector<std::uint32_t>& dropped,
+                                                std::size_t count) {
+    std::vector<std::uint32_t> kept;
+    auto next = dropped.begin();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (next != dropped.end() && *next == i) {
+        ++next;
+      } else {
+        kept.push_back(i);
+      }
+    }
+    return kept;
+  }
+
+  template <class Values>
+  static void select(Values& values, const std::vector<std::uint32_t>& rows,
+                     std::size_t width = 1) {
+    if (values.empty()) return;
+    Values selected;
+    for (const std::uint32_t row : rows) {
+      const auto from = values.begin() + static_cast<std::ptrdiff_t>(row * width);
+      selected.insert(selected.end(), from, from + static_cast<std::ptrdiff_t>(width));
+    }
+    values = std::move(selected);
+  }
+
+  template <class Lists>
+  void erase(const std::vector<std::uint32_t>& dropped, const Lists& lists, int dimension) {
+    if (dropped.empty()) return;
+    const std::size_t count = lists.elements.size();
+    const std::vector<std::uint32_t> kept = others_than(dropped, count);
+    select(lists.elements, kept);
+    select(lists.parts, kept);
+    select(lists.numbers, kept);
+    for (DataArray& array : lists.data) array = selected_rows(array, kept);
+    std::vector<std::uint32_t> place(count, kGone);
+    for (std::uint32_t i = 0; i < kept.size(); ++i) place[kept[i]] = i;
+    for (Group& group : mesh_.groups) {
+      if (group.dimension != dimension) continue;
+      for (std::uint32_t& member : group.members) member = place[member];
+      std::erase(group.members, kGone);
+    }
+  }
+
+  void drop_others(OtherElements& others) {
+    const ElementKind* const kind = element_kind(others.vtk_type);
+    if (kind == nullptr || others.vertex_count != kind->width) return;
+    constexpr std::array<std::pair<int, std::string_view>, 3> kSecondOrder = {
+        {{vtk_tet10, "tet"}, {vtk_triangle6, "triangle"}, {vtk_edge3, "edge"}}};
+    for (const auto& [type, name] : kSecondOrder) {
+      if (others.vtk_type != type) continue;
+      const std::vector<std::uint32_t> dropped =
+          find({{others.vertices.data(), kind->width, others.labels.size(), kind->corners},
+                name,
+                others.numbers,
+                [&](std::size_t i) { return others.labels[i]; }});
+      if (dropped.empty()) return;
+      const std::vector<std::uint32_t> kept = others_than(dropped, others.labels.size());
+      select(others.vertices, kept, kind->width);
+      select(others.labels, kept);
+      select(others.parts, kept);
+      select(others.numbers, kept);
+      for (DataArray& array : others.data) array = selected_rows(array, kept);
+    }
+  }
+
+  static constexpr std::uint32_t kGone = UINT32_MAX;
+
+  MeshData& mesh_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> drop_degenerate(MeshData& mesh) {
+  return Dropping(mesh).run();
+}
+
+}  // namespace tetmend::formats

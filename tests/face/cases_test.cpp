@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// Inputs that people have, each with what must hold of it: one row for each file of tests/cases.
+//
+// A row names its kind:
+//   O  values from a part that overlaps           P  numbers in decks that are no nodes
+//   V  listings and numbers that `check` takes    M  mixed listings and inverted tets at once
+//   T  degenerate elements                        N  points that touch without being joined
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <tetmend/check.h>
+#include <tetmend/improve.h>
+#include <tetmend/io.h>
+#include <tetmend/measure.h>
+
+#include "kernel/geometry.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// What is not given is not asked. Of each case, the improved mesh, written and read again, keeps
+/// all that compare() looks at.
+struct Case {
+  std::string_view file = {};
+  char kind = ' ';
+  std::optional<std::size_t> tets = {};      ///< as read
+  std::optional<std::size_t> required = {};  ///< vertices that must stay, as read
+  std::optional<std::size_t> inverted = {};  ///< or flat, before; afterwards there is none
+  std::optional<std::size_t> bad = {};       ///< before
+  std::optional<std::size_t> bad_after = {};
+  std::string_view note = {};                    ///< part of a note of the file or of the run
+  bool has_notes = true;                         ///< false: there must be none
+  std::map<std::int32_t, double> volumes = {};   ///< by label, afterwards
+  std::string_view array = {};                   ///< of the tets
+  std::map<std::int32_t, double> of_label = {};  ///< its value in every tet of a label, afterwards
+};
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> kCases = {
+      {.file = "overlapping-parts.msh", .kind = 'O', .volumes = {{1, 8}, {2, 5.832}}},
+      {.file = "overlapping-arrays.vtu",
+       .kind = 'O',
+       .array = "young",
+       .of_label = {{1, 70}, {2, 210}}},
+
+      {.file = "surface-by-number.inp", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "numbers-of-elements.inp", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "conditions-of-elements.inp", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "terms-of-an-equation.inp", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "node-in-an-equation.inp",
+       .kind = 'P',
+       .required = 1,
+       .note = "node-in-an-equation.inp:83: *EQUATION keeps 1 point where it is"},
+      {.file = "set-of-one-node.inp",
+       .kind = 'P',
+       .required = 1,
+       .note = "set-of-one-node.inp:78: the set of nodes 'probe' keeps 1 point where it is"},
+      {.file = "card-numbers.bdf",
+       .kind = 'P',
+       .required = 1,
+       .bad = 5,
+       .bad_after = 0,
+       .note = "line 79: FORCE keeps 1 point where it is"},
+      {.file = "grid-with-cd-0.bdf", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "grid-without-cd.bdf", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "grid-with-constraints.bdf",
+       .kind = 'P',
+       .required = 1,
+       .note = "line 15: GRID with constraints in field 8 keeps 1 point where it is"},
+      {.file = "numbers-of-sets.bdf", .kind = 'P', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "numbers-of-springs.bdf",
+       .kind = 'P',
+       .required = 7,  // 1 to 5, 7 and 8
+       .note = "line 86: SPC1 keeps 3 points where they are"},
+      {.file = "point-in-a-long-list.bdf",
+       .kind = 'P',
+       .required = 2,
+       .note = "line 79: SPC1 keeps 2 points where they are"},
+      {.file = "unknown-card.bdf",
+       .kind = 'P',
+       .required = 2,
+       .note = "NOSUCH, a card whose fields are not known, keeps 2 points where they are"},
+
+      {.file = "listed-mirrored.mesh", .kind = 'V', .inverted = 0, .bad_after = 0},
+      {.file = "surface-by-set.inp", .kind = 'V', .required = 0, .bad = 5, .bad_after = 0},
+      {.file = "listed-both-ways.mesh", .kind = 'V', .inverted = 0, .bad = 5, .bad_after = 0},
+      {.file = "listed-ascending.vtk", .kind = 'V', .inverted = 0, .bad = 5, .bad_after = 0},
+      {.file = "one-part-mirrored.mesh",
+       .kind = 'V',
+       .inverted = 0,
+       .bad = 10,
+       .bad_after = 0,
+       .volumes = {{1, 8}, {2, 8}}},
+      {.file = "names-and-mirrored.msh", .kind = 'V', .inverted = 0, .bad = 5, .bad_after = 0},
+      {.file = "second-order-mirrored.inp", .kind = 'V', .inverted = 0, .bad = 5, .bad_after = 0},
+      {.file = "sets-and-loads.inp", .kind = 'V', .required = 0, .inverted = 0, .bad_after = 0},
+
+      {.file = "mixed-and-inverted.mesh", .kind = 'M', .inverted = 2},
+      {.file = "ascending-and-inverted.mesh", .kind = 'M', .inverted = 2},
+      {.file = "mirrored-and-inverted.vtk", .kind = 'M', .inverted = 2},
+      {.file = "parts-mirrored-and-inverted.mesh",
+       .kind = 'M',
+       .inverted = 4,
+       .volumes = {{1, 8}, {2, 8}}},
+      {.file = "first-is-inverted.bdf", .kind = 'M', .inverted = 2},
+      {.file = "mixed-and-flat.mesh", .kind = 'M', .inverted = 6},
+
+      {.file = "tet-twice.mesh", .kind = 'T', .tets = 48, .note = "tet 49 is tet 8 again: dropped"},
+      {.file = "tet-with-a-vertex-twice.mesh",
+       .kind = 'T',
+       .tets = 48,
+       .note = "has a vertex twice: dropped"},
+      {.file = "edge-with-a-node-twice.msh",
+       .kind = 'T',
+       .tets = 48,
+       .note = "has a vertex twice: dropped"},
+      {.file = "tet-twice.vtk", .kind = 'T', .tets = 48, .note = "tet 49 is tet 8 again: dropped"},
+      {.file = "corner-twice-second-order.inp",
+       .kind = 'T',
+       .tets = 48,
+       .note = "tet 49 (vertices 1 1 5 14) has a vertex twice: dropped"},
+      {.file = "elements-twice.bdf",
+       .kind = 'T',
+       .tets = 48,
+       .note = "2 tets are there already, tet 49 is tet 3 again and so on: dropped"},
+      {.file = "degenerate.msh",
+       .kind = 'T',
+       .tets = 48,
+       .note = "triangle 1 (vertices 1 2 2) has a vertex twice: dropped"},
+      {.file = "label-of-the-second.mesh",
+       .kind = 'T',
+       .tets = 48,
+       .note = "tet 49 is tet 1 again, with label 2 instead of 1: dropped",
+       .volumes = {{1, 8}}},
+      {.file = "twice-and-mixed.mesh",
+       .kind = 'T',
+       .tets = 48,
+       .inverted = 0,
+       .note = "tet 49 is tet 10 again: dropped"},
+
+      {.file = "not-joined.mesh", .kind = 'N', .note = "165 of 192 points lie on others"},
+      {.file = "fine-beside-coarse.mesh",
+       .kind = 'N',
+       .note = "5 of 35 points lie on a face or an edge that does not have them"},
+      {.file = "two-boxes-not-joined.mesh", .kind = 'N', .note = "9 of 54 points lie on others"},
+      {.file = "edge-beside-an-edge.mesh",
+       .kind = 'N',
+       .note = "1 of 35 points lies on a face or an edge that does not have them"},
+      {.file = "slanted-and-hanging.mesh",
+       .kind = 'N',
+       .note = "5 of 35 points lie on a face or an edge that does not have them"},
+      {.file = "within-each-other.msh",
+       .kind = 'N',
+       .note = "18 of 35 points lie on a face or an edge that does not have them"},
+      {.file = "apart.mesh", .kind = 'N', .bad = 10, .bad_after = 0, .has_notes = false},
+  };
+  return kCases;
+}
+
+const std::filesystem::path kFolder = std::filesystem::path(TETMEND_SOURCE_DIR) / "tests/cases";
+
+std::map<std::int32_t, double> volumes_by_label(const MeshArrays& arrays) {
+  std::map<std::int32_t, double> volumes;
+  const auto point = [&](std::uint32_t v) {
+    return Point(arrays.points[v][0], arrays.points[v][1], arrays.points[v][2]);
+  };
+  for (std::size_t t = 0; t < arrays.tets.size(); ++t) {
+    const auto& [a, b, c, d] = arrays.tets[t];
+    volumes[arrays.tet_labels[t]] += volume6(point(a), point(b), point(c), point(d)) / 6;
+  }
+  return volumes;
+}
+
+/// The values of an array of one number a tet, by the labels of the tets.
+std::map<std::int32_t, std::set<double>> values_by_label(const Mesh& mesh, std::string_view name) {
+  std::map<std::int32_t, std::set<double>> values;
+  for (const DataArray& array : mesh.tet_data()) {
+    if (array.name != name) continue;
+    std::visit(
+        [&](const auto& numbers) {
+          for (std::size_t t = 0; t < numbers.size(); ++t) {
+            values[mesh.arrays().tet_labels[t]].insert(static_cast<double>(numbers[t]));
+          }
+        },
+        array.values);
+  }
+  return values;
+}
+
+void check_as_read(const Case& wanted, const Mesh& mesh) {
+  if (wanted.tets) CHECK(mesh.tet_count() == *wanted.tets);
+  if (wanted.required) CHECK(mesh.arrays().required_vertices.size() == *wanted.required);
+}
+
+void check_run(const Case& wanted, const Result& result) {
+  CHECK(result.worse().empty());
+  if (wanted.inverted) {
+    CHECK(result.not_positive_before == *wanted.inverted);
+    CHECK(result.not_positive_after == 0);
+  }
+  if (wanted.bad) CHECK(result.before.n_bad == *wanted.bad);
+  if (wanted.bad_after) CHECK(result.after.n_bad == *wanted.bad_after);
+}
+
+void check_notes(const Case& wanted, const std::vector<std::string>& notes) {
+  CAPTURE(notes);
+  if (!wanted.has_notes) CHECK(notes.empty());
+  const bool is_told = std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
+    return note.find(wanted.note) != std::string::npos;
+  });
+  CHECK((wanted.note.empty() || is_told));
+}
+
+void check_values(const Case& wanted, const Mesh& mesh) {
+  const auto volumes = volumes_by_label(mesh.arrays());
+  for (const auto& [label, volume] : wanted.volumes) {
+    CAPTURE(label);
+    REQUIRE(volumes.contains(label));
+    CHECK(volumes.at(label) == doctest::Approx(volume));
+  }
+  const auto values = values_by_label(mesh, wanted.array);
+  for (const auto& [label, value] : wanted.of_label) {
+    CAPTURE(label);
+    REQUIRE(values.contains(label));
+    CHECK(values.at(label) == std::set<double>{value});
+  }
+}
+
+}  // namespace
+
+TEST_CASE("each input that people have is improved as its row says, and checked against itself") {
+  const TempFolder folder;
+  for (const Case& wanted : cases()) {
+    CAPTURE(wanted.file);
+    CAPTURE(wanted.kind);
+    const std::filesystem::path file = kFolder / wanted.file;
+    const Mesh before = load(file);
+    check_as_read(wanted, before);
+    Mesh mesh = before;
+    const Result result = improve(mesh);
+    check_run(wanted, result);
+    std::vector<std::string> notes = before.notes();
+    notes.insert(notes.end(), result.notes.begin(), result.notes.end());
+    check_notes(wanted, notes);
+    check_values(wanted, mesh);
+    const std::filesystem::path out = folder / file.filename().string();
+    save(out, mesh);
+    for (const Fact& fact : compare(before, load(out))) {
+      CAPTURE(fact.text);
+      CHECK(fact.holds);
+    }
+  }
+}
+
+TEST_CASE("each file of the cases has a row, and each row a file") {
+  std::set<std::string> rows;
+  for (const Case& row : cases()) CHECK(rows.insert(std::string(row.file)).second);
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    if (entry.path().extension() == ".py") continue;
+    CAPTURE(entry.path().string());
+    CHECK(rows.erase(entry.path().filename().string()) == 1);
+  }
+  CHECK(rows.empty());
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "kernel/formats/degenerate.h"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "kernel/formats/mesh_io.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::formats;
+using namespace tetmend::test;
+
+namespace {
+
+/// Two tets; then one with a vertex twice and the first once more.
+MeshData degenerate_mesh() {
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  mesh.tets = {{{0, 1, 2, 3}, 1}, {{1, 2, 2, 3}, 1}, {{1, 2, 3, 4}, 1}, {{3, 2, 1, 0}, 1}};
+  mesh.triangles = {{{0, 2, 1}, 3}, {{0, 0, 1}, 3}};
+  mesh.edges = {{{4, 4}, 2}, {{0, 1}, 2}};
+  return mesh;
+}
+
+template <class Element>
+bool has_vertex_twice(const std::vector<Element>& elements) {
+  return std::any_of(elements.begin(), elements.end(), [](const Element& element) {
+    auto v = element.vertices;
+    std::sort(v.begin(), v.end());
+    return std::adjacent_find(v.begin(), v.end()) != v.end();
+  });
+}
+
+bool tells(const MeshData& mesh, std::string_view text) {
+  return std::any_of(mesh.notes.begin(), mesh.notes.end(),
+                     [&](const std::string& note) { return note.find(text) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("degenerate and repeated elements are dropped with a note, whatever the format") {
+  const TempFolder folder;
+  for (const std::string name : {"a.mesh", "a.meshb", "a.node", "a.vtk", "a.vtu", "a.msh", "a.inp",
+                                 "a.su2", "a.vol", "a.bdf", "mesh.header"}) {
+    CAPTURE(name);
+    write_mesh(folder / name, degenerate_mesh());
+    const MeshData mesh = read_mesh(folder / name);
+    CHECK(mesh.tets.size() == 2);
+    CHECK_FALSE(has_vertex_twice(mesh.tets));
+    CHECK_FALSE(has_vertex_twice(mesh.triangles));
+    CHECK_FALSE(has_vertex_twice(mesh.edges));
+    CHECK(tells(mesh, "tet 2 (vertices 2 3 3 4) has a vertex twice: dropped"));
+    CHECK(tells(mesh, "tet 4 is tet 1 again: dropped"));
+  }
+}
+
+TEST_CASE("what belongs to a dropped element goes with it, and the rest keeps what it has") {
+  MeshData mesh = degenerate_mesh();
+  mesh.tet_parts = {5, 6, 7, 8};
+  mesh.tet_numbers = {10, 20, 30, 40};
+  mesh.tet_data = {{"a", 2, std::vector<double>{1, 1, 2, 2, 3, 3, 4, 4}}};
+  mesh.groups = {{3, 1, "some", {}, {1, 2, 3}}, {1, 1, "lines", {}, {0, 1}}};
+  CHECK(drop_degenerate(mesh) == std::vector<std::uint32_t>{1, 3});
+  CHECK(mesh.tet_parts == std::vector<Label>{5, 7});
+  CHECK(mesh.tet_numbers == std::vector<std::int64_t>{10, 30});
+  CHECK(std::get<std::vector<double>>(mesh.tet_data[0].values) == std::vector<double>{1, 1, 3, 3});
+  CHECK(mesh.groups[0].members == std::vector<std::uint32_t>{1});
+  CHECK(mesh.groups[1].members == std::vector<std::uint32_t>{0});
+  CHECK(tells(mesh, "tet 40 is tet 10 again: dropped"));
+}
+
+TEST_CASE("a tet of second order with a corner twice goes, a collapsed hexahedron stays") {
+  MeshData mesh;
+  mesh.points.resize(30, Point::Zero());
+  mesh.other_elements.push_back({24, 10, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {1}, {}, {}, {}});
+  for (const std::uint32_t v : {0, 1, 1, 3, 10, 11, 12, 13, 14, 15}) {
+    mesh.other_elements[0].vertices.push_back(v);
+  }
+  mesh.other_elements[0].labels.push_back(1);
+  mesh.other_elements.push_back({12, 8, {0, 1, 2, 2, 20, 21, 22, 22}, {1}, {}, {}, {}});
+  CHECK(drop_degenerate(mesh).empty());
+  CHECK(mesh.other_elements[0].labels.size() == 1);
+  CHECK(mesh.other_elements[0].vertices.size() == 10);
+  CHECK(mesh.other_elements[1].labels.size() == 1);
+}
+
+TEST_CASE("where a tet stands in the file counts those that were dropped before it") {
+  const TempFolder folder;
+  write_mesh(folder / "a.mesh", degenerate_mesh());
+  const std::string first = locate_tet(folder / "a.mesh", 0);
+  const std::string second = locate_tet(folder / "a.mesh", 1);
+  const auto line = [](const std::string& place) {
+    return std::stoi(place.substr(place.rfind(':') + 1));
+  };
+  CHECK(line(second) == line(first) + 2);
+}
