@@ -43,9 +43,9 @@ int run_convert(ConvertOptions& options, Invocation& invocation) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_variant(options.output, options.carry);
-  const NamedFile input = {"IN", options.input, true};
-  const NamedFile output = {"OUT", options.output, true};
-  prepare_files({&input, 1}, {&output, 1});
+  const NamedFile input = {"IN", options.input, NamedFile::Kind::mesh};
+  const NamedFile output = {"OUT", options.output, NamedFile::Kind::mesh};
+  prepare_files({&input, 1}, {&output, 1}, &parts);
   std::vector<std::string> notes;
   const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
   save(options.output, mesh, options.threads, options.carry.variant);

@@ -59,16 +59,15 @@ void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known)
   for (const std::filesystem::path& report : options.reports) {
     check_extension(report, kReportExtensions);
   }
-  const std::filesystem::path schedule = options.run.schedule;
-  const std::array inputs = {
-      NamedFile{"IN", options.input, true},
-      NamedFile{"--schedule", schedule.extension() == ".lua" ? schedule : ""}};
+  std::vector<NamedFile> inputs = files_of_options(options.run);
+  inputs.insert(inputs.begin(), {"IN", options.input, NamedFile::Kind::mesh, true});
   std::vector<NamedFile> outputs;
   for (const std::filesystem::path& report : options.reports)
     outputs.push_back({"--report", report});
-  outputs.push_back({"-o", options.output, true});
+  outputs.push_back({"-o", options.output, NamedFile::Kind::mesh, true});
   outputs.push_back({"--trace", options.run.trace});
-  prepare_files(inputs, outputs);
+  outputs.push_back({"--checkpoint", options.pieces.checkpoint, NamedFile::Kind::run_folder});
+  prepare_files(inputs, outputs, known);
 }
 
 /// The worst tets by the numbers that the file of the mesh gives them.

@@ -69,9 +69,9 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
   check_input_format(options.file, parts);
   if (!options.cells.empty()) {
     check_mesh_extension(options.cells);
-    const NamedFile input = {"FILE", options.file};
-    const NamedFile cells = {"--cells", options.cells};
-    prepare_files({&input, 1}, {&cells, 1});
+    const NamedFile input = {"FILE", options.file, NamedFile::Kind::mesh};
+    const NamedFile cells = {"--cells", options.cells, NamedFile::Kind::mesh};
+    prepare_files({&input, 1}, {&cells, 1}, parts);
   }
   const MeasureOptions wanted = {.measure = list_measures(options.measures),
                                  .limit = options.limit,

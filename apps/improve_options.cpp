@@ -213,6 +213,16 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
 
+std::vector<NamedFile> files_of_options(const Options& options) {
+  std::vector<NamedFile> files;
+  const std::filesystem::path schedule = options.schedule;
+  if (schedule.extension() == ".lua") files.push_back({"--schedule", schedule});
+  for (const std::filesystem::path& plugin : all_plugins(options.plugin)) {
+    files.push_back({"--plugin", plugin});
+  }
+  return files;
+}
+
 std::string region_help() {
   return R"(A SPEC is one of
   label:1,4                the tets with label 1 or 4

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,8 +17,11 @@
 #include "apps/description.h"
 #include "apps/plugins.h"
 #include "apps/standard_streams.h"
+#include "explain/lesson_guide.h"
 #include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/run_files.h"
 #include "kernel/formats/temporary_names.h"
 #include "platform/platform.h"
 #include "viewer/commands/frames.h"
@@ -149,6 +153,27 @@ void write_report(const std::string& file, Document& document) {
   out.commit();
 }
 
+/// @throws CLI::ValidationError when an output is an input or another output.
+void check_files(const Options& options) {
+  formats::RunFiles files;
+  for (const auto& [option, mesh] : {std::pair("FILE", options.file), {"--before", options.before},
+                                     {"--reference", options.reference}}) {
+    if (!mesh.empty()) files.read({option, {source_files(mesh), {}}});
+  }
+  if (const auto lesson = explain::lesson_beside(options.file)) {
+    files.read({"the lesson", {{*lesson}, {}}});
+  }
+  files.read({"--script", {{options.script}, {}}});
+  files.read({"--plugin", {options.plugins, {}}});
+  files.write({"--render", {{options.picture}, {}}});
+  files.write({"--video", {{options.video}, {}}});
+  files.write({"--report", {{options.report}, {}}});
+  if (const auto clash = files.clash()) {
+    throw CLI::ValidationError(fmt::format("{}: {} and {} would be the same file",
+                                           clash->file.string(), clash->option, clash->output));
+  }
+}
+
 int run(const Options& options) {
   if (options.keys) {
     fmt::print("{}", command_reference());
@@ -263,6 +288,7 @@ int main(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
+    check_files(options);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return complain(kWrongUsage, fmt::format("{} (see tetmend-view --help)", error.what()));

@@ -71,6 +71,11 @@ SavedRun take_run(std::string_view bytes) {
 
 }  // namespace
 
+formats::FileSet RunFolder::files() const {
+  return {.files = {folder_ / kName, folder_ / kSurface},
+          .numbered = {{.folder = folder_, .begin = std::string(kStep), .end = {}}}};
+}
+
 bool RunFolder::has_run() const {
   std::error_code ignored;
   return std::filesystem::exists(folder_ / kName, ignored);

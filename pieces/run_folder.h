@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/formats/run_files.h"
 #include "pieces/mesh_files.h"
 #include "pieces/piece_run.h"
 
@@ -38,6 +39,8 @@ class RunFolder {
   explicit RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& path() const { return folder_; }
+  /// All that a run makes and removes here.
+  formats::FileSet files() const;
   bool has_run() const;
   /// @throws Error when it cannot be read, or was written by another version of tetmend.
   SavedRun load() const;

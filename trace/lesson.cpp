@@ -57,6 +57,18 @@ Lesson read_lesson(const std::filesystem::path& file) {
   }
 }
 
+bool is_lesson(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  try {
+    const formats::InputFile text(file);
+    const auto json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+    return json.is_object() && json.contains("title") && json.contains("steps");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 std::vector<std::filesystem::path> list_lessons(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code none;

@@ -242,6 +242,12 @@ InpLines::InpLines(const std::filesystem::path& file) {
   read(file, 0);
 }
 
+std::vector<std::filesystem::path> InpLines::files() const {
+  std::vector<std::filesystem::path> names;
+  for (const auto& file : files_) names.emplace_back(file->name());
+  return names;
+}
+
 const InputFile& InpLines::open(const std::filesystem::path& path, const InpBlock* from) {
   constexpr std::size_t kMostFiles = 10000;
   if (files_.size() > kMostFiles) from->fail("more files are included than anybody writes");

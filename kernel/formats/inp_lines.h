@@ -93,6 +93,9 @@ class InpLines {
   };
   std::vector<Include> includes;  ///< by file number; 0 is the deck itself
 
+  /// That were opened, the deck first.
+  std::vector<std::filesystem::path> files() const;
+
  private:
   void read(const std::filesystem::path& path, int number);
   const InputFile& open(const std::filesystem::path& path, const InpBlock* from);

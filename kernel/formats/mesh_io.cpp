@@ -209,6 +209,20 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file)
   return {file};
 }
 
+std::vector<std::filesystem::path> source_files(const std::filesystem::path& file) {
+  if (format_extension(file) == ".inp") return formats::inp_files(file);
+  return mesh_files(file);
+}
+
+std::string format_name(const std::filesystem::path& file) {
+  const std::string extension = format_extension(file);
+  const auto* const found =
+      std::find_if(kFormatsTable.begin(), kFormatsTable.end(),
+                   [&](const MeshFormat& format) { return format.extension == extension; });
+  if (found == kFormatsTable.end()) return {};
+  return std::string(found->name) + (file.extension() == ".gz" ? ".gz" : "");
+}
+
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
   assert(mesh.point_labels.empty() || mesh.point_labels.size() == mesh.points.size());
   write_mesh(file, MeshView(mesh));
