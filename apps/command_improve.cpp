@@ -89,6 +89,11 @@ bool is_by_files(const ImproveOptions& options, const Invocation& invocation) {
 /// What pieces cannot have is better found before the mesh is read.
 void check_pieces(const ImproveOptions& options, const Invocation& invocation) {
   const std::size_t count = options.pieces.pieces;  // 0: nobody knows yet
+  try {
+    pieces::check_memory(options.pieces.memory);
+  } catch (const OptionError& error) {
+    throw UsageError("--" + message_of(error));
+  }
   const bool is_whole = count == 1 || (count == 0 && !is_by_files(options, invocation));
   if (is_whole && !options.run.trace_piece.empty()) {
     throw UsageError("--trace-piece: the run is not in pieces, see --pieces");

@@ -11,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/standard_streams.h"
 #include "explain/lesson_guide.h"
 #include "explain/page.h"
 #include "kernel/formats/output_file.h"
@@ -75,7 +76,8 @@ std::filesystem::path page_name(const std::filesystem::path& lesson) {
 
 void write_all(const LessonOptions& options, const std::vector<std::filesystem::path>& lessons) {
   std::vector<NamedFile> outputs = {{"a page", options.output / "index.html"}};
-  for (const auto& lesson : lessons) outputs.push_back({"a page", options.output / page_name(lesson)});
+  for (const auto& lesson : lessons)
+    outputs.push_back({"a page", options.output / page_name(lesson)});
   check_distinct(files_of(lessons), outputs, nullptr);
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
@@ -95,7 +97,7 @@ int run_lesson(const LessonOptions& options) {
   if (lessons.empty()) throw Error("there are no lessons: TETMEND_LESSONS may name their folder");
   if (options.name.empty() && !options.html) {
     for (const auto& path : lessons) {
-      fmt::print("{:<16} {}\n", name_of(path), read_lesson(path).title);
+      say(stdout, fmt::format("{:<16} {}\n", name_of(path), read_lesson(path).title));
     }
     return 0;
   }
@@ -120,7 +122,7 @@ int run_lesson(const LessonOptions& options) {
     }
   }
   if (options.output.empty()) {
-    fmt::print("{}", text);
+    say(stdout, text);
   } else {
     put(options.output, text);
   }

@@ -17,6 +17,7 @@
 #include "apps/improve_watched.h"
 #include "apps/mesh_formats.h"
 #include "apps/standard_streams.h"
+#include "explain/json_text.h"
 #include "kernel/formats/output_file.h"
 #include "pieces/folder_run.h"
 #include "platform/platform.h"
@@ -51,8 +52,8 @@ void check_step(const PiecesOptions& options, const pieces::FolderRun& run,
   using enum NamedFile::Kind;
   const std::array inputs = {NamedFile{"IN", run.saved().input, mesh, true},
                              NamedFile{"FOLDER", options.folder / kPlan}};
-  outputs.insert(outputs.begin(), {{"FOLDER", options.folder, run_folder},
-                                   {"OUT", run.saved().output, mesh, true}});
+  outputs.insert(outputs.begin(),
+                 {{"FOLDER", options.folder, run_folder}, {"OUT", run.saved().output, mesh, true}});
   check_distinct(inputs, outputs, invocation.array_files);
 }
 
@@ -68,7 +69,7 @@ void write_plan(const std::filesystem::path& folder, const pieces::FolderRun& ru
     plan["pieces"] = round.pieces.size();
   }
   OutputFile out(folder / kPlan);
-  out.put(plan.dump(2) + '\n');
+  out.put(explain::json_text(plan, 2) + '\n');
   out.commit();
 }
 

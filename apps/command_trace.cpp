@@ -17,6 +17,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/standard_streams.h"
 #include "explain/figures/call_figure.h"
 #include "explain/lesson_guide.h"
 #include "explain/page.h"
@@ -24,6 +25,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtk_legacy.h"
+#include "kernel/printable.h"
 #include "trace/call_extract.h"
 #include "trace/call_script.h"
 #include "trace/call_tree.h"
@@ -61,7 +63,7 @@ void check_call(const TraceFile& file, std::uint32_t call) {
 /// To the file that was asked for, or to standard output.
 void put_text(const TraceOptions& options, std::string_view text) {
   if (options.output.empty()) {
-    fmt::print("{}", text);
+    say(stdout, text);
     return;
   }
   OutputFile out(options.output);
@@ -71,7 +73,7 @@ void put_text(const TraceOptions& options, std::string_view text) {
 
 void write_slices(const TraceOptions& options, const TraceFile& file) {
   if (options.output.empty()) {
-    tetmend::write_slices(file, [](std::string_view text) { fmt::print("{}", text); });
+    tetmend::write_slices(file, [](std::string_view text) { say(stdout, text); });
     return;
   }
   OutputFile out(options.output);
@@ -129,10 +131,7 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
 
 /// The name of a file, fit for a comment of one line.
 std::string name_of(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  std::replace_if(name.begin(), name.end(), is_control, '?');
-  return name;
+  return printable(file.filename().string());
 }
 
 constexpr std::array<const char*, 3> kExtracted = {"call.mesh", "call.lua", "README.txt"};

@@ -15,10 +15,12 @@
 
 #include "apps/commands.h"
 #include "apps/standard_streams.h"
+#include "explain/json_text.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/pending_file.h"
 #include "kernel/formats/run_files.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/printable.h"
 #include "pieces/rank_share.h"
 #include "pieces/run_folder.h"
 #include "platform/platform.h"
@@ -126,7 +128,7 @@ void check_writable(const NamedFile& output) {
     if (each != file && !std::filesystem::exists(each, error)) continue;
     const formats::PendingFile probe(each);  // vanishes without commit()
     for (const std::string& text : probe.notes()) {
-      say(stderr, fmt::format("note: {}: {}\n", each.string(), text));
+      say(stderr, fmt::format("note: {}: {}\n", printable(each.string()), text));
     }
   }
 }
@@ -160,6 +162,18 @@ void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile>
   }
 }
 
+nlohmann::json printable_for(std::string_view where, const nlohmann::json& json) {
+  for (const std::string& text : explain::changed_texts(json)) {
+    say(stderr, fmt::format("note: {}: '{}' is written for a name that is no plain text\n", where,
+                            printable(text)));
+  }
+  return explain::printable_json(json);
+}
+
+void print_json(const nlohmann::json& json) {
+  say(stdout, printable_for("standard output", json).dump(2) + '\n');
+}
+
 void add_carry_options(CLI::App& command, CarryOptions& options) {
   command
       .add_option("--label-array", options.label_array,
@@ -189,7 +203,7 @@ void check_variant(const std::filesystem::path& output, const CarryOptions& opti
 void tell_lost(const std::filesystem::path& input, const std::vector<std::string>& lost,
                const CarryOptions& options, std::vector<std::string>& notes) {
   for (const std::string& text : lost) {
-    say(stderr, fmt::format("note: {}: {}\n", shown(input), text));
+    say(stderr, fmt::format("note: {}: {}\n", printable(shown(input)), printable(text)));
   }
   if (options.strict && !lost.empty()) {
     throw Error(

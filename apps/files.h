@@ -68,6 +68,12 @@ void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile
 void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs,
                    const pieces::ArrayFiles* known);
 
+/// What is written of the JSON: explain::printable_json(). Texts that change are named on standard error.
+/// @param where it goes, for these notes
+nlohmann::json printable_for(std::string_view where, const nlohmann::json& json);
+/// The same to standard output.
+void print_json(const nlohmann::json& json);
+
 /// How a command reads a mesh that it writes again.
 struct CarryOptions {
   std::string label_array;  ///< --label-array

@@ -17,6 +17,7 @@
 #include "apps/description.h"
 #include "apps/plugins.h"
 #include "apps/standard_streams.h"
+#include "explain/json_text.h"
 #include "explain/lesson_guide.h"
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
@@ -115,7 +116,9 @@ void prepare(const Options& options, Document& document) {
 
 /// Otherwise the mesh is to fill the space that the panels leave.
 bool has_camera(const Options& options) {
-  return !options.view.empty() && nlohmann::json::parse(options.view).contains("camera");
+  if (options.view.empty()) return false;
+  const auto view = nlohmann::json::parse(options.view, nullptr, false);
+  return view.is_object() && view.contains("camera");
 }
 
 /// "FROM,TO" or "FROM,TO,EVERY"; nothing of an empty text.
@@ -148,7 +151,7 @@ FrameRange range_of_video(const Options& options, const Document& document) {
 
 void write_report(const std::string& file, Document& document) {
   OutputFile out(file);
-  out.put(state_of(document).dump(2));
+  out.put(explain::json_text(state_of(document), 2));
   out.put('\n');
   out.commit();
 }
@@ -156,7 +159,8 @@ void write_report(const std::string& file, Document& document) {
 /// @throws CLI::ValidationError when an output is an input or another output.
 void check_files(const Options& options) {
   formats::RunFiles files;
-  for (const auto& [option, mesh] : {std::pair("FILE", options.file), {"--before", options.before},
+  for (const auto& [option, mesh] : {std::pair("FILE", options.file),
+                                     {"--before", options.before},
                                      {"--reference", options.reference}}) {
     if (!mesh.empty()) files.read({option, {source_files(mesh), {}}});
   }

@@ -112,6 +112,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       PieceRun steps(mesh, saved.division, tools.task());
       saved.before = steps.measure_before(&first);
       if (!tools.plan().surface.is_fixed()) {
+        tools.plan().surface.check_length(mesh.diagonal());
         run_folder.save_surface(
             steps.hold_surface(tools.plan().surface.envelope_options(), &first));
       }

@@ -444,8 +444,9 @@ formats::FileSet PvtuFiles::files_read(const std::filesystem::path& file) const 
 
 formats::FileSet PvtuFiles::files_written(const std::filesystem::path& file) const {
   const std::filesystem::path folder = pvtu_folder(file);
-  return {.files = {file},
-          .numbered = {{.folder = folder, .begin = folder.filename().string() + "_", .end = ".vtu"}}};
+  return {
+      .files = {file},
+      .numbered = {{.folder = folder, .begin = folder.filename().string() + "_", .end = ".vtu"}}};
 }
 
 bool PvtuFiles::takes(const std::filesystem::path&, RowKind kind, const DataArray& array) const {

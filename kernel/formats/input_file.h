@@ -47,8 +47,7 @@ class InputFile {
   std::size_t size_ = 0;
 };
 
-/// A word of a file in quotes, fit for a message of one line: clipped, and without bytes that a
-/// terminal would act on.
+/// A word of a file in quotes, printable() and clipped.
 std::string in_quotes(std::string_view word);
 
 }  // namespace tetmend::formats

@@ -77,6 +77,8 @@ constexpr Room kMeditRoom = {.others = true,
                              .holds = formats::medit_holds};
 constexpr Room kTetgenRoom = {.second_order = true, .own_arrays = formats::kTetgenArrays};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
+constexpr Room kVtuRoom = {
+    .data = true, .others = true, .second_order = true, .names_are_text = true};
 constexpr Room kGmshRoom = {.data = true, .groups = true, .others = true, .second_order = true};
 constexpr Room kInpRoom = {.groups = true,
                            .others = true,
@@ -124,7 +126,7 @@ constexpr std::array<Codec, 13> kCodecs = {
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
      {formats::read_vtk_legacy, formats::write_vtk_legacy, kVtkRoom},
-     {formats::read_vtu, formats::write_vtu, kVtkRoom},
+     {formats::read_vtu, formats::write_vtu, kVtuRoom},
      {read_plain<formats::read_gmsh>, formats::write_gmsh, kGmshRoom},
      {read_plain<formats::read_inp>, formats::write_inp, kInpRoom, false, formats::not_in_inp},
      {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},

@@ -27,8 +27,8 @@ bool has_number(const std::filesystem::path& name, const NumberedFiles& numbered
 
 /// The file is one of these, or lies in one.
 bool is_among(const std::filesystem::path& place, const NumberedFiles& numbered) {
-  const auto [in_folder, in_place] = std::mismatch(
-      numbered.folder.begin(), numbered.folder.end(), place.begin(), place.end());
+  const auto [in_folder, in_place] =
+      std::mismatch(numbered.folder.begin(), numbered.folder.end(), place.begin(), place.end());
   return in_folder == numbered.folder.end() && in_place != place.end() &&
          has_number(*in_place, numbered);
 }
@@ -79,8 +79,9 @@ std::vector<NumberedFiles> RunFiles::places_of(const std::vector<NumberedFiles>&
 }
 
 RunFiles::Use RunFiles::look_up(const FileUse& use) {
-  return {use.option,         use.replaceable,    find_all(use.files), places_of(use.files.numbered),
-          find_all(use.home), places_of(use.home.numbered)};
+  return {use.option,          use.replaceable,
+          find_all(use.files), places_of(use.files.numbered),
+          find_all(use.home),  places_of(use.home.numbered)};
 }
 
 void RunFiles::read(const FileUse& use) {
@@ -103,9 +104,8 @@ bool RunFiles::is_one_mesh(const Use& input, const Use& output) {
   if (input.replaceable.empty() || input.replaceable != output.replaceable) return false;
   return std::is_permutation(input.home.begin(), input.home.end(), output.files.begin(),
                              output.files.end(), is_same) &&
-         std::equal(input.home_numbered.begin(), input.home_numbered.end(),
-                    output.numbered.begin(), output.numbered.end(),
-                    [](const NumberedFiles& a, const NumberedFiles& b) {
+         std::equal(input.home_numbered.begin(), input.home_numbered.end(), output.numbered.begin(),
+                    output.numbered.end(), [](const NumberedFiles& a, const NumberedFiles& b) {
                       return a.folder == b.folder && a.begin == b.begin && a.end == b.end;
                     });
 }

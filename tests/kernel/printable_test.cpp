@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Text of strangers on a terminal.
-#include "schedule/printable.h"
+#include "kernel/printable.h"
 
 #include <string>
 #include <string_view>
