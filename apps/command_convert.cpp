@@ -78,7 +78,7 @@ Formats, by extension:
 {}A TetGen mesh is named by its .node or .ele file; its other files go with it.
 A mesh in parts is named by its .pvtu file, or as part_%d.msh for part_1.msh,
 part_2.msh and so on of Gmsh; of the latter labels and constraints alone are
-kept. OUT in parts has tets in another order.
+kept. OUT in parts has tets in another order. No file of OUT may be one of IN.
 
 Examples:
   tetmend convert part.mesh part.vtk

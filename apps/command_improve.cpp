@@ -276,8 +276,9 @@ time, or while IN is read, they end the program at once, and nothing is written.
 A time limit stops the work likewise, with exit status 0. A mistake in a script
 ends it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
-then, and hands down owner and permissions. OUT may be IN; other files that are
-named must differ. The same input gives the same output, byte for byte.
+then, and hands down owner and permissions. OUT may be IN, in the same format;
+all other files that are read or written must differ, also parts of meshes and
+what decks include. The same input gives the same output, byte for byte.
 
 Named arrays come over: of points linearly in the old mesh, of tets from the old
 tet at the centroid. What of IN cannot be kept is named on standard error and in

@@ -44,8 +44,8 @@ class SurfaceTolerance {
 
  private:
   bool is_fixed_ = true;
-  double share_ = 0;   // of the lengths of edges
-  double length_ = 0;  // as the file has lengths
+  double share_ = 0;       // of the lengths of edges
+  double length_ = 0;      // as the file has lengths
   bool is_meant_ = false;  // 1!
   double feature_angle_ = 40;
 };
