@@ -136,7 +136,8 @@ void note_lost_arrays(const MeshData& data, bool names_are_text,
     for (const DataArray& array : arrays_of(data, kind)) {
       const std::string_view of = kNames[static_cast<std::size_t>(kind)];
       if (!is_carried(kind, array)) {
-        lost.push_back(fmt::format("the array '{}' of {} is not written", array.name, of));
+        lost.push_back(
+            fmt::format("the array '{}' of {} is not written", printable(array.name), of));
       } else if (names_are_text && !is_printable(array.name)) {
         lost.push_back(fmt::format("the name of the array '{}' of {} is not kept as it is",
                                    printable(array.name), of));

@@ -24,8 +24,8 @@ struct LostNotes {
     for (const DataArray& array : list) {
       if (!room.own_arrays.empty() && array.name.starts_with(room.own_arrays)) continue;
       if (room.marks && of == "points" && is_medit_vectors(array.name)) continue;
-      sentences.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none", array.name,
-                                      of, extension));
+      sentences.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none",
+                                      printable(array.name), of, extension));
     }
   }
   /// Of XML.
@@ -116,10 +116,10 @@ void note_groups(const Room& room, const MeshData& mesh, LostNotes& notes) {
   const auto is_changed = [&](const Group* group) { return !room.takes_name(group->name); };
   const auto first = std::find_if(kept.begin(), kept.end(), is_changed);
   if (first == kept.end()) return;
-  notes.sentences.push_back(
-      fmt::format("names of groups are not kept as they are: {} has other rules for {} of them, "
-                  "the first is '{}'",
-                  notes.extension, std::count_if(first, kept.end(), is_changed), (*first)->name));
+  notes.sentences.push_back(fmt::format(
+      "names of groups are not kept as they are: {} has other rules for {} of them, "
+      "the first is '{}'",
+      notes.extension, std::count_if(first, kept.end(), is_changed), printable((*first)->name)));
 }
 
 }  // namespace
