@@ -239,7 +239,7 @@ void write_figure(const TraceOptions& options, const TraceFile& file) {
   figure::write_drawing(options.output, explain::draw_call(file, replay, request));
 }
 
-void check_files(const TraceOptions& options) {
+void check_outputs(const TraceOptions& options) {
   using enum NamedFile::Kind;
   std::vector<NamedFile> inputs = {{"FILE", options.file}};
   if (!options.history.empty()) {
@@ -269,7 +269,7 @@ int run_trace(const TraceOptions& options) {
   if (options.extract && options.output.empty()) {
     throw UsageError("--extract needs -o, a folder for the files");
   }
-  check_files(options);
+  check_outputs(options);
   const TraceFile file(options.file);
   if (!file.damage().empty()) complain(kSuccess, "warning: " + file.damage());
   if (options.at) {

@@ -85,7 +85,7 @@ std::FILE* stream_beside(const std::filesystem::path& output) {
 
 namespace {
 
-bool is_in_parts(const std::filesystem::path& file, const pieces::ArrayFiles* known) {
+bool has_parts(const std::filesystem::path& file, const pieces::ArrayFiles* known) {
   return known != nullptr && known->is_one(file);
 }
 
@@ -94,7 +94,7 @@ formats::FileSet files_written(const NamedFile& named, const pieces::ArrayFiles*
     case NamedFile::Kind::run_folder:
       return pieces::RunFolder(named.file).files();
     case NamedFile::Kind::mesh:
-      return is_in_parts(named.file, known)
+      return has_parts(named.file, known)
                  ? known->files_written(named.file)
                  : formats::FileSet{.files = mesh_files(named.file), .numbered = {}};
     case NamedFile::Kind::plain:
@@ -105,7 +105,7 @@ formats::FileSet files_written(const NamedFile& named, const pieces::ArrayFiles*
 
 formats::FileSet files_read(const NamedFile& named, const pieces::ArrayFiles* known) {
   if (named.kind != NamedFile::Kind::mesh) return files_written(named, known);
-  return is_in_parts(named.file, known)
+  return has_parts(named.file, known)
              ? known->files_read(named.file)
              : formats::FileSet{.files = source_files(named.file), .numbered = {}};
 }
@@ -114,7 +114,7 @@ formats::FileSet files_read(const NamedFile& named, const pieces::ArrayFiles* kn
 /// the file a.mesh would get what no reader of .mesh understands.
 std::string replaceable(const NamedFile& named, const pieces::ArrayFiles* known) {
   if (!named.in_place) return {};
-  return is_in_parts(named.file, known) ? "parts" + lower_extension(named.file)
+  return has_parts(named.file, known) ? "parts" + lower_extension(named.file)
                                         : format_name(named.file);
 }
 

@@ -73,9 +73,8 @@ struct Options {
   Layers layers = Layers::keep;           ///< they are found by their structure
   /// How far the surface may move, faces between two labels included: not at all ("fixed", or
   /// empty); as far as that changes no shape ("flat": in exactly plane parts and along exactly
-  /// straight lines); by a share of the lengths of edges there ("1%"); by a length ("0.01"), which
-  /// is marked if it is above 5 % of the diagonal of the mesh ("0.5!"). It moves only where the fixed
-  /// surface leaves bad tets: the schedule "surface" follows the other.
+  /// straight lines); by a share of the lengths of edges there ("1%"); by a length ("0.01", above 5 %
+  /// of the diagonal "0.5!"). Only where the fixed surface leaves bad tets: see schedule "surface".
   std::string surface = {};
   /// Degrees by which faces bend along a line that the surface keeps.
   double feature_angle = 40;

@@ -47,7 +47,8 @@ class InputFile {
   std::size_t size_ = 0;
 };
 
-/// A word of a file in quotes, printable() and clipped.
+/// A word of a file in quotes, fit for a message of one line: clipped, and printable() for a
+/// terminal.
 std::string in_quotes(std::string_view word);
 
 }  // namespace tetmend::formats

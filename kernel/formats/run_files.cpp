@@ -44,7 +44,7 @@ std::filesystem::path place_of(const std::filesystem::path& name) {
   return place.has_filename() ? place : place.parent_path();
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& folder) {
+std::filesystem::path or_here(const std::filesystem::path& folder) {
   return folder.empty() ? "." : folder;
 }
 
@@ -64,7 +64,7 @@ std::vector<RunFiles::File> RunFiles::find_all(const FileSet& set) {
   std::error_code ignored;
   for (const NumberedFiles& numbered : set.numbered) {
     for (const auto& entry :
-         std::filesystem::directory_iterator(folder_of(numbered.folder), ignored)) {
+         std::filesystem::directory_iterator(or_here(numbered.folder), ignored)) {
       if (!has_number(entry.path().filename(), numbered)) continue;
       found.push_back(find(numbered.folder / entry.path().filename()));
     }
@@ -74,7 +74,7 @@ std::vector<RunFiles::File> RunFiles::find_all(const FileSet& set) {
 
 std::vector<NumberedFiles> RunFiles::places_of(const std::vector<NumberedFiles>& numbered) {
   std::vector<NumberedFiles> places = numbered;
-  for (NumberedFiles& each : places) each.folder = place_of(folder_of(each.folder));
+  for (NumberedFiles& each : places) each.folder = place_of(or_here(each.folder));
   return places;
 }
 
