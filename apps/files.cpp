@@ -115,7 +115,7 @@ formats::FileSet files_read(const NamedFile& named, const pieces::ArrayFiles* kn
 std::string replaceable(const NamedFile& named, const pieces::ArrayFiles* known) {
   if (!named.in_place) return {};
   return has_parts(named.file, known) ? "parts" + lower_extension(named.file)
-                                        : format_name(named.file);
+                                      : format_name(named.file);
 }
 
 void check_writable(const NamedFile& output) {

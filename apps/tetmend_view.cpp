@@ -165,7 +165,8 @@ void check_files(const Options& options) {
     if (!mesh.empty()) files.read({option, {source_files(mesh), {}}});
   }
   if (const auto lesson = explain::lesson_beside(options.file)) {
-    files.read({"the lesson", {{*lesson}, {}}});
+    const auto trace = std::filesystem::path(*lesson).replace_extension(".trace");  // of its name
+    files.read({"the lesson", {{*lesson, trace}, {}}});
   }
   files.read({"--script", {{options.script}, {}}});
   files.read({"--plugin", {options.plugins, {}}});
