@@ -139,11 +139,11 @@ TEST_CASE("'fixed' is the same as nothing, and a tolerance without sense is a mi
 TEST_CASE(
     "a length that is a large part of the mesh is a forgotten percent sign, unless it is meant") {
   const Mesh input = load(asset("folded_sheet.mesh"));
-  Point low = input.arrays().points.front();
+  Point low = MeshAccess::data(input).points.front();
   Point high = low;
-  for (const auto& p : input.arrays().points) {
-    low = low.cwiseMin(Point(p[0], p[1], p[2])).eval();
-    high = high.cwiseMax(Point(p[0], p[1], p[2])).eval();
+  for (const Point& p : MeshAccess::data(input).points) {
+    low = low.cwiseMin(p).eval();
+    high = high.cwiseMax(p).eval();
   }
   const double diagonal = (high - low).norm();
   const auto complaint = [&](double length, const char* mark) -> std::string {
