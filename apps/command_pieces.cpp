@@ -95,7 +95,8 @@ int split(PiecesOptions& options, Invocation& invocation) {
   const std::array outputs = {NamedFile{"-o", improve.output, mesh, true},
                               NamedFile{"FOLDER", options.folder, run_folder},
                               NamedFile{"FOLDER", options.folder / kPlan}};
-  prepare_files(inputs, outputs, invocation.array_files);
+  check_distinct(inputs, outputs, invocation.array_files);
+  prepare_files({}, {outputs.data(), 1}, invocation.array_files);  // the folder is yet to be made
   complete(improve);
   pieces::Division division;
   division.pieces = improve.pieces.pieces;

@@ -16,6 +16,7 @@ from pathlib import Path
 
 PROGRAM = sys.argv[1]
 MESH = Path(sys.argv[2]) / "assets" / "meshes" / "two_materials.mesh"
+FEW_TETS = Path(sys.argv[2]) / "assets" / "lessons" / "1-core.mesh"
 failures = []
 
 # Bytes, and what is shown for them.
@@ -104,7 +105,7 @@ def names_of_groups_and_arrays():
 def names_of_files():
     for name, shown in NAMES.items():
         mesh = name + b".mesh"
-        shutil.copy(os.fsencode(MESH), mesh)
+        shutil.copy(os.fsencode(FEW_TETS), mesh)
         trace = name + b".trace"
         status, _, err = run("improve", mesh, "-o", b"out" + mesh, "--report", name + b".json", "--report", "r.html", "--trace", trace)
         check(status == 0, "a mesh of such a name is improved", name, err)
@@ -122,10 +123,10 @@ def names_of_files():
                 xml.etree.ElementTree.parse(made)
         json.loads(Path("t.json").read_text())
         folder = name + b".run"
-        status, _, err = run("pieces", "split", folder, mesh, "-o", b"pieces" + mesh, "--pieces", "2")
+        status, _, err = run("pieces", "split", folder, MESH, "-o", b"pieces" + mesh, "--pieces", "2")
         check(status == 0, "a run in pieces begins", name, err)
         plan = json.loads(Path(os.fsdecode(folder + b"/plan.json")).read_bytes().decode())
-        check(plan["input"].endswith(shown + ".mesh"), "the plan has the name as text", name, plan)
+        check(plan["output"].endswith(shown + ".mesh"), "the plan has the name as text", name, plan)
         Path(os.fsdecode(b"broken" + mesh)).write_bytes(b"x" + name)
         for arguments in (("quality", b"none" + mesh), ("quality", b"broken" + mesh), ("quality", name),
                           ("improve", mesh, "-o", b"no/" + mesh), ("improve", mesh, "-o", mesh, "--report", b"no/" + name + b".json")):
