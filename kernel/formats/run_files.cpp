@@ -33,10 +33,22 @@ bool is_among(const std::filesystem::path& place, const NumberedFiles& numbered)
          has_number(*in_place, numbered);
 }
 
-/// Links are followed as far as there is something.
+/// Behind links to nothing, too: there may be something when it is written.
+std::filesystem::path behind_links(std::filesystem::path name) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks; ++i) {
+    if (!std::filesystem::is_symlink(std::filesystem::symlink_status(name, error))) break;
+    const std::filesystem::path target = std::filesystem::read_symlink(name, error);
+    if (error) break;
+    name = name.parent_path() / target;
+  }
+  return name;
+}
+
 std::filesystem::path place_of(const std::filesystem::path& name) {
   std::error_code error;
-  std::filesystem::path place = std::filesystem::weakly_canonical(name, error);
+  std::filesystem::path place = std::filesystem::weakly_canonical(behind_links(name), error);
   if (error) place = name;
   // What is not there is not made absolute.
   if (const auto absolute = std::filesystem::absolute(place, error); !error) place = absolute;

@@ -46,6 +46,8 @@ TEST_CASE("files are the same by inode, and where they are not there yet by thei
   CHECK(clash(use(folder / "a"), use(folder / "soft")));
   CHECK(clash(use(folder / "soft"), use(folder / "d/../a")));
   CHECK(clash(use(folder / "d/new"), use(folder / "e/new")));
+  std::filesystem::create_symlink("d/new", folder / "link_to_nothing");
+  CHECK(clash(use(folder / "link_to_nothing"), use(folder / "d/new")));
   CHECK_FALSE(clash(use(folder / "a"), use(folder / "d/a")));
   CHECK_FALSE(clash(use("-.msh"), use("-.msh")));  // standard input and output
 }
