@@ -8,7 +8,6 @@
 
 #include "bindings/python/core/arrays.h"
 
-
 namespace tetmend::python {
 
 using namespace py::literals;
