@@ -22,6 +22,7 @@
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/from_chars.h"
+#include "kernel/printable.h"
 
 namespace tetmend::apps {
 namespace {
@@ -62,7 +63,9 @@ nlohmann::json to_json(const Fact::Number& number) {
 
 void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
   if (!options.json) {
-    for (const Fact& fact : facts) fmt::print("{}  {}\n", fact.holds ? "ok  " : "FAIL", fact.text);
+    for (const Fact& fact : facts) {
+      say(stdout, fmt::format("{}  {}\n", fact.holds ? "ok  " : "FAIL", printable(fact.text)));
+    }
     return;
   }
   nlohmann::json list = nlohmann::json::array();
@@ -76,7 +79,7 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
   nlohmann::json result = {
       {"schema", 1}, {"file", options.file.string()}, {"holds", holds}, {"facts", list}};
   if (!options.improved.empty()) result["improved"] = options.improved.string();
-  fmt::print("{}\n", result.dump(2));
+  print_json(result);
 }
 
 /// Of parts, groups are not kept: they cannot be compared.
@@ -85,7 +88,7 @@ Mesh load_to_check(const Options& options, const std::filesystem::path& file,
   Mesh mesh = load_whole(file, options.wanted.threads, parts);
   if (!parts->is_one(file)) return mesh;
   for (const std::string& text : mesh.notes()) {
-    say(stderr, fmt::format("note: {}: {}\n", file.string(), text));
+    say(stderr, fmt::format("note: {}: {}\n", printable(file.string()), printable(text)));
   }
   return mesh;
 }

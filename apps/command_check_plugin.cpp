@@ -9,6 +9,7 @@
 #include "apps/files.h"
 #include "apps/improve_options.h"
 #include "apps/plugin_watch.h"
+#include "apps/standard_streams.h"
 #include "contract/contract.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "ops/plugin.h"
@@ -36,14 +37,14 @@ std::vector<contract::Ground> load_grounds(const CheckPluginOptions& options) {
 /// True if the operator keeps its contract.
 bool check_operator(const Registry& registry, std::string_view name,
                     const std::vector<contract::Ground>& grounds) {
-  fmt::print("{}\n", name);
+  say(stdout, fmt::format("{}\n", name));
   const auto print_line = [](std::string_view mesh, const contract::Outcome& outcome) {
     const std::string_view what = !outcome.complaint.empty() ? "   BROKEN: "
                                   : !outcome.note.empty()    ? "   NOTE: "
                                                              : "";
-    fmt::print("  {:<28} {:>8} attempts {:>7} accepted{}{}\n", mesh, grouped(outcome.attempts),
-               grouped(outcome.accepted), what,
-               outcome.complaint.empty() ? outcome.note : outcome.complaint);
+    say(stdout, fmt::format("  {:<28} {:>8} attempts {:>7} accepted{}{}\n", mesh,
+                            grouped(outcome.attempts), grouped(outcome.accepted), what,
+                            outcome.complaint.empty() ? outcome.note : outcome.complaint));
     std::fflush(stdout);
   };
   contract::Outcome total;
@@ -53,9 +54,10 @@ bool check_operator(const Registry& registry, std::string_view name,
     total.complaint = error.what();
   }
   const bool kept = total.complaint.empty();
-  fmt::print("{} {} its contract: {} attempts, {} accepted{}{}\n\n", name,
-             kept ? "keeps" : "BREAKS", grouped(total.attempts), grouped(total.accepted),
-             kept && total.note.empty() ? "" : "; ", kept ? total.note : total.complaint);
+  say(stdout, fmt::format("{} {} its contract: {} attempts, {} accepted{}{}\n\n", name,
+                          kept ? "keeps" : "BREAKS", grouped(total.attempts),
+                          grouped(total.accepted), kept && total.note.empty() ? "" : "; ",
+                          kept ? total.note : total.complaint));
   return kept;
 }
 

@@ -43,9 +43,9 @@ int run_convert(ConvertOptions& options, Invocation& invocation) {
   check_mesh_extension(options.input);
   check_mesh_extension(options.output);
   check_variant(options.output, options.carry);
-  const NamedFile input = {"IN", options.input, true};
-  const NamedFile output = {"OUT", options.output, true};
-  prepare_files({&input, 1}, {&output, 1});
+  const NamedFile input = {"IN", options.input, NamedFile::Kind::mesh};
+  const NamedFile output = {"OUT", options.output, NamedFile::Kind::mesh};
+  prepare_files({&input, 1}, {&output, 1}, &parts);
   std::vector<std::string> notes;
   const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
   save(options.output, mesh, options.threads, options.carry.variant);
@@ -78,7 +78,7 @@ Formats, by extension:
 {}A TetGen mesh is named by its .node or .ele file; its other files go with it.
 A mesh in parts is named by its .pvtu file, or as part_%d.msh for part_1.msh,
 part_2.msh and so on of Gmsh; of the latter labels and constraints alone are
-kept. OUT in parts has tets in another order.
+kept. OUT in parts has tets in another order. No file of OUT may be one of IN.
 
 Examples:
   tetmend convert part.mesh part.vtk

@@ -59,16 +59,15 @@ void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known)
   for (const std::filesystem::path& report : options.reports) {
     check_extension(report, kReportExtensions);
   }
-  const std::filesystem::path schedule = options.run.schedule;
-  const std::array inputs = {
-      NamedFile{"IN", options.input, true},
-      NamedFile{"--schedule", schedule.extension() == ".lua" ? schedule : ""}};
+  std::vector<NamedFile> inputs = files_of_options(options.run);
+  inputs.insert(inputs.begin(), {"IN", options.input, NamedFile::Kind::mesh, true});
   std::vector<NamedFile> outputs;
   for (const std::filesystem::path& report : options.reports)
     outputs.push_back({"--report", report});
-  outputs.push_back({"-o", options.output, true});
+  outputs.push_back({"-o", options.output, NamedFile::Kind::mesh, true});
   outputs.push_back({"--trace", options.run.trace});
-  prepare_files(inputs, outputs);
+  outputs.push_back({"--checkpoint", options.pieces.checkpoint, NamedFile::Kind::run_folder});
+  prepare_files(inputs, outputs, known);
 }
 
 /// The worst tets by the numbers that the file of the mesh gives them.
@@ -90,6 +89,11 @@ bool is_by_files(const ImproveOptions& options, const Invocation& invocation) {
 /// What pieces cannot have is better found before the mesh is read.
 void check_pieces(const ImproveOptions& options, const Invocation& invocation) {
   const std::size_t count = options.pieces.pieces;  // 0: nobody knows yet
+  try {
+    pieces::check_memory(options.pieces.memory);
+  } catch (const OptionError& error) {
+    throw UsageError("--" + message_of(error));
+  }
   const bool is_whole = count == 1 || (count == 0 && !is_by_files(options, invocation));
   if (is_whole && !options.run.trace_piece.empty()) {
     throw UsageError("--trace-piece: the run is not in pieces, see --pieces");
@@ -272,8 +276,9 @@ time, or while IN is read, they end the program at once, and nothing is written.
 A time limit stops the work likewise, with exit status 0. A mistake in a script
 ends it with exit status 1, and nothing is written.
 OUT appears only when it is complete; an older file of that name stays until
-then, and hands down owner and permissions. OUT may be IN; other files that are
-named must differ. The same input gives the same output, byte for byte.
+then, and hands down owner and permissions. OUT may be IN, in the same format;
+all other files that are read or written must differ, also parts of meshes and
+what decks include. The same input gives the same output, byte for byte.
 
 Named arrays come over: of points linearly in the old mesh, of tets from the old
 tet at the centroid. What of IN cannot be kept is named on standard error and in

@@ -11,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/standard_streams.h"
 #include "explain/lesson_guide.h"
 #include "explain/page.h"
 #include "kernel/formats/output_file.h"
@@ -60,15 +61,32 @@ void put(const std::filesystem::path& file, std::string_view text) {
   out.commit();
 }
 
+std::vector<NamedFile> files_of(const std::vector<std::filesystem::path>& lessons) {
+  std::vector<NamedFile> files;
+  for (const auto& lesson : lessons) {
+    files.push_back({"the lesson", lesson});
+    files.push_back({"the trace of the lesson", read_lesson(lesson).trace});
+  }
+  return files;
+}
+
+std::filesystem::path page_name(const std::filesystem::path& lesson) {
+  return name_of(lesson) + ".html";
+}
+
 void write_all(const LessonOptions& options, const std::vector<std::filesystem::path>& lessons) {
+  std::vector<NamedFile> outputs = {{"a page", options.output / "index.html"}};
+  for (const auto& lesson : lessons)
+    outputs.push_back({"a page", options.output / page_name(lesson)});
+  check_distinct(files_of(lessons), outputs, nullptr);
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
   std::vector<explain::PageLink> pages;
   for (const auto& path : lessons) {
     const Lesson lesson = read_lesson(path);
-    const std::string name = name_of(path) + ".html";
+    const std::filesystem::path name = page_name(path);
     put(options.output / name, page_of(lesson));
-    pages.push_back({name, lesson.title, lesson.steps.front().text});
+    pages.push_back({name.string(), lesson.title, lesson.steps.front().text});
   }
   put(options.output / "index.html",
       explain::write_index("Lessons", "Recorded runs of tetmend, step by step.", pages, program()));
@@ -79,7 +97,7 @@ int run_lesson(const LessonOptions& options) {
   if (lessons.empty()) throw Error("there are no lessons: TETMEND_LESSONS may name their folder");
   if (options.name.empty() && !options.html) {
     for (const auto& path : lessons) {
-      fmt::print("{:<16} {}\n", name_of(path), read_lesson(path).title);
+      say(stdout, fmt::format("{:<16} {}\n", name_of(path), read_lesson(path).title));
     }
     return 0;
   }
@@ -88,7 +106,12 @@ int run_lesson(const LessonOptions& options) {
     write_all(options, lessons);
     return 0;
   }
-  const Lesson lesson = read_lesson(find(options.name, lessons));
+  const std::filesystem::path file = find(options.name, lessons);
+  if (!options.output.empty()) {
+    const NamedFile output = {"-o", options.output};
+    prepare_files(files_of({file}), {&output, 1}, nullptr);
+  }
+  const Lesson lesson = read_lesson(file);
   std::string text;
   if (options.html) {
     text = page_of(lesson);
@@ -99,10 +122,8 @@ int run_lesson(const LessonOptions& options) {
     }
   }
   if (options.output.empty()) {
-    fmt::print("{}", text);
+    say(stdout, text);
   } else {
-    const NamedFile output = {"-o", options.output};
-    prepare_files({}, {&output, 1});
     put(options.output, text);
   }
   return 0;

@@ -8,6 +8,7 @@
 
 #include "apps/commands.h"
 #include "apps/plugins.h"
+#include "apps/standard_streams.h"
 
 namespace tetmend::apps {
 namespace {
@@ -49,11 +50,11 @@ std::string as_sentence(std::string_view text) {
 }
 
 void print_operator(const OperatorDescription& info) {
-  fmt::print("{}\n  target: {}\n  {}\n", info.name, info.target, info.help);
-  if (!info.plugin.empty()) fmt::print("  plugin: {}\n", info.plugin.string());
+  say(stdout, fmt::format("{}\n  target: {}\n  {}\n", info.name, info.target, info.help));
+  if (!info.plugin.empty()) say(stdout, fmt::format("  plugin: {}\n", info.plugin.string()));
   for (const Parameter& spec : info.parameters) {
-    fmt::print("    {:<20} {}, {}, default {:g}\n      {}\n", spec.name, kind_name(spec.kind),
-               format_range(spec), spec.initial, spec.help);
+    say(stdout, fmt::format("    {:<20} {}, {}, default {:g}\n      {}\n", spec.name,
+                            kind_name(spec.kind), format_range(spec), spec.initial, spec.help));
   }
 }
 
@@ -98,7 +99,7 @@ int run_operators(const OperatorsOptions& options) {
   const std::vector<OperatorDescription> operators =
       tetmend::operators(all_plugins(options.plugins));
   if (options.markdown) {
-    fmt::print("{}", markdown_table(operators));
+    say(stdout, markdown_table(operators));
     return 0;
   }
   if (!options.name.empty()) {
@@ -107,7 +108,7 @@ int run_operators(const OperatorsOptions& options) {
   }
   bool first = true;
   for (const OperatorDescription& info : operators) {
-    if (!first) fmt::print("\n");
+    if (!first) say(stdout, "\n");
     first = false;
     print_operator(info);
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // tetmend pieces: a run in pieces as programs that any task engine can start.
+#include <array>
 #include <charconv>
 #include <memory>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include "apps/improve_watched.h"
 #include "apps/mesh_formats.h"
 #include "apps/standard_streams.h"
+#include "explain/json_text.h"
 #include "kernel/formats/output_file.h"
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
@@ -41,6 +44,20 @@ std::size_t to_number(const std::string& text, std::string_view what) {
   return number;
 }
 
+constexpr const char* kPlan = "plan.json";
+
+/// The meshes of the run and what is in its folder, and what a step writes besides.
+/// @throws UsageError where these are the same
+void check_step(const PiecesOptions& options, const pieces::FolderRun& run,
+                std::vector<NamedFile> outputs, const Invocation& invocation) {
+  using enum NamedFile::Kind;
+  const std::array inputs = {NamedFile{"IN", run.saved().input, mesh, true},
+                             NamedFile{"FOLDER", options.folder / kPlan}};
+  outputs.insert(outputs.begin(),
+                 {{"FOLDER", options.folder, run_folder}, {"OUT", run.saved().output, mesh, true}});
+  check_distinct(inputs, outputs, invocation.array_files);
+}
+
 /// For people and task engines: what is to be done next.
 void write_plan(const std::filesystem::path& folder, const pieces::FolderRun& run) {
   nlohmann::json plan = {{"input", run.saved().input},
@@ -52,8 +69,8 @@ void write_plan(const std::filesystem::path& folder, const pieces::FolderRun& ru
     plan["name"] = round.name;
     plan["pieces"] = round.pieces.size();
   }
-  OutputFile out(folder / "plan.json");
-  out.put(plan.dump(2) + '\n');
+  OutputFile out(folder / kPlan);
+  out.put(explain::json_text(plan, 2) + '\n');
   out.commit();
 }
 
@@ -73,9 +90,14 @@ int split(PiecesOptions& options, Invocation& invocation) {
     throw UsageError("pieces split: --pieces N, 2 or more, is missing");
   improve.input = options.more.front();
   check_formats(improve.input, improve.output, improve.carry, invocation.array_files);
-  const NamedFile input = {"IN", improve.input, true};
-  const NamedFile output = {"-o", improve.output, true};
-  prepare_files({&input, 1}, {&output, 1});
+  using enum NamedFile::Kind;
+  std::vector<NamedFile> inputs = files_of_options(improve.run);
+  inputs.insert(inputs.begin(), {"IN", improve.input, mesh, true});
+  const std::array outputs = {NamedFile{"-o", improve.output, mesh, true},
+                              NamedFile{"FOLDER", options.folder, run_folder},
+                              NamedFile{"FOLDER", options.folder / kPlan}};
+  check_distinct(inputs, outputs, invocation.array_files);
+  prepare_files({}, {outputs.data(), 1}, invocation.array_files);  // the folder is yet to be made
   complete(improve);
   pieces::Division division;
   division.pieces = improve.pieces.pieces;
@@ -137,6 +159,7 @@ int improve(PiecesOptions& options, Invocation& invocation) {
   const std::vector<std::size_t> numbers = chosen(options, run);
   if (run.is_finished())
     return kSuccess;  // rounds are planned before it is known how many there are
+  check_step(options, run, {{"--trace", options.improve.run.trace}}, invocation);
   ProgressLine line(!options.improve.quiet);
   std::optional<Interruption> interruption;
   std::size_t done = 0;
@@ -174,6 +197,11 @@ int join(PiecesOptions& options, Invocation& invocation) {
                                    report.string()));
     }
   }
+  std::vector<NamedFile> reports;
+  for (const std::filesystem::path& report : improve.reports) {
+    reports.push_back({"--report", report});
+  }
+  check_step(options, run, reports, invocation);
   const std::optional<Result> result = run.join(improve.run);
   invocation.wrote_files = true;
   write_plan(options.folder, run);

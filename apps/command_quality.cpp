@@ -15,6 +15,7 @@
 #include "apps/files.h"
 #include "apps/mesh_formats.h"
 #include "apps/report.h"
+#include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/formats/degenerate.h"
 
@@ -63,7 +64,7 @@ void print_json(const QualityOptions& options, const Measurement& measured) {
     result["measures"][std::string(summary.name)] = {{"worst", summary.worst},
                                                      {"mean", summary.mean}};
   }
-  fmt::print("{}\n", result.dump(2));
+  apps::print_json(result);
 }
 
 int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
@@ -71,9 +72,9 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
   check_input_format(options.file, parts);
   if (!options.cells.empty()) {
     check_mesh_extension(options.cells);
-    const NamedFile input = {"FILE", options.file};
-    const NamedFile cells = {"--cells", options.cells};
-    prepare_files({&input, 1}, {&cells, 1});
+    const NamedFile input = {"FILE", options.file, NamedFile::Kind::mesh};
+    const NamedFile cells = {"--cells", options.cells, NamedFile::Kind::mesh};
+    prepare_files({&input, 1}, {&cells, 1}, parts);
   }
   const MeasureOptions wanted = {.measure = list_measures(options.measures),
                                  .limit = options.limit,
@@ -97,16 +98,17 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
     print_json(options, measured);
     return 0;
   }
-  fmt::print("{}\n\n", shown(options.file));
+  say(stdout, fmt::format("{}\n\n", shown(options.file)));
   std::string notes = format_build(measured.build);
   for (const std::string& note : measured.notes) notes += fmt::format("note: {}\n", note);
-  if (!notes.empty()) fmt::print("{}\n", notes);
-  fmt::print("{}\n{}", format_statistics(measured.statistics, measured.measures),
-             format_histogram(measured.statistics, nullptr));
-  if (measured.rulers) fmt::print("\n{}", format_rulers(*measured.rulers, nullptr));
-  if (measured.curved) fmt::print("\n{}", format_curved(*measured.curved, nullptr));
-  if (measured.limit) fmt::print("\n{}", format_limit(*measured.limit));
-  if (options.list > 0) fmt::print("\n{}", format_bad_tets(measured.bad_tets, options.list));
+  if (!notes.empty()) say(stdout, fmt::format("{}\n", notes));
+  say(stdout, fmt::format("{}\n{}", format_statistics(measured.statistics, measured.measures),
+                          format_histogram(measured.statistics, nullptr)));
+  if (measured.rulers) say(stdout, fmt::format("\n{}", format_rulers(*measured.rulers, nullptr)));
+  if (measured.curved) say(stdout, fmt::format("\n{}", format_curved(*measured.curved, nullptr)));
+  if (measured.limit) say(stdout, fmt::format("\n{}", format_limit(*measured.limit)));
+  if (options.list > 0)
+    say(stdout, fmt::format("\n{}", format_bad_tets(measured.bad_tets, options.list)));
   return 0;
 }
 

@@ -9,6 +9,7 @@
 
 #include "apps/commands.h"
 #include "apps/plugins.h"
+#include "apps/standard_streams.h"
 #include "schedule/reference.h"
 
 namespace tetmend::apps {
@@ -25,20 +26,20 @@ struct SchedulesOptions {
 int run_schedules(const SchedulesOptions& options) {
   tetmend::operators(all_plugins(options.plugins));  // one that cannot be loaded is found here, too
   if (options.markdown) {
-    fmt::print("{}", format_reference());
+    say(stdout, format_reference());
     return 0;
   }
   if (options.words) {
-    fmt::print("{}", format_words());
+    say(stdout, format_words());
     return 0;
   }
   if (options.name.empty()) {
-    for (const ScheduleInfo& info : schedules()) fmt::print("{}", format_summary(info));
+    for (const ScheduleInfo& info : schedules()) say(stdout, format_summary(info));
     return 0;
   }
   try {
-    fmt::print("{}", options.source ? schedule_source(options.name)
-                                    : format_parameters(describe_schedule(options.name)));
+    say(stdout, options.source ? schedule_source(options.name)
+                               : format_parameters(describe_schedule(options.name)));
   } catch (const Error& error) {
     if (std::filesystem::path(options.name).extension() == ".lua") throw;
     throw UsageError(error.what());

@@ -77,9 +77,9 @@ MeshData labelled(const TetMesh& mesh, const SurfaceFeatures& features) {
 int show_features(const SurfaceOptions& options, Invocation& invocation) {
   check_input_format(options.input, invocation.array_files);
   if (!options.output.empty()) check_mesh_extension(options.output);
-  const NamedFile input = {"IN", options.input};
-  const NamedFile output = {"OUT", options.output};
-  prepare_files({&input, 1}, {&output, 1});
+  const NamedFile input = {"IN", options.input, NamedFile::Kind::mesh};
+  const NamedFile output = {"OUT", options.output, NamedFile::Kind::mesh};
+  prepare_files({&input, 1}, {&output, 1}, invocation.array_files);
   const ThreadLimit limit(options.threads);
   MeshData read = read_whole(options.input, invocation.array_files);
   const std::vector<char> points = find_kept_points(read);
@@ -114,9 +114,9 @@ int run_surface(const SurfaceOptions& options, Invocation& invocation) {
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
-  const NamedFile input = {"IN", options.input};
-  const NamedFile output = {"OUT", options.output};
-  prepare_files({&input, 1}, {&output, 1});
+  const NamedFile input = {"IN", options.input, NamedFile::Kind::mesh};
+  const NamedFile output = {"OUT", options.output, NamedFile::Kind::mesh};
+  prepare_files({&input, 1}, {&output, 1}, invocation.array_files);
   const ThreadLimit limit(options.threads);
   const pieces::ArrayFiles* const parts = invocation.array_files;
   const TetMesh mesh = build_whole(options.input, read_whole(options.input, parts), nullptr, parts);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // tetmend trace: looks into a recorded run.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/standard_streams.h"
 #include "explain/figures/call_figure.h"
 #include "explain/lesson_guide.h"
 #include "explain/page.h"
@@ -22,6 +25,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/vtk_legacy.h"
+#include "kernel/printable.h"
 #include "trace/call_extract.h"
 #include "trace/call_script.h"
 #include "trace/call_tree.h"
@@ -59,7 +63,7 @@ void check_call(const TraceFile& file, std::uint32_t call) {
 /// To the file that was asked for, or to standard output.
 void put_text(const TraceOptions& options, std::string_view text) {
   if (options.output.empty()) {
-    fmt::print("{}", text);
+    say(stdout, text);
     return;
   }
   OutputFile out(options.output);
@@ -69,7 +73,7 @@ void put_text(const TraceOptions& options, std::string_view text) {
 
 void write_slices(const TraceOptions& options, const TraceFile& file) {
   if (options.output.empty()) {
-    tetmend::write_slices(file, [](std::string_view text) { fmt::print("{}", text); });
+    tetmend::write_slices(file, [](std::string_view text) { say(stdout, text); });
     return;
   }
   OutputFile out(options.output);
@@ -127,11 +131,10 @@ void write_text(const std::filesystem::path& file, std::string_view text) {
 
 /// The name of a file, fit for a comment of one line.
 std::string name_of(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  std::replace_if(name.begin(), name.end(), is_control, '?');
-  return name;
+  return printable(file.filename().string());
 }
+
+constexpr std::array<const char*, 3> kExtracted = {"call.mesh", "call.lua", "README.txt"};
 
 /// A folder with all that repeating one call needs.
 void write_extract(const TraceOptions& options, const TraceFile& file) {
@@ -143,8 +146,8 @@ void write_extract(const TraceOptions& options, const TraceFile& file) {
   const Goal& goal = kit.standard.goal();
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
-  write_mesh(options.output / "call.mesh", kit.mesh);
-  write_text(options.output / "call.lua",
+  write_mesh(options.output / kExtracted[0], kit.mesh);
+  write_text(options.output / kExtracted[1],
              fmt::format("-- Call {} of {}: {} -> {}\n"
                          "goal{{min = {}, max = {}}}\njudge_by{{measure = \"{}\", price = {}}}\n"
                          "attempt({}, {{{}}}{})\n",
@@ -153,7 +156,7 @@ void write_extract(const TraceOptions& options, const TraceFile& file) {
                          to_string(kit.standard.terms()), kit.standard.price(), script,
                          fmt::join(kit.target, ", "),
                          kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
-  write_text(options.output / "README.txt",
+  write_text(options.output / kExtracted[2],
              fmt::format("Repeats call {} of a run of {}\n\n"
                          "  tetmend improve call.mesh -o out.mesh --schedule call.lua --layers "
                          "improve --goal {},{}{} --trace out.trace\n"
@@ -236,6 +239,25 @@ void write_figure(const TraceOptions& options, const TraceFile& file) {
   figure::write_drawing(options.output, explain::draw_call(file, replay, request));
 }
 
+void check_outputs(const TraceOptions& options) {
+  using enum NamedFile::Kind;
+  std::vector<NamedFile> inputs = {{"FILE", options.file}};
+  if (!options.history.empty()) {
+    inputs.push_back({"the mesh of --history", file_of_question(options.history), mesh});
+  }
+  if (options.html && options.html_call.empty()) {
+    inputs.push_back({"the lesson", explain::lesson_beside(options.file).value_or("")});
+  }
+  if (options.extract) {
+    std::vector<NamedFile> outputs;
+    for (const char* name : kExtracted) outputs.push_back({name, options.output / name});
+    check_distinct(inputs, outputs, nullptr);
+  } else if (!options.output.empty()) {
+    const NamedFile output = {"-o", options.output, options.at ? mesh : plain};
+    prepare_files(inputs, {&output, 1}, nullptr);
+  }
+}
+
 int run_trace(const TraceOptions& options) {
   check_figure(options);
   if (options.all && options.history.empty()) throw UsageError("--all is for --history");
@@ -247,16 +269,7 @@ int run_trace(const TraceOptions& options) {
   if (options.extract && options.output.empty()) {
     throw UsageError("--extract needs -o, a folder for the files");
   }
-  const NamedFile input = {"FILE", options.file};
-  if (options.extract) {
-    for (const char* name : {"call.mesh", "call.lua", "README.txt"}) {
-      const NamedFile output = {"a file of -o", options.output / name};
-      check_distinct({&input, 1}, {&output, 1});
-    }
-  } else if (!options.output.empty()) {
-    const NamedFile output = {"-o", options.output};
-    prepare_files({&input, 1}, {&output, 1});
-  }
+  check_outputs(options);
   const TraceFile file(options.file);
   if (!file.damage().empty()) complain(kSuccess, "warning: " + file.damage());
   if (options.at) {

@@ -17,9 +17,9 @@ void convert_pieces(const std::filesystem::path& input, const std::filesystem::p
                     Ranks& ranks) {
   if (ranks.is_first()) {
     check_formats(input, output, carry, known);
-    const NamedFile from = {"IN", input};
-    const NamedFile to = {"OUT", output};
-    prepare_files({&from, 1}, {&to, 1});
+    const NamedFile from = {"IN", input, NamedFile::Kind::mesh};
+    const NamedFile to = {"OUT", output, NamedFile::Kind::mesh};
+    prepare_files({&from, 1}, {&to, 1}, known);
   }
   pieces::InputMesh mesh(input, ranks, known, carry.label_array);
   if (ranks.is_first()) {

@@ -15,9 +15,14 @@
 
 #include "apps/commands.h"
 #include "apps/standard_streams.h"
+#include "explain/json_text.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/pending_file.h"
+#include "kernel/formats/run_files.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/printable.h"
+#include "pieces/rank_share.h"
+#include "pieces/run_folder.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -80,55 +85,93 @@ std::FILE* stream_beside(const std::filesystem::path& output) {
 
 namespace {
 
-bool is_same(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error) && !error) return true;
-  const auto real_a = std::filesystem::weakly_canonical(a, error).lexically_normal();
-  if (error) return a.lexically_normal() == b.lexically_normal();
-  const auto real_b = std::filesystem::weakly_canonical(b, error).lexically_normal();
-  return real_a == real_b;
+bool has_parts(const std::filesystem::path& file, const pieces::ArrayFiles* known) {
+  return known != nullptr && known->is_one(file);
 }
 
-void check_pair(const NamedFile& output, const NamedFile& other) {
-  if (output.in_place && other.in_place) return;
-  for (const std::filesystem::path& file : mesh_files(output.file)) {
-    for (const std::filesystem::path& taken : mesh_files(other.file)) {
-      if (formats::is_standard_stream(file) || !is_same(file, taken)) continue;
-      throw UsageError(fmt::format("{}: {} and {} would be the same file", file.string(),
-                                   other.option, output.option));
-    }
+formats::FileSet files_written(const NamedFile& named, const pieces::ArrayFiles* known) {
+  switch (named.kind) {
+    case NamedFile::Kind::run_folder:
+      return pieces::RunFolder(named.file).files();
+    case NamedFile::Kind::mesh:
+      return has_parts(named.file, known)
+                 ? known->files_written(named.file)
+                 : formats::FileSet{.files = mesh_files(named.file), .numbered = {}};
+    case NamedFile::Kind::plain:
+      break;
   }
+  return {.files = {named.file}, .numbered = {}};
 }
 
-void check_writable(const std::filesystem::path& file) {
-  if (formats::is_standard_stream(file)) return;
-  for (const std::filesystem::path& each : mesh_files(file)) {
+formats::FileSet files_read(const NamedFile& named, const pieces::ArrayFiles* known) {
+  if (named.kind != NamedFile::Kind::mesh) return files_written(named, known);
+  return has_parts(named.file, known)
+             ? known->files_read(named.file)
+             : formats::FileSet{.files = source_files(named.file), .numbered = {}};
+}
+
+/// A mesh may take the place of one of the same format alone: through a link from b.vtk to a.mesh
+/// the file a.mesh would get what no reader of .mesh understands.
+std::string replaceable(const NamedFile& named, const pieces::ArrayFiles* known) {
+  if (!named.in_place) return {};
+  return has_parts(named.file, known) ? "parts" + lower_extension(named.file)
+                                      : format_name(named.file);
+}
+
+void check_writable(const NamedFile& output) {
+  const std::filesystem::path& file = output.file;
+  if (output.kind == NamedFile::Kind::run_folder || formats::is_standard_stream(file)) return;
+  const bool is_mesh = output.kind == NamedFile::Kind::mesh;
+  for (const auto& each : is_mesh ? mesh_files(file) : std::vector<std::filesystem::path>{file}) {
     std::error_code error;
     // Of several files, not all need be written.
     if (each != file && !std::filesystem::exists(each, error)) continue;
     const formats::PendingFile probe(each);  // vanishes without commit()
     for (const std::string& text : probe.notes()) {
-      say(stderr, fmt::format("note: {}: {}\n", each.string(), text));
+      say(stderr, fmt::format("note: {}: {}\n", printable(each.string()), text));
     }
   }
 }
 
 }  // namespace
 
-void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    if (output->file.empty()) continue;
-    for (const NamedFile& input : inputs) check_pair(*output, input);
-    for (auto other = outputs.begin(); other != output; ++other) check_pair(*output, *other);
+void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs,
+                    const pieces::ArrayFiles* known) {
+  formats::RunFiles files;
+  for (const NamedFile& input : inputs) {
+    if (input.file.empty()) continue;
+    files.read({input.option, files_read(input, known), replaceable(input, known),
+                files_written(input, known)});
+  }
+  for (const NamedFile& output : outputs) {
+    if (output.file.empty()) continue;
+    files.write({output.option, files_written(output, known), replaceable(output, known)});
+  }
+  if (const auto clash = files.clash()) {
+    throw UsageError(fmt::format("{}: {} and {} would be the same file", clash->file.string(),
+                                 clash->option, clash->output));
   }
 }
 
-void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs) {
+void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs,
+                   const pieces::ArrayFiles* known) {
   platform::ignore_broken_pipes();
-  check_distinct(inputs, outputs);
+  check_distinct(inputs, outputs, known);
   for (const NamedFile& output : outputs) {
-    if (!output.file.empty()) check_writable(output.file);
+    if (!output.file.empty()) check_writable(output);
   }
+}
+
+nlohmann::json printable_for(std::string_view where, const nlohmann::json& json) {
+  for (const std::string& text : explain::changed_texts(json)) {
+    say(stderr, fmt::format("note: {}: '{}' is written for a name that is no plain text\n", where,
+                            printable(text)));
+  }
+  return explain::printable_json(json);
+}
+
+void print_json(const nlohmann::json& json) {
+  say(stdout, printable_for("standard output", json).dump(2) + '\n');
 }
 
 void add_carry_options(CLI::App& command, CarryOptions& options) {
@@ -160,7 +203,7 @@ void check_variant(const std::filesystem::path& output, const CarryOptions& opti
 void tell_lost(const std::filesystem::path& input, const std::vector<std::string>& lost,
                const CarryOptions& options, std::vector<std::string>& notes) {
   for (const std::string& text : lost) {
-    say(stderr, fmt::format("note: {}: {}\n", shown(input), text));
+    say(stderr, fmt::format("note: {}: {}\n", printable(shown(input)), printable(text)));
   }
   if (options.strict && !lost.empty()) {
     throw Error(

@@ -18,6 +18,9 @@
 namespace CLI {
 class App;
 }
+namespace tetmend::pieces {
+class ArrayFiles;
+}
 
 namespace tetmend::apps {
 
@@ -43,20 +46,33 @@ std::FILE* stream_beside(const std::filesystem::path& output);
 
 /// A file that the user named, and how.
 struct NamedFile {
-  std::string_view option;     ///< "--trace", "IN"
+  enum class Kind : unsigned char { plain, mesh, run_folder };
+
+  std::string option;          ///< "--trace", "IN"
   std::filesystem::path file;  ///< empty: not named
-  bool in_place = false;       ///< of an input and an output: may be the same file
+  Kind kind = Kind::plain;
+  bool in_place = false;  ///< of an input and an output: may be one mesh
 };
 
 /// @throws UsageError when two outputs, or an output and an input, are the same file, however they
-/// are named; also for the other files of a mesh in several.
-void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+/// are named. A mesh counts with all files that reading it opens or writing it makes, replaces or
+/// removes.
+/// @param known formats of meshes in several files; null: none
+void check_distinct(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs,
+                    const pieces::ArrayFiles* known);
 
 /// What a command that writes files does first: check_distinct(), and try whether the outputs could
 /// be written, which leaves everything as it was. What replacing an older file will change besides
 /// its content is noted on standard error.
 /// @throws Error with the reason, such as a folder that does not exist.
-void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs);
+void prepare_files(std::span<const NamedFile> inputs, std::span<const NamedFile> outputs,
+                   const pieces::ArrayFiles* known);
+
+/// What is written of the JSON: explain::printable_json(). Texts that change are named on standard error.
+/// @param where it goes, for these notes
+nlohmann::json printable_for(std::string_view where, const nlohmann::json& json);
+/// The same to standard output.
+void print_json(const nlohmann::json& json);
 
 /// How a command reads a mesh that it writes again.
 struct CarryOptions {

@@ -98,14 +98,15 @@ void add_layers_and_tets(CLI::App& command, Options& options) {
                                    "How far the surface may move where it holds\n"
                                    "bad tets: fixed (the default), flat (only\n"
                                    "where no shape changes), 1% of the lengths\n"
-                                   "of edges there, or a length such as 0.01");
+                                   "of edges there, or a length such as 0.01\n"
+                                   "(above 5% of the mesh's diagonal: 0.5!)");
   add_value(command, options, "feature-angle",
             "Lines along which faces bend by more stay\n"
             "where they are (default: 40)")
       ->needs(surface);
   add_value(command, options, "tets",
-            "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all "
-            "(default:\nas far as it pays)");
+            "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all, not "
+            "less\nthan there are (default: as far as it pays)");
 }
 
 void add_protected_regions(CLI::App& command, Options& options) {
@@ -211,6 +212,16 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
       ->type_name("FILE")
       ->allow_extra_args(false);  // so that IN may follow
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+}
+
+std::vector<NamedFile> files_of_options(const Options& options) {
+  std::vector<NamedFile> files;
+  const std::filesystem::path schedule = options.schedule;
+  if (schedule.extension() == ".lua") files.push_back({"--schedule", schedule});
+  for (const std::filesystem::path& plugin : all_plugins(options.plugin)) {
+    files.push_back({"--plugin", plugin});
+  }
+  return files;
 }
 
 std::string region_help() {

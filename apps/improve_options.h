@@ -43,6 +43,10 @@ void add_options_of_pieces(CLI::App& command, ImproveOptions& options);
 void add_trace_options(CLI::App& command, Options& options);
 void add_check_option(CLI::App& command, Options& options);
 
+/// What is read besides the mesh: a schedule and plugins, also those that the environment names.
+/// @throws Error as all_plugins()
+std::vector<NamedFile> files_of_options(const Options& options);
+
 /// What the help says of a SPEC, for the end of the command's help.
 std::string region_help();
 

@@ -13,6 +13,7 @@
 #include "apps/bad_tets.h"
 #include "apps/files.h"
 #include "apps/report.h"
+#include "kernel/printable.h"
 #include "kernel/statistics.h"
 #include "report/shape.h"
 
@@ -308,7 +309,7 @@ std::string format_report(const ImproveReport& report) {
   if (result.curved_before && result.curved_after) {
     text += format_curved(*result.curved_before, &*result.curved_after) + '\n';
   }
-  for (const std::string& note : result.notes) text += note + '\n';
+  for (const std::string& note : result.notes) text += printable(note) + '\n';
   if (!result.notes.empty()) text += '\n';
   text += format_carried(result.carried);
   const std::string passes = format_passes(report);

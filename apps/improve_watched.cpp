@@ -50,7 +50,7 @@ Result improve_watched(const ImproveOptions& all, ProgressLine& line,
 
 void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
   if (files.empty()) return;
-  const nlohmann::json json = to_json(report);
+  const nlohmann::json json = printable_for(files.front().string(), to_json(report));
   for (const std::filesystem::path& file : files) {
     OutputFile out(file);
     out.put(lower_extension(file) == ".json" ? json.dump(2) + '\n'

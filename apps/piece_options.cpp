@@ -37,7 +37,8 @@ void add_piece_options(CLI::App& command, PieceOptions& options) {
             }
             options.memory = size.trace_limit;
           },
-          "Work out of core: at most about that much,\nsuch as 2G, is in memory at a time")
+          "Work out of core: at most about that much,\nsuch as 2G, is in memory at a time; 40M "
+          "or\nmore")
       ->type_name("SIZE");
   command
       .add_option("--scratch", options.scratch,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "apps/standard_streams.h"
+#include "kernel/printable.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -57,12 +58,14 @@ void ProgressLine::clear() {
 }
 
 void ProgressLine::draw(std::string line) {
+  constexpr std::size_t kDots = 3;
   const std::size_t width = terminal_width();
-  line.resize(std::min(line.size(), width));
+  line = printable(line);
+  if (line.size() > width) line = printable(line, std::max(width, kDots) - kDots);
   const std::size_t length = line.size();
   // Blanks over the rest of the longer line before: every terminal understands them.
   line.resize(std::max(length, std::min(drawn_width_, width)), ' ');
-  say(stderr, "\r");
+  std::fputc('\r', stderr);
   say(stderr, line);
   std::fflush(stderr);
   drawn_width_ = length;

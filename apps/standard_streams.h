@@ -7,7 +7,7 @@
 
 namespace tetmend::apps {
 
-/// Writes the text as far as it goes. std::ferror() knows of a failure.
+/// Writes printable_lines() of the text, as far as it goes. std::ferror() knows of a failure.
 void say(std::FILE* stream, std::string_view text) noexcept;
 
 }  // namespace tetmend::apps

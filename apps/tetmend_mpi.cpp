@@ -68,6 +68,9 @@ class Hdf5Files final : public pieces::ArrayFiles {
   void write(const std::filesystem::path& file, const pieces::RankShare& arrays) const override {
     mpi::write_hdf5(file, arrays, MPI_COMM_WORLD);
   }
+  formats::FileSet files_written(const std::filesystem::path& file) const override {
+    return {.files = mpi::files_of_hdf5(file), .numbered = {}};
+  }
   bool takes(const std::filesystem::path&, pieces::RowKind, const DataArray&) const override {
     return true;
   }

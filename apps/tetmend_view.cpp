@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,8 +17,12 @@
 #include "apps/description.h"
 #include "apps/plugins.h"
 #include "apps/standard_streams.h"
+#include "explain/json_text.h"
+#include "explain/lesson_guide.h"
 #include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/run_files.h"
 #include "kernel/formats/temporary_names.h"
 #include "platform/platform.h"
 #include "viewer/commands/frames.h"
@@ -111,7 +116,9 @@ void prepare(const Options& options, Document& document) {
 
 /// Otherwise the mesh is to fill the space that the panels leave.
 bool has_camera(const Options& options) {
-  return !options.view.empty() && nlohmann::json::parse(options.view).contains("camera");
+  if (options.view.empty()) return false;
+  const auto view = nlohmann::json::parse(options.view, nullptr, false);
+  return view.is_object() && view.contains("camera");
 }
 
 /// "FROM,TO" or "FROM,TO,EVERY"; nothing of an empty text.
@@ -144,9 +151,32 @@ FrameRange range_of_video(const Options& options, const Document& document) {
 
 void write_report(const std::string& file, Document& document) {
   OutputFile out(file);
-  out.put(state_of(document).dump(2));
+  out.put(explain::json_text(state_of(document), 2));
   out.put('\n');
   out.commit();
+}
+
+/// @throws CLI::ValidationError when an output is an input or another output.
+void check_files(const Options& options) {
+  formats::RunFiles files;
+  for (const auto& [option, mesh] : {std::pair("FILE", options.file),
+                                     {"--before", options.before},
+                                     {"--reference", options.reference}}) {
+    if (!mesh.empty()) files.read({option, {source_files(mesh), {}}});
+  }
+  if (const auto lesson = explain::lesson_beside(options.file)) {
+    const auto trace = std::filesystem::path(*lesson).replace_extension(".trace");  // of its name
+    files.read({"the lesson", {{*lesson, trace}, {}}});
+  }
+  files.read({"--script", {{options.script}, {}}});
+  files.read({"--plugin", {options.plugins, {}}});
+  files.write({"--render", {{options.picture}, {}}});
+  files.write({"--video", {{options.video}, {}}});
+  files.write({"--report", {{options.report}, {}}});
+  if (const auto clash = files.clash()) {
+    throw CLI::ValidationError(fmt::format("{}: {} and {} would be the same file",
+                                           clash->file.string(), clash->option, clash->output));
+  }
 }
 
 int run(const Options& options) {
@@ -263,6 +293,7 @@ int main(int argc, char** argv) {
   }
   try {
     app.parse(argc, argv);
+    check_files(options);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     return complain(kWrongUsage, fmt::format("{} (see tetmend-view --help)", error.what()));

@@ -33,15 +33,21 @@ std::filesystem::path lessons_folder() {
 
 }  // namespace
 
-std::optional<Lesson> lesson_of(const std::filesystem::path& trace, std::uint64_t event_count) {
+std::optional<std::filesystem::path> lesson_beside(const std::filesystem::path& trace) {
   std::filesystem::path file = trace;
   file.replace_extension(".json");
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  Lesson lesson = read_lesson(file);
+  if (!is_lesson(file)) return std::nullopt;
+  return file;
+}
+
+std::optional<Lesson> lesson_of(const std::filesystem::path& trace, std::uint64_t event_count) {
+  const auto file = lesson_beside(trace);
+  if (!file) return std::nullopt;
+  Lesson lesson = read_lesson(*file);
   const std::uint64_t last = lesson.steps.back().at;
   if (last > event_count) {
-    throw Error(fmt::format("{}: a step is at {}, but the trace has {} events", file.string(), last,
-                            event_count));
+    throw Error(fmt::format("{}: a step is at {}, but the trace has {} events", file->string(),
+                            last, event_count));
   }
   return lesson;
 }

@@ -10,8 +10,12 @@
 
 namespace tetmend::explain {
 
-/// The lesson of a trace: NAME.json beside NAME.trace; nothing if there is no such file.
-/// @throws Error, naming the file, when it is no lesson or goes beyond the end of the trace.
+/// Where the lesson of a trace is: NAME.json beside NAME.trace. Nothing if there is no such file, or if
+/// it is no lesson, such as the report of the run.
+std::optional<std::filesystem::path> lesson_beside(const std::filesystem::path& trace);
+
+/// That lesson.
+/// @throws Error, naming the file, when it has mistakes or goes beyond the end of the trace.
 std::optional<Lesson> lesson_of(const std::filesystem::path& trace, std::uint64_t event_count);
 
 /// The trace that a lesson leads through: NAME.trace beside NAME.json.

@@ -47,9 +47,9 @@ std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& re
   const std::string about =
       fmt::format("{}: a run of {} on {}, schedule {}, step by step.", request.title,
                   file.header().program, file.header().input, file.header().schedule);
-  return fill_in(page_form(), {{"@TITLE@", escaped(sound(request.title))},
-                               {"@ABOUT@", escaped(sound(about))},
-                               {"@PROGRAM@", escaped(sound(request.program))},
+  return fill_in(page_form(), {{"@TITLE@", escaped(request.title)},
+                               {"@ABOUT@", escaped(about)},
+                               {"@PROGRAM@", escaped(request.program)},
                                {"@STYLE@", std::string(page_style())},
                                {"@SCRIPT@", std::string(page_script())},
                                {"@RECORDING@", in_script(data)}});

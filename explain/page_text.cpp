@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "explain/json_text.h"
+
 namespace tetmend::explain {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 template <class Json>
 std::string without_tags(const Json& json) {
   std::string result;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : json_text(json)) {
     if (c == '<') {
       result += "\\u003c";
     } else if (c == '&') {
@@ -31,12 +33,6 @@ std::string in_script(const nlohmann::ordered_json& json) {
 }
 std::string in_script(const nlohmann::json& json) {
   return without_tags(json);
-}
-
-std::string sound(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
 }
 
 std::string fill_in(std::string_view form,

@@ -15,12 +15,9 @@ namespace tetmend::explain {
 
 using figure::escaped;
 
-/// JSON that nothing in it can end: no tag begins in it. Bytes that are no UTF-8 are replaced.
+/// json_text() that nothing in it can end: no tag begins in it.
 std::string in_script(const nlohmann::ordered_json& json);
 std::string in_script(const nlohmann::json& json);
-
-/// UTF-8, whatever the text was.
-std::string sound(const std::string& text);
 
 /// Replaces each @NAME@ once. What is put in is not looked at again.
 std::string fill_in(std::string_view form,

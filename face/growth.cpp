@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "kernel/from_chars.h"
+#include "kernel/grouped.h"
 #include "kernel/star.h"
 #include "kernel/workspace.h"
 
@@ -40,13 +41,15 @@ double at_share(std::vector<double>& ratios, double share) {
 
 }  // namespace
 
-Growth::Growth(const std::string& tets) {
+Growth::Growth(const std::string& tets) : text_(tets) {
   if (tets.empty()) return;
-  const std::string_view text = tets;
+  std::string_view text = tets;
   if (text.back() == '%') {
     const auto percent = read_whole<double>(text.substr(0, text.size() - 1));
     if (percent && *percent >= 0 && std::isfinite(*percent)) share_ = *percent / 100;
   } else {
+    is_meant_ = text.back() == '!';
+    if (is_meant_) text.remove_suffix(1);
     number_ = read_whole<std::size_t>(text);
   }
   if (share_ || number_) return;
@@ -55,6 +58,15 @@ Growth::Growth(const std::string& tets) {
 }
 
 std::optional<std::size_t> Growth::most(std::size_t now) const {
+  if (number_ && *number_ < now && !is_meant_) {
+    constexpr std::size_t kMostPercent = 100;
+    const std::string guess = *number_ <= kMostPercent ? fmt::format(": did you mean {}%?", text_)
+                                                       : ": 0% lets the mesh not grow.";
+    throw OptionError("tets",
+                      fmt::format("tets: {} is less than the {} tets that are there{} {}! is taken "
+                                  "as it is",
+                                  text_, grouped(now), guess, text_));
+  }
   if (!share_) return number_;
   const double most = (1 + *share_) * static_cast<double>(now);
   return most < 1e18 ? std::optional(static_cast<std::size_t>(most + 1e-9)) : std::nullopt;

@@ -14,11 +14,15 @@ class Growth {
   /// @throws OptionError for a text that is neither a share nor a number
   explicit Growth(const std::string& tets);
   /// The most tets that a mesh of so many may come to; none for no bound.
+  /// @throws OptionError for a number of tets below that, unless it is marked as meant: often its
+  /// percent sign is missing
   std::optional<std::size_t> most(std::size_t now) const;
 
  private:
+  std::string text_;
   std::optional<double> share_;        // more
   std::optional<std::size_t> number_;  // in all
+  bool is_meant_ = false;              // 10!
 };
 
 /// The mean lengths of edges at some vertices of a file, spread evenly.

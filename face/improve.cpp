@@ -500,6 +500,7 @@ Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRe
   if (!options.trace_piece.empty()) {
     throw OptionError("trace_piece", "trace_piece: the run is not in pieces");
   }
+  TracePlan::check_files(options, mesh.file());
   return face::on_threads(options.threads, [&] {
     Improvement improvement(mesh, options, plan, portrait);
     Result result = improvement.run();

@@ -31,7 +31,8 @@ SurfaceTolerance::SurfaceTolerance(const Options& options) : feature_angle_(opti
   is_fixed_ = false;
   if (text == "flat") return;
   const bool is_share = text.back() == '%';
-  if (is_share) text.remove_suffix(1);
+  is_meant_ = text.back() == '!';
+  if (is_share || is_meant_) text.remove_suffix(1);
   double value = 0;
   const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
@@ -45,6 +46,30 @@ SurfaceTolerance::SurfaceTolerance(const Options& options) : feature_angle_(opti
   (is_share ? share_ : length_) = is_share ? value / 100 : value;
 }
 
+void SurfaceTolerance::check_length(double diagonal) const {
+  constexpr double kMostShare = 0.05;
+  if (is_meant_ || length_ <= kMostShare * diagonal) return;
+  const std::string guess = length_ <= 100 ? fmt::format(": did you mean {}%?", length_) : ".";
+  throw OptionError(
+      "surface",
+      fmt::format("surface: {} is {:.2g} % of the diagonal of the mesh{} Above 5 % write "
+                  "{}! for a length that is meant",
+                  length_, 100 * length_ / diagonal, guess, length_));
+}
+
+namespace {
+
+/// Of the box around the mesh, as the file has lengths.
+double diagonal_of(const TetMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
+    if (!mesh.is_deleted(VertexHandle(i))) box.extend(mesh.point(VertexHandle(i)));
+  }
+  return mesh.scale().to_file(box.diagonal().norm());
+}
+
+}  // namespace
+
 std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
                                                       const MeshData& input) const {
   if (!input.mid_nodes.empty()) {
@@ -52,6 +77,7 @@ std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
                       "surface: the nodes on the edges of a mesh of second order hold its surface: "
                       "it must stay fixed");
   }
+  if (length_ > 0) check_length(diagonal_of(mesh));
   EnvelopeOptions options = envelope_options();
   options.length = mesh.scale().to_work(length_);
   options.kept = kept_vertices(mesh, find_kept_points(input));

@@ -28,9 +28,13 @@ class SurfaceTolerance {
   EnvelopeOptions envelope_options() const {
     return {.share = share_, .length = length_, .angle = feature_angle_};
   }
+  /// @param diagonal of the box around the mesh, as the file has lengths
+  /// @throws OptionError for a length above 5 % of it, unless it is marked as meant: often its percent
+  /// sign is missing
+  void check_length(double diagonal) const;
   /// What decides about changes of the surface of a mesh that was just built of `input`. Points that
   /// the file pairs with others or marks stay (kept_points.h). Precondition: not fixed; frozen tets are marked.
-  /// @throws OptionError for a mesh whose surface must not move: one of second order
+  /// @throws OptionError for a mesh whose surface must not move: one of second order; as check_length()
   std::unique_ptr<SurfaceGuard> guard(const TetMesh& mesh, const MeshData& input) const;
 
   /// Of the mesh when it got its guard.
@@ -40,8 +44,9 @@ class SurfaceTolerance {
 
  private:
   bool is_fixed_ = true;
-  double share_ = 0;   // of the lengths of edges
-  double length_ = 0;  // as the file has lengths
+  double share_ = 0;       // of the lengths of edges
+  double length_ = 0;      // as the file has lengths
+  bool is_meant_ = false;  // 1!
   double feature_angle_ = 40;
 };
 

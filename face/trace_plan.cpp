@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 #include <tetmend/catalogue.h>
 
+#include "kernel/formats/mesh_io.h"
 #include "kernel/formats/pending_file.h"
+#include "kernel/formats/run_files.h"
 #include "kernel/from_chars.h"
 #include "trace/surface_setting.h"
 
@@ -92,6 +94,20 @@ TracePlan::TracePlan(const Options& options, const Registry& registry) : file_(o
   check_needs(options);
   TracedPiece::of(options);
   if (!file_.empty()) const formats::PendingFile probe(file_);  // vanishes without commit()
+}
+
+void TracePlan::check_files(const Options& options, const std::filesystem::path& input) {
+  if (options.trace.empty()) return;
+  formats::RunFiles files;
+  const std::filesystem::path schedule = options.schedule;
+  if (!input.empty()) files.read({"the mesh", {source_files(input), {}}});
+  if (schedule.extension() == ".lua") files.read({"the schedule", {{schedule}, {}}});
+  files.read({"a plugin", {options.plugin, {}}});
+  files.write({"the trace", {{options.trace}, {}}});
+  if (const auto clash = files.clash()) {
+    throw OptionError("trace", fmt::format("trace: {}: {} and {} would be the same file",
+                                           clash->file.string(), clash->option, clash->output));
+  }
 }
 
 void TracePlan::read_around(std::string_view text) {

@@ -32,6 +32,10 @@ class TracePlan {
  public:
   /// @throws OptionError for a mistake in the options; Error when the file cannot be written.
   TracePlan(const Options& options, const Registry& registry);
+  /// @param input file of the mesh; empty: none
+  /// @throws OptionError when the trace would replace that file, what it includes, the schedule or a
+  /// plugin.
+  static void check_files(const Options& options, const std::filesystem::path& input);
   /// Finds the tet of `trace_around`. @throws OptionError when the mesh has no such tet.
   void locate(const MeshData& data);
   /// The tet of `trace_around` that nobody has located yet.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "figure/markup.h"
 
+#include "kernel/printable.h"
+
 namespace tetmend::figure {
 
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : printable_lines(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

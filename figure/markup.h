@@ -7,7 +7,7 @@
 
 namespace tetmend::figure {
 
-/// Text as text, between tags and in quotes.
+/// Text as text, between tags and in quotes: printable_lines().
 std::string escaped(std::string_view text);
 
 }  // namespace tetmend::figure

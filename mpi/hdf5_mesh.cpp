@@ -183,7 +183,21 @@ void note_unknown(const Hdf5File& file, std::vector<std::string>& notes) {
   }
 }
 
+std::filesystem::path part_of(const std::filesystem::path& file) {
+  std::filesystem::path part = file;
+  part += ".part";
+  return part;
+}
+
+std::filesystem::path xdmf_beside(std::filesystem::path file) {
+  return file.replace_extension(".xdmf");
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& file) {
+  return {file, part_of(file), xdmf_beside(file)};
+}
 
 pieces::RankShare read_hdf5(const std::filesystem::path& name, MPI_Comm ranks) {
   const Hdf5File file(name, Hdf5File::Access::read, ranks);
@@ -219,14 +233,12 @@ void write_hdf5(const std::filesystem::path& file, const pieces::RankShare& arra
   MpiRanks ranks(communicator);
   const pieces::ArrayCounts counts = count_all(arrays, ranks);
   const bool has_labels = ranks.any(!arrays.point_labels.empty());
-  std::filesystem::path part = file;
-  part += ".part";
+  const std::filesystem::path part = part_of(file);
   write_arrays(part, arrays, counts, has_labels, communicator);
   ranks.meet();
   if (ranks.is_first()) {
     std::filesystem::rename(part, file);
-    std::filesystem::path beside = file;
-    OutputFile out(beside.replace_extension(".xdmf"));
+    OutputFile out(xdmf_beside(file));
     out.put(description(file.filename().string(), counts, arrays.arrays));
     out.commit();
   }

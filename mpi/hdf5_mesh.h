@@ -11,6 +11,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include <mpi.h>
 
@@ -25,5 +26,8 @@ pieces::RankShare read_hdf5(const std::filesystem::path& file, MPI_Comm ranks);
 /// All ranks: writes the file, which has the same bytes for any number of ranks, and FILE.xdmf beside
 /// it. They take their names when they are complete. @throws Error with the reason
 void write_hdf5(const std::filesystem::path& file, const pieces::RankShare& arrays, MPI_Comm ranks);
+
+/// What write_hdf5() makes, also for a while.
+std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& file);
 
 }  // namespace tetmend::mpi

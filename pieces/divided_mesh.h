@@ -60,6 +60,8 @@ class DividedMesh {
   DividedMesh(Shelf& shelf, Ranks& ranks, DivisionState state);
 
   const DivisionState& state() const { return state_; }
+  /// Of the box around the mesh.
+  double diagonal() const { return (state_.high - state_.low).stableNorm(); }
   Ranks& ranks() const { return ranks_; }
   /// Ids from that on are of vertices that were added.
   VertexId first_added() const { return state_.first_id + state_.in_file; }

@@ -118,6 +118,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       SealedShelf first = run_folder.new_step(1, saved);
       saved.before = steps.measure_before(&first);
       if (!tools.plan().surface.is_fixed()) {
+        tools.plan().surface.check_length(mesh.diagonal());
         run_folder.save_surface(
             saved, steps.hold_surface(tools.plan().surface.envelope_options(), &first));
       }

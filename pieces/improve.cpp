@@ -227,6 +227,7 @@ void Improvement::work() {
     result_.passes.push_back(to_pass(record));
   });
   if (!plan_.surface.is_fixed()) {
+    plan_.surface.check_length(divided_.diagonal());
     run.hold_surface(plan_.surface.envelope_options());
     unchanged_surface_ = run.surface()->unchanged();
   }
@@ -394,8 +395,20 @@ std::size_t usual_pieces(std::size_t tets) {
   return std::max<std::size_t>(1, (tets + kTetsOfPiece - 1) / kTetsOfPiece);
 }
 
+namespace {
+
+constexpr std::uint64_t kProgram = 40'000'000;  // bytes, without a piece
+
+}  // namespace
+
+void check_memory(std::uint64_t memory) {
+  if (memory == 0 || memory >= kProgram) return;
+  throw OptionError("memory", fmt::format("memory: {} bytes are less than the {}M that the program "
+                                          "takes without a piece: expected a size such as 2G",
+                                          memory, kProgram / 1'000'000));
+}
+
 std::size_t pieces_for(std::size_t tets, std::uint64_t memory) {
-  constexpr std::uint64_t kProgram = 40'000'000;
   constexpr std::uint64_t kBytesPerTet = 130;  // of a piece that is worked on
   const std::uint64_t room = memory > kProgram ? memory - kProgram : 0;
   const std::uint64_t most = std::max<std::uint64_t>(10'000, room / kBytesPerTet);

@@ -44,6 +44,8 @@ std::string why_fewer_pieces(std::size_t asked, std::size_t pieces, std::size_t 
 /// How many pieces a mesh has when nobody says how many. At least 1.
 std::size_t usual_pieces(std::size_t tets);
 
+/// @throws OptionError for bytes that are less than the program itself takes; 0: not given
+void check_memory(std::uint64_t memory);
 /// How many pieces a mesh needs so that one can be worked on in so many bytes. At least 1.
 std::size_t pieces_for(std::size_t tets, std::uint64_t memory);
 

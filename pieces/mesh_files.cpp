@@ -18,6 +18,7 @@
 #include "face/surface_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/printable.h"
 #include "kernel/volume_rounding.h"
 #include "pieces/bytes.h"
 #include "pieces/rows.h"
@@ -128,16 +129,21 @@ bool holds_more_than_arrays(const MeshData& data) {
              data.tet_numbers, data.deck);
 }
 
-/// Names the arrays that are not carried.
-void note_lost_arrays(const MeshData& data,
+/// Names the arrays that are not carried, and those that get other names.
+void note_lost_arrays(const MeshData& data, bool names_are_text,
                       const std::function<bool(RowKind, const DataArray&)>& is_carried,
                       std::vector<std::string>& lost) {
   constexpr std::array<std::string_view, 4> kNames = {"points", "tets", "triangles", "edges"};
   for (const RowKind kind : kRowKinds) {
     for (const DataArray& array : arrays_of(data, kind)) {
-      if (is_carried(kind, array)) continue;
-      lost.push_back(fmt::format("the array '{}' of {} is not written", array.name,
-                                 kNames[static_cast<std::size_t>(kind)]));
+      const std::string_view of = kNames[static_cast<std::size_t>(kind)];
+      if (!is_carried(kind, array)) {
+        lost.push_back(
+            fmt::format("the array '{}' of {} is not written", printable(array.name), of));
+      } else if (names_are_text && !is_printable(array.name)) {
+        lost.push_back(fmt::format("the name of the array '{}' of {} is not kept as it is",
+                                   printable(array.name), of));
+      }
     }
   }
 }
@@ -158,7 +164,7 @@ std::vector<std::string> InputMesh::lost_in(const std::filesystem::path& output)
   const bool is_together = is_of_ranks(output);
   const bool carries = carries_arrays(output);
   note_lost_arrays(
-      data_,
+      data_, is_together,
       [&](RowKind kind, const DataArray& array) {
         return carries && (!is_together || files_->takes(output, kind, array));
       },

@@ -208,6 +208,7 @@ void FileRun::measure_before() {
 
 void FileRun::hold_surface() {
   if (plan_.surface.is_fixed()) return;
+  plan_.surface.check_length(mesh_->diagonal());
   const std::string held = steps_->hold_surface(plan_.surface.envelope_options());
   unchanged_surface_ = steps_->surface()->unchanged();
   if (!files_.checkpoint.empty() && ranks_.is_first()) checkpoint_.save_surface(saved(), held);
@@ -380,6 +381,7 @@ double RunCosts::bytes_a_tet() const {
 Result improve_files(const OutOfCore& files, const Options& options, Division& division,
                      Ranks& ranks) {
   check_for_files(options);
+  check_memory(files.memory);
   check(options, division);
   return face::on_threads(options.threads,
                           [&] { return FileRun(files, options, division, ranks).run(); });

@@ -361,6 +361,21 @@ void GmshParts::write_stored(const std::filesystem::path& file, const DividedMes
   ranks_.meet();
 }
 
+formats::FileSet GmshParts::files_read(const std::filesystem::path& file) const {
+  formats::FileSet set;
+  const std::size_t count = count_gmsh_parts(file);
+  for (std::size_t part = 0; part < count; ++part) set.files.push_back(gmsh_part(file, part));
+  return set;
+}
+
+formats::FileSet GmshParts::files_written(const std::filesystem::path& file) const {
+  const std::string stem = file.stem().string();
+  return {.files = {gmsh_part(file, 0)},
+          .numbered = {{.folder = file.parent_path(),
+                        .begin = stem.substr(0, stem.size() - kNumber.size()) + "_",
+                        .end = file.extension().string()}}};
+}
+
 void GmshParts::check_output(const std::filesystem::path& file) const {
   const std::size_t older = count_gmsh_parts(file);
   for (std::size_t part = 0; part < older; ++part) {
@@ -414,6 +429,24 @@ void PvtuFiles::write_stored(const std::filesystem::path& file, const DividedMes
     drafts.name_all(file, parts, surplus_parts(file, parts));
   }
   ranks_.meet();
+}
+
+formats::FileSet PvtuFiles::files_read(const std::filesystem::path& file) const {
+  formats::FileSet set{.files = {file}, .numbered = {}};
+  try {
+    const std::vector<std::filesystem::path> parts = read_pvtu(file);
+    set.files.insert(set.files.end(), parts.begin(), parts.end());
+  } catch (const Error&) {
+    return set;  // who reads it says why
+  }
+  return set;
+}
+
+formats::FileSet PvtuFiles::files_written(const std::filesystem::path& file) const {
+  const std::filesystem::path folder = pvtu_folder(file);
+  return {
+      .files = {file},
+      .numbered = {{.folder = folder, .begin = folder.filename().string() + "_", .end = ".vtu"}}};
 }
 
 bool PvtuFiles::takes(const std::filesystem::path&, RowKind kind, const DataArray& array) const {

@@ -28,6 +28,8 @@ class PvtuFiles final : public ArrayFiles {
   /// The file that names the parts is the last to get its name.
   void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
                     const CarriedRows* rows) const override;
+  formats::FileSet files_read(const std::filesystem::path& file) const override;
+  formats::FileSet files_written(const std::filesystem::path& file) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }
@@ -51,6 +53,8 @@ class GmshParts final : public ArrayFiles {
   /// of an older mesh go.
   void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
                     const CarriedRows* rows) const override;
+  formats::FileSet files_read(const std::filesystem::path& file) const override;
+  formats::FileSet files_written(const std::filesystem::path& file) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path&) const override { return true; }
   bool has_required_vertices(const std::filesystem::path&) const override { return false; }

@@ -41,6 +41,7 @@ void check_trace_piece(const Options& options, std::size_t pieces, unsigned divi
 
 PieceTrace::PieceTrace(const Options& options, face::Plan& plan, std::filesystem::path input)
     : options_(options), plan_(plan), input_(std::move(input)) {
+  face::TracePlan::check_files(options, input_);
   is_wanted_ = !options.trace.empty();
   choice_ = face::TracedPiece::of(options).value_or(face::TracedPiece());
   is_explicit_ = choice_.piece.has_value();

@@ -28,7 +28,7 @@ struct TracedRound {
 class PieceTrace {
  public:
   /// @param input  file of the mesh, for the trace
-  /// All of these must outlive it.
+  /// All of these must outlive it. @throws OptionError as TracePlan::check_files()
   PieceTrace(const Options& options, face::Plan& plan, std::filesystem::path input);
 
   /// Somebody wants a trace, and there is nothing against it.

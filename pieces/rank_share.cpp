@@ -130,6 +130,14 @@ void SeveralArrayFiles::write_stored(const std::filesystem::path& file, const Di
   of(file).write_stored(file, mesh, rows);
 }
 
+formats::FileSet SeveralArrayFiles::files_read(const std::filesystem::path& file) const {
+  return of(file).files_read(file);
+}
+
+formats::FileSet SeveralArrayFiles::files_written(const std::filesystem::path& file) const {
+  return of(file).files_written(file);
+}
+
 void SeveralArrayFiles::check_output(const std::filesystem::path& file) const {
   of(file).check_output(file);
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/formats/run_files.h"
 #include "kernel/mesh_data.h"
 #include "pieces/divided_mesh.h"
 #include "pieces/rows.h"
@@ -53,6 +54,14 @@ class ArrayFiles {
   /// @param rows of their points and elements; null: none
   virtual void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
                             const CarriedRows* rows) const;
+  /// What read() opens. Nothing is said where the file cannot be read.
+  virtual formats::FileSet files_read(const std::filesystem::path& file) const {
+    return {.files = {file}, .numbered = {}};
+  }
+  /// What write() may make, replace or remove, also of an older mesh.
+  virtual formats::FileSet files_written(const std::filesystem::path& file) const {
+    return {.files = {file}, .numbered = {}};
+  }
   /// @throws Error when it is known already that it cannot be written
   virtual void check_output(const std::filesystem::path&) const {}
   /// Whether each stored piece is a file of its own.
@@ -74,6 +83,8 @@ class SeveralArrayFiles final : public ArrayFiles {
   void write(const std::filesystem::path& file, const RankShare& arrays) const override;
   void write_stored(const std::filesystem::path& file, const DividedMesh& mesh,
                     const CarriedRows* rows) const override;
+  formats::FileSet files_read(const std::filesystem::path& file) const override;
+  formats::FileSet files_written(const std::filesystem::path& file) const override;
   void check_output(const std::filesystem::path& file) const override;
   bool is_in_parts(const std::filesystem::path& file) const override;
   bool has_required_vertices(const std::filesystem::path& file) const override;

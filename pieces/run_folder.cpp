@@ -160,6 +160,11 @@ FolderLock::~FolderLock() {
   if (made_folder_) std::filesystem::remove(folder_, ignored);
 }
 
+formats::FileSet RunFolder::files() const {
+  return {.files = {folder_ / kName, folder_ / kSurface, folder_ / kLock},
+          .numbered = {{.folder = folder_, .begin = std::string(kStep), .end = {}}}};
+}
+
 bool RunFolder::has_run() const {
   return root(0).has(kName);
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "kernel/formats/run_files.h"
 #include "pieces/mesh_files.h"
 #include "pieces/piece_run.h"
 #include "pieces/sealed_shelf.h"
@@ -74,6 +75,8 @@ class RunFolder {
   explicit RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& path() const { return folder_; }
+  /// All that a run makes and removes here.
+  formats::FileSet files() const;
   bool has_run() const;
   /// Whether there is nothing but perhaps a lock.
   bool is_empty() const;

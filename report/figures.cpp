@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "explain/json_text.h"
 #include "explain/page_text.h"
 #include "kernel/grouped.h"
 
@@ -17,9 +18,8 @@ using explain::escaped;
 using nlohmann::json;
 
 std::string as_data(std::string_view path, const json& value, std::string_view shown) {
-  const std::string exact = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  return fmt::format(R"(<data data-of="{}" value="{}">{}</data>)", escaped(path), escaped(exact),
-                     shown);
+  return fmt::format(R"(<data data-of="{}" value="{}">{}</data>)", escaped(path),
+                     escaped(explain::json_text(value)), shown);
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::string Figures::shown_digits(std::string_view path, int digits) const {
 }
 
 std::string Figures::shown_text(std::string_view path) const {
-  return as_data(path, at(path), escaped(explain::sound(text(path))));
+  return as_data(path, at(path), escaped(text(path)));
 }
 
 std::string short_number(double value) {

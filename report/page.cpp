@@ -21,7 +21,6 @@ namespace tetmend::report {
 namespace {
 
 using explain::escaped;
-using explain::sound;
 
 std::string_view to_class(Outcome outcome) {
   switch (outcome) {
@@ -66,13 +65,13 @@ std::string left_out(const nlohmann::json& about) {
 std::string notes_of(const Figures& figures) {
   std::string items;
   for (const nlohmann::json& note : figures.at("notes")) {
-    items += fmt::format("<li>{}</li>\n", escaped(sound(note.get<std::string>())));
+    items += fmt::format("<li>{}</li>\n", escaped(note.get<std::string>()));
   }
   for (const nlohmann::json& array : figures.at("data")) {
     const Figures of(array);
     items += fmt::format("<li>data of {} '{}': {}; its integral changed by {:.2g}</li>\n",
-                         escaped(sound(of.text("on"))), escaped(sound(of.text("name"))),
-                         escaped(sound(of.text("rule"))), of.number("integral_error"));
+                         escaped(of.text("on")), escaped(of.text("name")), escaped(of.text("rule")),
+                         of.number("integral_error"));
   }
   return items.empty()
              ? items
@@ -88,10 +87,10 @@ std::string write_page(const nlohmann::json& report, const face::Portrait& portr
   const Verdict verdict = verdict_of(figures);
   const std::string program = "tetmend " + figures.text("tetmend");
   const std::string title =
-      fmt::format("{} \u2192 {}", sound(figures.text("input")), sound(figures.text("output")));
+      fmt::format("{} \u2192 {}", figures.text("input"), figures.text("output"));
   const std::string chart = progress_chart(figures);
   return explain::fill_in(page_form(), {{"@TITLE@", escaped(title)},
-                                        {"@PROGRAM@", escaped(sound(program))},
+                                        {"@PROGRAM@", escaped(program)},
                                         {"@STYLE@", std::string(page_style())},
                                         {"@SCRIPT@", std::string(page_script())},
                                         {"@OUTCOME@", std::string(to_class(verdict.outcome))},

@@ -16,7 +16,6 @@ namespace tetmend::report {
 namespace {
 
 using explain::escaped;
-using explain::sound;
 
 constexpr double kWidth = 560;
 constexpr double kHeight = 300;
@@ -44,7 +43,7 @@ std::vector<PassPoint> read_passes(const Figures& figures) {
   std::size_t bad = bad_at_first(figures);
   for (const nlohmann::json& entry : figures.at("passes")) {
     const Figures of(entry);
-    PassPoint pass{.name = sound(of.text("name")), .round = of.count("round"), .begin = time};
+    PassPoint pass{.name = of.text("name"), .round = of.count("round"), .begin = time};
     pass.end = time += of.number("seconds");
     pass.attempts = of.count("attempts");
     pass.accepted = of.count("accepted");

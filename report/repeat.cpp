@@ -12,7 +12,6 @@ namespace tetmend::report {
 namespace {
 
 using explain::escaped;
-using explain::sound;
 
 std::string quoted(const std::string& word) {
   constexpr std::string_view kPlain =
@@ -46,8 +45,8 @@ std::string repeat_section(const Figures& figures) {
   add_row(rows, "schedule", figures.shown_text("schedule"));
   std::string settings;
   for (const auto& [name, value] : figures.at("settings").items()) {
-    settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ", escaped(sound(name)),
-                            escaped(sound(value.get<std::string>())));
+    settings += fmt::format("{}{} = {}", settings.empty() ? "" : ", ", escaped(name),
+                            escaped(value.get<std::string>()));
   }
   add_row(rows, "parameters", settings.empty() ? "as the schedule has them" : settings);
   add_row(rows, "goal, degrees",
@@ -64,7 +63,7 @@ std::string repeat_section(const Figures& figures) {
   return fmt::format(
       "<pre id=\"command\">{}</pre>\n<button type=\"button\" id=\"copy\">Copy</button>\n"
       "<p>{}</p>\n<table class=\"repeat\"><tbody>\n{}</tbody></table>\n",
-      escaped(sound(shell_line(words))),
+      escaped(shell_line(words)),
       is_cut ? "This run ended before its schedule did, so another one may end elsewhere."
              : "The same input and the same command give the same mesh, byte for byte.",
       rows);

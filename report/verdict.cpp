@@ -13,7 +13,6 @@ namespace tetmend::report {
 namespace {
 
 using explain::escaped;
-using explain::sound;
 
 std::string angles_of(const Figures& figures) {
   return fmt::format("The smallest angle was {} degrees and is {}, the largest was {} and is {}",
@@ -187,7 +186,7 @@ std::string promise_table(const Figures& figures) {
                       figures.shown_digits("volume_change", 2));
   std::string missed;
   for (const nlohmann::json& aim : figures.at("missed_aims")) {
-    missed += fmt::format("<li>{}</li>", escaped(sound(aim.get<std::string>())));
+    missed += fmt::format("<li>{}</li>", escaped(aim.get<std::string>()));
   }
   if (!missed.empty()) {
     text += fmt::format("<p>Not promised, and worse than before:</p><ul>{}</ul>\n", missed);

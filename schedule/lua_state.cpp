@@ -13,9 +13,9 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "kernel/printable.h"
 #include "schedule/lua_box.h"
 #include "schedule/lua_library.h"
-#include "schedule/printable.h"
 
 namespace tetmend {
 

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
-#include "schedule/printable.h"
+#include "kernel/printable.h"
 
 namespace tetmend {
 

@@ -9,10 +9,10 @@
 
 #include "kernel/bounds.h"
 #include "kernel/error.h"
+#include "kernel/printable.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
 #include "schedule/lua_library.h"
-#include "schedule/printable.h"
 #include "schedule/single_attempt.h"
 
 namespace tetmend {

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "kernel/printable.h"
+
 namespace tetmend {
 
 namespace {
@@ -25,8 +27,7 @@ bool has_vectors(const Call& call) {
 /// Text in JSON or DOT: names may come from plugins.
 std::string in_quotes(std::string_view text) {
   std::string result = "\"";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) continue;
+  for (const char c : printable(text)) {
     if (c == '"' || c == '\\') result += '\\';
     result += c;
   }

@@ -71,6 +71,9 @@ History history_of(const TraceFile& file, Replay& replay, const HistorySubject& 
 /// @throws Error when it is written in another way, or not found, with the reason.
 HistorySubject find_subject(const TraceFile& file, Replay& replay, std::string_view text);
 
+/// The mesh file that such a text names; empty: none. @throws Error when it is written in another way.
+std::filesystem::path file_of_question(std::string_view text);
+
 /// A paragraph that answers why it is there or gone.
 std::string history_paragraph(const TraceFile& file, const History& history);
 /// A line for each part and each call, then the paragraph, which is what a terminal shows last.

@@ -137,6 +137,10 @@ HistorySubject find_by_file(const TraceFile& file, Replay& replay, const Questio
 
 }  // namespace
 
+std::filesystem::path file_of_question(std::string_view text) {
+  return parse(text).file;
+}
+
 HistorySubject find_subject(const TraceFile& file, Replay& replay, std::string_view text) {
   const Question question = parse(text);
   if (!question.file.empty()) return find_by_file(file, replay, question, text);

@@ -2,6 +2,7 @@
 #include "trace/lesson.h"
 
 #include <algorithm>
+#include <exception>
 #include <string_view>
 #include <system_error>
 
@@ -10,6 +11,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/input_file.h"
+#include "kernel/printable.h"
 
 namespace tetmend {
 
@@ -44,6 +46,13 @@ Lesson from_json(const nlohmann::json& json, const std::filesystem::path& folder
   return lesson;
 }
 
+/// Without "[json.exception.parse_error.101] ", which tells people nothing.
+std::string_view reason_of(const std::exception& error) {
+  const std::string_view text = error.what();
+  const std::size_t end = text.starts_with("[json.") ? text.find("] ") : text.npos;
+  return end == text.npos ? text : text.substr(end + 2);
+}
+
 }  // namespace
 
 Lesson read_lesson(const std::filesystem::path& file) {
@@ -52,8 +61,20 @@ Lesson read_lesson(const std::filesystem::path& file) {
     return from_json(nlohmann::json::parse(text.begin(), text.end()), file.parent_path());
   } catch (const std::exception& error) {
     constexpr std::size_t kLongest = 200;  // the reason may quote any amount of the file
-    throw Error(fmt::format("{}: is no lesson: {}", file.string(),
-                            std::string_view(error.what()).substr(0, kLongest)));
+    throw Error(
+        fmt::format("{}: is no lesson: {}", file.string(), printable(reason_of(error), kLongest)));
+  }
+}
+
+bool is_lesson(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  try {
+    const formats::InputFile text(file);
+    const auto json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
+    return json.is_object() && json.contains("title") && json.contains("steps");
+  } catch (const Error&) {
+    return false;
   }
 }
 

@@ -26,6 +26,9 @@ struct Lesson {
 /// @throws Error when it cannot be read or is no lesson, with the reason.
 Lesson read_lesson(const std::filesystem::path& file);
 
+/// It is JSON that has a title and steps. False also where it cannot be read.
+bool is_lesson(const std::filesystem::path& file);
+
 /// The lessons of a folder: its files *.json, by name. Empty when there is no such folder.
 std::vector<std::filesystem::path> list_lessons(const std::filesystem::path& folder);
 

@@ -73,13 +73,13 @@ struct Options {
   Layers layers = Layers::keep;           ///< they are found by their structure
   /// How far the surface may move, faces between two labels included: not at all ("fixed", or
   /// empty); as far as that changes no shape ("flat": in exactly plane parts and along exactly
-  /// straight lines); by a share of the lengths of edges there ("1%"); by a length ("0.01"). It
-  /// moves only where the fixed surface leaves bad tets: the schedule "surface" follows the other.
+  /// straight lines); by a share of the lengths of edges there ("1%"); by a length ("0.01", above 5 %
+  /// of the diagonal "0.5!"). Only where the fixed surface leaves bad tets: see schedule "surface".
   std::string surface = {};
   /// Degrees by which faces bend along a line that the surface keeps.
   double feature_angle = 40;
-  /// How far the mesh may grow: "10%" more tets than there were, or "500000" tets in all. Empty: as
-  /// far as it pays.
+  /// How far the mesh may grow: "10%" more tets than there were, or "500000" tets in all. A number
+  /// below what is there is marked ("10!"), and none is added then. Empty: as far as it pays.
   std::string tets = {};
   /// No new edge is shorter than half or longer than twice what edges were at its midpoint: the mean
   /// of those at the nearest vertex.

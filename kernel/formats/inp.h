@@ -20,6 +20,9 @@ inline constexpr std::string_view kInp = "Abaqus";
 /// What is not the mesh is in `deck`, word for word. See read_mesh().
 MeshData read_inp(const std::filesystem::path& file, TetPlace* question);
 
+/// The deck and all that it includes; the deck alone where one of them cannot be read.
+std::vector<std::filesystem::path> inp_files(const std::filesystem::path& deck);
+
 /// With the deck that the mesh came from, else a deck of its own: sets, and a surface with its nodes
 /// for each group of triangles.
 void write_inp(const std::filesystem::path& file, const MeshView& mesh);

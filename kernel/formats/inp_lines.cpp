@@ -249,6 +249,7 @@ const InputFile& InpLines::open(const std::filesystem::path& path, const InpBloc
   try {
     if (file == nullptr) {
       file = std::make_unique<InputFile>(path);
+      opened_.push_back(path);
       size_of_files_ += file->size_of_file();
     }
   } catch (const Error& error) {

@@ -101,6 +101,8 @@ class InpLines {
 
   /// Bytes of all files, each once however often it is included.
   std::size_t size_of_files() const { return size_of_files_; }
+  /// That were opened, the deck first.
+  const std::vector<std::filesystem::path>& files() const { return opened_; }
 
  private:
   void read(const InputFile& file, const std::filesystem::path& path, int number);
@@ -108,6 +110,7 @@ class InpLines {
   void add(InpBlock block, const std::filesystem::path& path);
 
   std::map<std::filesystem::path, std::unique_ptr<InputFile>> files_;
+  std::vector<std::filesystem::path> opened_;  // each once
   std::size_t size_of_files_ = 0;
   std::size_t included_ = 0;  // bytes, as often as they are
   int inclusions_ = 0;

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/inp.h"
@@ -422,6 +423,16 @@ class Reader {
 
 MeshData read_inp(const std::filesystem::path& file, TetPlace* question) {
   return Reader(file, question).run();
+}
+
+std::vector<std::filesystem::path> inp_files(const std::filesystem::path& deck) {
+  try {
+    std::vector<std::filesystem::path> files = InpLines(deck).files();
+    files.front() = deck;  // of standard input, too
+    return files;
+  } catch (const Error&) {
+    return {deck};
+  }
 }
 
 }  // namespace tetmend::formats

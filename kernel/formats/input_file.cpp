@@ -14,6 +14,7 @@
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/printable.h"
 #include "platform/memory.h"
 #include "platform/platform.h"
 
@@ -121,17 +122,7 @@ void InputFile::fail_at_byte(const char* where, std::string_view reason) const {
 
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t kLongest = 40;
-  std::string text = "'";
-  for (const char c : word.substr(0, kLongest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f) {
-      text += fmt::format("\\x{:02x}", byte);
-    } else {
-      text += c;
-    }
-  }
-  text += word.size() > kLongest ? "...'" : "'";
-  return text;
+  return fmt::format("'{}'", printable(word, kLongest));
 }
 
 }  // namespace tetmend::formats

@@ -50,8 +50,8 @@ class InputFile {
   std::size_t size_of_file_ = 0;
 };
 
-/// A word of a file in quotes, fit for a message of one line: clipped, and without bytes that a
-/// terminal would act on.
+/// A word of a file in quotes, fit for a message of one line: clipped, and printable() for a
+/// terminal.
 std::string in_quotes(std::string_view word);
 
 }  // namespace tetmend::formats

@@ -78,6 +78,8 @@ constexpr Room kMeditRoom = {.others = true,
                              .holds = formats::medit_holds};
 constexpr Room kTetgenRoom = {.second_order = true, .own_arrays = formats::kTetgenArrays};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
+constexpr Room kVtuRoom = {
+    .data = true, .others = true, .second_order = true, .names_are_text = true};
 constexpr Room kGmshRoom = {.data = true,
                             .groups = true,
                             .others = true,
@@ -129,7 +131,7 @@ constexpr std::array<Codec, 13> kCodecs = {
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
      {formats::read_vtk_legacy, formats::write_vtk_legacy, kVtkRoom},
-     {formats::read_vtu, formats::write_vtu, kVtkRoom},
+     {formats::read_vtu, formats::write_vtu, kVtuRoom},
      {read_plain<formats::read_gmsh>, formats::write_gmsh, kGmshRoom},
      {read_plain<formats::read_inp>, formats::write_inp, kInpRoom, false, formats::not_in_inp},
      {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},
@@ -218,6 +220,20 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file)
   if (extension == ".node" || extension == ".ele") return formats::tetgen_files(file);
   if (extension == ".header") return formats::elmer_files(file);
   return {file};
+}
+
+std::vector<std::filesystem::path> source_files(const std::filesystem::path& file) {
+  if (format_extension(file) == ".inp") return formats::inp_files(file);
+  return mesh_files(file);
+}
+
+std::string format_name(const std::filesystem::path& file) {
+  const std::string extension = format_extension(file);
+  const auto* const found =
+      std::find_if(kFormatsTable.begin(), kFormatsTable.end(),
+                   [&](const MeshFormat& format) { return format.extension == extension; });
+  if (found == kFormatsTable.end()) return {};
+  return std::string(found->name) + (file.extension() == ".gz" ? ".gz" : "");
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {

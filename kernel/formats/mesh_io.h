@@ -57,6 +57,13 @@ std::span<const std::string_view> mesh_variants(const std::filesystem::path& fil
 /// Not all of them need be there.
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file);
 
+/// The files that read_mesh() opens: mesh_files(), and what a deck includes. Nothing is said where
+/// they cannot be read. Cost: that of reading a deck; else none.
+std::vector<std::filesystem::path> source_files(const std::filesystem::path& file);
+
+/// The name of the format of `file` in mesh_formats(), with ".gz" if it is packed; empty: none.
+std::string format_name(const std::filesystem::path& file);
+
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
 /// folder. Doubles are written so

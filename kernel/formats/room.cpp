@@ -12,6 +12,7 @@
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/parts.h"
+#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -23,8 +24,18 @@ struct LostNotes {
     for (const DataArray& array : list) {
       if (!room.own_arrays.empty() && array.name.starts_with(room.own_arrays)) continue;
       if (room.marks && of == "points" && is_medit_vectors(array.name)) continue;
-      sentences.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none", array.name,
-                                      of, extension));
+      sentences.push_back(fmt::format("the array '{}' of {} is not kept: {} holds none",
+                                      printable(array.name), of, extension));
+    }
+  }
+  /// Of XML.
+  void text_names(std::string_view of, const std::vector<DataArray>& list) {
+    for (const DataArray& array : list) {
+      if (is_printable(array.name)) continue;
+      sentences.push_back(
+          fmt::format("the name of the array '{}' of {} is not kept as it is: {} "
+                      "has text alone",
+                      printable(array.name), of, extension));
     }
   }
   void lost(bool held, std::size_t count, std::string_view what) {
@@ -105,10 +116,10 @@ void note_groups(const Room& room, const MeshData& mesh, LostNotes& notes) {
   const auto is_changed = [&](const Group* group) { return !room.takes_name(group->name); };
   const auto first = std::find_if(kept.begin(), kept.end(), is_changed);
   if (first == kept.end()) return;
-  notes.sentences.push_back(
-      fmt::format("names of groups are not kept as they are: {} has other rules for {} of them, "
-                  "the first is '{}'",
-                  notes.extension, std::count_if(first, kept.end(), is_changed), (*first)->name));
+  notes.sentences.push_back(fmt::format(
+      "names of groups are not kept as they are: {} has other rules for {} of them, "
+      "the first is '{}'",
+      notes.extension, std::count_if(first, kept.end(), is_changed), printable((*first)->name)));
 }
 
 }  // namespace
@@ -127,6 +138,12 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
     notes.arrays("tets", mesh.tet_data, room);
     notes.arrays("triangles", mesh.triangle_data, room);
     notes.arrays("edges", mesh.edge_data, room);
+  }
+  if (room.names_are_text) {
+    notes.text_names("points", mesh.point_data);
+    notes.text_names("tets", mesh.tet_data);
+    notes.text_names("triangles", mesh.triangle_data);
+    notes.text_names("edges", mesh.edge_data);
   }
   for (const OtherElements& others : mesh.other_elements) {
     const bool held = room.others && (room.holds == nullptr || room.holds(others.vtk_type));

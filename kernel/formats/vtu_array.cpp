@@ -8,6 +8,7 @@
 
 #include "kernel/formats/base64.h"
 #include "kernel/formats/compression.h"
+#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -84,7 +85,7 @@ void VtuArray::end(OutputFile& out) {
 
 std::string xml_escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     if (c == '&')
       result += "&amp;";
     else if (c == '<')
@@ -93,8 +94,6 @@ std::string xml_escaped(std::string_view text) {
       result += "&gt;";
     else if (c == '"')
       result += "&quot;";
-    else if (static_cast<unsigned char>(c) < ' ')
-      result += ' ';
     else
       result += c;
   }

@@ -57,7 +57,7 @@ class VtuArray {
   std::string waiting_;  // for a group of three bytes
 };
 
-/// As the value of an attribute; a control character becomes a blank.
+/// As the value of an attribute: printable().
 std::string xml_escaped(std::string_view text);
 /// As files name the type of its numbers.
 std::string_view vtu_type_of(const DataArray& array);

@@ -101,6 +101,74 @@ def same_files_are_refused():
         check(run("improve", mesh, "-o", mesh, "-q")[0] == 0, "a mesh is improved in place")
 
 
+def files_of_meshes_are_not_outputs():
+    """Parts, included files, meshes of a question, files of a run in pieces: also those that are not named."""
+    with Folder() as folder:
+        mesh = folder / "in.mesh"
+        run("convert", mesh, folder / "p.pvtu", "--pieces", "2")
+        run("convert", mesh, folder / "g_%d.msh", "--pieces", "3")
+        (folder / "m").mkdir()
+        run("convert", mesh, folder / "m" / "m_0.vtu")
+        run("convert", mesh, folder / "nodes.inp")
+        (folder / "deck.inp").write_text("*INCLUDE, INPUT=nodes.inp\n")
+        (folder / "l.vtk").symlink_to("in.mesh")
+        (folder / "q").symlink_to("p")
+        shutil.copy(folder / "p.pvtu", folder / "q.pvtu")
+        os.link(folder / "g_2.msh", folder / "hard.trace")
+        shutil.copy(mesh, folder / "c.mesh")
+        run("improve", folder / "c.mesh", "-o", folder / "o.mesh", "-q", "--trace", folder / "run.trace",
+            "--schedule", "conservative")
+        (folder / "lesson.json").write_text('{"title": "T", "mesh": "c.mesh", "trace": "lesson.trace", "steps": []}')
+        shutil.copy(folder / "run.trace", folder / "lesson.trace")
+        run("pieces", "split", folder / "work", folder / "c.mesh", "-o", folder / "better.mesh", "--pieces", "2", "-q")
+        (folder / "better.json").symlink_to("better.mesh")
+        (folder / "c.json").symlink_to("c.mesh")
+        (folder / "ck").mkdir()
+        kept = {path: path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+        other = folder / "other.mesh"
+        cases = [
+            ("convert", mesh, mesh),
+            ("convert", mesh, folder / "l.vtk"),
+            ("convert", folder / "l.vtk", mesh),
+            ("improve", mesh, "-o", folder / "l.vtk"),
+            ("convert", folder / "p.pvtu", folder / "p" / "p_0.vtu"),
+            ("convert", folder / "p.pvtu", folder / "p.pvtu"),
+            ("quality", folder / "p.pvtu", "--cells", folder / "p" / "p_1.vtu"),
+            ("improve", folder / "p.pvtu", "-o", other, "--trace", folder / "p" / "p_0.vtu"),
+            ("improve", folder / "p.pvtu", "-o", folder / "p" / "p_0.vtu"),
+            ("improve", folder / "q.pvtu", "-o", folder / "p.pvtu"),  # the parts of one are those of the other
+            ("improve", folder / "m" / "m_0.vtu", "-o", folder / "m.pvtu", "--pieces", "2"),
+            ("improve", mesh, "-o", folder / "m.pvtu", "--pieces", "2", "--trace", folder / "m" / "m_1.vtu"),
+            ("convert", folder / "g_%d.msh", folder / "g_2.msh"),
+            ("convert", folder / "g_3.msh", folder / "g_%d.msh", "--pieces", "2"),
+            ("improve", folder / "g_%d.msh", "-o", other, "--trace", folder / "g_2.msh"),
+            ("improve", folder / "g_%d.msh", "-o", other, "--trace", folder / "hard.trace"),
+            ("quality", folder / "g_%d.msh", "--cells", folder / "g_2.msh"),
+            ("surface", folder / "g_%d.msh", folder / "g_1.msh", "--features"),
+            ("improve", folder / "deck.inp", "-o", folder / "o.inp", "--trace", folder / "nodes.inp"),
+            ("improve", folder / "deck.inp", "-o", folder / "nodes.inp"),
+            ("convert", folder / "deck.inp", folder / "nodes.inp"),
+            ("trace", folder / "run.trace", "--history", f"tet:1@{folder / 'c.mesh'}", "-o", folder / "c.mesh"),
+            ("trace", folder / "run.trace", "--history", f"tet:1@{folder / 'deck.inp'}", "-o", folder / "nodes.inp"),
+            ("trace", folder / "lesson.trace", "--html", "-o", folder / "lesson.json"),
+            ("improve", mesh, "-o", folder / "ck" / "run.mesh", "--trace", folder / "ck" / "run", "--checkpoint", folder / "ck"),
+            ("improve", mesh, "-o", folder / "ck" / "step-1" / "out.mesh", "--checkpoint", folder / "ck"),
+            ("pieces", "join", folder / "work", "--report", folder / "better.json"),
+            ("pieces", "join", folder / "work", "--report", folder / "c.json"),
+            ("pieces", "improve", folder / "work", "0", "--trace", folder / "work" / "plan.json"),
+            ("pieces", "improve", folder / "work", "0", "--trace", folder / "work" / "step-1" / "x"),
+        ]
+        for case in cases:
+            status, _, err = run(*case)
+            check(status == 2 and one_line(err) and "the same file" in err, "an input is no output", case, status, err)
+            now = {path: path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+            check(now == kept, "what was refused left all as it was", case)
+        for name in ("p.pvtu", "g_%d.msh", "deck.inp"):
+            check(run("improve", folder / name, "-o", folder / name, "-q")[0] == 0, "a mesh is improved in place", name)
+        check(run("quality", folder / "p.pvtu")[0] == 0 and run("quality", folder / "g_%d.msh")[0] == 0, "parts fit")
+        check(run("convert", folder / "m" / "m_0.vtu", folder / "n.pvtu", "--pieces", "2")[0] == 0, "other parts")
+
+
 def a_set_is_all_new_or_all_old():
     if not can_trace():
         print("no strace: faults of single renames are not tried here")
@@ -349,6 +417,7 @@ def limits_are_errors():
 
 
 same_files_are_refused()
+files_of_meshes_are_not_outputs()
 a_set_is_all_new_or_all_old()
 a_failed_trace_leaves_nothing()
 what_is_said_does_not_change_the_status()

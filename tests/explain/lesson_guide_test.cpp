@@ -34,6 +34,35 @@ TEST_CASE("the lesson beside a trace has a step from its event on to the next") 
   CHECK_FALSE(lesson_of(folder / "b.trace", 10));
 }
 
+TEST_CASE("JSON beside a trace that is no lesson is none") {
+  const TempFolder folder;
+  for (const char* text : {"", "text", "[1, 2]", "3", "{}", R"({"title": "T"})", R"({"steps": []})",
+                           R"({"schema": 1, "input": "a.mesh", "passes": []})"}) {
+    CAPTURE(text);
+    test::write_text(folder / "a.json", text);
+    CHECK_FALSE(lesson_beside(folder / "a.trace"));
+    CHECK_FALSE(lesson_of(folder / "a.trace", 10));
+  }
+  std::filesystem::remove(folder / "a.json");
+  std::filesystem::create_directory(folder / "a.json");
+  CHECK_FALSE(lesson_of(folder / "a.trace", 10));
+}
+
+TEST_CASE("a lesson beside a trace that has a mistake is an error without the words of a library") {
+  const TempFolder folder;
+  test::write_text(folder / "a.json",
+                   R"({"title": 3, "mesh": "a.mesh", "trace": "a.trace", "steps": []})");
+  CHECK(lesson_beside(folder / "a.trace") == folder / "a.json");
+  std::string complaint;
+  try {
+    lesson_of(folder / "a.trace", 10);
+  } catch (const Error& error) {
+    complaint = error.what();
+  }
+  CHECK(complaint.find("a.json: is no lesson: ") != std::string::npos);
+  CHECK(complaint.find("json.exception") == std::string::npos);
+}
+
 TEST_CASE("a lesson that goes beyond its trace is an error that names the file") {
   const TempFolder folder;
   write_lesson(folder, "a.json");

@@ -66,6 +66,36 @@ double usual_length(const MeshArrays& mesh, const Edge& edge) {
 
 }  // namespace
 
+TEST_CASE("fewer tets than there are is a forgotten percent sign, unless it is marked as meant") {
+  const Mesh input = load(asset("folded_sheet.mesh"));
+  const std::size_t before = input.arrays().tets.size();
+  const auto complaint = [&](const std::string& tets) -> std::string {
+    Mesh mesh = input;
+    try {
+      improve(mesh, {.schedule = "conservative", .tets = tets});
+    } catch (const OptionError& error) {
+      CHECK(error.option() == "tets");
+      CHECK(mesh.arrays().points == input.arrays().points);
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(complaint("10").find("did you mean 10%?") != std::string::npos);
+  CHECK(complaint("0").find("did you mean 0%?") != std::string::npos);
+  const std::string one_less = complaint(std::to_string(before - 1));
+  CHECK(one_less.find("is less than the") != std::string::npos);
+  CHECK(one_less.find("0% lets the mesh not grow") != std::string::npos);
+  for (const std::string& tets : {std::string("10!"), std::string("10%"), std::to_string(before),
+                                  std::to_string(before) + "!"}) {
+    CAPTURE(tets);
+    CHECK(complaint(tets).empty());
+  }
+  for (const std::string wrong : {"!", "10%!", "10!!", "!10", "10 !"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(check({.tets = wrong}), OptionError);
+  }
+}
+
 TEST_CASE("a run makes no more tets than it may, for any number of threads") {
   const Mesh input = load(asset("folded_sheet.mesh"));
   const std::size_t before = input.arrays().tets.size();
@@ -74,7 +104,7 @@ TEST_CASE("a run makes no more tets than it may, for any number of threads") {
   for (const std::string schedule : {"shell", "thorough"}) {
     for (const auto& growth : {std::pair<std::string, std::size_t>{"0%", before},
                                {"0.5%", before + before / 200},
-                               {std::to_string(before - 40), before}}) {
+                               {std::to_string(before - 40) + "!", before}}) {
       const std::string tets = growth.first;
       const std::size_t most = growth.second;
       CAPTURE(schedule);

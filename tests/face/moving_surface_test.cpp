@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <tetmend/improve.h>
 
 #include "face/carry.h"
@@ -133,6 +134,40 @@ TEST_CASE("'fixed' is the same as nothing, and a tolerance without sense is a mi
   }
   CHECK_THROWS_AS(check({.surface = "flat", .feature_angle = 0}), OptionError);
   CHECK_THROWS_AS(check({.surface = "flat", .feature_angle = 181}), OptionError);
+}
+
+TEST_CASE(
+    "a length that is a large part of the mesh is a forgotten percent sign, unless it is meant") {
+  const Mesh input = load(asset("folded_sheet.mesh"));
+  Point low = MeshAccess::data(input).points.front();
+  Point high = low;
+  for (const Point& p : MeshAccess::data(input).points) {
+    low = low.cwiseMin(p).eval();
+    high = high.cwiseMax(p).eval();
+  }
+  const double diagonal = (high - low).norm();
+  const auto complaint = [&](double length, const char* mark) -> std::string {
+    Mesh mesh = input;
+    try {
+      improve(mesh, {.schedule = "conservative", .surface = fmt::format("{}{}", length, mark)});
+    } catch (const OptionError& error) {
+      CHECK(error.option() == "surface");
+      CHECK(MeshAccess::data(mesh).points == MeshAccess::data(input).points);
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(complaint(0.049 * diagonal, "").empty());
+  const std::string above = complaint(0.051 * diagonal, "");
+  CHECK(above.find("is 5.1 % of the diagonal") != std::string::npos);
+  CHECK(complaint(0.051 * diagonal, "!").empty());
+  for (const std::string wrong : {"!", "1%!", "1!!", "flat!", "!1"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(check({.surface = wrong}), OptionError);
+  }
+  Mesh mesh = input;
+  CHECK_THROWS_WITH_AS(improve(mesh, {.surface = "90"}), doctest::Contains("did you mean 90%?"),
+                       OptionError);
 }
 
 TEST_CASE("tets that are protected keep their faces") {

@@ -6,6 +6,8 @@
 #include <tetmend/improve.h>
 #include <tetmend/trace.h>
 
+#include "tests/kernel/formats/fixtures.h"
+
 using namespace tetmend;
 
 TEST_CASE("a trace tells of the run that it was recorded from") {
@@ -40,4 +42,33 @@ TEST_CASE("a trace tells of the run that it was recorded from") {
     CHECK_THROWS_AS(trace.mesh_at(trace.event_count() + 1), Error);
   }
   std::filesystem::remove(file);
+}
+
+TEST_CASE(
+    "a trace that would replace the file of the mesh, what it includes or the schedule is "
+    "refused") {
+  const test::TempFolder folder;
+  const std::filesystem::path source = std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes";
+  std::filesystem::copy(source / "two_materials.mesh", folder / "a.mesh");
+  std::filesystem::create_symlink("a.mesh", folder / "l.trace");
+  save(folder / "nodes.inp", load(folder / "a.mesh"));
+  test::write_text(folder / "deck.inp", "*INCLUDE, INPUT=nodes.inp\n");
+  test::write_text(folder / "my.lua", "smooth{}\n");
+  const auto refusal = [&](const char* input, Options options) -> std::string {
+    Mesh mesh = load(folder / input);
+    try {
+      improve(mesh, options);
+    } catch (const OptionError& error) {
+      CHECK(error.option() == "trace");
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(refusal("a.mesh", {.trace = folder / "a.mesh"}).find("the same file") != std::string::npos);
+  CHECK(refusal("a.mesh", {.trace = folder / "l.trace"}).find("the mesh") != std::string::npos);
+  CHECK(refusal("deck.inp", {.trace = folder / "nodes.inp"}).find("the mesh") != std::string::npos);
+  const std::string schedule = (folder / "my.lua").string();
+  CHECK(refusal("a.mesh", {.schedule = schedule, .trace = schedule}).find("the schedule") !=
+        std::string::npos);
+  CHECK(refusal("a.mesh", {.schedule = schedule, .trace = folder / "run.trace"}).empty());
 }

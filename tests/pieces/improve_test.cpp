@@ -13,6 +13,7 @@
 #include <tetmend/io.h>
 
 #include "face/mesh_access.h"
+#include "pieces/folder_run.h"
 #include "pieces/out_of_core.h"
 #include "tests/pieces/meshes.h"
 
@@ -260,6 +261,38 @@ TEST_CASE("memory decides on the number of pieces, and enough of it is one piece
             {.input = in, .output = out, .scratch = scratch.path(), .memory = 1'000'000'000}, 0) ==
         "");
   CHECK(equal(MeshAccess::data(load(out)), improved(data, {}, 1)));
+}
+
+TEST_CASE("less memory than the program takes is refused before the mesh is read") {
+  const Folder folder;
+  const auto in = folder.path() / "none.meshb";
+  const auto refusal = [&](std::uint64_t memory) {
+    return improve_files({.input = in, .output = in, .scratch = folder.path(), .memory = memory},
+                         0);
+  };
+  CHECK(refusal(1).find("memory: 1 bytes are less than the 40M") != std::string::npos);
+  CHECK(refusal(39'999'999).find("less than the 40M") != std::string::npos);
+  CHECK(refusal(40'000'000).find("none.meshb: cannot be read") != std::string::npos);
+}
+
+TEST_CASE("in pieces, too, forgotten percent signs are told, not obeyed") {
+  const MeshData data = lattice(6);
+  CHECK_THROWS_WITH_AS(improved(data, {.surface = "1"}, 3), doctest::Contains("did you mean 1%?"),
+                       OptionError);
+  CHECK_THROWS_WITH_AS(improved(data, {.tets = "10"}, 3), doctest::Contains("did you mean 10%?"),
+                       OptionError);
+  const Folder folder;
+  const auto in = folder.path() / "in.meshb";
+  const auto out = folder.path() / "out.meshb";
+  save(in, MeshAccess::make(data));
+  for (const Options& options : {Options{.surface = "1"}, Options{.tets = "10"}}) {
+    CHECK(improve_files({.input = in, .output = out, .scratch = folder.path()}, 3, options)
+              .find("did you mean") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(out));
+    CHECK_THROWS_WITH_AS(pieces::FolderRun::split({.input = in, .output = out, .scratch = {}},
+                                                  folder.path() / "run", options, {.pieces = 3}),
+                         doctest::Contains("did you mean"), OptionError);
+  }
 }
 
 TEST_CASE("protected tets stay in all divisions") {

@@ -7,6 +7,7 @@ import copy
 import doctest
 import importlib
 import json
+import os
 import pickle
 import signal
 import subprocess
@@ -330,6 +331,20 @@ def test_files_that_cannot_be_read_or_written_are_named(tmp_path, materials):
 
 
 # --- options
+
+
+def test_names_of_any_bytes_are_text(tmp_path):
+    file = tmp_path / "a.msh"
+    file.write_bytes(b'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 "caf\xe9"\n$EndPhysicalNames\n'
+                     b"$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n"
+                     b'$ElementData\n1\n"Temp\xe9rature"\n1\n0\n3\n0\n1\n1\n1 3.5\n$EndElementData\n')
+    mesh = tetmend.load(file)
+    assert list(mesh.cell_data) == ["Température"] and [group.name for group in mesh.groups] == ["café"]
+    result = tetmend.improve(mesh)
+    assert list(result.mesh.cell_data) == ["Température"]
+    assert any("Température" in note for note in mesh.save(tmp_path / "b.mesh"))
+    with pytest.raises(tetmend.Error, match="é.mesh: cannot be read"):
+        tetmend.load(os.fsdecode(os.fsencode(tmp_path) + b"/\xe9.mesh"))
 
 
 def test_options_are_those_of_the_library():

@@ -15,7 +15,7 @@ FOLDERS = "platform kernel trace search envelope ops contract schedule face piec
           "bindings/python viewer apps tests/apps tests/envelope tests/explain tests/face tests/pieces tests/report " \
           "tests/viewer tests/unit".split()
 UNIT = ("tests/platform/", "tests/kernel/", "tests/trace/", "tests/search/", "tests/ops/", "tests/schedule/", "tests/contract/")
-PYTHON_CHARTS = ("report/", "explain/page_text.cpp", "figure/markup.cpp")
+PYTHON_CHARTS = ("report/", "explain/json_text.cpp", "explain/page_text.cpp", "figure/markup.cpp", "kernel/printable.cpp")
 BY_HAND = "# By hand: names that only a compiler sees."
 DECLARED = re.compile(
     r"^(?:template <[^;{]*> *)?(?:(?:struct|class|enum(?: class)?|union|concept) (?P<type>\w+)"

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "explain/json_text.h"
 #include "kernel/error.h"
 #include "viewer/commands/commands.h"
 
@@ -44,13 +45,13 @@ class Arguments {
   [[noreturn]] void fail_field(std::string_view name, std::string_view expected,
                                const nlohmann::json& got) const {
     throw Error(fmt::format("{}: {} must be {}, not {}; it is used as {}", command_, name, expected,
-                            got.dump(), find_command(command_).usage));
+                            explain::json_text(got), find_command(command_).usage));
   }
 
  private:
   [[noreturn]] void fail(std::size_t i, std::string_view expected) const {
     throw Error(fmt::format("{}: argument {} must be {}, not {}; it is used as {}", command_, i + 1,
-                            expected, has(i) ? values_[i].dump() : "missing",
+                            expected, has(i) ? explain::json_text(values_[i]) : "missing",
                             find_command(command_).usage));
   }
 

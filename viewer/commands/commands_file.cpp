@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "explain/json_text.h"
 #include "viewer/commands/command_group.h"
 #include "viewer/mesh/image.h"
 
@@ -60,7 +61,7 @@ json screenshot(Session& s, const json& a) {
 }
 
 json copy_view(Session& s, const json&) {
-  s.host.set_clipboard(to_json(s.document.view).dump(2));
+  s.host.set_clipboard(explain::json_text(to_json(s.document.view), 2));
   s.document.message = {"the view is on the clipboard, as JSON", false};
   return nullptr;
 }

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "explain/call_facts.h"
+#include "explain/json_text.h"
 #include "viewer/commands/command_group.h"
 
 namespace tetmend::viewer {
@@ -24,7 +25,8 @@ std::string subject_of_selection(const Document& document) {
 std::uint32_t whole_number(const json& value, bool from_file) {
   const double number = value.is_number() ? value.get<double>() : -1;
   if (number < 0 || number != std::floor(number) || number > 4e9) {
-    throw Error(fmt::format("history: {} is no number of a tet or vertex", value.dump()));
+    throw Error(
+        fmt::format("history: {} is no number of a tet or vertex", explain::json_text(value)));
   }
   return static_cast<std::uint32_t>(number) + (from_file ? 1 : 0);
 }

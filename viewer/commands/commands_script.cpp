@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "explain/json_text.h"
+#include "kernel/printable.h"
 #include "viewer/commands/command_group.h"
 
 namespace tetmend::viewer {
@@ -73,7 +75,7 @@ std::string text_of(const json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "nil";
   if (value.is_number_float()) return fmt::format("{}", value.get<double>());
-  return value.is_structured() ? plain(value).dump(2) : value.dump();
+  return value.is_structured() ? explain::json_text(plain(value), 2) : explain::json_text(value);
 }
 
 json print(Session& s, const json& a) {
@@ -98,7 +100,7 @@ constexpr std::array kScriptCommands = {
 }  // namespace
 
 void Host::print(const std::string& line) {
-  fmt::print("{}\n", line);
+  fmt::print("{}\n", printable_lines(line));
   std::fflush(stdout);
 }
 

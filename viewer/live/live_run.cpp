@@ -3,7 +3,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/formats/run_files.h"
 #include "ops/plugin.h"
 #include "viewer/live/operator_schedule.h"
 
@@ -80,8 +84,23 @@ std::string LiveRun::value_of(const ScheduleParameter& parameter) const {
   return parameter.initial_text();
 }
 
+/// The trace of a run before may be opened: it can be recorded again.
+void LiveRun::check_trace(const std::filesystem::path& mesh) const {
+  formats::RunFiles files;
+  if (!format_name(mesh).empty()) files.read({"the mesh", {source_files(mesh), {}}});
+  if (std::filesystem::path(name_).extension() == ".lua") {
+    files.read({"the schedule", {{name_}, {}}});
+  }
+  files.write({"the trace", {{trace}, {}}});
+  if (const auto clash = files.clash()) {
+    throw Error(fmt::format("{}: {} and {} would be the same file", clash->file.string(),
+                            clash->option, clash->output));
+  }
+}
+
 void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
   if (is_active()) throw Error("a run is at work: stop it first");
+  check_trace(file);
   Schedule schedule = load(name_);  // the file may have changed
   LivePlan plan{.schedule = std::move(schedule),
                 .settings = settings_,

@@ -77,6 +77,7 @@ class LiveRun {
   const Input* input() const { return input_.get(); }
 
  private:
+  void check_trace(const std::filesystem::path& mesh) const;
   Schedule load(const std::string& name_or_file);
   std::vector<Condition> conditions() const;
 

@@ -58,8 +58,9 @@ Allowance Allowance::parse(std::string_view text) {
   Allowance allowance;
   if (text == "flat" || text == "fixed") return allowance;
   std::string_view number = text;
-  const bool is_share = !number.empty() && number.back() == '%';
-  if (is_share) number.remove_suffix(1);
+  const bool is_share = number.ends_with('%');
+  if (is_share || number.ends_with('!'))
+    number.remove_suffix(1);  // "1!" as improve --surface has it
   double value = 0;
   const auto [end, error] = from_chars(number.data(), number.data() + number.size(), value);
   const bool is_number = error == std::errc() && end == number.data() + number.size();

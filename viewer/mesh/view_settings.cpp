@@ -145,7 +145,7 @@ class Reader {
   [[noreturn]] static void fail(const std::string& path, const std::string& expected,
                                 const json& got) {
     throw Error(fmt::format("view: {} must be {}, not {}", path.empty() ? "it" : path, expected,
-                            got.dump()));
+                            got.dump(-1, ' ', true, json::error_handler_t::replace)));
   }
   static double number(const std::string& path, const json& j, Limits limits) {
     if (!j.is_number()) fail(path, "a number", j);

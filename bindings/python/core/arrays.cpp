@@ -210,6 +210,23 @@ py::array view(std::span<const std::int32_t> labels, const py::handle& owner) {
               labels.data(), owner);
 }
 
+py::str to_text(std::string_view bytes) {
+  const auto size = static_cast<py::ssize_t>(bytes.size());
+  PyObject* text = PyUnicode_DecodeUTF8(bytes.data(), size, nullptr);
+  if (text == nullptr) {
+    PyErr_Clear();
+    text = PyUnicode_DecodeLatin1(bytes.data(), size, nullptr);
+  }
+  if (text == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(text);
+}
+
+py::list to_texts(const std::vector<std::string>& lines) {
+  py::list made;
+  for (const std::string& line : lines) made.append(to_text(line));
+  return made;
+}
+
 py::array to_array(std::vector<std::uint32_t>&& map) {
   static_assert(kGone == 0xFFFFFFFF);  // -1 as int32
   auto kept = std::make_unique<std::vector<std::uint32_t>>(std::move(map));

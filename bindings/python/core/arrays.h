@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <pybind11/numpy.h>
@@ -48,6 +49,10 @@ py::array view(std::span<const std::array<std::uint32_t, N>> elements, const py:
               elements.data(), owner);
 }
 py::array view(std::span<const std::int32_t> labels, const py::handle& owner);
+
+/// A name or message of any bytes: those that are no UTF-8 are letters of Latin-1.
+py::str to_text(std::string_view bytes);
+py::list to_texts(const std::vector<std::string>& lines);
 
 /// Of a map: new numbers, or -1 for what is gone. Takes the memory of the map.
 py::array to_array(std::vector<std::uint32_t>&& map);

@@ -6,6 +6,8 @@
 
 #include <pybind11/stl.h>
 
+#include "bindings/python/core/arrays.h"
+
 namespace tetmend::python {
 
 using namespace py::literals;
@@ -49,7 +51,7 @@ py::dict to_dict(const Pass& pass) {
 }
 
 py::dict to_dict(const CarriedArray& array) {
-  return py::dict("name"_a = array.name, "on"_a = array.on, "rule"_a = array.rule,
+  return py::dict("name"_a = to_text(array.name), "on"_a = array.on, "rule"_a = array.rule,
                   "integral_error"_a = array.integral_error);
 }
 
@@ -167,7 +169,7 @@ py::dict to_dict(const Result& result) {
       "before"_a = to_dict(result.before, result.rulers_before, result.curved_before),
       "after"_a = to_dict(result.after, result.rulers_after, result.curved_after),
       "size_drift"_a = to_object(result.size_drift), "ending"_a = to_text(result.ending),
-      "passes"_a = to_list(result.passes), "notes"_a = result.notes,
+      "passes"_a = to_list(result.passes), "notes"_a = to_texts(result.notes),
       "data"_a = to_list(result.carried), "build"_a = to_dict(result.build),
       "protected"_a =
           py::dict("tets"_a = result.protected_tets, "bad_tets"_a = result.protected_bad_tets),
@@ -197,7 +199,7 @@ py::dict to_dict(const Measurement& measurement) {
 }
 
 py::dict to_dict(const Fact& fact) {
-  return py::dict("name"_a = fact.name, "holds"_a = fact.holds, "text"_a = fact.text,
+  return py::dict("name"_a = fact.name, "holds"_a = fact.holds, "text"_a = to_text(fact.text),
                   "value"_a = to_object(fact.value), "wanted"_a = to_object(fact.wanted));
 }
 

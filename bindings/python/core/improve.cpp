@@ -58,7 +58,7 @@ class Callbacks {
     if (!note_.is_none()) {
       options.note = [this](std::string_view text) {
         const py::gil_scoped_acquire interpreter;
-        guarded([&] { note_(std::string(text)); });
+        guarded([&] { note_(python::to_text(text)); });
       };
     }
   }

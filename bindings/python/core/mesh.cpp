@@ -174,7 +174,7 @@ py::dict view_data(const std::vector<DataArray>& list, const py::handle& owner) 
           const auto n = static_cast<py::ssize_t>(numbers.size() / array.components);
           std::vector<py::ssize_t> shape = {n};
           if (array.components != 1) shape.push_back(static_cast<py::ssize_t>(array.components));
-          made[py::str(array.name)] =
+          made[to_text(array.name)] =
               view(py::dtype::of<Number>(), std::move(shape), numbers.data(), owner);
         },
         array.values);
@@ -186,8 +186,8 @@ py::dict view_data(const std::vector<DataArray>& list, const py::handle& owner) 
 py::list groups_of(const Mesh& mesh) {
   py::list made;
   for (const Group& group : mesh.groups()) {
-    made.append(
-        py::make_tuple(group.dimension, group.number, group.name, to_array(mesh.members(group))));
+    made.append(py::make_tuple(group.dimension, group.number, to_text(group.name),
+                               to_array(mesh.members(group))));
   }
   return made;
 }
@@ -255,8 +255,9 @@ void add_mesh(py::module_& module) {
       .def_property_readonly("point_count", &Mesh::point_count)
       .def_property_readonly("tet_count", &Mesh::tet_count)
       .def_property_readonly("groups", &groups_of)
-      .def_property_readonly("notes", &Mesh::notes)
-      .def_property_readonly("file", [](const Mesh& mesh) { return mesh.file().string(); });
+      .def_property_readonly("notes", [](const Mesh& mesh) { return to_texts(mesh.notes()); })
+      .def_property_readonly("file",
+                             [](const Mesh& mesh) { return to_text(mesh.file().string()); });
   add_views(type);
   module.def(
       "load",
@@ -275,7 +276,7 @@ void add_mesh(py::module_& module) {
           notes = not_saved(file, mesh);
           save(file, mesh, threads, variant);
         });
-        return notes;
+        return to_texts(notes);
       },
       "file"_a, "mesh"_a, "threads"_a, "variant"_a);
   module.def("file_formats", [] {

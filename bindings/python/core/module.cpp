@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // tetmend._core: what the package tetmend is written on. Users see the package.
+#include <exception>
 #include <string>
 
 #include <pybind11/pybind11.h>
@@ -8,6 +9,7 @@
 #include <tetmend/catalogue.h>
 #include <tetmend/error.h>
 
+#include "bindings/python/core/arrays.h"
 #include "bindings/python/core/figures.h"
 #include "bindings/python/core/mesh.h"
 #include "platform/platform.h"
@@ -21,6 +23,27 @@ namespace {
 /// for itself alone; this shows the library's names to all that is loaded later.
 void show_library_to_plugins() {
   tetmend::platform::show_names_of_library(reinterpret_cast<const void*>(&tetmend::version));
+}
+
+/// Messages quote names of files and groups, which may be any bytes: the usual translation would fail
+/// for those that are no UTF-8.
+void translate_errors(py::handle error, py::handle option_error) {
+  static py::handle error_type;
+  static py::handle option_error_type;
+  error_type = error;
+  option_error_type = option_error;
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    const auto raise = [](py::handle type, const std::exception& what) {
+      PyErr_SetObject(type.ptr(), tetmend::python::to_text(what.what()).ptr());
+    };
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const tetmend::OptionError& failure) {
+      raise(option_error_type, failure);
+    } catch (const tetmend::Error& failure) {
+      raise(error_type, failure);
+    }
+  });
 }
 
 }  // namespace
@@ -39,6 +62,7 @@ PYBIND11_MODULE(_core, module) {
       "Something is wrong with an option of `improve()`: its value, or a schedule or plugin that "
       "it "
       "names.";
+  translate_errors(error, option_error);
   add_mesh(module);
   add_improve(module);
   add_trace(module);
