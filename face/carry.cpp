@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <type_traits>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "face/bodies.h"
 #include "face/overlap.h"
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
@@ -23,6 +25,7 @@
 #include "kernel/geometry.h"
 #include "kernel/lists_of_kind.h"
 #include "kernel/parts.h"
+#include "kernel/shared_parts.h"
 #include "kernel/tet_faces.h"
 
 namespace tetmend::face {
@@ -72,17 +75,12 @@ class Carrying {
     for (std::size_t i = 0; i < now.tets.size(); ++i) {
       if (has_changed(now.tets[i])) old_tet_[i] = kGone;
     }
-    std::vector<bool> is_same(before.tets.size(), false);
-    for (const std::uint32_t t : old_tet_) {
-      if (t != kGone) is_same[t] = true;
-    }
-    for (std::uint32_t t = 0; t < before.tets.size(); ++t) {
-      if (!is_same[t]) changed_.push_back(t);
-    }
   }
 
   std::vector<CarriedArray> run() {
-    const TetLocator locator(before_, std::move(changed_));
+    if (needs_places() || marks_ != nullptr) origins_.emplace(before_, now_, old_point_, old_tet_);
+    std::optional<TetLocator> locator;
+    if (needs_places()) locator.emplace(before_, origins_->bodies(), changed_tets());
     now_.point_numbers = numbers_of(before_.point_numbers, old_point_);
     now_.tet_numbers = numbers_of(before_.tet_numbers, old_tet_);
     carry_points(locator);
@@ -93,6 +91,7 @@ class Carrying {
     carry_elements(edges_of(before_), edges_of(now_), 1, marks_ != nullptr ? marks_->edges : kNone);
     carry_groups();
     carry_others();
+    carry_required_vertices();
     now_.entities = before_.entities;
     now_.deck = before_.deck;
     now_.variant = before_.variant;
@@ -123,7 +122,28 @@ class Carrying {
                         [this](std::uint32_t v) { return stayed(v); });
   }
 
-  void carry_points(const TetLocator& locator) {
+  /// Places are looked up for points or tets.
+  bool needs_places() const {
+    return !before_.point_data.empty() || has_members(0) || needs_tets();
+  }
+  bool needs_tets() const {
+    return !before_.tet_data.empty() || !before_.tet_parts.empty() || has_members(3);
+  }
+
+  /// Of the old tets those that are not there any more as they were.
+  std::vector<std::uint32_t> changed_tets() const {
+    std::vector<std::uint32_t> changed;
+    std::vector<char> is_same(before_.tets.size(), 0);
+    for (const std::uint32_t t : old_tet_) {
+      if (t != kGone) is_same[t] = 1;
+    }
+    for (std::uint32_t t = 0; t < is_same.size(); ++t) {
+      if (is_same[t] == 0) changed.push_back(t);
+    }
+    return changed;
+  }
+
+  void carry_points(const std::optional<TetLocator>& locator) {
     if (!before_.point_entities.empty()) {
       now_.point_entities.assign(now_.points.size(), {-1, 0});
       for (std::size_t i = 0; i < now_.points.size(); ++i) {
@@ -133,10 +153,12 @@ class Carrying {
     if (before_.point_data.empty() && !has_members(0)) return;
     places_.resize(now_.points.size());
     for_chunks(places_.size(), [&](std::size_t begin, std::size_t end) {
+      Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
-        if (!stayed(static_cast<std::uint32_t>(i)) && !locator.is_empty()) {
-          places_[i] = locator.find(now_.points[i]);
-        }
+        const auto point = static_cast<std::uint32_t>(i);
+        if (stayed(point) || locator->is_empty()) continue;
+        origins_->of_point(point, origin);
+        places_[i] = locator->find(now_.points[i], origin);
       }
     });
     for (const DataArray& array : before_.point_data) {
@@ -176,13 +198,16 @@ class Carrying {
     return made;
   }
 
-  void carry_tets(const TetLocator& locator) {
-    if (before_.tet_data.empty() && before_.tet_parts.empty() && !has_members(3)) return;
+  void carry_tets(const std::optional<TetLocator>& locator) {
+    if (!needs_tets()) return;
     const std::vector<Shares> shares =
-        conserve_.empty() ? std::vector<Shares>() : find_shares(locator);
+        conserve_.empty() ? std::vector<Shares>() : find_shares(*locator);
     for_chunks(old_tet_.size(), [&](std::size_t begin, std::size_t end) {
+      Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
-        if (old_tet_[i] == kGone) old_tet_[i] = locator.find(centroid(now_.tets[i])).tet;
+        if (old_tet_[i] != kGone) continue;
+        origins_->of_tet(static_cast<std::uint32_t>(i), origin);
+        old_tet_[i] = locator->find_tet(centroid(now_.tets[i]), origin);
       }
     });
     if (!before_.tet_parts.empty()) {
@@ -214,11 +239,13 @@ class Carrying {
   std::vector<Shares> find_shares(const TetLocator& locator) const {
     std::vector<Shares> shares(now_.tets.size());
     for_chunks(shares.size(), [&](std::size_t begin, std::size_t end) {
+      Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
         if (old_tet_[i] != kGone) continue;
+        origins_->of_tet(static_cast<std::uint32_t>(i), origin);
         const std::array<Point, 4> tet = corners(now_, now_.tets[i]);
         double sum = 0;
-        for (const std::uint32_t old : locator.near(tet)) {
+        for (const std::uint32_t old : locator.near(tet, origin.bodies)) {
           const double shared = overlap(tet, corners(before_, before_.tets[old]));
           if (shared > 0) shares[i].emplace_back(old, shared);
           sum += shared;
@@ -265,23 +292,26 @@ class Carrying {
     return sum / static_cast<double>(element.vertices.size());
   }
 
-  /// The nearest of the old elements that an element of a changed surface is like; kGone for a wall
-  /// that nobody named. Cost: linear.
+  /// The nearest of the old elements that an element of a changed surface is like, of the same body if
+  /// there is one; kGone for a wall that nobody named. Cost: linear.
   template <class Element>
   std::uint32_t model_of(const Element& element, const std::vector<Element>& old,
                          const std::vector<Label>& marks) const {
     const Point here = middle(now_, element);
-    std::uint32_t nearest = kGone;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < old.size(); ++i) {
-      if ((marks.empty() ? old[i].label : marks[i]) != element.label) continue;
-      const double distance = (middle(before_, old[i]) - here).squaredNorm();
-      if (distance < least) {
+    for (const bool is_anywhere : {false, true}) {
+      std::uint32_t nearest = kGone;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::uint32_t i = 0; i < old.size(); ++i) {
+        if ((marks.empty() ? old[i].label : marks[i]) != element.label) continue;
+        const double distance = (middle(before_, old[i]) - here).squaredNorm();
+        if (!(distance < least)) continue;
+        if (!is_anywhere && !origins_->may_be_one(element.vertices, old[i].vertices)) continue;
         least = distance;
         nearest = i;
       }
+      if (nearest != kGone) return nearest;
     }
-    return nearest;
+    return kGone;
   }
 
   /// Elements come back in an order of their own, and with walls that nobody named.
@@ -435,12 +465,28 @@ class Carrying {
     return members;
   }
 
-  /// Their vertices are on the surface of the tets or belong to no tet: all of them stayed.
+  /// Their vertices all stayed, with what lies between them. Who takes them from the tets makes a mesh
+  /// that no solver can use.
   void carry_others() {
     now_.other_elements = before_.other_elements;
     for (OtherElements& others : now_.other_elements) {
       for (std::uint32_t& v : others.vertices) v = vertex_map_[v];
     }
+    const std::size_t lost = count_lost_parts(before_, vertex_map_, now_);
+    if (lost == 0) return;
+    throw Error(fmt::format(
+        "{} faces, edges or points that tets had in common with other elements are gone: "
+        "this is a bug of tetmend, please report it",
+        lost));
+  }
+  /// Without those that were required for the sake of other elements.
+  void carry_required_vertices() {
+    if (before_.other_elements.empty()) return;
+    std::vector<bool> was_required(before_.points.size(), false);
+    for (const std::uint32_t v : before_.required_vertices) was_required[v] = true;
+    std::erase_if(now_.required_vertices, [&](std::uint32_t v) {
+      return old_point_[v] == kGone || !was_required[old_point_[v]];
+    });
   }
 
   void tell(const DataArray& old, const DataArray& made, bool is_of_points, bool is_conserved) {
@@ -482,7 +528,7 @@ class Carrying {
   const SurfaceMarks* marks_;             // null: the surface is fixed
   std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
   std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
-  std::vector<std::uint32_t> changed_;    // old tets
+  std::optional<Origins> origins_;        // where values are looked up
   std::vector<bool> is_inside_;           // old points; empty: not asked for yet
   std::vector<TetPlace> places_;          // in the old mesh, of points that are new or have moved
   std::array<std::vector<std::uint32_t>, 4> element_maps_;

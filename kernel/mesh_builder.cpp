@@ -358,7 +358,7 @@ void MeshBuilder::reorder_tets() {
 }
 
 /// Finds the vertices that do not lie inside a region: of the boundary, of a face between two
-/// labels, or of no tet.
+/// labels, of no tet, or of an element that is none.
 void MeshBuilder::find_border() {
   on_border_.assign(mesh_.points_.size(), 1);
   for (const TetMesh::Cell& cell : mesh_.cells_) {
@@ -372,11 +372,14 @@ void MeshBuilder::find_border() {
       for (const VertexHandle v : mesh_.vertices(f)) on_border_[v.index()] = 1;
     }
   }
+  for (const OtherElements& others : data_.other_elements) {
+    for (const std::uint32_t v : others.vertices) on_border_[vertex(v).index()] = kOfOthers;
+  }
 }
 
 /// Of a named triangle. `f` is its face, if it is one.
 bool MeshBuilder::is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const {
-  if (!drops_interior_) return false;
+  if (!drops_interior_ || are_of_others(vertices)) return false;
   if (f == HalfFace()) {
     return std::any_of(vertices.begin(), vertices.end(),
                        [&](VertexHandle v) { return on_border_[v.index()] == 0; });
@@ -493,8 +496,19 @@ void MeshBuilder::link_vertices() {
       }
     }
   });
-  for (const TetHandle t : mesh_.vertex_tet_) report_.unused_points += !t.is_valid();
-  report_.unused_points -= data_.mid_nodes.size();
+  count_unused_points();
+}
+
+/// Those of no tet that no other element has, and that are no node of an edge.
+void MeshBuilder::count_unused_points() {
+  std::vector<char> is_used(mesh_.points_.size(), 0);
+  for (const auto& mid : data_.mid_nodes) is_used[vertex(mid[2]).index()] = 1;
+  for (const OtherElements& others : data_.other_elements) {
+    for (const std::uint32_t v : others.vertices) is_used[vertex(v).index()] = 1;
+  }
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    report_.unused_points += !mesh_.vertex_tet_[v].is_valid() && is_used[v] == 0 ? 1 : 0;
+  }
 }
 
 /// A face of the tet at the edge lies on the boundary or is constrained.
@@ -521,7 +535,8 @@ void MeshBuilder::mark_edges() {
   std::vector<char> on_face(edges.size(), 0);
   for (const TetAtEdge& at : tets) {
     found[at.number] = 1;
-    if (drops_interior_ && lies_on_face(at.edge)) on_face[at.number] = 1;
+    if (!drops_interior_) continue;
+    if (lies_on_face(at.edge) || are_of_others(edges[at.number])) on_face[at.number] = 1;
   }
   for (const MeshData::Edge& named : data_.edges) {
     const EdgeEnds ends = ends_of(named);

@@ -17,6 +17,7 @@
 #include "face/surface_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/shared_parts.h"
 #include "pieces/bytes.h"
 #include "pieces/rows.h"
 #include "pieces/slices.h"
@@ -215,6 +216,7 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
       is_kept = find_kept_points(data_);
     }
     data_.triangles.insert(data_.triangles.end(), walls.begin(), walls.end());
+    hold_shared_inside(data_);
     add_slices(data_, {}, mesh, is_kept);
     data_ = {};
   }

@@ -6,6 +6,9 @@
 #include <doctest/doctest.h>
 #include <tetmend/check.h>
 
+#include "face/mesh_access.h"
+#include "tests/support/mixed_mesh.h"
+
 using namespace tetmend;
 
 namespace {
@@ -66,4 +69,29 @@ TEST_CASE("two meshes are compared by surface, walls and volumes") {
   CHECK(std::count_if(facts.begin(), facts.end(), [](const Fact& fact) {
           return fact.name == "volume" && !fact.holds;
         }) == 2);  // one label is gone, one is new
+}
+
+TEST_CASE("tets that were torn from other elements are told, and those that stayed joined") {
+  const MeshData before = test::tets_on(test::Bed::wedges, 3, 1);
+  const Mesh mesh = MeshAccess::make(before);
+  const Fact joined = find(compare(mesh, mesh), "other_elements");
+  CHECK(joined.holds);
+  CHECK(joined.text ==
+        "18 other elements, and 67 faces, edges and points that tets have in common with them: the "
+        "same, bit for bit");
+  MeshData torn = before;  // another diagonal of one square
+  const std::uint32_t a = 16 + 5;
+  const std::array<std::uint32_t, 4> square = {a, a + 1, a + 4, a + 5};
+  for (MeshData::Tet& tet : torn.tets) {
+    auto& v = tet.vertices;
+    const auto at = [&](std::uint32_t point) { return std::find(v.begin(), v.end(), point); };
+    if (at(square[0]) == v.end() || at(square[3]) == v.end()) continue;
+    if (at(square[1]) != v.end()) *at(square[0]) = square[2];
+  }
+  const Fact fact = find(compare(mesh, MeshAccess::make(torn)), "other_elements");
+  CHECK_FALSE(fact.holds);
+  CHECK(std::get<std::uint64_t>(fact.value) > 0);
+  MeshData moved = before;
+  moved.points[0].z() -= 1e-6;  // of wedges alone
+  CHECK_FALSE(find(compare(mesh, MeshAccess::make(moved)), "other_elements").holds);
 }
