@@ -13,28 +13,41 @@
 
 namespace tetmend::face {
 
-Bodies::Bodies(const MeshData& data) : data_(data) {
-  number_kinds();
-  find_slots();
+namespace {
+
+std::vector<std::uint32_t> all_tets(const MeshData& data) {
+  std::vector<std::uint32_t> all(data.tets.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+}  // namespace
+
+Bodies::Bodies(const MeshData& data) : Bodies(data, all_tets(data)) {}
+
+Bodies::Bodies(const MeshData& data, std::span<const std::uint32_t> tets) : data_(data) {
+  number_kinds(tets);
+  find_slots(tets);
   number_bodies();
 }
 
-void Bodies::number_kinds() {
+void Bodies::number_kinds(std::span<const std::uint32_t> tets) {
   using Kind = std::pair<Label, Label>;
-  const auto kind_of = [this](std::size_t t) -> Kind {
+  const auto kind_of = [this](std::uint32_t t) -> Kind {
     return {data_.tets[t].label, data_.tet_parts.empty() ? 0 : data_.tet_parts[t]};
   };
-  const std::size_t n = data_.tets.size();
-  if (n == 0) return;
-  kind_labels_ = {data_.tets[0].label};
-  std::size_t same = 1;
-  while (same < n && kind_of(same) == kind_of(0)) ++same;
-  if (same == n) return;
-  std::map<Kind, std::uint32_t> numbers = {{kind_of(0), 0}};
-  kinds_.assign(n, 0);
-  for (std::size_t t = same; t < n; ++t) {
-    if (kind_of(t) == kind_of(t - 1)) {
-      kinds_[t] = kinds_[t - 1];
+  if (tets.empty()) return;
+  kind_labels_ = {data_.tets[tets[0]].label};
+  std::size_t i = 1;
+  while (i < tets.size() && kind_of(tets[i]) == kind_of(tets[0])) ++i;
+  if (i == tets.size()) return;
+  std::map<Kind, std::uint32_t> numbers = {{kind_of(tets[0]), 0}};
+  kinds_.assign(data_.tets.size(), 0);
+  for (; i < tets.size(); ++i) {
+    const std::uint32_t t = tets[i];
+    const std::uint32_t before = tets[i - 1];
+    if (kind_of(t) == kind_of(before)) {
+      kinds_[t] = kinds_[before];
       continue;
     }
     const auto next = static_cast<std::uint32_t>(numbers.size());
@@ -44,12 +57,12 @@ void Bodies::number_kinds() {
 }
 
 /// Until bodies are numbered, `body_of_` has a slot of the same set that is nearer to its root.
-void Bodies::find_slots() {
+void Bodies::find_slots(std::span<const std::uint32_t> tets) {
   first_kind_.assign(data_.points.size(), kNone);
   body_of_.resize(data_.points.size());
   std::iota(body_of_.begin(), body_of_.end(), 0U);
   std::vector<std::uint32_t> mixed;  // tets with points whose first tet is of another kind
-  for (std::uint32_t t = 0; t < data_.tets.size(); ++t) {
+  for (const std::uint32_t t : tets) {
     const auto& vertices = data_.tets[t].vertices;
     const std::uint32_t kind = kind_of(t);
     bool is_mixed = false;
@@ -251,17 +264,14 @@ void spread_anchors(const std::vector<MeshData::Tet>& tets, std::span<const std:
   }
 }
 
-Origins::Origins(const MeshData& before, const MeshData& now,
-                 std::span<const std::uint32_t> old_point, std::span<const std::uint32_t> old_tet)
+Origins::Origins(const MeshData& now, std::span<const std::uint32_t> old_point,
+                 std::span<const std::uint32_t> changed, Bodies bodies)
     : now_(now),
-      bodies_(before),
+      bodies_(std::move(bodies)),
       anchors_(old_point.begin(), old_point.end()),
       tet_at_(now.points.size(), kGone) {
   static_assert(kGone == Bodies::kNone);
-  std::vector<std::uint32_t> changed;
-  for (std::uint32_t t = 0; t < old_tet.size(); ++t) {
-    if (old_tet[t] != kGone) continue;
-    changed.push_back(t);
+  for (const std::uint32_t t : changed) {
     for (const std::uint32_t v : now.tets[t].vertices) tet_at_[v] = std::min(tet_at_[v], t);
   }
   const bool is_one = bodies_.count() == 1;

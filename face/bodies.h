@@ -15,15 +15,19 @@
 
 namespace tetmend::face {
 
-/// A *body* is a set of tets of one label and one part that hang together by vertices.
+/// A *body* is a set of tets of one label and one part that hang together by vertices: of all tets, or of
+/// those that have changed. What comes in place of changed tets hangs together as they do.
 class Bodies {
  public:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-  /// Of all tets of `data`, which must outlive this. Cost: about linear; 4 to 8 bytes a point.
+  /// Of all tets of `data`, which must outlive this. Cost: about linear; some 10 bytes a point.
   explicit Bodies(const MeshData& data);
+  /// Of these tets alone.
+  Bodies(const MeshData& data, std::span<const std::uint32_t> tets);
 
   std::size_t count() const { return labels_.size(); }
+  /// Precondition: it is one of the tets.
   std::uint32_t of_tet(std::uint32_t tet) const;
   /// The body with this label that the point belongs to; kNone if there are several, or none.
   std::uint32_t of_point(std::uint32_t point, Label label) const;
@@ -42,8 +46,8 @@ class Bodies {
     friend auto operator<=>(const Further&, const Further&) = default;
   };
 
-  void number_kinds();
-  void find_slots();
+  void number_kinds(std::span<const std::uint32_t> tets);
+  void find_slots(std::span<const std::uint32_t> tets);
   void join(const std::array<std::uint32_t, 4>& slots);
   void number_bodies();
   std::uint32_t kind_of(std::uint32_t tet) const { return kinds_.empty() ? 0 : kinds_[tet]; }
@@ -68,22 +72,26 @@ class Bodies {
 
 /// Where something new comes from, as far as that shows in what it hangs together with.
 struct Origin {
+  std::uint32_t tet = Bodies::kNone;  ///< what became of this old one, if of any
   std::vector<std::uint32_t> points;  ///< old ones, not far away
   std::vector<std::uint32_t> bodies;  ///< that it may be of, ascending; none: of any
 
   void clear() {
+    tet = Bodies::kNone;
     points.clear();
     bodies.clear();
   }
 };
 
 /// Where what is new in an improved mesh comes from: values of the old mesh are looked up there, whatever
-/// else lies at the same place. Both meshes must outlive this.
+/// else lies at the same place. The new mesh must outlive this.
 class Origins {
  public:
-  /// @param old_point,old_tet by new number; kGone for what is new, and for tets whose vertices moved
-  Origins(const MeshData& before, const MeshData& now, std::span<const std::uint32_t> old_point,
-          std::span<const std::uint32_t> old_tet);
+  /// @param old_point by new number; kGone for new ones
+  /// @param changed tets of the new mesh that are not as they were
+  /// @param bodies of the old mesh: of what changed, or of all
+  Origins(const MeshData& now, std::span<const std::uint32_t> old_point,
+          std::span<const std::uint32_t> changed, Bodies bodies);
 
   const Bodies& bodies() const { return bodies_; }
   /// Of a tet that has changed.

@@ -72,15 +72,22 @@ class Carrying {
       : before_(before), now_(now), vertex_map_(vertex_map), conserve_(conserve), marks_(marks) {
     old_point_ = inverse(vertex_map, now.points.size());
     old_tet_ = inverse(tet_map, now.tets.size());
-    for (std::size_t i = 0; i < now.tets.size(); ++i) {
-      if (has_changed(now.tets[i])) old_tet_[i] = kGone;
+    moved_from_.assign(now.tets.size(), kGone);
+    for (std::uint32_t i = 0; i < now.tets.size(); ++i) {
+      if (old_tet_[i] != kGone && !has_changed(now.tets[i])) continue;
+      moved_from_[i] = std::exchange(old_tet_[i], kGone);
+      changed_.push_back(i);
     }
   }
 
   std::vector<CarriedArray> run() {
-    if (needs_places() || marks_ != nullptr) origins_.emplace(before_, now_, old_point_, old_tet_);
     std::optional<TetLocator> locator;
-    if (needs_places()) locator.emplace(before_, origins_->bodies(), changed_tets());
+    if (needs_places() || marks_ != nullptr) {
+      std::vector<std::uint32_t> gone = gone_tets();
+      origins_.emplace(now_, old_point_, changed_,
+                       marks_ != nullptr ? Bodies(before_) : Bodies(before_, gone));
+      if (needs_places()) locator.emplace(before_, origins_->bodies(), std::move(gone));
+    }
     now_.point_numbers = numbers_of(before_.point_numbers, old_point_);
     now_.tet_numbers = numbers_of(before_.tet_numbers, old_tet_);
     carry_points(locator);
@@ -131,16 +138,16 @@ class Carrying {
   }
 
   /// Of the old tets those that are not there any more as they were.
-  std::vector<std::uint32_t> changed_tets() const {
-    std::vector<std::uint32_t> changed;
+  std::vector<std::uint32_t> gone_tets() const {
+    std::vector<std::uint32_t> gone;
     std::vector<char> is_same(before_.tets.size(), 0);
     for (const std::uint32_t t : old_tet_) {
       if (t != kGone) is_same[t] = 1;
     }
     for (std::uint32_t t = 0; t < is_same.size(); ++t) {
-      if (is_same[t] == 0) changed.push_back(t);
+      if (is_same[t] == 0) gone.push_back(t);
     }
-    return changed;
+    return gone;
   }
 
   void carry_points(const std::optional<TetLocator>& locator) {
@@ -202,12 +209,13 @@ class Carrying {
     if (!needs_tets()) return;
     const std::vector<Shares> shares =
         conserve_.empty() ? std::vector<Shares>() : find_shares(*locator);
-    for_chunks(old_tet_.size(), [&](std::size_t begin, std::size_t end) {
+    for_chunks(changed_.size(), [&](std::size_t begin, std::size_t end) {
       Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
-        if (old_tet_[i] != kGone) continue;
-        origins_->of_tet(static_cast<std::uint32_t>(i), origin);
-        old_tet_[i] = locator->find_tet(centroid(now_.tets[i]), origin);
+        const std::uint32_t t = changed_[i];
+        origins_->of_tet(t, origin);
+        origin.tet = moved_from_[t];
+        old_tet_[t] = locator->find_tet(centroid(now_.tets[t]), origin);
       }
     });
     if (!before_.tet_parts.empty()) {
@@ -525,12 +533,14 @@ class Carrying {
   MeshData& now_;
   std::span<const std::uint32_t> vertex_map_;
   std::span<const std::string> conserve_;
-  const SurfaceMarks* marks_;             // null: the surface is fixed
-  std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
-  std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
-  std::optional<Origins> origins_;        // where values are looked up
-  std::vector<bool> is_inside_;           // old points; empty: not asked for yet
-  std::vector<TetPlace> places_;          // in the old mesh, of points that are new or have moved
+  const SurfaceMarks* marks_;              // null: the surface is fixed
+  std::vector<std::uint32_t> old_point_;   // by new number; kGone: it is new
+  std::vector<std::uint32_t> old_tet_;     // likewise; kGone also where a vertex has moved
+  std::vector<std::uint32_t> moved_from_;  // the old tet with the vertices of one that has changed
+  std::vector<std::uint32_t> changed_;     // new tets that are not as they were
+  std::optional<Origins> origins_;         // where values are looked up
+  std::vector<bool> is_inside_;            // old points; empty: not asked for yet
+  std::vector<TetPlace> places_;           // in the old mesh, of points that are new or have moved
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
   // New ones of a changed surface, each with the old one that it is like.
   std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 4> new_elements_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -112,8 +113,9 @@ void label_surface_points(const MeshData& before, std::span<const std::uint32_t>
     }
   }
   if (points.empty()) return;
-  const std::vector<std::uint32_t> all_changed(now.tets.size(), kGone);
-  const Origins origins(before, now, old_point, all_changed);
+  std::vector<std::uint32_t> all(now.tets.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const Origins origins(now, old_point, all, Bodies(before));
   const OldSurface old(before, origins.bodies());
   Origin origin;
   for (const std::uint32_t v : points) {

@@ -81,7 +81,6 @@ TetLocator::TetLocator(const MeshData& data, const Bodies& bodies, std::vector<s
     : data_(data), bodies_(bodies), tets_(std::move(tets)) {
   if (tets_.empty()) return;
   join_neighbours();
-  list_starts();
 }
 
 namespace {
@@ -122,6 +121,7 @@ class FaceMatcher {
 
 void TetLocator::join_neighbours() {
   neighbours_.assign(4 * tets_.size(), kNone);
+  starts_.assign(data_.points.size(), kNone);
   const bool are_bodies_told = bodies_.count() > 1;
   std::vector<std::uint32_t> bodies;
   for (std::size_t i = 0; are_bodies_told && i < tets_.size(); ++i) {
@@ -131,6 +131,7 @@ void TetLocator::join_neighbours() {
   for (std::uint32_t i = 0; i < tets_.size(); ++i) {
     const auto& v = data_.tets[tets_[i]].vertices;
     for (std::uint32_t k = 0; k < 4; ++k) {
+      starts_[v[k]] = i;
       const std::uint32_t side = 4 * i + k;
       const std::uint32_t other =
           matcher.add(side, {v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]});
@@ -142,16 +143,22 @@ void TetLocator::join_neighbours() {
   }
 }
 
-void TetLocator::list_starts() {
-  first_start_.assign(data_.points.size() + 1, 0);
+std::span<const std::uint32_t> TetLocator::tets_at(std::uint32_t point) const {
+  std::call_once(has_lists_, [this] { list_tets_at(); });
+  const std::uint32_t begin = first_at_[point];
+  return {tets_at_.data() + begin, first_at_[point + 1] - begin};
+}
+
+void TetLocator::list_tets_at() const {
+  first_at_.assign(data_.points.size() + 1, 0);
   for (const std::uint32_t t : tets_) {
-    for (const std::uint32_t v : data_.tets[t].vertices) ++first_start_[v];
+    for (const std::uint32_t v : data_.tets[t].vertices) ++first_at_[v];
   }
   // Each is where its own end; filling from behind makes it its begin.
-  std::partial_sum(first_start_.begin(), first_start_.end(), first_start_.begin());
-  starts_.resize(4 * tets_.size());
-  for (auto i = static_cast<std::uint32_t>(tets_.size()); i-- > 0;) {
-    for (const std::uint32_t v : data_.tets[tets_[i]].vertices) starts_[--first_start_[v]] = i;
+  std::partial_sum(first_at_.begin(), first_at_.end(), first_at_.begin());
+  tets_at_.resize(4 * tets_.size());
+  for (auto i = tets_.size(); i-- > 0;) {
+    for (const std::uint32_t v : data_.tets[tets_[i]].vertices) tets_at_[--first_at_[v]] = tets_[i];
   }
 }
 
@@ -241,17 +248,21 @@ Lie lie_of(const MeshData& data, std::uint32_t tet, const Point& place) {
 
 }  // namespace
 
-/// Where the tets at the points of the origin, or a way from one of them, lead to a tet that holds the
-/// place: that one; its weights may be missing. False behind bends of what the tets fill.
+/// Where what became of a tet, a way from the points of the origin, or the tets there lead to a tet that
+/// holds the place: that one; its weights may be missing. False behind bends of what the tets fill.
 bool TetLocator::walk(const Point& place, const Origin& origin, Best& best) const {
-  for (const std::uint32_t point : origin.points) {
-    const std::span<const std::uint32_t> starts = starts_at(point);
-    if (starts.empty() || !is_among(tets_[starts[0]], origin.bodies)) continue;
-    if (walk_from(starts[0], place, best)) return true;
+  if (origin.tet != kNone && lie_of(data_, origin.tet, place).is_inside()) {
+    best = {{origin.tet, {}}, 0, 0};
+    return true;
   }
   for (const std::uint32_t point : origin.points) {
-    for (const std::uint32_t start : starts_at(point)) {
-      if (is_among(tets_[start], origin.bodies) && take(start, place, best)) return true;
+    const std::uint32_t start = starts_[point];
+    if (start == kNone || !is_among(tets_[start], origin.bodies)) continue;
+    if (walk_from(start, place, best)) return true;
+  }
+  for (const std::uint32_t point : origin.points) {
+    for (const std::uint32_t t : tets_at(point)) {
+      if (is_among(t, origin.bodies) && take(t, place, best)) return true;
     }
   }
   return false;
@@ -267,7 +278,7 @@ bool TetLocator::walk_from(std::uint32_t start, const Point& place, Best& best) 
       best = {{tets_[here], {}}, 0, 0};
       return true;
     }
-    if (!lie.is_outside()) return take(here, place, best);
+    if (!lie.is_outside()) return take(tets_[here], place, best);
     std::uint32_t next = kNone;
     double least = -lie.limit;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -284,17 +295,17 @@ bool TetLocator::walk_from(std::uint32_t start, const Point& place, Best& best) 
 
 /// A tet that holds the place for certain is the one, for then no other of its body does. Where that is
 /// not certain, all that hold it meet there.
-bool TetLocator::take(std::uint32_t here, const Point& place, Best& best) const {
-  const Lie lie = lie_of(data_, tets_[here], place);
+bool TetLocator::take(std::uint32_t tet, const Point& place, Best& best) const {
+  const Lie lie = lie_of(data_, tet, place);
   if (lie.is_outside()) return false;
   if (lie.is_inside()) {
-    best = {{tets_[here], {}}, 0, 0};
+    best = {{tet, {}}, 0, 0};
     return true;
   }
-  const std::uint32_t body = bodies_.of_tet(tets_[here]);
-  for (const std::uint32_t v : data_.tets[tets_[here]].vertices) {
-    for (const std::uint32_t other : starts_at(v)) {
-      if (bodies_.of_tet(tets_[other]) == body) try_holder(tets_[other], place, best);
+  const std::uint32_t body = bodies_.of_tet(tet);
+  for (const std::uint32_t v : data_.tets[tet].vertices) {
+    for (const std::uint32_t other : tets_at(v)) {
+      if (bodies_.of_tet(other) == body) try_holder(other, place, best);
     }
   }
   return best.is_inside();

@@ -56,14 +56,11 @@ class TetLocator {
   };
 
   void join_neighbours();
-  void list_starts();
-  std::span<const std::uint32_t> starts_at(std::uint32_t point) const {
-    const std::uint32_t begin = first_start_[point];
-    return {starts_.data() + begin, first_start_[point + 1] - begin};
-  }
+  void list_tets_at() const;
+  std::span<const std::uint32_t> tets_at(std::uint32_t point) const;
   bool walk(const Point& place, const Origin& origin, Best& best) const;
   bool walk_from(std::uint32_t start, const Point& place, Best& best) const;
-  bool take(std::uint32_t here, const Point& place, Best& best) const;
+  bool take(std::uint32_t tet, const Point& place, Best& best) const;
   void try_holder(std::uint32_t tet, const Point& place, Best& best) const;
   Best search(const Point& place, Among among) const;
 
@@ -82,9 +79,11 @@ class TetLocator {
   std::vector<std::uint32_t> tets_;
   // By place in tets_, four each: that of the neighbour opposite each vertex, of the same body, or kNone.
   std::vector<std::uint32_t> neighbours_;
-  std::vector<std::uint32_t> starts_;       // places of the tets of each point
-  std::vector<std::uint32_t> first_start_;  // by point, and one more
+  std::vector<std::uint32_t> starts_;  // by point: place of one of its tets, or kNone
   // Only when it is needed.
+  mutable std::once_flag has_lists_;
+  mutable std::vector<std::uint32_t> tets_at_;   // of each point
+  mutable std::vector<std::uint32_t> first_at_;  // by point, and one more
   mutable std::once_flag has_tree_;
   mutable std::vector<std::uint32_t> leaves_;  // the tets, as the leaves have them
   mutable std::vector<Node> nodes_;

@@ -62,6 +62,8 @@ std::vector<Questions::Kin> NewPart::kin_of(std::span<const std::uint32_t> which
     Questions::Kin& of_tet = kin.emplace_back();
     of_tet.label = tet.label;
     of_tet.is_known = 1;
+    const std::uint32_t origin = piece_.tets[which[kin.size() - 1]].origin & ~PieceTet::kProtected;
+    if (origin != PieceTet::kNone) of_tet.tet = origin;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t anchor = anchors[tet.vertices[i]];
       if (anchor != face::Bodies::kNone) of_tet.points[i] = number(anchor);

@@ -142,7 +142,7 @@ void OldPart::find_changed() {
   for (std::uint32_t t = 0; t < is_kept_.size(); ++t) {
     if (is_kept_[t] == 0) changed.push_back(t);
   }
-  bodies_.emplace(data_);
+  bodies_.emplace(data_, changed);
   changed_.emplace(data_, *bodies_, std::move(changed));
 }
 
@@ -157,6 +157,10 @@ void OldPart::learn(const Questions& questions) {
 face::Origin OldPart::origin_of(const Questions::Kin& kin) const {
   face::Origin origin;
   if (kin.is_known == 0) return origin;
+  const auto tet = std::lower_bound(origins_.begin(), origins_.end(), kin.tet);
+  if (tet != origins_.end() && *tet == kin.tet) {
+    origin.tet = static_cast<std::uint32_t>(tet - origins_.begin());
+  }
   for (const VertexId id : kin.points) {
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
     if (found == ids_.end() || *found != id) continue;

@@ -58,6 +58,7 @@ struct Questions {
   /// What something new hangs together with: with tets of a label, at points that the file has.
   struct Kin {
     std::array<VertexId, 4> points = {kNobody, kNobody, kNobody, kNobody};
+    std::uint64_t tet = kNobody;  ///< of the file, if it has become of that
     Label label = 0;
     std::uint32_t is_known = 0;  ///< 0: only other pieces may know
 

@@ -89,7 +89,8 @@ TEST_CASE("points of periodic links, other elements and MEDIT's marks are corner
   CHECK(has(corners(hybrid), c));
 }
 
-TEST_CASE("faces between held vertices are patches that nothing takes a face from, edges are lines") {
+TEST_CASE(
+    "faces between held vertices are patches that nothing takes a face from, edges are lines") {
   const TetMesh mesh(kuhn_cube(4, 0, 1));
   for (const double share : {0.0, 0.05}) {
     CAPTURE(share);
@@ -125,7 +126,8 @@ TEST_CASE("faces between held vertices are patches that nothing takes a face fro
         to.push_back({v, {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])}});
       };
       for (const auto& face : pair) add(face, before);
-      for (std::size_t i = 0; i < 2; ++i) {  // each takes the tip of the other for one end of the edge
+      for (std::size_t i = 0; i < 2;
+           ++i) {  // each takes the tip of the other for one end of the edge
         auto face = pair[i];
         *std::find(face.begin(), face.end(), edge[i]) = opposite(pair[1 - i]);
         add(face, after);

@@ -261,9 +261,9 @@ TEST_CASE("triangles and edges that a file requires stay where the surface may m
     }
     before.groups = {group};
     Mesh mesh = MeshAccess::make(before);
-    const Result result = improve(mesh, {.schedule = "surface",
-                                         .goal = {.min_angle = 40, .max_angle = 130},
-                                         .surface = "10%"});
+    const Result result = improve(
+        mesh,
+        {.schedule = "surface", .goal = {.min_angle = 40, .max_angle = 130}, .surface = "10%"});
     const MeshData& now = MeshAccess::data(mesh);
     const auto is_there = [&](auto vertices, const auto& elements) {
       for (std::uint32_t& v : vertices) v = result.vertex_map[v];
@@ -281,7 +281,8 @@ TEST_CASE("triangles and edges that a file requires stay where the surface may m
   }
 }
 
-TEST_CASE("shells, chains and points of other elements within the tets stay, also without constraints") {
+TEST_CASE(
+    "shells, chains and points of other elements within the tets stay, also without constraints") {
   for (const bool ignores : {false, true}) {
     CAPTURE(ignores);
     MeshData before = tets_on(Bed::wedges, 4, 7);

@@ -58,8 +58,7 @@ TEST_CASE("points share themselves alone, and a chain its edges") {
   CHECK(find_shared_parts(data).points == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
   CHECK(find_shared_parts(data).edges.empty());
   data.other_elements = {element(4, {1, 3, 2})};
-  CHECK(find_shared_parts(data).edges ==
-        std::vector<std::array<std::uint32_t, 2>>{{1, 3}, {2, 3}});
+  CHECK(find_shared_parts(data).edges == std::vector<std::array<std::uint32_t, 2>>{{1, 3}, {2, 3}});
   CHECK(find_shared_parts(data).faces.empty());
 }
 
@@ -82,9 +81,8 @@ TEST_CASE("a shared face that no tet has any more, and a point that moved, are c
   const MeshData data = tets_on(Bed::wedges, 3, 1);
   MeshData torn = data;
   const auto at_bed = [&](const MeshData::Tet& tet) {
-    return std::count_if(tet.vertices.begin(), tet.vertices.end(), [&](std::uint32_t v) {
-      return data.points[v].z() == 0.1;
-    });
+    return std::count_if(tet.vertices.begin(), tet.vertices.end(),
+                         [&](std::uint32_t v) { return data.points[v].z() == 0.1; });
   };
   const auto found = std::find_if(torn.tets.begin(), torn.tets.end(),
                                   [&](const MeshData::Tet& tet) { return at_bed(tet) == 3; });
