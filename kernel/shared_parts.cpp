@@ -11,8 +11,8 @@ namespace tetmend {
 
 namespace {
 
-using Face = std::array<std::uint32_t, 3>;
-using Edge = std::array<std::uint32_t, 2>;
+using CommonFace = std::array<std::uint32_t, 3>;
+using CommonEdge = std::array<std::uint32_t, 2>;
 using Elements = std::span<const std::uint32_t>;
 
 constexpr int kVertex = 1;      // of VTK
@@ -20,19 +20,19 @@ constexpr int kPolyVertex = 2;  // a cloud of points
 constexpr int kPolyLine = 4;    // an edge after the other
 
 template <std::size_t N>
-std::array<std::uint32_t, N> sorted(std::array<std::uint32_t, N> vertices) {
+std::array<std::uint32_t, N> ascending(std::array<std::uint32_t, N> vertices) {
   std::sort(vertices.begin(), vertices.end());
   return vertices;
 }
 
 template <class Part>
-void keep_once(std::vector<Part>& parts) {
+void keep_each_once(std::vector<Part>& parts) {
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
 }
 
 template <class Part>
-bool has(const std::vector<Part>& parts, const Part& part) {
+bool contains_part(const std::vector<Part>& parts, const Part& part) {
   return std::binary_search(parts.begin(), parts.end(), part);
 }
 
@@ -96,14 +96,15 @@ class ElementsOfPoints {
   std::vector<std::uint32_t> elements_;
 };
 
-void collect(const MeshData::Tet& tet, const ElementsOfPoints& elements, SharedParts& shared) {
+void collect_shared(const MeshData::Tet& tet, const ElementsOfPoints& elements,
+                    SharedParts& shared) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = i + 1; k < 4; ++k) {
-      const Edge edge = sorted(Edge{tet.vertices[i], tet.vertices[k]});
+      const CommonEdge edge = ascending(CommonEdge{tet.vertices[i], tet.vertices[k]});
       if (elements.have_one_in_common(edge)) shared.edges.push_back(edge);
     }
     const auto& v = tet.vertices;
-    const Face face = sorted(Face{v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4]});
+    const CommonFace face = ascending(CommonFace{v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4]});
     if (elements.have_one_in_common(face)) shared.faces.push_back(face);
   }
 }
@@ -122,11 +123,11 @@ SharedParts find_shared_parts(const MeshData& mesh) {
       shared.points.push_back(v);
       ++count;
     }
-    if (count > 1) collect(tet, elements, shared);
+    if (count > 1) collect_shared(tet, elements, shared);
   }
-  keep_once(shared.faces);
-  keep_once(shared.edges);
-  keep_once(shared.points);
+  keep_each_once(shared.faces);
+  keep_each_once(shared.edges);
+  keep_each_once(shared.points);
   return shared;
 }
 
@@ -135,11 +136,12 @@ SharedParts find_shared_inside(const MeshData& mesh, const SharedParts& shared) 
   if (shared.is_empty()) return inside;
   std::vector<char> is_shared(mesh.points.size(), 0);
   for (const std::uint32_t v : shared.points) is_shared[v] = 1;
-  std::vector<std::pair<Face, Label>> faces;  // at a shared point, with the region of their tet
+  std::vector<std::pair<CommonFace, Label>>
+      faces;  // at a shared point, with the region of their tet
   for (const MeshData::Tet& tet : mesh.tets) {
     const auto& v = tet.vertices;
     for (std::size_t i = 0; i < 4; ++i) {
-      const Face face = sorted(Face{v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4]});
+      const CommonFace face = ascending(CommonFace{v[(i + 1) % 4], v[(i + 2) % 4], v[(i + 3) % 4]});
       if (is_shared[face[0]] + is_shared[face[1]] + is_shared[face[2]] == 0) continue;
       faces.emplace_back(face, tet.label);
     }
@@ -152,37 +154,39 @@ SharedParts find_shared_inside(const MeshData& mesh, const SharedParts& shared) 
     if (is_pair && faces[++i].second == label) continue;
     of_walls.faces.push_back(face);
     of_walls.points.insert(of_walls.points.end(), face.begin(), face.end());
-    for (const Edge& edge :
-         {Edge{face[0], face[1]}, Edge{face[0], face[2]}, Edge{face[1], face[2]}})
+    for (const CommonEdge& edge :
+         {CommonEdge{face[0], face[1]}, CommonEdge{face[0], face[2]}, CommonEdge{face[1], face[2]}})
       of_walls.edges.push_back(edge);
   }
-  keep_once(of_walls.edges);
-  keep_once(of_walls.points);
-  std::erase_if(inside.faces, [&](const Face& face) { return has(of_walls.faces, face); });
-  std::erase_if(inside.edges, [&](const Edge& edge) { return has(of_walls.edges, edge); });
-  std::erase_if(inside.points, [&](std::uint32_t v) { return has(of_walls.points, v); });
+  keep_each_once(of_walls.edges);
+  keep_each_once(of_walls.points);
+  std::erase_if(inside.faces,
+                [&](const CommonFace& face) { return contains_part(of_walls.faces, face); });
+  std::erase_if(inside.edges,
+                [&](const CommonEdge& edge) { return contains_part(of_walls.edges, edge); });
+  std::erase_if(inside.points, [&](std::uint32_t v) { return contains_part(of_walls.points, v); });
   return inside;
 }
 
 void hold_shared_inside(MeshData& mesh) {
   const SharedParts inside = find_shared_inside(mesh, find_shared_parts(mesh));
-  std::vector<Face> named_faces;
-  std::vector<Edge> named_edges;
+  std::vector<CommonFace> named_faces;
+  std::vector<CommonEdge> named_edges;
   for (const MeshData::Triangle& named : mesh.triangles)
-    named_faces.push_back(sorted(named.vertices));
-  for (const MeshData::Edge& named : mesh.edges) named_edges.push_back(sorted(named.vertices));
+    named_faces.push_back(ascending(named.vertices));
+  for (const MeshData::Edge& named : mesh.edges) named_edges.push_back(ascending(named.vertices));
   std::vector<std::uint32_t> required = mesh.required_vertices;
-  keep_once(named_faces);
-  keep_once(named_edges);
-  keep_once(required);
-  for (const Face& face : inside.faces) {
-    if (!has(named_faces, face)) mesh.triangles.push_back({face, 0});
+  keep_each_once(named_faces);
+  keep_each_once(named_edges);
+  keep_each_once(required);
+  for (const CommonFace& face : inside.faces) {
+    if (!contains_part(named_faces, face)) mesh.triangles.push_back({face, 0});
   }
-  for (const Edge& edge : inside.edges) {
-    if (!has(named_edges, edge)) mesh.edges.push_back({edge, 0});
+  for (const CommonEdge& edge : inside.edges) {
+    if (!contains_part(named_edges, edge)) mesh.edges.push_back({edge, 0});
   }
   for (const std::uint32_t v : inside.points) {
-    if (!has(required, v)) mesh.required_vertices.push_back(v);
+    if (!contains_part(required, v)) mesh.required_vertices.push_back(v);
   }
 }
 
@@ -203,12 +207,13 @@ std::size_t count_lost_parts(const MeshData& before, std::span<const std::uint32
   const auto count = [&](const auto& parts, const auto& among) {
     return std::count_if(parts.begin(), parts.end(), [&](auto part) {
       for (std::uint32_t& v : part) v = vertex_map[v];
-      return !has(among, sorted(part));
+      return !contains_part(among, ascending(part));
     });
   };
   lost += static_cast<std::size_t>(count(then.faces, found.faces));
   lost += static_cast<std::size_t>(count(then.edges, found.edges));
-  for (const std::uint32_t v : then.points) lost += has(found.points, vertex_map[v]) ? 0 : 1;
+  for (const std::uint32_t v : then.points)
+    lost += contains_part(found.points, vertex_map[v]) ? 0 : 1;
   return lost;
 }
 
