@@ -85,10 +85,11 @@ int show_features(const SurfaceOptions& options, Invocation& invocation) {
   const std::vector<char> points = find_kept_points(read);
   const TetMesh mesh = build_whole(options.input, std::move(read), nullptr, invocation.array_files);
   const std::vector<VertexHandle> kept = kept_vertices(mesh, points);
-  const SurfaceFeatures bent =
-      find_features(mesh, {.angle = options.feature_angle, .flat = false, .kept = kept});
-  const SurfaceFeatures flat =
-      find_features(mesh, {.angle = options.feature_angle, .flat = true, .kept = kept});
+  const std::vector<VertexHandle> held = held_vertices(mesh, points);
+  const SurfaceFeatures bent = find_features(
+      mesh, {.angle = options.feature_angle, .flat = false, .kept = kept, .held = held});
+  const SurfaceFeatures flat = find_features(
+      mesh, {.angle = options.feature_angle, .flat = true, .kept = kept, .held = held});
   say(stdout, fmt::format("{}: {} triangles, feature angle {:g} degrees\n", options.input.string(),
                           grouped(bent.faces.size()), options.feature_angle));
   say(stdout, fmt::format("{:<12}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "", "patches",

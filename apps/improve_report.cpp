@@ -147,7 +147,8 @@ std::string format_checks(const ImproveReport& report) {
   line("time",
        fmt::format("{:.2f} s: reading {:.2f}, building {:.2f}, measuring {:.2f},",
                    report.total_seconds(), report.reading, result.building, result.measuring));
-  line("", fmt::format("improving {:.2f}, writing {:.2f}", result.improving, report.writing));
+  line("", fmt::format("improving {:.2f}, carrying {:.2f}, writing {:.2f}", result.improving,
+                       result.carrying, report.writing));
   if (result.ending == Ending::time_limit) line("", "stopped by the time limit");
   line("speed", fmt::format("{} tets a second of improving",
                             grouped(static_cast<std::size_t>(report.tets_per_second()))));
@@ -219,13 +220,15 @@ nlohmann::json seconds_to_json(const ImproveReport& report) {
   const Result& result = report.result;
   return {{"total", report.total_seconds()}, {"reading", report.reading},
           {"building", result.building},     {"measuring", result.measuring},
-          {"improving", result.improving},   {"writing", report.writing}};
+          {"improving", result.improving},   {"carrying", result.carrying},
+          {"writing", report.writing}};
 }
 
 }  // namespace
 
 double ImproveReport::total_seconds() const {
-  return reading + result.building + result.measuring + result.improving + writing;
+  return reading + result.building + result.measuring + result.improving + result.carrying +
+         writing;
 }
 
 double ImproveReport::touched_share() const {

@@ -35,7 +35,7 @@ void check(const EnvelopeOptions& options, double flatness) {
 std::unique_ptr<Envelope> Envelope::of(const TetMesh& mesh, const EnvelopeOptions& options) {
   check(options, flatness(mesh));
   const SurfaceFeatures features =
-      find_features(mesh, {options.angle, options.is_flat(), options.kept});
+      find_features(mesh, {options.angle, options.is_flat(), options.kept, options.held});
   auto reference =
       std::make_shared<Reference>(points_by_slot(mesh), flatness(mesh), features, options);
   PresentSurface present(points_by_slot(mesh), features);
@@ -130,6 +130,22 @@ Point Envelope::direction(VertexHandle v, const Point&) const {
   return sum.normalized();
 }
 
+/// Faces of patches and edges of lines that are held: their vertices are corners, so none moves.
+bool Envelope::keeps_held(const Journal& journal) const {
+  const SurfaceExchange& edit = journal.edit;
+  const auto stays = [&](const SurfaceExchange::Face& face) {
+    return std::any_of(edit.after().begin(), edit.after().end(), [&](const auto& other) {
+      return key_of(other.vertices) == key_of(face.vertices);
+    });
+  };
+  return std::all_of(edit.before().begin(), edit.before().end(),
+                     [&](const SurfaceExchange::Face& face) {
+                       return !reference_->patches[face.patch].held || stays(face);
+                     }) &&
+         std::none_of(edit.lost().begin(), edit.lost().end(),
+                      [&](const auto& edge) { return reference_->lines[edge.line].held; });
+}
+
 // --- tolerance 0 ---------------------------------------------------------------------------------
 
 bool Envelope::is_flat_edit(const Journal& journal) const {
@@ -187,7 +203,7 @@ bool Envelope::replace(std::span<const SurfaceFace> before, std::span<const Surf
                        SurfaceJournal& journal) {
   auto& own = static_cast<Journal&>(journal);
   own.clear_proof();
-  if (!own.edit.read(present_, before, after)) return false;
+  if (!own.edit.read(present_, before, after) || !keeps_held(own)) return false;
   if (!(reference_->is_flat() ? is_flat_edit(own) : is_near_edit(own))) return false;
   commit(own);
   return true;

@@ -28,6 +28,7 @@ struct TETMEND_API EnvelopeOptions {
   double length = 0;  ///< the same everywhere, in lengths of the mesh (TetMesh::scale()); not both
   double angle = 40;  ///< of features, in degrees
   std::vector<VertexHandle> kept = {};  ///< further vertices that stay
+  std::vector<VertexHandle> held = {};  ///< what lies between these stays, see FeatureOptions
 
   bool is_flat() const { return share == 0 && length == 0; }
 };
@@ -53,7 +54,7 @@ struct TETMEND_API SurfaceBound {
 ///
 /// Other tolerances, eps: each present face lies within eps of its patch of the reference, and each
 /// triangle of the reference within eps of present faces of its patch, wholly. Likewise each edge of
-/// a line. Corners do not move at all. CoverTest proves the first of each face that comes. For the
+/// a line. Corners do not move at all, and what is held stays in both cases. CoverTest proves the first of each face that comes. For the
 /// second, each triangle and segment of the reference, an *element*, keeps a list of present faces
 /// or edges that certify it together. An edit that takes one of them away asks for a new proof.
 /// Only what is turned by 30 degrees or less against each other certifies, so nothing folds over,
@@ -129,6 +130,7 @@ class TETMEND_API Envelope final : public SurfaceGuard {
   bool lies_flat(const std::array<Point, 3>& points, std::uint32_t patch) const;
   std::size_t count_unproven_patches() const;
   SurfaceBound bound(Journal& journal) const;
+  bool keeps_held(const Journal& journal) const;
   bool is_flat_edit(const Journal& journal) const;
   bool keeps_lines_straight(const Journal& journal) const;
   bool is_near_edit(Journal& journal) const;

@@ -14,6 +14,14 @@ void FeatureFinder::note_vertices() {
   }
 }
 
+/// They are patches of their own.
+void FeatureFinder::hold_faces() {
+  std::sort(held_.begin(), held_.end());
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    kinds_[i].held = are_held(found_.faces[i].vertices);
+  }
+}
+
 void FeatureFinder::sort_named_edges() {
   std::sort(walls_.begin(), walls_.end());
   for (Named& edge : named_) edge.vertices = ends_of(edge.vertices[0], edge.vertices[1]);
@@ -30,8 +38,8 @@ void FeatureFinder::sort_named_edges() {
 namespace {
 
 bool same_kind(const SurfaceInput::Kind& a, const SurfaceInput::Kind& b) {
-  return std::tie(a.sides, a.label, a.named, a.interior) ==
-         std::tie(b.sides, b.label, b.named, b.interior);
+  return std::tie(a.sides, a.label, a.named, a.interior, a.held) ==
+         std::tie(b.sides, b.label, b.named, b.interior, b.held);
 }
 
 }  // namespace
@@ -61,6 +69,7 @@ bool FeatureFinder::is_smooth(std::size_t begin, std::size_t end) const {
   const Side& b = sides_[begin + 1];
   if (a.up == b.up || !same_kind(kinds_[a.face], kinds_[b.face])) return false;
   if (std::binary_search(walls_.begin(), walls_.end(), a.ends)) return false;
+  if (!kinds_[a.face].held && are_held(a.ends)) return false;
   const auto at =
       std::lower_bound(named_.begin(), named_.end(), a.ends,
                        [](const Named& x, const Ends& ends) { return x.vertices < ends; });
@@ -89,7 +98,7 @@ void FeatureFinder::join_faces() {
 void FeatureFinder::add_patch(std::uint32_t face, const Plane& plane) {
   const Kind& kind = kinds_[face];
   found_.patches.push_back(
-      {kind.sides, kind.label, kind.named, kind.interior, plane.origin, plane.normal});
+      {kind.sides, kind.label, kind.named, kind.interior, kind.held, plane.origin, plane.normal});
 }
 
 void FeatureFinder::number_patches() {

@@ -5,6 +5,7 @@
 //   lines
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -32,14 +33,18 @@ class FeatureFinder {
         flatness_(flatness),
         kinds_(std::move(surface.kinds)),
         kept_(std::move(surface.kept)),
+        held_(std::move(surface.held)),
         named_(std::move(surface.named)),
         walls_(std::move(surface.walls)) {
     found_.faces = std::move(surface.faces);
     kept_.insert(kept_.end(), options.kept.begin(), options.kept.end());
+    held_.insert(held_.end(), options.held.begin(), options.held.end());
+    kept_.insert(kept_.end(), held_.begin(), held_.end());
   }
 
   SurfaceFeatures find() {
     note_vertices();
+    hold_faces();
     sort_named_edges();
     sort_sides();
     join_faces();
@@ -68,12 +73,20 @@ class FeatureFinder {
     std::uint32_t first_side, last_side;
     Label label;
     bool named;
+    bool held;
   };
 
   static Ends ends_of(VertexHandle a, VertexHandle b) { return a < b ? Ends{a, b} : Ends{b, a}; }
   const Point& point(VertexHandle v) const { return points_[v.index()]; }
   void keep(VertexHandle v) { kept_.push_back(v); }
+  template <std::size_t N>
+  bool are_held(const std::array<VertexHandle, N>& vertices) const {
+    return !held_.empty() && std::all_of(vertices.begin(), vertices.end(), [this](VertexHandle v) {
+      return std::binary_search(held_.begin(), held_.end(), v);
+    });
+  }
   void note_vertices();
+  void hold_faces();
   void sort_named_edges();
   void sort_sides();
   void join_faces();
@@ -109,6 +122,7 @@ class FeatureFinder {
   SurfaceFeatures found_;
   std::vector<Kind> kinds_;  // of each face
   std::vector<VertexHandle> kept_;
+  std::vector<VertexHandle> held_;         // sorted
   std::vector<Named> named_;               // sorted
   std::vector<Ends> walls_;                // edges of faces named inside a region, sorted
   std::vector<Side> sides_;                // sorted by edge

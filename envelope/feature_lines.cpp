@@ -18,7 +18,8 @@ void FeatureFinder::collect_edges() {
     const bool is_named = named != named_.end() && named->vertices == ends;
     const Label label = is_named ? named->label : 0;
     while (named != named_.end() && named->vertices == ends) ++named;
-    if (!smooth_[g]) edges_.push_back({ends, group_[g], group_[g + 1], label, is_named});
+    if (smooth_[g]) continue;
+    edges_.push_back({ends, group_[g], group_[g + 1], label, is_named, are_held(ends)});
   }
   for (; named != named_.end(); ++named) {
     for (const VertexHandle v : named->vertices) keep(v);
@@ -183,7 +184,7 @@ std::size_t FeatureFinder::straight_end(const std::vector<VertexHandle>& chain,
 
 void FeatureFinder::add_line(const std::vector<VertexHandle>& chain, std::uint32_t edge) {
   const auto line = static_cast<std::uint32_t>(found_.lines.size());
-  SurfaceFeatures::Line data{edges_[edge].label, edges_[edge].named};
+  SurfaceFeatures::Line data{edges_[edge].label, edges_[edge].named, edges_[edge].held};
   if (options_.flat) {
     data.origin = point(chain.front());
     data.direction = (point(chain.back()) - data.origin).normalized();

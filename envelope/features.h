@@ -26,13 +26,17 @@ struct TETMEND_API FeatureOptions {
   bool flat = false;
   /// Vertices that stay, besides those that the mesh asks for.
   std::vector<VertexHandle> kept;
+  /// Faces and edges of the surface all of whose vertices are among these stay as they are. They are
+  /// kept, too.
+  std::vector<VertexHandle> held = {};
 };
 
 /// The surface of a mesh: its boundary, and its faces between labels.
 ///
 /// A *patch* is a set of faces joined by edges that are no features. A *feature edge* lies between
 /// faces of different labels (of the triangles, or of the tets on both sides), at a bend, where more
-/// or fewer than two faces meet, at a face named inside a region, or is named by the file. A *line*
+/// or fewer than two faces meet, at a face named inside a region, at a face that is held, or is named by
+/// the file. A *line*
 /// is a chain of feature edges between corners, or a ring of them. A *corner* is a vertex of one
 /// feature edge, or of more than two; where a line bends, or what lies at its sides changes; where
 /// sheets touch; and each vertex that the file requires or that is frozen.
@@ -42,12 +46,14 @@ struct TETMEND_API SurfaceFeatures {
     Label label = 0;               ///< of its triangles
     bool named = false;            ///< the file lists its triangles
     bool interior = false;         ///< between two labels
+    bool held = false;             ///< none of its triangles may go
     Point origin = Point::Zero();  ///< of its plane, if flat
     Point normal = Point::Zero();  ///< outward unit normal of its plane, if flat
   };
   struct Line {
     Label label = 0;
     bool named = false;               ///< the file lists its edges
+    bool held = false;                ///< none of its edges may go
     Point origin = Point::Zero();     ///< if straight
     Point direction = Point::Zero();  ///< unit, if straight
   };
@@ -74,6 +80,7 @@ struct TETMEND_API SurfaceInput {
     Label label = 0;
     bool named = false;
     bool interior = false;
+    bool held = false;  ///< found with the features
   };
   struct NamedEdge {
     std::array<VertexHandle, 2> vertices;
@@ -84,8 +91,9 @@ struct TETMEND_API SurfaceInput {
   std::vector<Kind> kinds;       ///< of each face
   std::vector<NamedEdge> named;  ///< by the file, also those that are not on the surface
   std::vector<std::array<VertexHandle, 2>> walls;  ///< edges of faces named inside a region
-  /// Vertices that stay: required or frozen ones, those of walls and of triangles that are no face.
+  /// Vertices that stay: frozen ones, those of walls and of triangles that are no face.
   std::vector<VertexHandle> kept;
+  std::vector<VertexHandle> held;  ///< required ones: see FeatureOptions
 };
 
 /// Of a mesh; with deleted vertex slots and frozen tets, as it is. Cost: linear, but for sorting the

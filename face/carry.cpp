@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <type_traits>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "face/bodies.h"
 #include "face/overlap.h"
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
@@ -24,6 +26,7 @@
 #include "kernel/grouping.h"
 #include "kernel/lists_of_kind.h"
 #include "kernel/parts.h"
+#include "kernel/shared_parts.h"
 #include "kernel/tet_faces.h"
 
 namespace tetmend::face {
@@ -70,20 +73,22 @@ class Carrying {
       : before_(before), now_(now), vertex_map_(vertex_map), conserve_(conserve), marks_(marks) {
     old_point_ = inverse(vertex_map, now.points.size());
     old_tet_ = inverse(tet_map, now.tets.size());
-    for (std::size_t i = 0; i < now.tets.size(); ++i) {
-      if (has_changed(now.tets[i])) old_tet_[i] = kGone;
-    }
-    std::vector<bool> is_same(before.tets.size(), false);
-    for (const std::uint32_t t : old_tet_) {
-      if (t != kGone) is_same[t] = true;
-    }
-    for (std::uint32_t t = 0; t < before.tets.size(); ++t) {
-      if (!is_same[t]) changed_.push_back(t);
+    moved_from_.assign(now.tets.size(), kGone);
+    for (std::uint32_t i = 0; i < now.tets.size(); ++i) {
+      if (old_tet_[i] != kGone && !has_changed(now.tets[i])) continue;
+      moved_from_[i] = std::exchange(old_tet_[i], kGone);
+      changed_.push_back(i);
     }
   }
 
   std::vector<CarriedArray> run() {
-    const TetLocator locator(before_, std::move(changed_));
+    std::optional<TetLocator> locator;
+    if (needs_places() || marks_ != nullptr) {
+      std::vector<std::uint32_t> gone = gone_tets();
+      origins_.emplace(now_, old_point_, changed_,
+                       marks_ != nullptr ? Bodies(before_) : Bodies(before_, gone));
+      if (needs_places()) locator.emplace(before_, origins_->bodies(), std::move(gone));
+    }
     now_.point_numbers = numbers_of(before_.point_numbers, old_point_);
     now_.tet_numbers = numbers_of(before_.tet_numbers, old_tet_);
     carry_points(locator);
@@ -94,6 +99,7 @@ class Carrying {
     carry_elements(edges_of(before_), edges_of(now_), 1, marks_ != nullptr ? marks_->edges : kNone);
     carry_groups();
     carry_others();
+    carry_required_vertices();
     now_.entities = before_.entities;
     now_.deck = before_.deck;
     now_.variant = before_.variant;
@@ -124,7 +130,28 @@ class Carrying {
                         [this](std::uint32_t v) { return stayed(v); });
   }
 
-  void carry_points(const TetLocator& locator) {
+  /// Places are looked up for points or tets.
+  bool needs_places() const {
+    return !before_.point_data.empty() || has_members(0) || needs_tets();
+  }
+  bool needs_tets() const {
+    return !before_.tet_data.empty() || !before_.tet_parts.empty() || has_members(3);
+  }
+
+  /// Of the old tets those that are not there any more as they were.
+  std::vector<std::uint32_t> gone_tets() const {
+    std::vector<std::uint32_t> gone;
+    std::vector<char> is_same(before_.tets.size(), 0);
+    for (const std::uint32_t t : old_tet_) {
+      if (t != kGone) is_same[t] = 1;
+    }
+    for (std::uint32_t t = 0; t < is_same.size(); ++t) {
+      if (is_same[t] == 0) gone.push_back(t);
+    }
+    return gone;
+  }
+
+  void carry_points(const std::optional<TetLocator>& locator) {
     if (!before_.point_entities.empty()) {
       now_.point_entities.assign(now_.points.size(), {-1, 0});
       for (std::size_t i = 0; i < now_.points.size(); ++i) {
@@ -134,10 +161,12 @@ class Carrying {
     if (before_.point_data.empty() && !has_members(0)) return;
     places_.resize(now_.points.size());
     for_chunks(places_.size(), [&](std::size_t begin, std::size_t end) {
+      Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
-        if (!stayed(static_cast<std::uint32_t>(i)) && !locator.is_empty()) {
-          places_[i] = locator.find(now_.points[i]);
-        }
+        const auto point = static_cast<std::uint32_t>(i);
+        if (stayed(point) || locator->is_empty()) continue;
+        origins_->of_point(point, origin);
+        places_[i] = locator->find(now_.points[i], origin);
       }
     });
     for (const DataArray& array : before_.point_data) {
@@ -177,13 +206,17 @@ class Carrying {
     return made;
   }
 
-  void carry_tets(const TetLocator& locator) {
-    if (before_.tet_data.empty() && before_.tet_parts.empty() && !has_members(3)) return;
+  void carry_tets(const std::optional<TetLocator>& locator) {
+    if (!needs_tets()) return;
     const std::vector<Shares> shares =
-        conserve_.empty() ? std::vector<Shares>() : find_shares(locator);
-    for_chunks(old_tet_.size(), [&](std::size_t begin, std::size_t end) {
+        conserve_.empty() ? std::vector<Shares>() : find_shares(*locator);
+    for_chunks(changed_.size(), [&](std::size_t begin, std::size_t end) {
+      Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
-        if (old_tet_[i] == kGone) old_tet_[i] = locator.find(centroid(now_.tets[i])).tet;
+        const std::uint32_t t = changed_[i];
+        origins_->of_tet(t, origin);
+        origin.tet = moved_from_[t];
+        old_tet_[t] = locator->find_tet(centroid(now_.tets[t]), origin);
       }
     });
     if (!before_.tet_parts.empty()) {
@@ -215,11 +248,13 @@ class Carrying {
   std::vector<Shares> find_shares(const TetLocator& locator) const {
     std::vector<Shares> shares(now_.tets.size());
     for_chunks(shares.size(), [&](std::size_t begin, std::size_t end) {
+      Origin origin;
       for (std::size_t i = begin; i < end; ++i) {
         if (old_tet_[i] != kGone) continue;
+        origins_->of_tet(static_cast<std::uint32_t>(i), origin);
         const std::array<Point, 4> tet = corners(now_, now_.tets[i]);
         double sum = 0;
-        for (const std::uint32_t old : locator.near(tet)) {
+        for (const std::uint32_t old : locator.near(tet, origin.bodies)) {
           const double shared = overlap(tet, corners(before_, before_.tets[old]));
           if (shared > 0) shares[i].emplace_back(old, shared);
           sum += shared;
@@ -266,23 +301,26 @@ class Carrying {
     return sum / static_cast<double>(element.vertices.size());
   }
 
-  /// The nearest of the old elements that an element of a changed surface is like; kGone for a wall
-  /// that nobody named. Cost: linear.
+  /// The nearest of the old elements that an element of a changed surface is like, of the same body if
+  /// there is one; kGone for a wall that nobody named. Cost: linear.
   template <class Element>
   std::uint32_t model_of(const Element& element, const std::vector<Element>& old,
                          const std::vector<Label>& marks) const {
     const Point here = middle(now_, element);
-    std::uint32_t nearest = kGone;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < old.size(); ++i) {
-      if ((marks.empty() ? old[i].label : marks[i]) != element.label) continue;
-      const double distance = (middle(before_, old[i]) - here).squaredNorm();
-      if (distance < least) {
+    for (const bool is_anywhere : {false, true}) {
+      std::uint32_t nearest = kGone;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::uint32_t i = 0; i < old.size(); ++i) {
+        if ((marks.empty() ? old[i].label : marks[i]) != element.label) continue;
+        const double distance = (middle(before_, old[i]) - here).squaredNorm();
+        if (!(distance < least)) continue;
+        if (!is_anywhere && !origins_->may_be_one(element.vertices, old[i].vertices)) continue;
         least = distance;
         nearest = i;
       }
+      if (nearest != kGone) return nearest;
     }
-    return nearest;
+    return kGone;
   }
 
   /// Elements come back in an order of their own, and with walls that nobody named.
@@ -463,12 +501,28 @@ class Carrying {
     return members;
   }
 
-  /// Their vertices are on the surface of the tets or belong to no tet: all of them stayed.
+  /// Their vertices all stayed, with what lies between them. Who takes them from the tets makes a mesh
+  /// that no solver can use.
   void carry_others() {
     now_.other_elements = before_.other_elements;
     for (OtherElements& others : now_.other_elements) {
       for (std::uint32_t& v : others.vertices) v = vertex_map_[v];
     }
+    const std::size_t lost = count_lost_parts(before_, vertex_map_, now_);
+    if (lost == 0) return;
+    throw Error(fmt::format(
+        "{} faces, edges or points that tets had in common with other elements are gone: "
+        "this is a bug of tetmend, please report it",
+        lost));
+  }
+  /// Without those that were required for the sake of other elements.
+  void carry_required_vertices() {
+    if (before_.other_elements.empty()) return;
+    std::vector<bool> was_required(before_.points.size(), false);
+    for (const std::uint32_t v : before_.required_vertices) was_required[v] = true;
+    std::erase_if(now_.required_vertices, [&](std::uint32_t v) {
+      return old_point_[v] == kGone || !was_required[old_point_[v]];
+    });
   }
 
   void tell(const DataArray& old, const DataArray& made, bool is_of_points, bool is_conserved) {
@@ -507,12 +561,14 @@ class Carrying {
   MeshData& now_;
   std::span<const std::uint32_t> vertex_map_;
   std::span<const std::string> conserve_;
-  const SurfaceMarks* marks_;             // null: the surface is fixed
-  std::vector<std::uint32_t> old_point_;  // by new number; kGone: it is new
-  std::vector<std::uint32_t> old_tet_;    // likewise; kGone also where a vertex has moved
-  std::vector<std::uint32_t> changed_;    // old tets
-  std::vector<bool> is_inside_;           // old points; empty: not asked for yet
-  std::vector<char> held_;                // old points of the group at hand
+  const SurfaceMarks* marks_;              // null: the surface is fixed
+  std::vector<std::uint32_t> old_point_;   // by new number; kGone: it is new
+  std::vector<std::uint32_t> old_tet_;     // likewise; kGone also where a vertex has moved
+  std::vector<std::uint32_t> moved_from_;  // the old tet with the vertices of one that has changed
+  std::vector<std::uint32_t> changed_;     // new tets that are not as they were
+  std::optional<Origins> origins_;         // where values are looked up
+  std::vector<bool> is_inside_;            // old points; empty: not asked for yet
+  std::vector<char> held_;                 // old points of the group at hand
   std::vector<std::uint32_t> new_points_;
   Grouping new_points_at_;        // what of them is at an old point; empty: not asked for yet
   Grouping tets_from_;            // new tets by the old tet that they are from; likewise

@@ -30,6 +30,7 @@
 #include "kernel/formats/su2.h"
 #include "kernel/geometry.h"
 #include "kernel/grouped.h"
+#include "kernel/shared_parts.h"
 #include "kernel/statistics.h"
 #include "kernel/tet_faces.h"
 
@@ -386,6 +387,57 @@ Fact same_groups(const MeshData& before, const MeshData& after, const Scale& sca
   return {"group_contents", differing == 0, text, differing, std::uint64_t{0}};
 }
 
+/// Other elements are where they were, and what tets had in common with them is there still.
+Fact same_shared_parts(const MeshData& before, const MeshData& after) {
+  const auto corners = [](const MeshData& mesh, std::span<const std::uint32_t> vertices) {
+    std::vector<Bits> bits;
+    for (const std::uint32_t v : vertices) bits.push_back(bits_of(mesh.points[v]));
+    std::sort(bits.begin(), bits.end());
+    return bits;
+  };
+  const auto parts_of = [&](const MeshData& mesh) {
+    const SharedParts shared = find_shared_parts(mesh);
+    std::vector<std::vector<Bits>> parts;
+    for (const auto& face : shared.faces) parts.push_back(corners(mesh, face));
+    for (const auto& edge : shared.edges) parts.push_back(corners(mesh, edge));
+    for (const std::uint32_t v : shared.points) parts.push_back(corners(mesh, {&v, 1}));
+    std::sort(parts.begin(), parts.end());
+    return parts;
+  };
+  const auto elements_of = [&](const MeshData& mesh) {
+    std::vector<std::pair<int, std::vector<Bits>>> elements;
+    for (const OtherElements& others : mesh.other_elements) {
+      const std::span<const std::uint32_t> all = others.vertices;
+      for (std::size_t i = 0; i < all.size(); i += others.vertex_count) {
+        elements.emplace_back(others.vtk_type, corners(mesh, all.subspan(i, others.vertex_count)));
+      }
+    }
+    std::sort(elements.begin(), elements.end());
+    return elements;
+  };
+  const auto count_missing = [](const auto& then, const auto& now) {
+    auto missing = then;
+    missing.erase(
+        std::set_difference(then.begin(), then.end(), now.begin(), now.end(), missing.begin()),
+        missing.end());
+    return missing.size();
+  };
+  const auto then = parts_of(before);
+  const auto elements = elements_of(before);
+  const std::size_t lost =
+      count_missing(then, parts_of(after)) + count_missing(elements, elements_of(after));
+  const std::string text =
+      lost == 0 ? fmt::format(
+                      "{} other elements, and {} faces, edges and points that tets have in common "
+                      "with them: the same, bit for bit",
+                      grouped(elements.size()), grouped(then.size()))
+                : fmt::format(
+                      "{} of {} other elements, and of {} faces, edges and points that tets have "
+                      "in common with them, are gone",
+                      grouped(lost), grouped(elements.size()), grouped(then.size()));
+  return {"other_elements", lost == 0, text, lost, std::uint64_t{0}};
+}
+
 /// @throws Error, with the file if there is one, as Scale::of()
 Scale scale_of(const Mesh& mesh) {
   try {
@@ -542,6 +594,7 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
                        named_triangles(after)));
   facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
   facts.push_back(same_groups(before, after, scale));
+  if (!before.other_elements.empty()) facts.push_back(same_shared_parts(before, after));
   for (Fact& fact : same_volumes(before, after, scale)) facts.push_back(std::move(fact));
   facts.push_back(no_inverted(after, std::get<std::uint64_t>(no_inverted(before).value)));
   if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {

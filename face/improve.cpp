@@ -35,6 +35,7 @@
 #include "kernel/formats/deck_remarks.h"
 #include "kernel/integrity.h"
 #include "kernel/rulers.h"
+#include "kernel/shared_parts.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/volume_rounding.h"
@@ -200,6 +201,7 @@ void Improvement::build_mesh(MeshData& data) {
   const std::vector<MeshData::Edge> curved =
       find_fixed_mid_nodes(data, !options_.ignore_interior).inside;
   data.edges.insert(data.edges.end(), curved.begin(), curved.end());
+  hold_shared_inside(data);
   mesh_ = face::build_located(file_, data,
                               {.interior = options_.ignore_interior ? InteriorConstraints::dropped
                                                                     : InteriorConstraints::kept,
@@ -371,6 +373,7 @@ void Improvement::map_entities() {
 /// known to be worse.
 void Improvement::give_back() {
   if (goes_back_) return give_back_input();
+  const Stopwatch watch(result_.carrying);
   try {
     give_back_improved();
   } catch (...) {

@@ -80,7 +80,9 @@ std::unique_ptr<SurfaceGuard> SurfaceTolerance::guard(const TetMesh& mesh,
   if (length_ > 0) check_length(diagonal_of(mesh));
   EnvelopeOptions options = envelope_options();
   options.length = mesh.scale().to_work(length_);
-  options.kept = kept_vertices(mesh, find_kept_points(input));
+  const std::vector<char> kept = find_kept_points(input);
+  options.kept = kept_vertices(mesh, kept);
+  options.held = held_vertices(mesh, kept);
   return Envelope::of(mesh, options);
 }
 

@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cstddef>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include <tetmend/improve.h>
 
 #include "envelope/element.h"
+#include "face/bodies.h"
 #include "kernel/tet_faces.h"
 
 namespace tetmend::face {
@@ -16,12 +19,18 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-std::vector<Corners> surface(const MeshData& data) {
-  std::vector<Corners> faces;
+/// A face, with a tet that has it on one of its sides.
+struct SurfaceFace {
+  Corners vertices;
+  std::uint32_t tet = 0;
+};
+
+std::vector<SurfaceFace> surface(const MeshData& data) {
+  std::vector<SurfaceFace> faces;
   for_face_pairs(sorted_tet_faces(data), [&](const TetFace& face, const TetFace* other) {
-    if (other == nullptr || data.tets[face.tet].label != data.tets[other->tet].label) {
-      faces.push_back(face.vertices);
-    }
+    if (other != nullptr && data.tets[face.tet].label == data.tets[other->tet].label) return;
+    faces.push_back({face.vertices, face.tet});
+    if (other != nullptr) faces.push_back({other->vertices, other->tet});
   });
   return faces;
 }
@@ -48,34 +57,71 @@ Label common_label(const std::array<Point, 3>& at, const std::array<Label, 3>& l
   return label;
 }
 
+namespace {
+
+/// The surface of the old mesh, body by body.
+class OldSurface {
+ public:
+  OldSurface(const MeshData& before, const Bodies& bodies)
+      : before_(before), faces_(surface(before)), elements_(faces_.size()) {
+    std::vector<std::uint32_t> body_of;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      for (unsigned k = 0; k < 3; ++k) {
+        elements_[i].points[k] = before.points[faces_[i].vertices[k]];
+      }
+      body_of.push_back(bodies.of_tet(faces_[i].tet));
+    }
+    tree_ = ElementTree(elements_, body_of, bodies.count());
+  }
+
+  /// What a point of one of these bodies takes from the nearest face of them.
+  Label label_at(const Point& p, std::span<const std::uint32_t> bodies) const {
+    ElementTree::Nearest nearest;
+    for (const std::uint32_t body : bodies) {
+      const ElementTree::Nearest here = tree_.nearest(elements_, body, p);
+      if (here.distance2 < nearest.distance2) nearest = here;
+    }
+    std::array<Label, 3> labels{};
+    for (unsigned k = 0; k < 3; ++k) {
+      labels[k] = before_.point_labels[faces_[nearest.element].vertices[k]];
+    }
+    return common_label(elements_[nearest.element].points, labels, nearest.point);
+  }
+
+ private:
+  const MeshData& before_;
+  std::vector<SurfaceFace> faces_;
+  std::vector<Element> elements_;
+  ElementTree tree_;
+};
+
+}  // namespace
+
 void label_surface_points(const MeshData& before, std::span<const std::uint32_t> vertex_map,
                           MeshData& now) {
   if (before.point_labels.empty() || now.point_labels.empty()) return;
-  std::vector<char> is_new(now.points.size(), 1);
-  for (const std::uint32_t v : vertex_map) {
-    if (v != kGone) is_new[v] = 0;
+  std::vector<std::uint32_t> old_point(now.points.size(), kGone);
+  for (std::uint32_t v = 0; v < vertex_map.size(); ++v) {
+    if (vertex_map[v] != kGone) old_point[vertex_map[v]] = v;
   }
+  std::vector<char> is_done(now.points.size(), 0);
   std::vector<std::uint32_t> points;
-  for (const Corners& face : surface(now)) {
-    for (const std::uint32_t v : face) {
-      if (is_new[v] == 0) continue;
+  for (const SurfaceFace& face : surface(now)) {
+    for (const std::uint32_t v : face.vertices) {
+      if (old_point[v] != kGone || std::exchange(is_done[v], 1) != 0) continue;
       points.push_back(v);
-      is_new[v] = 0;
     }
   }
   if (points.empty()) return;
-  const std::vector<Corners> faces = surface(before);
-  std::vector<Element> elements(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    for (unsigned k = 0; k < 3; ++k) elements[i].points[k] = before.points[faces[i][k]];
-  }
-  const ElementTree tree(elements, std::vector<std::uint32_t>(faces.size(), 0), 1);
+  std::vector<std::uint32_t> all(now.tets.size());
+  std::iota(all.begin(), all.end(), 0U);
+  const Origins origins(now, old_point, all, Bodies(before));
+  const OldSurface old(before, origins.bodies());
+  Origin origin;
   for (const std::uint32_t v : points) {
-    const ElementTree::Nearest nearest = tree.nearest(elements, 0, now.points[v]);
-    const Corners& face = faces[nearest.element];
-    std::array<Label, 3> labels{};
-    for (unsigned k = 0; k < 3; ++k) labels[k] = before.point_labels[face[k]];
-    now.point_labels[v] = common_label(elements[nearest.element].points, labels, nearest.point);
+    origins.of_point(v, origin);
+    if (origin.bodies.empty()) origin.bodies = {0};  // there is one
+    now.point_labels[v] = old.label_at(now.points[v], origin.bodies);
   }
 }
 

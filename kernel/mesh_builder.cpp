@@ -386,7 +386,7 @@ void MeshBuilder::reorder_tets() {
 }
 
 /// Finds the vertices that do not lie inside a region: of the boundary, of a face between two
-/// labels, or of no tet.
+/// labels, of no tet, or of an element that is none.
 void MeshBuilder::find_border() {
   on_border_.assign(mesh_.points_.size(), 1);
   for (const TetMesh::Cell& cell : mesh_.cells_) {
@@ -400,11 +400,14 @@ void MeshBuilder::find_border() {
       for (const VertexHandle v : mesh_.vertices(f)) on_border_[v.index()] = 1;
     }
   }
+  for (const OtherElements& others : data_.other_elements) {
+    for (const std::uint32_t v : others.vertices) on_border_[vertex(v).index()] = kOfOthers;
+  }
 }
 
 /// Of a named triangle. `f` is its face, if it is one.
 bool MeshBuilder::is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const {
-  if (!drops_interior_) return false;
+  if (!drops_interior_ || are_of_others(vertices)) return false;
   if (f == HalfFace()) {
     return std::any_of(vertices.begin(), vertices.end(),
                        [&](VertexHandle v) { return on_border_[v.index()] == 0; });
@@ -565,7 +568,8 @@ void MeshBuilder::mark_edges() {
   std::vector<char> on_face(edges.size(), 0);
   for (const TetAtEdge& at : tets) {
     found[at.number] = 1;
-    if (drops_interior_ && lies_on_face(at.edge)) on_face[at.number] = 1;
+    if (!drops_interior_) continue;
+    if (lies_on_face(at.edge) || are_of_others(edges[at.number])) on_face[at.number] = 1;
   }
   for (const MeshData::Edge& named : data_.edges) {
     const EdgeEnds ends = ends_of(named);

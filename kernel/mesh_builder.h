@@ -3,6 +3,7 @@
 // both.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -81,6 +82,12 @@ class MeshBuilder {
   std::pair<HalfFace, HalfFace> repeated(const std::vector<Entry>& entries, std::size_t begin,
                                          std::size_t end) const;
   void find_border();
+  /// What lies between elements that are no tets stays, wherever it is.
+  template <std::size_t N>
+  bool are_of_others(const std::array<VertexHandle, N>& vertices) const {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [this](VertexHandle v) { return on_border_[v.index()] == kOfOthers; });
+  }
   bool is_dropped(HalfFace f, const std::array<VertexHandle, 3>& vertices) const;
   void build_surface(const FaceBuckets& buckets);
   void add_surface_face(HalfFace f, SurfaceTriangle triangle);
@@ -131,6 +138,7 @@ class MeshBuilder {
   const std::uint32_t first_number_;  // from which messages count
   // By vertex slot, see find_border(); empty unless interior constraints are dropped.
   std::vector<char> on_border_;
+  static constexpr char kOfOthers = 2;   // in it: of an element that is no tet
   std::vector<std::uint32_t> slot_of_;   // by the file's vertex number; empty: the same
   std::vector<std::uint32_t> file_tet_;  // by slot; empty: the same
   std::vector<char> swapped_;            // single tets that were corrected; empty: none

@@ -216,7 +216,10 @@ void RowCarrier::answer_for_parts() {
     for (const auto& message : messages) {
       for (const std::uint64_t tet : Questions(message.second).kept) old.keep(tet);
     }
-    if (needs_tets()) old.find_changed();
+    if (needs_tets()) {
+      old.find_changed();
+      for (const auto& message : messages) old.learn(Questions(message.second));
+    }
     for (const auto& message : messages) {
       Answers answers;
       old.answer(Questions(message.second), answers);

@@ -120,6 +120,7 @@ void append(const SurfaceShare& share, std::string& bytes) {
   put(share.edges, bytes);
   put(share.walls, bytes);
   put(share.kept, bytes);
+  put(share.held, bytes);
   put(share.volumes, bytes);
 }
 
@@ -133,6 +134,7 @@ SurfaceShare take_share(std::string_view& bytes) {
   take(bytes, share.edges);
   take(bytes, share.walls);
   take(bytes, share.kept);
+  take(bytes, share.held);
   take(bytes, share.volumes);
   const std::size_t count = share.ids.size();
   const bool fits =
@@ -173,6 +175,9 @@ SurfaceShare share_of_input(const Piece& gathered, const Parting& parting, std::
   for (const VertexHandle v : all.kept) {
     if (parts[mesh.origin(v)] == number) share.kept.push_back(gathered.ids[mesh.origin(v)]);
   }
+  for (const VertexHandle v : all.held) {
+    if (parts[mesh.origin(v)] == number) share.held.push_back(gathered.ids[mesh.origin(v)]);
+  }
   std::vector<char> stays(gathered.ids.size(), 0);
   for (const PieceTet& tet : gathered.tets) {
     if (!tet.is_protected()) continue;
@@ -181,6 +186,8 @@ SurfaceShare share_of_input(const Piece& gathered, const Parting& parting, std::
   for (std::size_t v = 0; v < stays.size(); ++v) {
     const bool is_kept = stays[v] != 0 || (gathered.marks[v] & kCorner) != 0;
     if (is_kept && parts[v] == number) share.kept.push_back(gathered.ids[v]);
+    const bool is_held = (gathered.marks[v] & kHeld) != 0;
+    if (is_held && parts[v] == number) share.held.push_back(gathered.ids[v]);
   }
   Piece own;
   own.points = gathered.points;
@@ -223,6 +230,12 @@ HeldSurface::HeldSurface(const std::vector<SurfaceShare>& shares, const Envelope
     if (v != kAbsent) input.kept.emplace_back(v);
   };
   for (const SurfaceShare& share : shares) {
+    for (const VertexId id : share.held) {
+      const std::uint32_t v = find(ids_, id);
+      if (v != kAbsent) input.held.emplace_back(v);
+    }
+  }
+  for (const SurfaceShare& share : shares) {
     for (const VertexId id : share.kept) keep(id);
     for (const auto& [ends, label] : share.edges) {
       const std::array<std::uint32_t, 2> v = {find(ids_, ends[0]), find(ids_, ends[1])};
@@ -244,11 +257,13 @@ HeldSurface::HeldSurface(const std::vector<SurfaceShare>& shares, const Envelope
       find_features(std::move(input), points_, flatness, {options.angle, options.is_flat(), {}});
   reference_ = std::make_shared<Reference>(points_, flatness, features_, options);
   if (!labels_.empty()) {
+    std::vector<std::uint32_t> patch_of;
     for (const auto& face : features_.faces) {
       Element& element = face_elements_.emplace_back();
       for (unsigned k = 0; k < 3; ++k) element.points[k] = points_[face.vertices[k].index()];
+      patch_of.push_back(face.patch);
     }
-    faces_ = ElementTree(face_elements_, std::vector<std::uint32_t>(face_elements_.size(), 0), 1);
+    faces_ = ElementTree(face_elements_, patch_of, features_.patches.size());
   }
   before_.regions = measure_regions(shares, points_, features_, reference_->patches);
   before_.triangles_before = before_.triangles_after = features_.faces.size();
@@ -275,7 +290,8 @@ void HeldSurface::label_points(Piece& piece, VertexId first_new) const {
   for (const auto& face : piece.surface) {
     for (const std::uint32_t v : face.vertices) {
       if (piece.ids[v] < first_new) continue;
-      const ElementTree::Nearest nearest = faces_.nearest(face_elements_, 0, piece.points[v]);
+      const auto patch = static_cast<std::uint32_t>(face.label);
+      const ElementTree::Nearest nearest = faces_.nearest(face_elements_, patch, piece.points[v]);
       const auto& corners = features_.faces[nearest.element].vertices;
       std::array<Label, 3> labels{};
       for (unsigned k = 0; k < 3; ++k) labels[k] = labels_[corners[k].index()];

@@ -36,6 +36,7 @@ struct SurfaceShare {
   std::vector<Edge> edges;                ///< named ones; of a moved surface feature edges
   std::vector<Edge> walls;                ///< see SurfaceInput
   std::vector<VertexId> kept;             ///< likewise; of a moved surface its corners
+  std::vector<VertexId> held;             ///< likewise; of a moved surface none
   std::vector<Volume> volumes;            ///< of the own tets
 };
 
@@ -83,7 +84,7 @@ class HeldSurface {
   std::vector<VertexId> ids_;  // of vertices, ascending
   std::vector<Point> points_;
   std::vector<Label> labels_;  // empty: all are 0
-  ElementTree faces_;          // of all faces, where there are labels
+  ElementTree faces_;          // by patch, where there are labels
   std::vector<Element> face_elements_;
   SurfaceFeatures features_;
   std::shared_ptr<const Reference> reference_;

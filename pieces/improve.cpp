@@ -27,6 +27,7 @@
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
 #include "kernel/rulers.h"
+#include "kernel/shared_parts.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/volume_rounding.h"
@@ -126,6 +127,7 @@ TetMesh Improvement::build() {
   const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
   face::put_marks(marks_, data);
   data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
+  hold_shared_inside(data);
   TetMesh mesh =
       face::build_located(file_, data,
                           {.interior = options_.ignore_interior ? InteriorConstraints::dropped
@@ -338,6 +340,7 @@ void Improvement::check_promises() const {
 }
 
 void Improvement::give_back(Joined& joined) {
+  const Stopwatch watch(result_.carrying);
   MeshData data = std::move(joined.data);
   if (face::holds_more(input_)) {
     result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve,

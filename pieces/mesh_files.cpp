@@ -19,6 +19,7 @@
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/printable.h"
+#include "kernel/shared_parts.h"
 #include "kernel/volume_rounding.h"
 #include "pieces/bytes.h"
 #include "pieces/rows.h"
@@ -223,6 +224,7 @@ void InputMesh::add_to(DividedMesh& mesh, std::size_t pieces) {
       is_kept = find_kept_points(data_);
     }
     data_.triangles.insert(data_.triangles.end(), walls.begin(), walls.end());
+    hold_shared_inside(data_);
     add_slices(data_, {}, mesh, is_kept);
     data_ = {};
   }

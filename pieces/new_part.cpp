@@ -2,8 +2,10 @@
 #include "pieces/new_part.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
+#include "face/bodies.h"
 #include "pieces/row_source.h"
 
 namespace tetmend::pieces {
@@ -12,16 +14,11 @@ std::vector<Questions> NewPart::ask(const Parting& parting, double margin,
                                     bool asks_for_shares) const {
   std::vector<Questions> questions(parting.stretches());
   const std::vector<std::uint32_t> parts = parting.parts_of(std::span(piece_.points));
-  for (std::uint32_t v = 0; has(RowKind::point) && v < parts.size(); ++v) {
-    Questions& of_part = questions[parts[v]];
-    if (is_where_it_was(v)) {
-      of_part.old_points.push_back({number(v), v});
-    } else {
-      of_part.new_points.push_back({to_array(piece_.points[v]), v});
-    }
-  }
   if (has(RowKind::point) || has(RowKind::tet)) {
-    ask_for_tets(parting, parts, margin, asks_for_shares, questions);
+    const std::vector<std::uint32_t> changed = changed_tets();
+    const std::vector<Questions::Kin> kin = kin_of(changed);
+    ask_for_points(parts, changed, kin, questions);
+    ask_for_tets(parting, parts, margin, asks_for_shares, kin, questions);
   }
   for (std::size_t i = 0; has(RowKind::triangle) && i < piece_.triangles.size(); ++i) {
     const auto& element = piece_.triangles[i];
@@ -34,19 +31,80 @@ std::vector<Questions> NewPart::ask(const Parting& parting, double margin,
   return questions;
 }
 
+bool NewPart::is_as_it_was(const PieceTet& tet) const {
+  return (tet.origin & ~PieceTet::kProtected) != PieceTet::kNone &&
+         std::all_of(tet.vertices.begin(), tet.vertices.end(),
+                     [&](std::uint32_t v) { return is_where_it_was(v); });
+}
+
+std::vector<std::uint32_t> NewPart::changed_tets() const {
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t t = 0; t < piece_.tets.size(); ++t) {
+    if (!is_as_it_was(piece_.tets[t])) changed.push_back(t);
+  }
+  return changed;
+}
+
+std::vector<Questions::Kin> NewPart::kin_of(std::span<const std::uint32_t> which) const {
+  std::vector<MeshData::Tet> tets;
+  for (const std::uint32_t t : which)
+    tets.push_back({piece_.tets[t].vertices, piece_.tets[t].label});
+  std::vector<std::uint32_t> all(tets.size());
+  std::iota(all.begin(), all.end(), 0U);
+  std::vector<std::uint32_t> anchors(piece_.ids.size(), face::Bodies::kNone);
+  for (std::uint32_t v = 0; v < anchors.size(); ++v) {
+    if (is_old(v)) anchors[v] = v;
+  }
+  face::spread_anchors(
+      tets, all, [](std::uint32_t, Label) { return true; }, anchors);
+  std::vector<Questions::Kin> kin;
+  for (const MeshData::Tet& tet : tets) {
+    Questions::Kin& of_tet = kin.emplace_back();
+    of_tet.label = tet.label;
+    of_tet.is_known = 1;
+    const std::uint32_t origin = piece_.tets[which[kin.size() - 1]].origin & ~PieceTet::kProtected;
+    if (origin != PieceTet::kNone) of_tet.tet = origin;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t anchor = anchors[tet.vertices[i]];
+      if (anchor != face::Bodies::kNone) of_tet.points[i] = number(anchor);
+    }
+  }
+  return kin;
+}
+
+void NewPart::ask_for_points(const std::vector<std::uint32_t>& parts,
+                             std::span<const std::uint32_t> changed,
+                             std::span<const Questions::Kin> kin,
+                             std::vector<Questions>& questions) const {
+  if (!has(RowKind::point)) return;
+  std::vector<std::uint32_t> tet_at(parts.size(), face::Bodies::kNone);  // place in `changed`
+  for (std::size_t i = changed.size(); i-- > 0;) {
+    for (const std::uint32_t v : piece_.tets[changed[i]].vertices) {
+      tet_at[v] = static_cast<std::uint32_t>(i);
+    }
+  }
+  for (std::uint32_t v = 0; v < parts.size(); ++v) {
+    Questions& of_part = questions[parts[v]];
+    if (is_where_it_was(v)) {
+      of_part.old_points.push_back({number(v), v});
+      continue;
+    }
+    const bool is_known = tet_at[v] != face::Bodies::kNone;
+    of_part.new_points.push_back({to_array(piece_.points[v]), v, piece_.ids[v],
+                                  is_known ? kin[tet_at[v]] : Questions::Kin()});
+  }
+}
+
 void NewPart::ask_for_tets(const Parting& parting, const std::vector<std::uint32_t>& parts,
-                           double margin, bool asks_for_shares,
+                           double margin, bool asks_for_shares, std::span<const Questions::Kin> kin,
                            std::vector<Questions>& questions) const {
   std::vector<Point> centroids;
   std::vector<std::uint64_t> changed;
   for (std::size_t t = 0; t < piece_.tets.size(); ++t) {
     const PieceTet& tet = piece_.tets[t];
     const std::array<Point, 4> corners = corners_of(piece_.points, tet.vertices);
-    const std::uint32_t origin = tet.origin & ~PieceTet::kProtected;
-    const bool is_old = origin != PieceTet::kNone &&
-                        std::all_of(tet.vertices.begin(), tet.vertices.end(),
-                                    [&](std::uint32_t v) { return is_where_it_was(v); });
-    if (is_old) {
+    if (is_as_it_was(tet)) {
+      const std::uint32_t origin = tet.origin & ~PieceTet::kProtected;
       questions[home(tet, parts)].old_tets.push_back({origin, t});
       for (const std::uint32_t part : parting.stretches_of(box_of(corners, margin))) {
         questions[part].kept.push_back(origin);
@@ -57,7 +115,7 @@ void NewPart::ask_for_tets(const Parting& parting, const std::vector<std::uint32
                         4);
     changed.push_back(t);
     if (!asks_for_shares) continue;
-    Questions::OfTet asked{{}, t};
+    Questions::OfTet asked{{}, t, kin[changed.size() - 1]};
     for (std::size_t i = 0; i < 4; ++i) asked.corners[i] = to_array(corners[i]);
     for (const std::uint32_t part : parting.stretches_of(box_of(corners, margin))) {
       questions[part].shares.push_back(asked);
@@ -65,7 +123,7 @@ void NewPart::ask_for_tets(const Parting& parting, const std::vector<std::uint32
   }
   const std::vector<std::uint32_t> places = parting.parts_of(std::span(centroids));
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    questions[places[i]].new_tets.push_back({to_array(centroids[i]), changed[i]});
+    questions[places[i]].new_tets.push_back({to_array(centroids[i]), changed[i], 0, kin[i]});
   }
 }
 

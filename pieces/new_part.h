@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,8 +63,16 @@ class NewPart {
   static std::uint32_t home(const Element& element, const std::vector<std::uint32_t>& parts) {
     return parts[*std::min_element(element.vertices.begin(), element.vertices.end())];
   }
+  /// By tet that has changed, in the order of `which`.
+  std::vector<Questions::Kin> kin_of(std::span<const std::uint32_t> which) const;
+  std::vector<std::uint32_t> changed_tets() const;
+  bool is_as_it_was(const PieceTet& tet) const;
+  void ask_for_points(const std::vector<std::uint32_t>& parts,
+                      std::span<const std::uint32_t> changed, std::span<const Questions::Kin> kin,
+                      std::vector<Questions>& questions) const;
   void ask_for_tets(const Parting& parting, const std::vector<std::uint32_t>& parts, double margin,
-                    bool asks_for_shares, std::vector<Questions>& questions) const;
+                    bool asks_for_shares, std::span<const Questions::Kin> kin,
+                    std::vector<Questions>& questions) const;
 
   const DividedMesh& mesh_;
   const ByKind<RowLayout>& layouts_;

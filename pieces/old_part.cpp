@@ -76,7 +76,7 @@ void OldPart::merge(const std::vector<std::pair<std::uint64_t, std::string>>& me
     };
     std::vector<MeshData::Tet> tets;
     for (const PieceTet& tet : piece.tets) {
-      tets.push_back({tet.vertices, 0});
+      tets.push_back({tet.vertices, tet.label});
       origins_.push_back(tet.origin & ~PieceTet::kProtected);
     }
     add_all(RowKind::tet, tets, data_.tets);
@@ -142,7 +142,51 @@ void OldPart::find_changed() {
   for (std::uint32_t t = 0; t < is_kept_.size(); ++t) {
     if (is_kept_[t] == 0) changed.push_back(t);
   }
-  changed_.emplace(data_, std::move(changed));
+  bodies_.emplace(data_, changed);
+  changed_.emplace(data_, *bodies_, std::move(changed));
+}
+
+void OldPart::learn(const Questions& questions) {
+  if (bodies_->count() <= 1) return;
+  for (const Questions::AtPoint& asked : questions.new_points) {
+    if (asked.kin.is_known != 0) kin_.try_emplace(asked.id, asked.kin);
+  }
+}
+
+/// As far as that is in this part of space.
+face::Origin OldPart::origin_of(const Questions::Kin& kin) const {
+  face::Origin origin;
+  if (kin.is_known == 0) return origin;
+  const auto tet = std::lower_bound(origins_.begin(), origins_.end(), kin.tet);
+  if (tet != origins_.end() && *tet == kin.tet) {
+    origin.tet = static_cast<std::uint32_t>(tet - origins_.begin());
+  }
+  for (const VertexId id : kin.points) {
+    const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+    if (found == ids_.end() || *found != id) continue;
+    origin.points.push_back(static_cast<std::uint32_t>(found - ids_.begin()));
+  }
+  if (bodies_->count() > 1) bodies_->common(origin.points, kin.label, origin.bodies);
+  return origin;
+}
+
+/// A body that hangs together elsewhere is several here: where those that are known do not hold the
+/// place, others of the label are asked, too.
+face::TetPlace OldPart::find(const Questions::AtPoint& asked) const {
+  constexpr double kRounding = 1e-9;
+  const auto least = [](const face::TetPlace& place) {
+    return *std::min_element(place.weights.begin(), place.weights.end());
+  };
+  const Point point = to_point(asked.point);
+  const auto known = asked.kin.is_known != 0 ? kin_.end() : kin_.find(asked.id);
+  const Questions::Kin& kin = known == kin_.end() ? asked.kin : known->second;
+  const face::Origin origin = origin_of(kin);
+  const face::TetPlace place = changed_->find(point, origin);
+  if (origin.bodies.empty() || least(place) >= -kRounding) return place;
+  face::Origin wider;
+  bodies_->common({}, kin.label, wider.bodies);
+  const face::TetPlace other = changed_->find(point, wider);
+  return least(other) >= 0 ? other : place;
 }
 
 void OldPart::answer(const Questions& questions, Answers& answers) {
@@ -158,13 +202,12 @@ void OldPart::answer(const Questions& questions, Answers& answers) {
   if (must_find && changed_->is_empty()) fail_to_fit();
   std::string made(layouts_[RowKind::point].size(), '\0');
   for (const Questions::AtPoint& asked : questions.new_points) {
-    const face::TetPlace place = changed_->find(to_point(asked.point));
+    const face::TetPlace place = find(asked);
     layouts_[RowKind::point].interpolate(rows_of_points(place.tet), place.weights, made.data());
     add(RowKind::point, asked.place, made.data(), answers);
   }
   for (const Questions::AtPoint& asked : questions.new_tets) {
-    add(RowKind::tet, asked.place, row(RowKind::tet, changed_->find(to_point(asked.point)).tet),
-        answers);
+    add(RowKind::tet, asked.place, row(RowKind::tet, find(asked).tet), answers);
   }
   answer_named(RowKind::triangle, questions.triangles, triangles_, answers);
   answer_named(RowKind::edge, questions.edges, edges_, answers);
@@ -186,10 +229,10 @@ void OldPart::answer_named(RowKind kind, const std::vector<Questions::OfIds<N>>&
 }
 
 void OldPart::answer_shares(const std::vector<Questions::OfTet>& asked, Answers& answers) const {
-  for (const auto& [corners, place] : asked) {
+  for (const auto& [corners, place, kin] : asked) {
     std::array<Point, 4> tet;
     for (std::size_t i = 0; i < 4; ++i) tet[i] = to_point(corners[i]);
-    for (const std::uint32_t old : changed_->near(tet)) {
+    for (const std::uint32_t old : changed_->near(tet, origin_of(kin).bodies)) {
       const double volume = face::overlap(tet, corners_of(data_.points, data_.tets[old].vertices));
       if (!(volume > 0)) continue;  // their boxes meet, no more
       answers.shares.push_back({place, origins_[old], volume});

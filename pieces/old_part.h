@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "face/bodies.h"
 #include "face/tet_locator.h"
 #include "kernel/mesh_data.h"
 #include "pieces/parting.h"
@@ -27,6 +29,8 @@ class OldPart {
   void keep(std::uint64_t tet) { is_kept_[tet_of(tet)] = 1; }
   /// Precondition: all that are kept are known.
   void find_changed();
+  /// From what one piece says of its points others may have answers, too. Precondition: find_changed().
+  void learn(const Questions& questions);
   void answer(const Questions& questions, Answers& answers);
   const std::vector<double>& integrals() const { return integrals_; }
 
@@ -61,6 +65,8 @@ class OldPart {
   void answer_named(RowKind kind, const std::vector<Questions::OfIds<N>>& asked,
                     std::vector<Named<N>>& named, Answers& answers) const;
   void answer_shares(const std::vector<Questions::OfTet>& asked, Answers& answers) const;
+  face::TetPlace find(const Questions::AtPoint& asked) const;
+  face::Origin origin_of(const Questions::Kin& kin) const;
 
   const ByKind<RowLayout>& layouts_;
   std::vector<VertexId> ids_;
@@ -70,7 +76,9 @@ class OldPart {
   std::vector<Named<3>> triangles_;
   std::vector<Named<2>> edges_;
   std::vector<char> is_kept_;
+  std::optional<face::Bodies> bodies_;
   std::optional<face::TetLocator> changed_;
+  std::map<VertexId, Questions::Kin> kin_;  // of new points; empty where there is one body
   std::vector<double> integrals_;
 };
 

@@ -27,8 +27,10 @@ inline constexpr std::uint8_t kSent = 16;  ///< tets around it were sent to the 
 /// Not sent, but of a tet that was: other pieces have it, too.
 inline constexpr std::uint8_t kSeam = 32;
 inline constexpr std::uint8_t kMoved = 64;  ///< is no more where the file has it
+/// In slices: of a surface that may move, what lies between such vertices stays.
+inline constexpr std::uint8_t kHeld = 128;
 /// Marks that a vertex never loses.
-inline constexpr std::uint8_t kLasting = kRequired | kCorner | kMoved;
+inline constexpr std::uint8_t kLasting = kRequired | kCorner | kMoved | kHeld;
 
 inline bool is_own(std::uint8_t marks) {
   return (marks & kOwn) != 0;

@@ -55,13 +55,25 @@ struct Questions {
     std::uint64_t number;
     std::uint64_t place;
   };
+  /// What something new hangs together with: with tets of a label, at points that the file has.
+  struct Kin {
+    std::array<VertexId, 4> points = {kNobody, kNobody, kNobody, kNobody};
+    std::uint64_t tet = kNobody;  ///< of the file, if it has become of that
+    Label label = 0;
+    std::uint32_t is_known = 0;  ///< 0: only other pieces may know
+
+    static constexpr VertexId kNobody = ~VertexId{0};
+  };
   struct AtPoint {
     std::array<double, 3> point;
     std::uint64_t place;
+    VertexId id;  ///< of a point, in all pieces
+    Kin kin;
   };
   struct OfTet {
     std::array<std::array<double, 3>, 4> corners;
     std::uint64_t place;
+    Kin kin;
   };
   template <std::size_t N>
   struct OfIds {

@@ -6,6 +6,8 @@
 
 #include <tetmend/improve.h>
 
+#include "envelope/kept_points.h"
+
 namespace tetmend::pieces {
 
 namespace {
@@ -74,9 +76,12 @@ void add_slices(const MeshData& data, std::span<const char> is_protected, Divide
       slice.points.push_back(data.points[v]);
       if (!data.point_labels.empty()) slice.labels.push_back(data.point_labels[v]);
       const unsigned is_own = v >= own.begin && v < own.end ? kOwn : 0U;
-      const unsigned is_corner = !is_kept.empty() && is_kept[v] != 0 ? kCorner : 0U;
+      const char kept = is_kept.empty() ? char{0} : is_kept[v];
+      const unsigned stays = kept == 0            ? 0U
+                             : kept == kHeldPoint ? unsigned{kCorner | kHeld}
+                                                  : unsigned{kCorner};
       slice.marks.push_back(
-          static_cast<std::uint8_t>(is_own | is_corner | (required[v] != 0 ? kRequired : 0U)));
+          static_cast<std::uint8_t>(is_own | stays | (required[v] != 0 ? kRequired : 0U)));
     }
     renumber(slice.tets, numbers);
     renumber(slice.triangles, numbers);

@@ -21,8 +21,8 @@ inline std::size_t tets_of_slice(std::uint64_t tets, std::size_t pieces) {
 }
 
 /// Adds a mesh, on one rank, to one that has nothing yet; end_slices() is left to the caller.
-/// `is_protected` has a mark for each tet, or none; `is_kept` one for each point of a surface that may
-/// move, see find_kept_points().
+/// `is_protected` has a mark for each tet, or none; `is_kept` one for each point, where the surface may
+/// move: that of find_kept_points().
 void add_slices(const MeshData& data, std::span<const char> is_protected, DividedMesh& to,
                 std::span<const char> is_kept = {});
 

@@ -234,6 +234,7 @@ struct Result {
   double building = 0;   ///< adjacency, order along a space-filling curve
   double measuring = 0;  ///< statistics and checks, before and after
   double improving = 0;  ///< the schedule
+  double carrying = 0;   ///< bringing over all that the mesh holds besides; into arrays again
 
   /// The figures that are worse than before, in words; empty, for that is promised: theta_min is not
   /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad

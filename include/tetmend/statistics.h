@@ -66,7 +66,7 @@ struct BuildReport {
   std::size_t loose_triangles = 0;
   /// Named edges that are no edge of any tet: kept for output; their vertices are fixed.
   std::size_t loose_edges = 0;
-  std::size_t unused_points = 0;      ///< points of no tet: kept
+  std::size_t unused_points = 0;      ///< points of no tet and no other element: kept
   std::size_t constrained_faces = 0;  ///< interior faces that must survive
   // Where constraints inside regions are ignored:
   std::size_t dropped_triangles = 0;  ///< no longer kept

@@ -2,10 +2,13 @@
 #include "envelope/kept_points.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
+#include "envelope/envelope.h"
 #include "envelope/features.h"
 #include "tests/support/zoo.h"
 
@@ -84,4 +87,63 @@ TEST_CASE("points of periodic links, other elements and MEDIT's marks are corner
   others.vertices = {c};
   hybrid.other_elements = {others};
   CHECK(has(corners(hybrid), c));
+}
+
+TEST_CASE(
+    "faces between held vertices are patches that nothing takes a face from, edges are lines") {
+  const TetMesh mesh(kuhn_cube(4, 0, 1));
+  for (const double share : {0.0, 0.05}) {
+    CAPTURE(share);
+    const SurfaceFeatures free = find_features(mesh, {.flat = share == 0, .kept = {}});
+    // Two faces of one patch, off its border, and the edge between them.
+    std::vector<VertexHandle> inner;
+    std::array<std::array<VertexHandle, 3>, 2> pair;
+    std::array<VertexHandle, 2> edge;
+    for (const auto& one : free.faces) {
+      for (const auto& other : free.faces) {
+        std::vector<VertexHandle> common;
+        for (const VertexHandle v : one.vertices) {
+          const auto& w = other.vertices;
+          if (std::find(w.begin(), w.end(), v) != w.end()) common.push_back(v);
+        }
+        if (one.patch != other.patch || common.size() != 2 || !inner.empty()) continue;
+        inner.assign(one.vertices.begin(), one.vertices.end());
+        pair = {one.vertices, other.vertices};
+        edge = {common[0], common[1]};
+      }
+    }
+    REQUIRE(inner.size() == 3);
+    const auto opposite = [&](const std::array<VertexHandle, 3>& face) {
+      return *std::find_if(face.begin(), face.end(),
+                           [&](VertexHandle v) { return v != edge[0] && v != edge[1]; });
+    };
+    const auto flips = [&](const std::vector<VertexHandle>& held) {
+      const auto guard = Envelope::of(mesh, {.share = share, .held = held});
+      const auto journal = guard->make_journal();
+      std::vector<SurfaceFace> before;
+      std::vector<SurfaceFace> after;
+      const auto add = [&](const std::array<VertexHandle, 3>& v, std::vector<SurfaceFace>& to) {
+        to.push_back({v, {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])}});
+      };
+      for (const auto& face : pair) add(face, before);
+      for (std::size_t i = 0; i < 2;
+           ++i) {  // each takes the tip of the other for one end of the edge
+        auto face = pair[i];
+        *std::find(face.begin(), face.end(), edge[i]) = opposite(pair[1 - i]);
+        add(face, after);
+      }
+      return guard->replace(before, after, *journal);
+    };
+    CHECK(flips({}));
+    CHECK(flips({edge[0]}));
+    CHECK_FALSE(flips({edge[0], edge[1]}));
+    CHECK_FALSE(flips(inner));
+    const SurfaceFeatures found =
+        find_features(mesh, {.flat = share == 0, .kept = {}, .held = inner});
+    const auto held = std::count_if(found.patches.begin(), found.patches.end(),
+                                    [](const auto& patch) { return patch.held; });
+    CHECK(held == 1);
+    CHECK(std::count_if(found.lines.begin(), found.lines.end(),
+                        [](const auto& line) { return line.held; }) == 3);
+  }
 }

@@ -13,11 +13,13 @@
 #include <doctest/doctest.h>
 #include <tetmend/improve.h>
 
+#include "face/bodies.h"
 #include "face/mesh_access.h"
 #include "face/tet_locator.h"
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/mesh_io.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/overlapping_mesh.h"
 
 using namespace tetmend;
 
@@ -214,7 +216,8 @@ TEST_CASE("a flat tet gives a linear field to the last digits") {
   Point sum = Point::Zero();
   for (std::size_t k = 0; k < 4; ++k) sum += weights[k] * data.points[data.tets[0].vertices[k]];
   CHECK((sum - place).norm() < 1e-15);
-  const face::TetLocator locator(data, {0, 1});
+  const face::Bodies bodies(data);
+  const face::TetLocator locator(data, bodies, {0, 1});
   CHECK(locator.find({0.3, 0.3, 0.5e-9}).tet == 0);
   CHECK(locator.find({0.4, 0.4, 0.2}).tet == 1);
   CHECK(locator.find({5, 5, 5}).tet <= 1);
@@ -224,7 +227,8 @@ TEST_CASE("a place is found in the tet that holds it, among many") {
   const MeshData data = asset("bracket.meshb");
   std::vector<std::uint32_t> all(data.tets.size());
   for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
-  const face::TetLocator locator(data, all);
+  const face::Bodies bodies(data);
+  const face::TetLocator locator(data, bodies, all);
   std::size_t wrong = 0;
   for (std::uint32_t t = 0; t < all.size(); t += 7) {
     Point place = Point::Zero();
@@ -233,4 +237,63 @@ TEST_CASE("a place is found in the tet that holds it, among many") {
     wrong += locator.find(place).tet == t ? 0 : 1;
   }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("where solids overlap, each tet and point keeps to the values of its own") {
+  for (const test::ToldBy told_by :
+       {test::ToldBy::nothing, test::ToldBy::labels, test::ToldBy::parts}) {
+    for (const bool conserves : {false, true}) {
+      for (const char* surface : {"fixed", "10%"}) {
+        CAPTURE(static_cast<int>(told_by));
+        CAPTURE(conserves);
+        CAPTURE(surface);
+        Options options;
+        options.surface = surface;
+        if (conserves) options.conserve = {"young"};
+        Mesh mesh = MeshAccess::make(test::two_overlapping(told_by));
+        const Result result = improve(mesh, options);
+        CHECK(result.touched_tets > 200);
+        CHECK(test::count_strange_values(MeshAccess::data(mesh)) == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("what hangs together at a vertex, of one label and part, is one body") {
+  MeshData data = test::two_overlapping(test::ToldBy::nothing, 2);
+  CHECK(face::Bodies(data).count() == 2);
+  const std::size_t half = data.points.size() / 2;
+  std::vector<std::uint32_t> found;
+  const face::Bodies two(data);
+  two.common(std::vector<std::uint32_t>{0}, 0, found);
+  CHECK(found == std::vector<std::uint32_t>{0});
+  two.common(std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(half)}, 0, found);
+  CHECK(found == std::vector<std::uint32_t>{0, 1});  // none has both
+  for (MeshData::Tet& tet : data.tets) {
+    for (std::uint32_t& v : tet.vertices) {
+      if (v == half) v = 0;
+    }
+  }
+  CHECK(face::Bodies(data).count() == 1);
+  for (std::size_t t = 0; t < data.tets.size(); ++t) data.tet_parts.push_back(t % 2 == 0 ? 1 : 2);
+  const face::Bodies parts(data);
+  CHECK(parts.count() > 1);
+  for (std::uint32_t t = 0; t + 1 < data.tets.size(); ++t) {
+    const bool is_same = parts.of_tet(t) == parts.of_tet(t + 1);
+    if (is_same) CHECK_FALSE(is_same);
+  }
+}
+
+TEST_CASE("a new point finds an old one of its label through tets, however far") {
+  const std::vector<MeshData::Tet> tets = {
+      {{0, 1, 2, 3}, 5}, {{3, 4, 5, 6}, 5}, {{6, 7, 8, 9}, 5}, {{2, 10, 11, 12}, 6}};
+  const std::vector<std::uint32_t> all = {0, 1, 2, 3};
+  std::vector<std::uint32_t> anchors(13, face::Bodies::kNone);
+  anchors[0] = 40;
+  anchors[1] = 30;
+  face::spread_anchors(
+      tets, all, [](std::uint32_t point, Label) { return point != 30; }, anchors);
+  CHECK(anchors == std::vector<std::uint32_t>{40, 30, face::Bodies::kNone, 40, 40, 40, 40, 40, 40,
+                                              40, face::Bodies::kNone, face::Bodies::kNone,
+                                              face::Bodies::kNone});
 }

@@ -6,6 +6,9 @@
 #include <doctest/doctest.h>
 #include <tetmend/check.h>
 
+#include "face/mesh_access.h"
+#include "tests/support/mixed_mesh.h"
+
 using namespace tetmend;
 
 namespace {
@@ -66,4 +69,27 @@ TEST_CASE("two meshes are compared by surface, walls and volumes") {
   CHECK(std::count_if(facts.begin(), facts.end(), [](const Fact& fact) {
           return fact.name == "volume" && !fact.holds;
         }) == 2);  // one label is gone, one is new
+}
+
+TEST_CASE("tets that were torn from other elements are told, and those that stayed joined") {
+  const MeshData before = test::tets_on(test::Bed::wedges, 3, 1);
+  const Mesh mesh = MeshAccess::make(before);
+  const Fact joined = find(compare(mesh, mesh), "other_elements");
+  CHECK(joined.holds);
+  CHECK(joined.text ==
+        "18 other elements, and 67 faces, edges and points that tets have in common with them: the "
+        "same, bit for bit");
+  MeshData torn = before;  // without a tet on the bed
+  const auto at_bed = [&](const MeshData::Tet& tet) {
+    return std::count_if(tet.vertices.begin(), tet.vertices.end(),
+                         [&](std::uint32_t v) { return before.points[v].z() == 0.1; });
+  };
+  torn.tets.erase(std::find_if(torn.tets.begin(), torn.tets.end(),
+                               [&](const MeshData::Tet& tet) { return at_bed(tet) == 3; }));
+  const Fact fact = find(compare(mesh, MeshAccess::make(torn)), "other_elements");
+  CHECK_FALSE(fact.holds);
+  CHECK(std::get<std::uint64_t>(fact.value) > 0);
+  MeshData moved = before;
+  moved.points[0].z() -= 1e-6;  // of wedges alone
+  CHECK_FALSE(find(compare(mesh, MeshAccess::make(moved)), "other_elements").holds);
 }

@@ -15,8 +15,10 @@
 #include "face/mesh_access.h"
 #include "face/surface_points.h"
 #include "kernel/geometry.h"
+#include "kernel/shared_parts.h"
 #include "kernel/tet_faces.h"
 #include "tests/face/meshes.h"
+#include "tests/support/mixed_mesh.h"
 #include "tests/support/surface_distance.h"
 
 using namespace tetmend;
@@ -247,4 +249,100 @@ TEST_CASE("a new point of the surface has the label that the ends of its edge sh
   before.point_labels.clear();
   face::label_surface_points(before, vertex_map, now);
   CHECK(now.point_labels.empty());
+}
+
+TEST_CASE("tets stay joined to other elements, by face, edge and point, whatever may move") {
+  std::size_t touched = 0;
+  for (const Bed bed : {Bed::wedges, Bed::pyramids, Bed::hexahedra, Bed::quads}) {
+    for (const char* schedule : {"shell", "surface"}) {
+      for (const char* surface : {"flat", "10%"}) {
+        CAPTURE(static_cast<int>(bed));
+        CAPTURE(schedule);
+        CAPTURE(surface);
+        const MeshData before = tets_on(bed, 4, 7);
+        Mesh mesh = MeshAccess::make(before);
+        const Result result = improve(mesh, {.schedule = schedule,
+                                             .goal = {.min_angle = 40, .max_angle = 130},
+                                             .surface = surface});
+        const MeshData& now = MeshAccess::data(mesh);
+        touched += result.surface_change->touched;
+        CHECK(now.other_elements.size() == 1);
+        auto faces = faces_on_bed(before);
+        for (auto& face : faces) {
+          for (std::uint32_t& v : face) v = result.vertex_map[v];
+          std::sort(face.begin(), face.end());
+        }
+        std::sort(faces.begin(), faces.end());
+        CHECK(faces_on_bed(now) == faces);
+        CHECK(count_lost_parts(before, result.vertex_map, now) == 0);
+      }
+    }
+  }
+  CHECK(touched > 100);
+}
+
+TEST_CASE("triangles and edges that a file requires stay where the surface may move") {
+  for (const int dimension : {1, 2}) {
+    CAPTURE(dimension);
+    MeshData before = tets_on(Bed::wedges, 4, 7);
+    before.other_elements.clear();
+    Group group;
+    group.dimension = dimension;
+    group.name = dimension == 1 ? "RequiredEdges" : "RequiredTriangles";
+    for (const auto& face : faces_on_bed(before)) {
+      group.members.push_back(static_cast<std::uint32_t>(group.members.size()));
+      before.triangles.push_back({face, 0});
+      before.edges.push_back({{face[0], face[1]}, 0});
+    }
+    before.groups = {group};
+    Mesh mesh = MeshAccess::make(before);
+    const Result result = improve(
+        mesh,
+        {.schedule = "surface", .goal = {.min_angle = 40, .max_angle = 130}, .surface = "10%"});
+    const MeshData& now = MeshAccess::data(mesh);
+    const auto is_there = [&](auto vertices, const auto& elements) {
+      for (std::uint32_t& v : vertices) v = result.vertex_map[v];
+      std::sort(vertices.begin(), vertices.end());
+      return std::any_of(elements.begin(), elements.end(), [&](const auto& element) {
+        auto others = element.vertices;
+        std::sort(others.begin(), others.end());
+        return others == vertices;
+      });
+    };
+    for (std::size_t i = 0; i < group.members.size(); ++i) {
+      if (dimension == 2) CHECK(is_there(before.triangles[i].vertices, now.triangles));
+      if (dimension == 1) CHECK(is_there(before.edges[i].vertices, now.edges));
+    }
+  }
+}
+
+TEST_CASE(
+    "shells, chains and points of other elements within the tets stay, also without constraints") {
+  for (const bool ignores : {false, true}) {
+    CAPTURE(ignores);
+    MeshData before = tets_on(Bed::wedges, 4, 7);
+    const auto inner = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+      return (k * 5 + j) * 5 + i;
+    };
+    OtherElements shell;
+    shell.vtk_type = 9;
+    shell.vertex_count = 4;
+    shell.vertices = {inner(1, 1, 3), inner(2, 1, 3), inner(2, 2, 3), inner(1, 2, 3)};
+    shell.labels = {0};
+    OtherElements point;
+    point.vtk_type = 1;
+    point.vertex_count = 1;
+    point.vertices = {inner(3, 3, 3)};
+    point.labels = {0};
+    before.other_elements.push_back(shell);
+    before.other_elements.push_back(point);
+    Mesh mesh = MeshAccess::make(before);
+    const Result result = improve(mesh, {.ignore_interior = ignores});
+    CHECK(result.touched_tets > 0);
+    const MeshData& now = MeshAccess::data(mesh);
+    CHECK(count_lost_parts(before, result.vertex_map, now) == 0);
+    CHECK(now.required_vertices.empty());
+    CHECK(now.edges.empty());
+    CHECK(now.triangles.empty());
+  }
 }

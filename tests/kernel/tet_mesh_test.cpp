@@ -392,6 +392,21 @@ TEST_CASE("a vertex of no tet is kept and reported") {
   check_same(mesh.to_data(), data);
 }
 
+TEST_CASE("a vertex of no tet that another element has is used") {
+  MeshData data = one_tet();
+  data.points.emplace_back(9, 9, 9);
+  data.points.emplace_back(8, 9, 9);
+  OtherElements others;
+  others.vtk_type = 13;
+  others.vertex_count = 6;
+  others.vertices = {0, 1, 2, 4, 4, 4};
+  others.labels = {0};
+  data.other_elements.push_back(others);
+  BuildReport report;
+  const TetMesh mesh(data, &report);
+  CHECK(report.unused_points == 1);
+}
+
 TEST_CASE("garbage collection and sorting keep content, soundness and properties") {
   for (const bool sort : {false, true}) {
     CAPTURE(sort);

@@ -20,6 +20,7 @@
 #include "pieces/out_of_core.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
+#include "tests/support/overlapping_mesh.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -189,6 +190,25 @@ TEST_CASE("arrays of a .vtu file are carried where no rank has all of it, as by 
         CHECK(here.integral_error == doctest::Approx(there.integral_error).epsilon(1e-6));
       }
     });
+  }
+}
+
+TEST_CASE("where solids overlap, values stay apart in pieces, too, by ranks and by tasks") {
+  for (const ToldBy told_by : {ToldBy::labels, ToldBy::nothing}) {
+    CAPTURE(static_cast<int>(told_by));
+    MeshData data = two_overlapping(told_by, 6);
+    data.groups.clear();
+    data.label_array = "material";
+    for (MeshData::Tet& tet : data.tets) tet.label = std::max(tet.label, 1);
+    for (const bool conserves : {false, true}) {
+      Options options = {.conserve = {}};
+      if (conserves) options.conserve = {"young"};
+      const Files files(data, ".vtu", options);
+      REQUIRE(is_told_by_rows(files.in));
+      check_all_ways(files, options, {1, 3});
+      CHECK(files.result.touched_tets > 500);
+      CHECK(count_strange_values(read_mesh(files.out)) == 0);
+    }
   }
 }
 

@@ -13,11 +13,13 @@
 
 #include "contract/zoo.h"
 #include "face/mesh_access.h"
+#include "kernel/shared_parts.h"
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
+#include "tests/support/mixed_mesh.h"
 #include "tests/support/random_solids.h"
 #include "tests/support/surface_promise.h"
 
@@ -238,4 +240,32 @@ TEST_CASE("a surface that is farther away than was proven is noticed, and nothin
   });
   CHECK(renamed != "");
   CHECK(!std::filesystem::exists(files.out));
+}
+
+TEST_CASE("in pieces with a moving surface tets stay joined to other elements") {
+  for (const Bed bed : {Bed::wedges, Bed::pyramids, Bed::hexahedra}) {
+    CAPTURE(static_cast<int>(bed));
+    const MeshData before = tets_on(bed, 6, 3);
+    Options options = options_of("10%");
+    options.schedule = "surface";
+    options.goal = {.min_angle = 40, .max_angle = 130};
+    Mesh mesh = MeshAccess::make(before);
+    const Result result = pieces::improve(mesh, options, in_pieces());
+    CHECK(result.surface_change->touched > 0);
+    CHECK(count_lost_parts(before, result.vertex_map, MeshAccess::data(mesh)) == 0);
+    CHECK(faces_on_bed(MeshAccess::data(mesh)).size() == faces_on_bed(before).size());
+
+    const Folder folder;
+    OutOfCore files;
+    files.input = folder.path() / "in.vtu";
+    files.output = folder.path() / "out.vtu";
+    save(files.input, MeshAccess::make(before));
+    pieces::OneRank alone;
+    Division division = in_pieces();
+    pieces::improve_files(files, options, division, alone);
+    Mesh again = load(files.input);
+    pieces::improve(again, options, in_pieces());
+    save(folder.path() / "expected.vtu", again);
+    CHECK(bytes_of(files.output) == bytes_of(folder.path() / "expected.vtu"));
+  }
 }

@@ -183,7 +183,7 @@ py::dict to_dict(const Result& result) {
           py::dict("before"_a = result.not_positive_before, "after"_a = result.not_positive_after),
       "volume_change"_a = result.volume_change(),
       "seconds"_a = py::dict("building"_a = result.building, "measuring"_a = result.measuring,
-                             "improving"_a = result.improving));
+                             "improving"_a = result.improving, "carrying"_a = result.carrying));
 }
 
 py::dict to_dict(const Measurement& measurement) {
