@@ -29,6 +29,7 @@
 #include "face/surface_points.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
+#include "face/worse.h"
 #include "kernel/bounds.h"
 #include "kernel/chunks.h"
 #include "kernel/curved.h"
@@ -86,11 +87,13 @@ std::size_t count_touched(const TetMesh& mesh) {
 /// One call of improve().
 class Improvement {
  public:
-  Improvement(Mesh& mesh, const Options& options, face::Plan& plan, face::Portrait* portrait)
+  Improvement(Mesh& mesh, const Options& options, face::Plan& plan, face::Portrait* portrait,
+              face::Follower* follower)
       : user_mesh_(mesh),
         options_(options),
         plan_(plan),
         portrait_(portrait),
+        follower_(follower),
         watcher_(options),
         file_(mesh.file()) {}
 
@@ -102,7 +105,7 @@ class Improvement {
       measure_before();
       run_schedule(kAllPasses);
       measure_after();
-      if (!result_.worse().empty()) go_back();
+      if (!face::worse_for_nothing(result_).empty()) go_back();
       note(face::advice_after(mesh_, options_, result_));
       map_entities();
     } catch (const contract::Breach& breach) {
@@ -146,6 +149,7 @@ class Improvement {
   const Options& options_;
   face::Plan& plan_;
   face::Portrait* portrait_;  // null: nobody asked for one
+  face::Follower* follower_;  // likewise
   face::Watcher watcher_;
   const std::filesystem::path file_;
   MeshData input_;  // to go back to, also when memory runs out; lengths as mesh_ has them
@@ -259,7 +263,7 @@ void Improvement::run_schedule(std::size_t passes) {
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
-  run.set_trace(trace_.get());
+  run.set_trace(follower_ != nullptr ? follower_->follow(mesh_) : trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
   watcher_.watch(&run, quality_indicators(mesh_));
@@ -334,7 +338,7 @@ std::size_t Improvement::best_pass() const {
 /// back. The same passes do the same, so no state needs to be kept in memory.
 void Improvement::go_back() {
   goes_back_ = true;
-  const std::string reason = fmt::format("{}", fmt::join(result_.worse(), "; "));
+  const std::string reason = fmt::format("{}", fmt::join(face::worse_for_nothing(result_), "; "));
   const std::size_t all = result_.passes.size();
   for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
     MeshData data = input_;
@@ -348,7 +352,7 @@ void Improvement::go_back() {
     }
     measure_after();
     const bool is_whole = result_.passes.size() == passes;  // not cancelled on the way
-    if (passes > 0 && !(is_whole && result_.worse().empty())) continue;
+    if (passes > 0 && !(is_whole && face::worse_for_nothing(result_).empty())) continue;
     const std::string text = fmt::format(
         "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
     note({text});
@@ -428,6 +432,55 @@ void Improvement::check_promises() const {
       fmt::format("the mesh is lost, for {}: this is a bug of tetmend, please report it", broken));
 }
 
+/// A promised figure that is worse than before.
+struct Fall {
+  std::string text;
+  bool is_price = false;  // of inverted tets that were mended, which goes first
+};
+
+std::vector<Fall> falls_of(const Result& result) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kEdgeRatio = 10;
+  std::vector<Fall> falls;
+  const auto compare = [&](std::string_view what, double now, double then, bool is_worse,
+                           bool is_price = false) {
+    if (!is_worse) return;
+    falls.push_back({fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then), is_price});
+  };
+  const MeshStatistics& before = result.before;
+  const MeshStatistics& after = result.after;
+  const bool is_mended = result.not_positive_after < result.not_positive_before;
+  compare("a theta_min", after.theta_min, before.theta_min,
+          after.theta_min < before.theta_min - kRounding, is_mended);
+  compare("a theta_max", after.theta_max, before.theta_max,
+          after.theta_max > std::max(before.theta_max, result.goal.max_angle) + kRounding,
+          is_mended);
+  compare("a number of bad tets", static_cast<double>(after.n_bad),
+          static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
+  compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
+  if (result.curved_before && result.curved_after) {
+    const JacobianRatio& then = result.curved_before->worst;
+    const JacobianRatio& now = result.curved_after->worst;
+    compare("a worst Jacobian ratio", now.at_nodes, then.at_nodes,
+            now.at_nodes < then.at_nodes - kRounding);
+    compare("a bound of the Jacobian ratios", now.bound, then.bound,
+            now.bound < then.bound - kRounding);
+  }
+  if (!result.rulers_before || !result.rulers_after) return falls;
+  const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
+  const double edge_ratio = worst(*result.rulers_before, Ruler::edge_ratio);
+  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
+    const double now = worst(*result.rulers_after, ruler);
+    const double then = worst(*result.rulers_before, ruler);
+    compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
+            now < then - kRounding);
+  }
+  const double most = std::max(edge_ratio, kEdgeRatio) + kRounding;
+  compare("a worst edge ratio", worst(*result.rulers_after, Ruler::edge_ratio), edge_ratio,
+          worst(*result.rulers_after, Ruler::edge_ratio) > most, is_mended);
+  return falls;
+}
+
 }  // namespace
 
 double Result::volume_change() const {
@@ -436,42 +489,23 @@ double Result::volume_change() const {
 }
 
 std::vector<std::string> Result::worse() const {
-  constexpr double kRounding = 1e-9;
-  constexpr double kEdgeRatio = 10;
-  std::vector<std::string> worse;
-  const auto compare = [&](std::string_view what, double now, double then, bool is_worse) {
-    if (is_worse) worse.push_back(fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then));
-  };
-  // Of a mesh with inverted tets no other tet is the worst.
-  const bool is_mended = not_positive_after < not_positive_before;
-  compare("a theta_min", after.theta_min, before.theta_min,
-          !is_mended && after.theta_min < before.theta_min - kRounding);
-  compare("a theta_max", after.theta_max, before.theta_max,
-          !is_mended && after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding);
-  compare("a number of bad tets", static_cast<double>(after.n_bad),
-          static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
-  compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
-  if (curved_before && curved_after) {
-    const JacobianRatio& then = curved_before->worst;
-    const JacobianRatio& now = curved_after->worst;
-    compare("a worst Jacobian ratio", now.at_nodes, then.at_nodes,
-            now.at_nodes < then.at_nodes - kRounding);
-    compare("a bound of the Jacobian ratios", now.bound, then.bound,
-            now.bound < then.bound - kRounding);
+  std::vector<std::string> texts;
+  for (Fall& fall : falls_of(*this)) texts.push_back(std::move(fall.text));
+  return texts;
+}
+
+std::vector<std::string> Result::worse_than_before() const {
+  std::vector<std::string> all = worse();
+  for (std::string& aim : missed_aims()) all.push_back(std::move(aim));
+  return all;
+}
+
+std::vector<std::string> face::worse_for_nothing(const Result& result) {
+  std::vector<std::string> texts;
+  for (Fall& fall : falls_of(result)) {
+    if (!fall.is_price) texts.push_back(std::move(fall.text));
   }
-  if (!rulers_before || !rulers_after) return worse;
-  const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
-  const double edge_ratio = worst(*rulers_before, Ruler::edge_ratio);
-  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
-    const double now = worst(*rulers_after, ruler);
-    const double then = worst(*rulers_before, ruler);
-    compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
-            now < then - kRounding);
-  }
-  compare("a worst edge ratio", worst(*rulers_after, Ruler::edge_ratio), edge_ratio,
-          !is_mended && worst(*rulers_after, Ruler::edge_ratio) >
-                            std::max(edge_ratio, kEdgeRatio) + kRounding);
-  return worse;
+  return texts;
 }
 
 std::vector<std::string> Result::missed_aims() const {
@@ -498,11 +532,17 @@ Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRe
     throw OptionError("trace_piece", "trace_piece: the run is not in pieces");
   }
   return face::on_threads(options.threads, [&] {
-    Improvement improvement(mesh, options, plan, portrait);
+    Improvement improvement(mesh, options, plan, portrait, nullptr);
     Result result = improvement.run();
     trace = improvement.take_trace();
     return result;
   });
+}
+
+Result face::improve(Mesh& mesh, const Options& options, Follower& follower) {
+  Plan plan(options);
+  return face::on_threads(
+      options.threads, [&] { return Improvement(mesh, options, plan, nullptr, &follower).run(); });
 }
 
 Result improve(Mesh& mesh, const Options& options) {

@@ -15,6 +15,7 @@
 #include "face/carry.h"
 #include "face/regions.h"
 #include "face/surface_marks.h"
+#include "face/worse.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
 #include "pieces/bytes.h"
@@ -316,7 +317,7 @@ void check_after(const Figures& before, const Figures& after, Kept kept, Result&
 
 std::string why_as_it_was(const Result& result) {
   return fmt::format("the mesh is as it was: at the end there was {}",
-                     fmt::join(result.worse(), "; "));
+                     fmt::join(face::worse_for_nothing(result), "; "));
 }
 
 OptionTexts texts_of(const Options& options) {

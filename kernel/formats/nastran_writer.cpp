@@ -105,7 +105,7 @@ class Writer {
     for (std::size_t k = 0; k < lists_.all().size(); ++k) write_elements(k);
     if (deck_ != nullptr) out_.put((*deck_)[1]);
     out_.put(deck_ == nullptr ? "ENDDATA\n" : (*deck_)[2]);
-    out_.commit();
+    out_.commit(mesh_.companions());
   }
 
  private:
