@@ -103,8 +103,9 @@ class Improvement {
     build();
     try {
       measure_before();
-      run_schedule(kAllPasses);
+      run_schedule(kAllPasses, options_.time_limit);
       measure_after();
+      if (gives_for_mending()) mend_within_bounds();
       if (!face::worse_for_nothing(result_).empty()) go_back();
       note(face::advice_after(mesh_, options_, result_));
       map_entities();
@@ -126,13 +127,20 @@ class Improvement {
 
  private:
   static constexpr std::size_t kAllPasses = std::numeric_limits<std::size_t>::max();
+  /// What mending an inverted tet may do to the bounds of the input.
+  enum class Mending : bool { breaks_bounds, keeps_bounds };
 
   void build();
-  void build_mesh(MeshData& data);
+  void build_mesh(MeshData& data, Mending mending = Mending::breaks_bounds);
   void hold_curved();
   void measure_before();
-  void run_schedule(std::size_t passes);
+  void run_schedule(std::size_t passes, double seconds);
   void measure_after();
+  bool gives_for_mending() const {
+    return result_.worse().size() > face::worse_for_nothing(result_).size();
+  }
+  void mend_within_bounds();
+  void make_again(Mending mending, double seconds);
   void go_back();
   std::size_t best_pass() const;
   void map_entities();
@@ -195,7 +203,7 @@ void Improvement::build() {
   }
 }
 
-void Improvement::build_mesh(MeshData& data) {
+void Improvement::build_mesh(MeshData& data, Mending mending) {
   const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
   face::put_marks(marks_, data);
   data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
@@ -217,7 +225,8 @@ void Improvement::build_mesh(MeshData& data) {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  mesh_.set_bounds(Bounds::of(mesh_));
+  const Bounds bounds = Bounds::of(mesh_);
+  mesh_.set_bounds(mending == Mending::keeps_bounds ? bounds.for_mending() : bounds);
   if (!plan_.surface.is_fixed()) mesh_.set_surface_guard(plan_.surface.guard(mesh_, input_));
   hold_curved();
   if (options_.keep_size && !size_field_) size_field_ = std::make_shared<SizeField>(mesh_);
@@ -256,8 +265,8 @@ void Improvement::measure_before() {
   if (portrait_ != nullptr) portrait_->draw_before(mesh_, result_.rulers_before);
 }
 
-/// The passes of the schedule, or so many of them.
-void Improvement::run_schedule(std::size_t passes) {
+/// The passes of the schedule, or so many of them, for so many seconds; 0: without a limit.
+void Improvement::run_schedule(std::size_t passes, double seconds) {
   trace_.reset();  // of the run before, when going back
   trace_ = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
   Run run(mesh_, plan_.registry);
@@ -271,11 +280,8 @@ void Improvement::run_schedule(std::size_t passes) {
   {
     const Stopwatch watch(result_.improving);
     run.set_cancel_flag(options_.cancel);
-    if (passes == kAllPasses) {
-      if (options_.time_limit > 0) run.set_time_limit(options_.time_limit);
-    } else {
-      run.stop_after(passes);
-    }
+    if (seconds > 0) run.set_time_limit(seconds);
+    if (passes != kAllPasses) run.stop_after(passes);
     tetmend::improve(run, plan_.schedule, options_.set);
     // Where the fixed surface holds bad tets, it moves.
     if (!plan_.surface.is_fixed() && !run.cancelled()) {
@@ -334,6 +340,33 @@ std::size_t Improvement::best_pass() const {
   return best;
 }
 
+/// All passes, from the input on.
+void Improvement::make_again(Mending mending, double seconds) {
+  MeshData data = input_;
+  scale_.to_file(data.points);
+  result_.notes.resize(notes_before_);
+  build_mesh(data, mending);
+  run_schedule(kAllPasses, seconds);
+  measure_after();
+}
+
+/// Mended tets have left a figure worse than before. Where each step keeps the bounds, as many can be
+/// mended as a rule. Where not, inverted tets go first, and the figure stays in Result::worse(). A run
+/// that was stopped, or has no time left for this, stays as it is.
+void Improvement::mend_within_bounds() {
+  // Time for this and for the run before once more.
+  const bool is_limited = options_.time_limit > 0;
+  const double seconds = is_limited ? options_.time_limit - 2 * result_.improving : 0;
+  if (result_.ending != Ending::finished || seconds < (is_limited ? result_.improving : 0)) return;
+  goes_back_ = true;
+  const std::size_t left = result_.not_positive_after;
+  make_again(Mending::keeps_bounds, seconds);
+  const bool is_kept = result_.ending != Ending::time_limit && result_.not_positive_after <= left &&
+                       result_.worse().empty();
+  if (!is_kept && result_.ending != Ending::cancelled) make_again(Mending::breaks_bounds, 0);
+  goes_back_ = false;
+}
+
 /// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
 /// back. The same passes do the same, so no state needs to be kept in memory.
 void Improvement::go_back() {
@@ -346,7 +379,7 @@ void Improvement::go_back() {
     result_.notes.resize(notes_before_);
     build_mesh(data);
     if (passes > 0) {
-      run_schedule(passes);
+      run_schedule(passes, 0);
     } else {
       result_.passes.clear();
     }

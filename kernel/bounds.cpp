@@ -135,6 +135,12 @@ Bounds Bounds::under(const Standard& standard) const {
   return bounds;
 }
 
+Bounds Bounds::for_mending() const {
+  Bounds bounds = *this;
+  if (any() && are_of_inverted()) bounds.least_radius_ratio_ = -1;
+  return bounds;
+}
+
 Bounds Bounds::of_goal(const Standard& standard) {
   Bounds bounds;
   bounds.least_sine2_ = bounds.least_volume_length2_ = bounds.least_radius_ratio_ = 1;

@@ -32,6 +32,13 @@ class TETMEND_API Bounds {
   /// From now on they admit what the other ones do. Both come from of_goal().
   void widen(const Bounds& other);
 
+  /// The same bounds, which hold where inverted tets are mended, too.
+  Bounds for_mending() const;
+  /// Some tet that they are of is not in positive order.
+  bool are_of_inverted() const { return least_radius_ratio_ <= 0; }
+  /// They are of such a mesh, and where one is mended, they may be broken: that goes first.
+  bool yield_to_mending() const { return least_radius_ratio_ == 0; }
+
   /// The same bounds where tets are judged by another standard.
   Bounds under(const Standard& standard) const;
 
@@ -46,7 +53,7 @@ class TETMEND_API Bounds {
   double least_sine2_ = 0;           // of an acute angle
   double least_obtuse_sine2_ = 0;    // of an obtuse one
   double least_volume_length2_ = 0;  // mean ratio = volume-length^(2/3)
-  double least_radius_ratio_ = 0;
+  double least_radius_ratio_ = 0;    // 0 of an inverted tet, less in for_mending()
   double most_edge_ratio2_ = std::numeric_limits<double>::infinity();
   double safe_ = -std::numeric_limits<double>::infinity();  // that: no bounds
 };

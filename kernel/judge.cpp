@@ -52,11 +52,6 @@ bool mends(Comparison& qualities) {
   return count_not_positive(qualities.now()) < count_not_positive(qualities.before());
 }
 
-/// Such are bounds only where some tet was inverted or flat when the run began.
-bool admit_inverted(const Bounds& bounds) {
-  return bounds.admit({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1});
-}
-
 /// Every new tet keeps the bounds, or is no further beyond them than the old tets.
 bool is_no_further_beyond(const Transaction& transaction, Bounds bounds) {
   const Transaction::Tets tets = transaction.tets();
@@ -65,8 +60,8 @@ bool is_no_further_beyond(const Transaction& transaction, Bounds bounds) {
                      [&](const auto& tet) { return bounds.admit(tet[0], tet[1], tet[2], tet[3]); });
 }
 
-/// Every new tet keeps the bounds of the mesh. Where inverted tets are mended, that goes before; what
-/// follows then brings no tet that is further beyond than those that it replaces.
+/// Every new tet keeps the bounds of the mesh. Where they yield to mending, inverted tets go before;
+/// what follows then brings no tet that is further beyond than those that it replaces.
 bool keeps_bounds(const Transaction& transaction, Comparison& qualities) {
   const TetMesh& mesh = transaction.mesh();
   const Bounds& bounds = mesh.bounds();
@@ -78,8 +73,9 @@ bool keeps_bounds(const Transaction& transaction, Comparison& qualities) {
     return mesh.quality(t) >= bounds.safe() ||
            bounds.admit(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
   });
-  if (are_kept || !admit_inverted(bounds)) return are_kept;
-  return mends(qualities) || is_no_further_beyond(transaction, bounds);
+  if (are_kept || !bounds.are_of_inverted()) return are_kept;
+  return (bounds.yield_to_mending() && mends(qualities)) ||
+         is_no_further_beyond(transaction, bounds);
 }
 
 double gain_of_means(const Transaction& transaction, double usual) {

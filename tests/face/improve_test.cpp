@@ -12,6 +12,7 @@
 #include <tetmend/measure.h>
 
 #include "contract/zoo.h"
+#include "face/worse.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "schedule/schedule.h"
@@ -274,7 +275,7 @@ TEST_CASE("a mistake in a script has its line, and the mesh is sound and improve
   CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file + ":1: "));
 }
 
-TEST_CASE("where inverted tets are mended, their angles and edge ratios are no measure") {
+TEST_CASE("what fell for mended inverted tets is named, and is no reason to go back") {
   Result result;
   const auto edge_ratio = [](std::optional<MeshRulers>& rulers) -> double& {
     return rulers->figures[static_cast<std::size_t>(Ruler::edge_ratio)].worst;
@@ -288,11 +289,32 @@ TEST_CASE("where inverted tets are mended, their angles and edge ratios are no m
   edge_ratio(result.rulers_before) = 7.4;
   edge_ratio(result.rulers_after) = 10.1;
   result.not_positive_before = result.not_positive_after = 5;
-  CHECK(result.worse().size() == 3);
+  const std::vector<std::string> all = {"a theta_min of 0.05 instead of 0.1",
+                                        "a theta_max of 170 instead of 160",
+                                        "a worst edge ratio of 10.1 instead of 7.4"};
+  CHECK(result.worse() == all);
+  CHECK(face::worse_for_nothing(result) == all);
   result.not_positive_after = 4;
-  CHECK(result.worse().empty());
+  CHECK(result.worse() == all);
+  CHECK(face::worse_for_nothing(result).empty());
   result.after.n_bad = result.before.n_bad + 1;
-  CHECK(result.worse().size() == 1);
+  CHECK(result.worse().size() == 4);
+  CHECK(face::worse_for_nothing(result).size() == 1);
+}
+
+TEST_CASE("what is worse than before is one list: promised figures, then aims") {
+  Result result;
+  result.rulers_before.emplace();
+  result.rulers_after.emplace();
+  result.rulers_before->figures[static_cast<std::size_t>(Ruler::radius_ratio)].mean = 0.7;
+  result.rulers_after->figures[static_cast<std::size_t>(Ruler::radius_ratio)].mean = 0.6;
+  const std::string aim = "a mean radius ratio of 0.6 instead of 0.7";
+  CHECK(result.worse().empty());
+  CHECK(result.missed_aims() == std::vector{aim});
+  CHECK(result.worse_than_before() == std::vector{aim});
+  result.before.lambda = 1;
+  result.after.lambda = 2;
+  CHECK(result.worse_than_before() == std::vector{std::string("a lambda of 2 instead of 1"), aim});
 }
 
 TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {
