@@ -2,6 +2,8 @@
 // The one verb: what it gives, what it leaves as it was, how it ends.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -12,6 +14,7 @@
 #include <tetmend/measure.h>
 
 #include "contract/zoo.h"
+#include "face/mesh_access.h"
 #include "face/worse.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
@@ -300,6 +303,40 @@ TEST_CASE("what fell for mended inverted tets is named, and is no reason to go b
   result.after.n_bad = result.before.n_bad + 1;
   CHECK(result.worse().size() == 4);
   CHECK(face::worse_for_nothing(result).size() == 1);
+}
+
+TEST_CASE("a tangled mesh ends with no worse angle or edge ratio, or the report names it") {
+  // Waves on a box whose vertices, those on its sides as well, are moved until tets turn over.
+  const auto waves = [](unsigned cells, double jitter, unsigned seed) {
+    MeshData data = kuhn_cube(cells, 0, 1);
+    std::mt19937 random(seed);
+    for (Point& p : data.points) {
+      Point q = cells * p;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] > 0.01 && p[axis] < 0.99) q[axis] += jitter * (random() / 2147483648.0 - 1);
+      }
+      q.z() += 0.3 * std::sin(q.x()) * std::cos(0.7 * q.y());
+      p = q;
+    }
+    return data;
+  };
+  const auto improved = [&](unsigned cells, double jitter, unsigned seed) {
+    Mesh mesh = MeshAccess::make(waves(cells, jitter, seed));
+    Result result = improve(mesh);
+    CHECK(result.not_positive_after < result.not_positive_before);
+    const auto edge_ratio = [](const std::optional<MeshRulers>& rulers) {
+      return (*rulers)[Ruler::edge_ratio].worst;
+    };
+    const bool is_worse =
+        result.after.theta_min < result.before.theta_min - 1e-9 ||
+        result.after.theta_max > std::max(result.before.theta_max, 150.0) + 1e-9 ||
+        edge_ratio(result.rulers_after) > std::max(edge_ratio(result.rulers_before), 10.0) + 1e-9;
+    CHECK(is_worse == !result.worse().empty());
+    return result;
+  };
+  CHECK(improved(3, 0.45, 4).worse().empty());  // edge ratio, unless held
+  CHECK(improved(4, 0.5, 3).worse().empty());   // angles, unless each step holds them
+  CHECK_FALSE(improved(4, 0.5, 5).worse().empty());
 }
 
 TEST_CASE("what is worse than before is one list: promised figures, then aims") {

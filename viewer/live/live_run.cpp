@@ -85,7 +85,7 @@ std::string LiveRun::value_of(const ScheduleParameter& parameter) const {
 void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
   if (is_active()) throw Error("a run is at work: stop it first");
   Schedule schedule = load(name_);  // the file may have changed
-  LivePlan plan{.options = options_for(schedule, shown.mesh.standard().goal()),
+  LivePlan plan{.options = options_for(schedule, shown.mesh.standard()),
                 .schedule = std::move(schedule),
                 .input = file,
                 .trace = trace,
@@ -108,7 +108,7 @@ void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
 }
 
 /// Those of a `tetmend improve` that gives the same mesh.
-Options LiveRun::options_for(const Schedule& schedule, const Goal& goal) const {
+Options LiveRun::options_for(const Schedule& schedule, const Standard& standard) const {
   Options options;
   if (name_.starts_with(kOperatorPrefix)) {
     options.script = schedule.text();
@@ -117,7 +117,8 @@ Options LiveRun::options_for(const Schedule& schedule, const Goal& goal) const {
   }
   options.set = settings_;
   options.plugin = plugins_;
-  options.goal = goal;
+  options.goal = standard.goal();
+  options.measure = to_string(standard.terms());
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
   return options;
 }

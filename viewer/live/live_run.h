@@ -81,7 +81,7 @@ class LiveRun {
 
  private:
   Schedule load(const std::string& name_or_file);
-  Options options_for(const Schedule& schedule, const Goal& goal) const;
+  Options options_for(const Schedule& schedule, const Standard& standard) const;
   std::vector<Condition> conditions() const;
 
   std::string name_;  // of a schedule, or its file
