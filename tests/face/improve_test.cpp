@@ -313,7 +313,8 @@ TEST_CASE("a tangled mesh ends with no worse angle or edge ratio, or the report 
     for (Point& p : data.points) {
       Point q = cells * p;
       for (int axis = 0; axis < 3; ++axis) {
-        if (p[axis] > 0.01 && p[axis] < 0.99) q[axis] += jitter * (random() / 2147483648.0 - 1);
+        if (p[axis] > 0.01 && p[axis] < 0.99)
+          q[axis] += jitter * (static_cast<double>(random()) / 2147483648.0 - 1);
       }
       q.z() += 0.3 * std::sin(q.x()) * std::cos(0.7 * q.y());
       p = q;
