@@ -150,6 +150,7 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
   };
   files.costs = &report.costs;
   files.first_id = invocation.first_vertex_id;
+  files.needs_trace = true;
   pieces::Division division;
   division.pieces = options.pieces.pieces;
   OneRank alone;
@@ -160,9 +161,32 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
   report.writing = report.costs.writing;
 }
 
+/// Mesh, reports and trace: all are complete before any has its name.
+/// @param trace null: there is none
+void save_all(const ImproveOptions& options, const Mesh& mesh, ImproveReport& report,
+              TraceRecorder* trace) {
+  std::vector<std::unique_ptr<OutputFile>> reports;
+  std::optional<Stopwatch> watch(report.writing);
+  const auto complete_others = [&] {
+    watch.reset();
+    report.peak_memory = platform::peak_memory();
+    reports = make_reports(options.reports, report);
+    std::vector<formats::PendingFile*> files;
+    for (const auto& each : reports) {
+      if (each->pending() != nullptr) files.push_back(each->pending());
+    }
+    if (trace != nullptr) files.push_back(&trace->complete());
+    return files;
+  };
+  face::save(options.output, mesh, options.run.threads, options.carry.variant, complete_others);
+  for (const auto& each : reports) {
+    if (each->pending() == nullptr) each->commit();
+  }
+}
+
 void improve_in_core(const ImproveOptions& options, ProgressLine& line,
-                     std::optional<Interruption>& interruption, ImproveReport& report,
-                     std::unique_ptr<TraceRecorder>& trace) {
+                     std::optional<Interruption>& interruption, ImproveReport& report) {
+  std::unique_ptr<TraceRecorder> trace;
   const int threads = options.run.threads;
   Mesh mesh;
   {
@@ -179,19 +203,9 @@ void improve_in_core(const ImproveOptions& options, ProgressLine& line,
     return pieces::improve(mesh, run, division, {}, portrait, &trace);
   });
   number_tets(report.portrait, mesh);
-  const Stopwatch watch(report.writing);
+  if (!report.result.trace_trouble.empty()) throw Error(report.result.trace_trouble);
   line.show(fmt::format("writing {}", options.output.string()));
-  save(options.output, mesh, threads, options.carry.variant);
-}
-
-/// What went wrong; empty: nothing. Null: there is no trace.
-std::string finish(TraceRecorder* trace) {
-  try {
-    if (trace != nullptr) trace->finish();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+  save_all(options, mesh, report, trace.get());
 }
 
 /// Of all ranks.
@@ -221,26 +235,20 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};
   std::optional<Interruption> interruption;  // until all is written
-  std::unique_ptr<TraceRecorder> trace;
   if (is_by_files(options, invocation)) {
     improve_out_of_core(options, progress, interruption, report, invocation);
+    note_peaks(report, invocation.ranks);
+    if (!is_first) return kSuccess;
+    write_reports(options.reports, report);
   } else {
-    improve_in_core(options, progress, interruption, report, trace);
+    improve_in_core(options, progress, interruption, report);
   }
-  note_peaks(report, invocation.ranks);
-  if (!is_first) return kSuccess;
-  write_reports(options.reports, report);
   invocation.wrote_files = true;
-  std::string trace_trouble = finish(trace.get());  // last: without a mesh it is worth little
-  if (trace_trouble.empty()) trace_trouble = report.result.trace_trouble;
   progress.clear();
   if (!options.quiet) {
     say(stream_beside(options.output),
         fmt::format("tetmend {}: {} -> {}\n\n{}", version(), options.input.string(),
                     options.output.string(), format_report(report)));
-  }
-  if (!trace_trouble.empty()) {
-    return complain(kFailed, fmt::format("{}: wrote the mesh, and no trace", trace_trouble));
   }
   if (report.result.ending == Ending::cancelled) {
     return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
@@ -267,8 +275,9 @@ untouched and no tet got inverted. On a terminal a line shows the progress.
 
 An operator of a plugin that does not come back is named; two seconds after the
 time limit or Ctrl-C it ends the run with exit status 1, and no mesh is written.
-If the trace cannot be written, the mesh is all the same, and the exit status is
-1.
+Mesh, reports and trace appear together: where one cannot be written, none is.
+Where the mesh goes from file to file (--memory, --checkpoint, parts), reports
+come after it.
 
 Ctrl-C, SIGTERM, SIGUSR1, SIGXCPU and their like stop the work: OUT is still
 written, with the mesh as improved so far, and the exit status is 4. The second

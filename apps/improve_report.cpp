@@ -101,10 +101,8 @@ bool has_regions(const Options& options) {
   return !options.protect.empty() || !options.only.empty();
 }
 
-/// Of the promises nothing, ever; what is missed are aims.
 std::string format_worse(const Result& result) {
-  std::vector<std::string> worse = result.worse();
-  for (std::string& aim : result.missed_aims()) worse.push_back(std::move(aim));
+  const std::vector<std::string> worse = result.worse_than_before();
   return worse.empty() ? "nothing"
                        : fmt::format("{}", fmt::join(worse, ",\n                     "));
 }
@@ -372,7 +370,7 @@ nlohmann::json to_json(const ImproveReport& report) {
       {"settings", settings},
       {"goal", {{"min_angle", result.goal.min_angle}, {"max_angle", result.goal.max_angle}}},
       {"measure", options.measure},
-      {"worse_than_before", result.worse()},
+      {"worse_than_before", result.worse_than_before()},
       {"missed_aims", result.missed_aims()},
       {"size_drift", to_json(result.size_drift)},
       {"threads", options.threads},

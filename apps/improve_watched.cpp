@@ -9,7 +9,6 @@
 
 #include "apps/commands.h"
 #include "apps/plugin_watch.h"
-#include "kernel/formats/output_file.h"
 #include "report/page.h"
 
 namespace tetmend::apps {
@@ -48,15 +47,22 @@ Result improve_watched(const ImproveOptions& all, ProgressLine& line,
   }
 }
 
-void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
-  if (files.empty()) return;
+std::vector<std::unique_ptr<OutputFile>> make_reports(
+    const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
+  std::vector<std::unique_ptr<OutputFile>> made;
+  if (files.empty()) return made;
   const nlohmann::json json = printable_for(files.front().string(), to_json(report));
   for (const std::filesystem::path& file : files) {
-    OutputFile out(file);
+    OutputFile& out = *made.emplace_back(std::make_unique<OutputFile>(file));
     out.put(lower_extension(file) == ".json" ? json.dump(2) + '\n'
                                              : report::write_page(json, report.portrait));
-    out.commit();
+    out.finish();
   }
+  return made;
+}
+
+void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report) {
+  for (const auto& each : make_reports(files, report)) each->commit();
 }
 
 }  // namespace tetmend::apps

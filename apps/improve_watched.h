@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "apps/improve_report.h"
 #include "apps/interruption.h"
 #include "apps/progress_line.h"
+#include "kernel/formats/output_file.h"
 
 namespace tetmend::apps {
 
@@ -23,7 +25,10 @@ Result improve_watched(const ImproveOptions& all, ProgressLine& line,
                        std::optional<Interruption>& interruption,
                        const std::function<Result(const Options&)>& work);
 
-/// As JSON or as a page, by the ending of each.
+/// As JSON or as a page, by the ending of each: complete, but without their names.
+std::vector<std::unique_ptr<OutputFile>> make_reports(
+    const std::vector<std::filesystem::path>& files, const ImproveReport& report);
+/// The same with their names.
 void write_reports(const std::vector<std::filesystem::path>& files, const ImproveReport& report);
 
 }  // namespace tetmend::apps

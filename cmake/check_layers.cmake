@@ -31,7 +31,7 @@ set(below_mpi platform kernel trace search envelope ops contract schedule face p
 set(below_bindings platform report mpi)
 set(below_viewer/mesh platform kernel envelope figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)
-set(below_viewer/live platform kernel trace ops schedule viewer/mesh viewer/debugger)
+set(below_viewer/live platform kernel trace ops schedule face viewer/mesh viewer/debugger)
 set(below_viewer platform kernel figure explain viewer/mesh viewer/debugger viewer/live)
 set(below_viewer/commands platform kernel figure explain schedule viewer/mesh viewer/debugger viewer/live viewer)
 set(below_viewer/gl platform kernel figure viewer/mesh viewer)

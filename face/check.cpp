@@ -596,7 +596,9 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
   facts.push_back(same_groups(before, after, scale));
   if (!before.other_elements.empty()) facts.push_back(same_shared_parts(before, after));
   for (Fact& fact : same_volumes(before, after, scale)) facts.push_back(std::move(fact));
-  facts.push_back(no_inverted(after, std::get<std::uint64_t>(no_inverted(before).value)));
+  const auto inverted_before = std::get<std::uint64_t>(no_inverted(before).value);
+  facts.push_back(no_inverted(after, inverted_before));
+  const bool is_mended = std::get<std::uint64_t>(facts.back().value) < inverted_before;
   if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
     facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
                          fixed_mid_nodes(after)));
@@ -606,9 +608,15 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
   if (then.curved && now.curved) add_second_order(*then.curved, *now.curved, facts);
   const MeshStatistics& was = then.statistics;
   const MeshStatistics& is = now.statistics;
-  facts.push_back(at_least("theta_min", "smallest dihedral angle", is.theta_min, was.theta_min));
-  facts.push_back(at_most("theta_max", "largest dihedral angle", is.theta_max,
-                          std::max(was.theta_max, Goal().max_angle)));
+  for (Fact angle : {at_least("theta_min", "smallest dihedral angle", is.theta_min, was.theta_min),
+                     at_most("theta_max", "largest dihedral angle", is.theta_max,
+                             std::max(was.theta_max, Goal().max_angle))}) {
+    if (is_mended && !angle.holds) {
+      angle.holds = true;
+      angle.text += "; not asked for where inverted tets were mended, which goes first";
+    }
+    facts.push_back(std::move(angle));
+  }
   facts.push_back(
       at_most("n_bad", "bad tets", static_cast<double>(is.n_bad), static_cast<double>(was.n_bad)));
   return facts;

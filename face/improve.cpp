@@ -29,6 +29,7 @@
 #include "face/surface_points.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
+#include "face/worse.h"
 #include "kernel/bounds.h"
 #include "kernel/chunks.h"
 #include "kernel/curved.h"
@@ -89,11 +90,13 @@ std::size_t count_touched(const TetMesh& mesh) {
 /// One call of improve().
 class Improvement {
  public:
-  Improvement(Mesh& mesh, const Options& options, face::Plan& plan, face::Portrait* portrait)
+  Improvement(Mesh& mesh, const Options& options, face::Plan& plan, face::Portrait* portrait,
+              face::Follower* follower)
       : user_mesh_(mesh),
         options_(options),
         plan_(plan),
         portrait_(portrait),
+        follower_(follower),
         watcher_(options),
         file_(mesh.file()) {}
 
@@ -103,9 +106,10 @@ class Improvement {
     build();
     try {
       measure_before();
-      run_schedule(kAllPasses);
+      run_schedule(kAllPasses, options_.time_limit);
       measure_after();
-      if (!result_.worse().empty()) go_back();
+      if (gives_for_mending()) mend_within_bounds();
+      if (!face::worse_for_nothing(result_).empty()) go_back();
       note(face::advice_after(mesh_, options_, result_));
       map_entities();
     } catch (const contract::Breach& breach) {
@@ -126,13 +130,20 @@ class Improvement {
 
  private:
   static constexpr std::size_t kAllPasses = std::numeric_limits<std::size_t>::max();
+  /// What mending an inverted tet may do to the bounds of the input.
+  enum class Mending : bool { breaks_bounds, keeps_bounds };
 
   void build();
-  void build_mesh(MeshData& data);
+  void build_mesh(MeshData& data, Mending mending = Mending::breaks_bounds);
   void hold_curved();
   void measure_before();
-  void run_schedule(std::size_t passes);
+  void run_schedule(std::size_t passes, double seconds);
   void measure_after();
+  bool gives_for_mending() const {
+    return result_.worse().size() > face::worse_for_nothing(result_).size();
+  }
+  void mend_within_bounds();
+  void make_again(Mending mending, double seconds);
   void go_back();
   std::size_t best_pass() const;
   void map_entities();
@@ -149,6 +160,7 @@ class Improvement {
   const Options& options_;
   face::Plan& plan_;
   face::Portrait* portrait_;  // null: nobody asked for one
+  face::Follower* follower_;  // likewise
   face::Watcher watcher_;
   const std::filesystem::path file_;
   MeshData input_;  // to go back to, also when memory runs out; lengths as mesh_ has them
@@ -194,7 +206,7 @@ void Improvement::build() {
   }
 }
 
-void Improvement::build_mesh(MeshData& data) {
+void Improvement::build_mesh(MeshData& data, Mending mending) {
   const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
   face::put_marks(marks_, data);
   data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
@@ -217,7 +229,8 @@ void Improvement::build_mesh(MeshData& data) {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  mesh_.set_bounds(Bounds::of(mesh_));
+  const Bounds bounds = Bounds::of(mesh_);
+  mesh_.set_bounds(mending == Mending::keeps_bounds ? bounds.for_mending() : bounds);
   if (!plan_.surface.is_fixed()) mesh_.set_surface_guard(plan_.surface.guard(mesh_, input_));
   hold_curved();
   if (options_.keep_size && !size_field_) size_field_ = std::make_shared<SizeField>(mesh_);
@@ -257,14 +270,14 @@ void Improvement::measure_before() {
   if (portrait_ != nullptr) portrait_->draw_before(mesh_, result_.rulers_before);
 }
 
-/// The passes of the schedule, or so many of them.
-void Improvement::run_schedule(std::size_t passes) {
+/// The passes of the schedule, or so many of them, for so many seconds; 0: without a limit.
+void Improvement::run_schedule(std::size_t passes, double seconds) {
   trace_.reset();  // of the run before, when going back
   trace_ = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
-  run.set_trace(trace_.get());
+  run.set_trace(follower_ != nullptr ? follower_->follow(mesh_) : trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
   watcher_.watch(&run, quality_indicators(mesh_));
@@ -272,11 +285,8 @@ void Improvement::run_schedule(std::size_t passes) {
   {
     const Stopwatch watch(result_.improving);
     run.set_cancel_flag(options_.cancel);
-    if (passes == kAllPasses) {
-      if (options_.time_limit > 0) run.set_time_limit(options_.time_limit);
-    } else {
-      run.stop_after(passes);
-    }
+    if (seconds > 0) run.set_time_limit(seconds);
+    if (passes != kAllPasses) run.stop_after(passes);
     tetmend::improve(run, plan_.schedule, options_.set);
     // Where the fixed surface holds bad tets, it moves.
     if (!plan_.surface.is_fixed() && !run.cancelled()) {
@@ -335,11 +345,38 @@ std::size_t Improvement::best_pass() const {
   return best;
 }
 
+/// All passes, from the input on.
+void Improvement::make_again(Mending mending, double seconds) {
+  MeshData data = input_;
+  scale_.to_file(data.points);
+  result_.notes.resize(notes_before_);
+  build_mesh(data, mending);
+  run_schedule(kAllPasses, seconds);
+  measure_after();
+}
+
+/// Mended tets have left a figure worse than before. Where each step keeps the bounds, as many can be
+/// mended as a rule. Where not, inverted tets go first, and the figure stays in Result::worse(). A run
+/// that was stopped, or has no time left for this, stays as it is.
+void Improvement::mend_within_bounds() {
+  // Time for this and for the run before once more.
+  const bool is_limited = options_.time_limit > 0;
+  const double seconds = is_limited ? options_.time_limit - 2 * result_.improving : 0;
+  if (result_.ending != Ending::finished || seconds < (is_limited ? result_.improving : 0)) return;
+  goes_back_ = true;
+  const std::size_t left = result_.not_positive_after;
+  make_again(Mending::keeps_bounds, seconds);
+  const bool is_kept = result_.ending != Ending::time_limit && result_.not_positive_after <= left &&
+                       result_.worse().empty();
+  if (!is_kept && result_.ending != Ending::cancelled) make_again(Mending::breaks_bounds, 0);
+  goes_back_ = false;
+}
+
 /// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
 /// back. The same passes do the same, so no state needs to be kept in memory.
 void Improvement::go_back() {
   goes_back_ = true;
-  const std::string reason = fmt::format("{}", fmt::join(result_.worse(), "; "));
+  const std::string reason = fmt::format("{}", fmt::join(face::worse_for_nothing(result_), "; "));
   const std::size_t all = result_.passes.size();
   for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
     MeshData data = input_;
@@ -347,13 +384,13 @@ void Improvement::go_back() {
     result_.notes.resize(notes_before_);
     build_mesh(data);
     if (passes > 0) {
-      run_schedule(passes);
+      run_schedule(passes, 0);
     } else {
       result_.passes.clear();
     }
     measure_after();
     const bool is_whole = result_.passes.size() == passes;  // not cancelled on the way
-    if (passes > 0 && !(is_whole && result_.worse().empty())) continue;
+    if (passes > 0 && !(is_whole && face::worse_for_nothing(result_).empty())) continue;
     const std::string text = fmt::format(
         "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
     note({text});
@@ -434,6 +471,55 @@ void Improvement::check_promises() const {
       fmt::format("the mesh is lost, for {}: this is a bug of tetmend, please report it", broken));
 }
 
+/// A promised figure that is worse than before.
+struct Fall {
+  std::string text;
+  bool is_price = false;  // of inverted tets that were mended, which goes first
+};
+
+std::vector<Fall> falls_of(const Result& result) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kEdgeRatio = 10;
+  std::vector<Fall> falls;
+  const auto compare = [&](std::string_view what, double now, double then, bool is_worse,
+                           bool is_price = false) {
+    if (!is_worse) return;
+    falls.push_back({fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then), is_price});
+  };
+  const MeshStatistics& before = result.before;
+  const MeshStatistics& after = result.after;
+  const bool is_mended = result.not_positive_after < result.not_positive_before;
+  compare("a theta_min", after.theta_min, before.theta_min,
+          after.theta_min < before.theta_min - kRounding, is_mended);
+  compare("a theta_max", after.theta_max, before.theta_max,
+          after.theta_max > std::max(before.theta_max, result.goal.max_angle) + kRounding,
+          is_mended);
+  compare("a number of bad tets", static_cast<double>(after.n_bad),
+          static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
+  compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
+  if (result.curved_before && result.curved_after) {
+    const JacobianRatio& then = result.curved_before->worst;
+    const JacobianRatio& now = result.curved_after->worst;
+    compare("a worst Jacobian ratio", now.at_nodes, then.at_nodes,
+            now.at_nodes < then.at_nodes - kRounding);
+    compare("a bound of the Jacobian ratios", now.bound, then.bound,
+            now.bound < then.bound - kRounding);
+  }
+  if (!result.rulers_before || !result.rulers_after) return falls;
+  const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
+  const double edge_ratio = worst(*result.rulers_before, Ruler::edge_ratio);
+  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
+    const double now = worst(*result.rulers_after, ruler);
+    const double then = worst(*result.rulers_before, ruler);
+    compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
+            now < then - kRounding);
+  }
+  const double most = std::max(edge_ratio, kEdgeRatio) + kRounding;
+  compare("a worst edge ratio", worst(*result.rulers_after, Ruler::edge_ratio), edge_ratio,
+          worst(*result.rulers_after, Ruler::edge_ratio) > most, is_mended);
+  return falls;
+}
+
 }  // namespace
 
 double Result::volume_change() const {
@@ -442,42 +528,23 @@ double Result::volume_change() const {
 }
 
 std::vector<std::string> Result::worse() const {
-  constexpr double kRounding = 1e-9;
-  constexpr double kEdgeRatio = 10;
-  std::vector<std::string> worse;
-  const auto compare = [&](std::string_view what, double now, double then, bool is_worse) {
-    if (is_worse) worse.push_back(fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then));
-  };
-  // Of a mesh with inverted tets no other tet is the worst.
-  const bool is_mended = not_positive_after < not_positive_before;
-  compare("a theta_min", after.theta_min, before.theta_min,
-          !is_mended && after.theta_min < before.theta_min - kRounding);
-  compare("a theta_max", after.theta_max, before.theta_max,
-          !is_mended && after.theta_max > std::max(before.theta_max, goal.max_angle) + kRounding);
-  compare("a number of bad tets", static_cast<double>(after.n_bad),
-          static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
-  compare("a lambda", after.lambda, before.lambda, after.lambda > before.lambda + kRounding);
-  if (curved_before && curved_after) {
-    const JacobianRatio& then = curved_before->worst;
-    const JacobianRatio& now = curved_after->worst;
-    compare("a worst Jacobian ratio", now.at_nodes, then.at_nodes,
-            now.at_nodes < then.at_nodes - kRounding);
-    compare("a bound of the Jacobian ratios", now.bound, then.bound,
-            now.bound < then.bound - kRounding);
+  std::vector<std::string> texts;
+  for (Fall& fall : falls_of(*this)) texts.push_back(std::move(fall.text));
+  return texts;
+}
+
+std::vector<std::string> Result::worse_than_before() const {
+  std::vector<std::string> all = worse();
+  for (std::string& aim : missed_aims()) all.push_back(std::move(aim));
+  return all;
+}
+
+std::vector<std::string> face::worse_for_nothing(const Result& result) {
+  std::vector<std::string> texts;
+  for (Fall& fall : falls_of(result)) {
+    if (!fall.is_price) texts.push_back(std::move(fall.text));
   }
-  if (!rulers_before || !rulers_after) return worse;
-  const auto worst = [](const MeshRulers& rulers, Ruler ruler) { return rulers[ruler].worst; };
-  const double edge_ratio = worst(*rulers_before, Ruler::edge_ratio);
-  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
-    const double now = worst(*rulers_after, ruler);
-    const double then = worst(*rulers_before, ruler);
-    compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
-            now < then - kRounding);
-  }
-  compare("a worst edge ratio", worst(*rulers_after, Ruler::edge_ratio), edge_ratio,
-          !is_mended && worst(*rulers_after, Ruler::edge_ratio) >
-                            std::max(edge_ratio, kEdgeRatio) + kRounding);
-  return worse;
+  return texts;
 }
 
 std::vector<std::string> Result::missed_aims() const {
@@ -505,11 +572,17 @@ Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRe
   }
   TracePlan::check_files(options, mesh.file());
   return face::on_threads(options.threads, [&] {
-    Improvement improvement(mesh, options, plan, portrait);
+    Improvement improvement(mesh, options, plan, portrait, nullptr);
     Result result = improvement.run();
     trace = improvement.take_trace();
     return result;
   });
+}
+
+Result face::improve(Mesh& mesh, const Options& options, Follower& follower) {
+  Plan plan(options);
+  return face::on_threads(
+      options.threads, [&] { return Improvement(mesh, options, plan, nullptr, &follower).run(); });
 }
 
 Result improve(Mesh& mesh, const Options& options) {

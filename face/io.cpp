@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Meshes from files and to files.
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tetmend/io.h>
 
 #include "face/arena.h"
 #include "face/mesh_access.h"
+#include "face/recorded.h"
 #include "kernel/formats/mesh_io.h"
 
 namespace tetmend {
@@ -22,12 +24,18 @@ std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh
 
 void save(const std::filesystem::path& file, const Mesh& mesh, int threads,
           const std::string& variant) {
+  face::save(file, mesh, threads, variant, {});
+}
+
+void face::save(const std::filesystem::path& file, const Mesh& mesh, int threads,
+                const std::string& variant, MeshView::Companions companions) {
   const auto known = mesh_variants(file);
   if (!variant.empty() && std::find(known.begin(), known.end(), variant) == known.end()) {
     throw Error(fmt::format("{}: the format has no variant '{}'", file.string(), variant));
   }
   MeshView view(MeshAccess::data(mesh));
   view.set_variant(variant);
+  view.set_companions(std::move(companions));
   face::on_threads(threads, [&] { write_mesh(file, view); });
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A run for a program: its trace gets its name later, when what else the run is to write has its own,
-// and it can be drawn.
+// A run for a program: its trace and its reports get their names together with the mesh, and it can
+// be drawn, or followed.
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include <tetmend/improve.h>
 
 #include "face/portrait.h"
+#include "kernel/mesh_view.h"
 #include "trace/recorder.h"
 
 namespace tetmend::face {
@@ -18,5 +21,21 @@ namespace tetmend::face {
 /// about 0.5 s on one thread.
 Result improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace,
                Portrait* portrait = nullptr);
+
+/// Looks into a run while it goes on.
+class Follower {
+ public:
+  virtual ~Follower() = default;
+  /// The passes over `mesh` begin, or begin anew where the run goes back. What is returned is told of
+  /// passes, attempts and edits, all in one thread, and may look at the mesh meanwhile; null: nothing.
+  virtual TraceSink* follow(const TetMesh& mesh) = 0;
+};
+
+/// As tetmend::improve(), followed. Options::trace must be empty: who follows may record.
+Result improve(Mesh& mesh, const Options& options, Follower& follower);
+
+/// As tetmend::save(). Other files appear together with the mesh, or nothing does.
+void save(const std::filesystem::path& file, const Mesh& mesh, int threads,
+          const std::string& variant, MeshView::Companions companions);
 
 }  // namespace tetmend::face

@@ -24,7 +24,7 @@ struct Shape {
   double edge_ratio2 = 1;
 
   Shape() = default;
-  /// Of a positive tet.
+  /// Of one that is not positive angles and lengths; a mean and a radius ratio of 0.
   Shape(const Point& a, const Point& b, const Point& c, const Point& d) {
     const std::array<Point, 4> p = {a, b, c, d};
     std::array<Point, 4> normal;
@@ -40,12 +40,17 @@ struct Shape {
       const double length2 = (p[kEdgeVertices[e][1]] - p[kEdgeVertices[e][0]]).squaredNorm();
       const auto& [k, l] = kEdgeVertices[5 - e];  // the faces at an edge are opposite these
       const double product = normal[k].squaredNorm() * normal[l].squaredNorm();
-      const double square = v6 * v6 * length2 / product;
+      const double square = product > 0 ? v6 * v6 * length2 / product : 0;
       double& least = normal[k].dot(normal[l]) > 0 ? obtuse_sine2 : sine2;
       least = std::min(least, square);
       sum += length2;
       shortest = std::min(shortest, length2);
       longest = std::max(longest, length2);
+    }
+    edge_ratio2 = shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
+    if (!(v6 > 0)) {
+      volume_length2 = radius_ratio = 0;
+      return;
     }
     volume_length2 = 432 * v6 * v6 / (sum * sum * sum);
     double area = 0;
@@ -57,7 +62,6 @@ struct Shape {
     const Point around =
         u.squaredNorm() * v.cross(w) + v.squaredNorm() * w.cross(u) + w.squaredNorm() * u.cross(v);
     radius_ratio = 6 * v6 * v6 / (area * around.norm());
-    edge_ratio2 = longest / shortest;
   }
   void include(const Shape& other) {
     sine2 = std::min(sine2, other.sine2);
@@ -77,13 +81,9 @@ Shape worst_shape(const TetMesh& mesh, Quality from, Quality to) {
       const Quality quality = mesh.quality(t);
       if (!(quality >= from && quality < to) || mesh.is_deleted(t)) continue;
       const TetVertices& v = mesh.vertices(t);
-      if (!mesh.is_certified_positive(v)) {
-        worst = {};
-        worst.sine2 = worst.obtuse_sine2 = worst.volume_length2 = worst.radius_ratio = 0;
-        worst.edge_ratio2 = std::numeric_limits<double>::infinity();
-        break;
-      }
-      worst.include(Shape(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])));
+      Shape shape(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+      if (!mesh.is_certified_positive(v)) shape.volume_length2 = shape.radius_ratio = 0;
+      worst.include(shape);
     }
     return worst;
   });
@@ -135,6 +135,12 @@ Bounds Bounds::under(const Standard& standard) const {
   return bounds;
 }
 
+Bounds Bounds::for_mending() const {
+  Bounds bounds = *this;
+  if (any() && are_of_inverted()) bounds.least_radius_ratio_ = -1;
+  return bounds;
+}
+
 Bounds Bounds::of_goal(const Standard& standard) {
   Bounds bounds;
   bounds.least_sine2_ = bounds.least_volume_length2_ = bounds.least_radius_ratio_ = 1;
@@ -145,15 +151,13 @@ Bounds Bounds::of_goal(const Standard& standard) {
 }
 
 void Bounds::widen(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Shape shape(a, b, c, d);
   Bounds other;
-  if (volume6(a, b, c, d) > 0) {
-    const Shape shape(a, b, c, d);
-    other.least_sine2_ = shape.sine2;
-    other.least_obtuse_sine2_ = shape.obtuse_sine2;
-    other.least_volume_length2_ = shape.volume_length2;
-    other.least_radius_ratio_ = shape.radius_ratio;
-    other.most_edge_ratio2_ = shape.edge_ratio2;
-  }
+  other.least_sine2_ = shape.sine2;
+  other.least_obtuse_sine2_ = shape.obtuse_sine2;
+  other.least_volume_length2_ = shape.volume_length2;
+  other.least_radius_ratio_ = shape.radius_ratio;
+  other.most_edge_ratio2_ = shape.edge_ratio2;
   widen(other);
 }
 

@@ -21,23 +21,30 @@ class TETMEND_API Bounds {
   Bounds() = default;
   /// Of the mesh: no smaller dihedral angle, no larger one than it or its goal has, no smaller mean or
   /// radius ratio, no larger ratio of edges of a tet than it has or 10. Bounds that a mesh has stay; its
-  /// angles of now make them tighter. Cost: one pass over the tets. Inverted tets bound nothing.
+  /// angles of now make them tighter. Cost: one pass over the tets. An inverted tet counts as below.
   static Bounds of(const TetMesh& mesh);
   /// Of no tet yet: what the goal allows, to be widened tet by tet. What comes of it are the bounds of a
   /// mesh of these tets, in whatever order they came.
   static Bounds of_goal(const Standard& standard);
 
-  /// From now on they admit the tet, too. One that is not in positive order: all.
+  /// From now on they admit the tet, too.
   void widen(const Point& a, const Point& b, const Point& c, const Point& d);
   /// From now on they admit what the other ones do. Both come from of_goal().
   void widen(const Bounds& other);
+
+  /// The same bounds, which hold where inverted tets are mended, too.
+  Bounds for_mending() const;
+  /// Some tet that they are of is not in positive order.
+  bool are_of_inverted() const { return least_radius_ratio_ <= 0; }
+  /// They are of such a mesh, and where one is mended, they may be broken: that goes first.
+  bool yield_to_mending() const { return least_radius_ratio_ == 0; }
 
   /// The same bounds where tets are judged by another standard.
   Bounds under(const Standard& standard) const;
 
   /// Tets of this quality or more keep the bounds, whatever their shape.
   Quality safe() const { return static_cast<Quality>(safe_); }
-  /// Precondition: the tet is in positive order.
+  /// One not in positive order: as its mirror image, with ratios (mean, radius) of 0.
   bool admit(const Point& a, const Point& b, const Point& c, const Point& d) const;
 
  private:
@@ -46,7 +53,7 @@ class TETMEND_API Bounds {
   double least_sine2_ = 0;           // of an acute angle
   double least_obtuse_sine2_ = 0;    // of an obtuse one
   double least_volume_length2_ = 0;  // mean ratio = volume-length^(2/3)
-  double least_radius_ratio_ = 0;
+  double least_radius_ratio_ = 0;    // 0 of an inverted tet, less in for_mending()
   double most_edge_ratio2_ = std::numeric_limits<double>::infinity();
   double safe_ = -std::numeric_limits<double>::infinity();  // that: no bounds
 };

@@ -43,18 +43,39 @@ bool reaches_goal(const Change& change, double goal) {
          mesh.quality(change.aimed_at) > goal - kQualityTolerance;
 }
 
-/// Every new tet keeps the bounds of the mesh.
-bool keeps_bounds(const Transaction& transaction, const Comparison& qualities) {
+std::ptrdiff_t count_not_positive(std::span<const Quality> ascending) {
+  return std::upper_bound(ascending.begin(), ascending.end(), Quality{0}) - ascending.begin();
+}
+
+/// Fewer tets are inverted or flat.
+bool mends(Comparison& qualities) {
+  return count_not_positive(qualities.now()) < count_not_positive(qualities.before());
+}
+
+/// Every new tet keeps the bounds, or is no further beyond them than the old tets.
+bool is_no_further_beyond(const Transaction& transaction, Bounds bounds) {
+  const Transaction::Tets tets = transaction.tets();
+  for (const auto& [a, b, c, d] : tets.before) bounds.widen(a, b, c, d);
+  return std::all_of(tets.now.begin(), tets.now.end(),
+                     [&](const auto& tet) { return bounds.admit(tet[0], tet[1], tet[2], tet[3]); });
+}
+
+/// Every new tet keeps the bounds of the mesh. Where they yield to mending, inverted tets go before;
+/// what follows then brings no tet that is further beyond than those that it replaces.
+bool keeps_bounds(const Transaction& transaction, Comparison& qualities) {
   const TetMesh& mesh = transaction.mesh();
   const Bounds& bounds = mesh.bounds();
   if (!qualities.has_both() || qualities.worst_now() >= bounds.safe()) return true;
   std::vector<TetHandle> changed;
   transaction.list_changed(changed);
-  return std::all_of(changed.begin(), changed.end(), [&](TetHandle t) {
+  const bool are_kept = std::all_of(changed.begin(), changed.end(), [&](TetHandle t) {
     const TetVertices& v = mesh.vertices(t);
     return mesh.quality(t) >= bounds.safe() ||
            bounds.admit(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
   });
+  if (are_kept || !bounds.are_of_inverted()) return are_kept;
+  return (bounds.yield_to_mending() && mends(qualities)) ||
+         is_no_further_beyond(transaction, bounds);
 }
 
 double gain_of_means(const Transaction& transaction, double usual) {
@@ -91,7 +112,7 @@ bool keeps_curved(const Transaction& transaction) {
 }
 
 /// Whatever the promise is.
-bool keeps_limits(const Transaction& transaction, const Comparison& qualities, Judge::Kind kind) {
+bool keeps_limits(const Transaction& transaction, Comparison& qualities, Judge::Kind kind) {
   // The edges of a tangled mesh are too long to be held to.
   const bool may_have_any_length = kind == Judge::Kind::untangles;
   return keeps_bounds(transaction, qualities) && !transaction.has_too_many_tets() &&
@@ -326,11 +347,7 @@ bool Judge::spares_bad(Comparison& qualities) const {
 }
 
 bool Judge::untangles(Comparison& qualities) {
-  const auto count_not_positive = [](std::span<const Quality> ascending) {
-    return std::upper_bound(ascending.begin(), ascending.end(), Quality{0}) - ascending.begin();
-  };
-  return count_not_positive(qualities.now()) < count_not_positive(qualities.before()) &&
-         count_more_bad(qualities) <= 0;
+  return mends(qualities) && count_more_bad(qualities) <= 0;
 }
 
 bool Judge::lowers_angle(Comparison& qualities, double sine) const {

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kernel/mesh_data.h"
@@ -14,6 +16,9 @@
 namespace tetmend {
 
 class TetMesh;
+namespace formats {
+class PendingFile;
+}
 
 /// Looks at a MeshData, or at a TetMesh as to_data() would give it. Tets come in blocks, so that
 /// large meshes can be written piece by piece. The mesh must outlive the view and not change
@@ -34,6 +39,13 @@ class MeshView {
     return data_->variant;
   }
   void set_variant(std::string_view variant) { variant_ = variant; }
+
+  /// Files that are to appear together with that of the mesh. Called once, when the mesh is complete
+  /// under a temporary name; what it throws leaves all older files as they were.
+  using Companions = std::function<std::vector<formats::PendingFile*>()>;
+  void set_companions(Companions companions) { companions_ = std::move(companions); }
+  /// Empty: the mesh appears alone.
+  const Companions& companions() const { return companions_; }
 
   std::size_t point_count() const { return point_count_; }
   Point point(std::size_t i) const {
@@ -61,6 +73,7 @@ class MeshView {
   void collect_named();
 
   std::string_view variant_;
+  Companions companions_;
   const MeshData* data_ = nullptr;  // one of the two
   const TetMesh* mesh_ = nullptr;
   std::size_t point_count_ = 0;

@@ -14,6 +14,7 @@
 #include "face/arena.h"
 #include "face/plan.h"
 #include "face/watcher.h"
+#include "face/worse.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
 #include "pieces/mesh_output.h"
@@ -299,7 +300,7 @@ Result FolderRun::finish(const Options& options) {
                           .surface_moves = !tools.plan().surface.is_fixed(),
                           .shelf = &to,
                           .pieces = saved_.division.pieces};
-  if (result.worse().empty()) {
+  if (face::worse_for_nothing(result).empty()) {
     result.carried = write_pieces(output, mesh, details);
   } else {
     result.notes.push_back(why_as_it_was(result));

@@ -24,6 +24,7 @@
 #include "face/watcher.h"
 #include "kernel/formats/deck_remarks.h"
 #include "kernel/grouped.h"
+#include "face/worse.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_view.h"
 #include "kernel/rulers.h"
@@ -254,9 +255,9 @@ void Improvement::finish() {
   measure_after(joined);
   map(joined);
   check_promises();
-  if (!result_.worse().empty()) {
+  if (!face::worse_for_nothing(result_).empty()) {
     const std::string text = fmt::format("the mesh is as it was: at the end there was {}",
-                                         fmt::join(result_.worse(), "; "));
+                                         fmt::join(face::worse_for_nothing(result_), "; "));
     note(text);
     for (std::size_t i = 0; i < result_.vertex_map.size(); ++i) {
       result_.vertex_map[i] = static_cast<std::uint32_t>(i);

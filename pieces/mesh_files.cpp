@@ -16,6 +16,7 @@
 #include "face/carry.h"
 #include "face/regions.h"
 #include "face/surface_marks.h"
+#include "face/worse.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/printable.h"
@@ -328,7 +329,7 @@ void check_after(const Figures& before, const Figures& after, Kept kept, double 
 
 std::string why_as_it_was(const Result& result) {
   return fmt::format("the mesh is as it was: at the end there was {}",
-                     fmt::join(result.worse(), "; "));
+                     fmt::join(face::worse_for_nothing(result), "; "));
 }
 
 OptionTexts texts_of(const Options& options) {

@@ -15,6 +15,7 @@
 #include "face/mesh_access.h"
 #include "face/plan.h"
 #include "face/watcher.h"
+#include "face/worse.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
 #include "pieces/mesh_output.h"
@@ -147,9 +148,10 @@ Result FileRun::run() {
   work();
   measure_after();
   if (files_.costs != nullptr) note_costs();
-  write();
   if (!trace_.note().empty()) result_.notes.push_back(trace_.note());
   result_.trace_trouble = trace_.finish_all(ranks_);
+  if (files_.needs_trace && !result_.trace_trouble.empty()) throw Error(result_.trace_trouble);
+  write();
   watcher_.rethrow();
   return std::move(result_);
 }
@@ -166,6 +168,7 @@ Result FileRun::improve_whole() {
   }
   Result result;
   if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
+  if (files_.needs_trace && !result.trace_trouble.empty()) throw Error(result.trace_trouble);
   if (known != nullptr && known->is_one(files_.output)) {
     RankShare share;
     if (ranks_.is_first()) share = all_of(MeshAccess::data(mesh));
@@ -342,7 +345,7 @@ void FileRun::write() {
   double unasked = 0;
   const Stopwatch watch(files_.costs != nullptr ? files_.costs->writing : unasked);
   std::size_t parts = 0;
-  if (!result_.worse().empty()) {
+  if (!face::worse_for_nothing(result_).empty()) {
     result_.notes.push_back(why_as_it_was(result_));
     watcher_.noted(result_.notes.back());
     result_.after = result_.before;

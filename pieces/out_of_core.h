@@ -42,7 +42,8 @@ struct OutOfCore {
   /// First rank: told what of the input will not be in the output, a sentence each; may throw.
   std::function<void(const std::vector<std::string>&)> tell_lost = {};
   RunCosts* costs = nullptr;  ///< null, or where they are put
-  VertexId first_id = 0;      ///< of the file's vertices in pieces; cannot show: for tests of that
+  bool needs_trace = false;  ///< without the trace that was asked for, nothing is written: an Error
+  VertexId first_id = 0;     ///< of the file's vertices in pieces; cannot show: for tests of that
   /// Changes each piece before it is stored, as a fault would: for tests of the final check.
   std::function<void(std::size_t part, Piece& piece)> fault = {};
 };

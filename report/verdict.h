@@ -28,10 +28,11 @@ struct Promise {
   bool is_kept = false;
   /// `before` is how far something may go, `after` how far it went at most.
   bool is_bound = false;
+  bool is_price = false;  ///< not kept, because inverted tets were mended, which goes first
 };
 std::vector<Promise> promises_of(const Figures& figures);
 
-/// A table of these, and a list of what is an aim only and was missed.
+/// A table of these, and a list of all that is worse than before.
 std::string promise_table(const Figures& figures);
 
 }  // namespace tetmend::report

@@ -125,13 +125,18 @@ void TraceRecorder::write_chunk() {
 }
 
 void TraceRecorder::finish() {
+  complete().commit();
+}
+
+formats::PendingFile& TraceRecorder::complete() {
   if (active_) {
     write_chunk();
     if (active_) write_end(TraceEnd::complete);
   }
   active_ = false;
   if (!trouble_.empty()) throw Error(trouble_);
-  file_.finish();
+  file_.file().finish();
+  return file_.file();
 }
 
 /// What is half written when memory runs out is never read.

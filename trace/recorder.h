@@ -83,6 +83,8 @@ class TraceRecorder final : public TraceSink {
   /// Writes what is left. No event may follow; the mesh is not looked at any more.
   /// @throws Error when the file could not be written, now or earlier.
   void finish();
+  /// The same, but the file gets its name later, by commit_all() or finish().
+  formats::PendingFile& complete();
 
   void pass_begins(std::string_view name, unsigned round) override;
   void pass_ends(const QualityIndicators& now) override;

@@ -38,6 +38,8 @@ class FrameWriter {
   void write(std::span<const std::byte> packed);
   /// @throws Error
   void finish() { file_.commit(); }
+  /// What finish() gives its name.
+  formats::PendingFile& file() { return file_; }
 
  private:
   struct Compressor;

@@ -105,6 +105,9 @@ void Document::open(const std::filesystem::path& file) {
   refuse_what_is_no_mesh(file);
   MeshData data = read_mesh(file);
   const std::string beside = named_beside(data);
+  const bool holds_more = !data.tet_parts.empty() || !data.mid_nodes.empty();
+  std::shared_ptr<const MeshData> held =
+      holds_more ? std::make_shared<const MeshData>(data) : nullptr;
   BuildReport report;
   TetMesh read = build_tet_mesh(file, std::move(data), MeshOrder::of_file, &report);
   read.set_standard(standard_);
@@ -113,6 +116,7 @@ void Document::open(const std::filesystem::path& file) {
   followed_ = LiveState::idle;
   set_mesh(std::move(mesh), file.string());
   not_saved_ = beside;
+  data_ = std::move(held);
   notes_ = notes_of(report);
   if (report.mirrored) message.text += "; " + notes_.front();
 }
@@ -165,6 +169,7 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   hovered = {};
   teaching = false;
   not_saved_.clear();
+  data_.reset();
   notes_.clear();
   marks_ = {};
   near_.clear();
@@ -308,7 +313,7 @@ void Document::set_goal(const Goal& goal) {
 }
 
 void Document::run_live(LiveRun::From from) {
-  LiveRun::Input shown{mesh_, statistics()};
+  LiveRun::Input shown{mesh_, statistics(), data_};
   if (mesh_.standard() != standard_) {  // a schedule has set another goal
     shown.mesh.set_standard(standard_);
     shown.statistics = compute_statistics(shown.mesh, standard_.goal());
@@ -324,7 +329,9 @@ void Document::follow_live() {
   const LiveState now = live.state();  // before the last snapshot is taken, lest it be missed
   auto snapshot = live.take_snapshot();
   if (snapshot != nullptr) {
+    std::string beside = std::move(not_saved_);
     set_mesh(std::move(*snapshot), file_);
+    not_saved_ = std::move(beside);
     mark_live_call(live.progress());
   }
   if (now == followed_ && (snapshot == nullptr || now != LiveState::paused)) return;

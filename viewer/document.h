@@ -231,7 +231,8 @@ class Document {
   TetMesh mesh_;
   Standard standard_ = Standard(Goal{});
   std::string file_;
-  std::string not_saved_;  // what the file holds beside its mesh
+  std::string not_saved_;                 // what the file holds beside its mesh
+  std::shared_ptr<const MeshData> data_;  // of the file, while that is shown; see LiveRun::Input
   std::vector<std::string> notes_;
   Ball ball_;
   std::array<glm::dvec3, 8> box_{};  // corners of the box around the mesh

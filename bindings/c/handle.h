@@ -31,6 +31,7 @@ struct tetmend_mesh {
   void* user = nullptr;
   std::optional<tetmend::Result> result;
   std::vector<std::string> notes;
+  std::vector<std::string> worse;  // than before the last run
   std::string message;
   const char* last_error = "";  // a literal where there is no memory for the message
 };

@@ -192,8 +192,10 @@ tetmend_status tetmend_improve(tetmend_mesh* mesh) {
     }
     Result result = improve(settled, options);
     std::vector<std::string> notes = result.notes;
+    std::vector<std::string> worse = result.worse_than_before();
     handle.result = std::move(result);
     handle.notes = std::move(notes);
+    handle.worse = std::move(worse);
   });
 }
 
@@ -264,4 +266,12 @@ size_t tetmend_note_count(const tetmend_mesh* mesh) {
 const char* tetmend_note(const tetmend_mesh* mesh, size_t i) {
   if (mesh == nullptr || i >= mesh->notes.size()) return nullptr;
   return mesh->notes[i].c_str();
+}
+
+size_t tetmend_worse_count(const tetmend_mesh* mesh) {
+  return mesh == nullptr || !mesh->result ? 0 : mesh->worse.size();
+}
+
+const char* tetmend_worse(const tetmend_mesh* mesh, size_t i) {
+  return i < tetmend_worse_count(mesh) ? mesh->worse[i].c_str() : nullptr;
 }

@@ -115,6 +115,8 @@ module tetmend
     procedure, public :: get_result
     procedure, public :: note_count
     procedure, public :: note
+    procedure, public :: worse_count
+    procedure, public :: worse
   end type
 
   interface
@@ -398,6 +400,17 @@ module tetmend
       integer(c_size_t) :: n
     end function
     function c_note(handle, i) bind(c, name='tetmend_note') result(text)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t), value :: i
+      type(c_ptr) :: text
+    end function
+    function c_worse_count(handle) bind(c, name='tetmend_worse_count') result(n)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: handle
+      integer(c_size_t) :: n
+    end function
+    function c_worse(handle, i) bind(c, name='tetmend_worse') result(text)
       import :: c_ptr, c_size_t
       type(c_ptr), value :: handle
       integer(c_size_t), value :: i
@@ -875,5 +888,19 @@ contains
     integer, intent(in) :: i
     character(len=:), allocatable :: text
     text = to_fortran(c_note(self%handle, int(i - 1, c_size_t)))
+  end function
+
+  function worse_count(self) result(n)
+    class(tetmend_mesh), intent(in) :: self
+    integer :: n
+    n = int(c_worse_count(self%handle))
+  end function
+
+  ! Figure i that is worse than before, from 1.
+  function worse(self, i) result(text)
+    class(tetmend_mesh), intent(in) :: self
+    integer, intent(in) :: i
+    character(len=:), allocatable :: text
+    text = to_fortran(c_worse(self%handle, int(i - 1, c_size_t)))
   end function
 end module

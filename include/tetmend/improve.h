@@ -236,15 +236,18 @@ struct Result {
   double improving = 0;  ///< the schedule
   double carrying = 0;   ///< bringing over all that the mesh holds besides; into arrays again
 
-  /// The figures that are worse than before, in words; empty, for that is promised: theta_min is not
-  /// smaller, theta_max not above the larger of what it was and the goal's, there are not more bad
-  /// tets, lambda is not higher. With rulers also: the worst mean ratio and radius ratio are not
-  /// smaller, the worst edge ratio not above the larger of what it was and 10. Of a mesh of second
-  /// order also: the worst Jacobian ratio, at the nodes and by its bound, is not smaller. Where the
-  /// run mended inverted tets: without theta_min, theta_max and the edge ratio.
+  /// All figures that are worse than before, in words: worse(), then missed_aims(). The same list in
+  /// the report as text, page and JSON, in Python and in C.
+  TETMEND_API std::vector<std::string> worse_than_before() const;
+  /// The promised figures among them: theta_min is not smaller, theta_max not above the larger of
+  /// what it was and the goal's, there are not more bad tets, lambda is not higher. With rulers also:
+  /// the worst mean ratio and radius ratio are not smaller, the worst edge ratio not above the larger
+  /// of what it was and 10. Of a mesh of second order also: the worst Jacobian ratio, at the nodes and
+  /// by its bound, is not smaller. Empty, unless the run mended inverted tets: that goes before
+  /// theta_min, theta_max and the edge ratio, where they cannot be had together.
   TETMEND_API std::vector<std::string> worse() const;
-  /// What else is worse, in words. An aim, no promise: the means of mean ratio and radius ratio are
-  /// not smaller, and no more faces are above 70 degrees non-orthogonality. Empty without rulers.
+  /// The others. Aims, no promises: the means of mean ratio and radius ratio are not smaller, and no
+  /// more faces are above 70 degrees non-orthogonality. Empty without rulers.
   TETMEND_API std::vector<std::string> missed_aims() const;
 
   /// |after - before| / |before|, the rounding error of the volume if no tet was inverted before.

@@ -309,6 +309,12 @@ TETMEND_API size_t tetmend_note_count(const tetmend_mesh* mesh);
 /** Sentence i, from 0; null for another number. */
 TETMEND_API const char* tetmend_note(const tetmend_mesh* mesh, size_t i);
 
+/** How many figures are worse than before the last run: the line "worse than before" of the command
+ * line. Of the promised ones none, unless inverted tets were mended. */
+TETMEND_API size_t tetmend_worse_count(const tetmend_mesh* mesh);
+/** Figure i of these in words, from 0; null for another number. */
+TETMEND_API const char* tetmend_worse(const tetmend_mesh* mesh, size_t i);
+
 #ifdef __cplusplus
 }
 #endif

@@ -297,7 +297,7 @@ class Writer {
     if (names_) write_names();
     std::vector<OutputFile*> all = {&nodes_, &elements_, &boundary_, &header_};
     if (names_) all.push_back(&*names_);
-    OutputFile::commit_all(all);
+    OutputFile::commit_all(all, mesh_.companions());
   }
 
  private:

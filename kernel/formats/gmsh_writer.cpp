@@ -392,7 +392,7 @@ void write_gmsh(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
   GmshPlan plan(mesh);
   Writer(out, file.string(), mesh, plan, !is_2, binary).write();
-  out.commit();
+  out.commit(mesh.companions());
 }
 
 void write_gmsh_part(const std::filesystem::path& file, const MeshData& mesh) {

@@ -65,7 +65,7 @@ class Writer {
 
   void run() {
     for (const InpPiece& piece : plan_.deck.pieces) write(piece);
-    out_.commit();
+    out_.commit(mesh_.companions());
   }
 
  private:

@@ -407,9 +407,9 @@ void begin_section(OutputFile& out, std::string_view name, std::size_t count) {
   out.put(fmt::format("{}\n{}\n", name, count));
 }
 
-void end_file(OutputFile& out) {
+void end_file(OutputFile& out, const MeshView& mesh) {
   out.put("End\n");
-  out.commit();
+  out.commit(mesh.companions());
 }
 
 void write_vectors(OutputFile& out, const MeshView& mesh, const MeditVectors& kind) {
@@ -485,12 +485,12 @@ void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) 
     });
   });
   const bool is_second = mesh.data() != nullptr && has_second_order_tets(*mesh.data());
-  if (is_second && mesh.tet_count() == 0) return end_file(out);
+  if (is_second && mesh.tet_count() == 0) return end_file(out, mesh);
   begin_section(out, "Tetrahedra", mesh.tet_count());
   put_tets(out, mesh, [](std::size_t, const MeshData::Tet& tet, OutputBuffer& buffer) {
     write_row(buffer, tet);
   });
-  end_file(out);
+  end_file(out, mesh);
 }
 
 }  // namespace tetmend::formats

@@ -555,7 +555,7 @@ MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question
 void write_medit_binary(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
   Writer(out, mesh).write();
-  out.commit();
+  out.commit(mesh.companions());
 }
 
 }  // namespace tetmend::formats

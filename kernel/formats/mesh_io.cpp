@@ -251,6 +251,7 @@ void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
                                              : without_mid_nodes(*mesh.data());
   MeshView view(as_held);
   view.set_variant(mesh.variant());
+  view.set_companions(mesh.companions());
   codec.write(file, view);
 }
 

@@ -106,7 +106,7 @@ class Writer {
     for (std::size_t k = 0; k < lists_.all().size(); ++k) write_elements(k);
     if (deck_ != nullptr) out_.put((*deck_)[nastran_cards]);
     out_.put(deck_ == nullptr ? "ENDDATA\n" : (*deck_)[nastran_end]);
-    out_.commit();
+    out_.commit(mesh_.companions());
   }
 
  private:

@@ -78,7 +78,7 @@ class Writer {
     if (!put_deck([](std::string_view piece) { return piece.starts_with("endmesh"); })) {
       out_.put("endmesh\n");
     }
-    out_.commit();
+    out_.commit(mesh_.companions());
   }
 
  private:

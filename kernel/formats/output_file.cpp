@@ -107,20 +107,33 @@ void OutputFile::finish() {
   is_finished_ = true;
 }
 
-void OutputFile::commit() {
-  finish();
-  if (!file_) return copy_to_standard_output();
-  file_->commit();
+void OutputFile::commit(const Companions& companions) {
+  const std::array<OutputFile*, 1> alone = {this};
+  commit_all(alone, companions);
 }
 
-void OutputFile::commit_all(std::span<OutputFile* const> outputs) {
+void OutputFile::commit_all(std::span<OutputFile* const> outputs, const Companions& companions) {
   std::vector<formats::PendingFile*> files;
+  OutputFile* stream = nullptr;
   for (OutputFile* output : outputs) {
     output->finish();
-    if (!output->file_) throw Error("several files cannot go to standard output");
-    files.push_back(&*output->file_);
+    if (output->file_) {
+      files.push_back(&*output->file_);
+    } else if (outputs.size() == 1) {
+      stream = output;
+    } else {
+      throw Error("several files cannot go to standard output");
+    }
   }
-  formats::PendingFile::commit_all(files);
+  if (companions) {
+    for (formats::PendingFile* file : companions()) files.push_back(file);
+  }
+  if (files.size() == 1) {
+    files.front()->commit();
+  } else if (!files.empty()) {
+    formats::PendingFile::commit_all(files);
+  }
+  if (stream != nullptr) stream->copy_to_standard_output();
 }
 
 void OutputFile::flush() {

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "kernel/formats/pending_file.h"
 #include "platform/platform.h"
@@ -88,10 +89,16 @@ class OutputFile {
   /// Writes out what is buffered and closes the temporary file: what can fail for want of space
   /// fails here.
   void finish();
+  /// Further files that appear together with one; asked for when that is complete.
+  using Companions = std::function<std::vector<formats::PendingFile*>()>;
   /// Finishes, then gives the file its name.
-  void commit();
-  /// The same for files that belong together: all are new, or after an error all old.
-  static void commit_all(std::span<OutputFile* const> outputs);
+  void commit(const Companions& companions = {});
+  /// What gives the file its name, for one that is finished and a companion of another; null for
+  /// standard output.
+  formats::PendingFile* pending() { return file_ ? &*file_ : nullptr; }
+  /// The same for files that belong together: all are new, or after an error all old. Standard output
+  /// alone comes after its companions.
+  static void commit_all(std::span<OutputFile* const> outputs, const Companions& companions = {});
 
  private:
   void copy_to_standard_output();

@@ -289,7 +289,7 @@ class Writer {
     if (mesh_.data() != nullptr && mesh_.data()->variant == kSu2) {
       for (const std::string& piece : mesh_.data()->deck) out_.put(piece);
     }
-    out_.commit();
+    out_.commit(mesh_.companions());
   }
 
  private:

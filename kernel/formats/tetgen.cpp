@@ -421,7 +421,7 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
   }
   std::vector<OutputFile*> all = {&faces, &nodes, &tets};
   if (edges) all.push_back(&*edges);
-  OutputFile::commit_all(all);
+  OutputFile::commit_all(all, mesh.companions());
 }
 
 std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& node_or_ele) {

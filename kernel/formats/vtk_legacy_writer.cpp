@@ -177,7 +177,7 @@ void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh,
   }
   OutputFile out(file);
   write_view(out, mesh, fields);
-  out.commit();
+  out.commit(mesh.companions());
 }
 
 }  // namespace tetmend::formats

@@ -140,7 +140,7 @@ class Writer {
 void write_vtu(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
   Writer(out, mesh).write();
-  out.commit();
+  out.commit(mesh.companions());
 }
 
 }  // namespace tetmend::formats

@@ -129,9 +129,9 @@ def traces(folder):
     late = improve(folder, "--trace", trace, "--trace-piece", "4:900", "-q")
     for command in [(PROGRAM, "improve", *late)] + ([mpi(2, *late)] if MPI_PROGRAM != "none" else []):
         done = run(*command)
-        check(done.returncode == 1 and "wrote the mesh, and no trace" in done.stderr, "a zone that is not there", command,
-              done.returncode, done.stderr)
-        check(taken(folder) is not None and made() is None, "a zone that is not there", command)
+        check(done.returncode == 1 and f"{trace}: " in done.stderr, "a zone that is not there", command, done.returncode,
+              done.stderr)
+        check(taken(folder) is None and made() is None, "a zone that is not there", command)
 
 
 def mistakes(folder):

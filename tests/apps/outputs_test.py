@@ -382,9 +382,8 @@ def limits_are_errors():
             resource.setrlimit(resource.RLIMIT_FSIZE, (MESH.stat().st_size,) * 2)
         status, _, err = run("improve", folder / "b.meshb", "-o", folder / "o.meshb", "-q", "--trace", folder / "t",
                              limits=room_for_the_mesh)
-        check(status == 1 and one_line(err) and "wrote the mesh, and no trace" in err, "a trace does not fit", status, err)
-        check(entries(folder) == sorted([*kept, "b.meshb", "o.meshb"]), "the mesh is written without", entries(folder))
-        (folder / "o.meshb").unlink()
+        check(status == 1 and one_line(err) and "/t: " in err, "a trace does not fit", status, err)
+        check(entries(folder) == sorted([*kept, "b.meshb"]), "nothing is written then", entries(folder))
         (folder / "b.meshb").unlink()
         # The least that a program needs differs: all from hardly anything to enough.
         failed = 0
@@ -416,6 +415,34 @@ def limits_are_errors():
                 (folder / "o.meshb").unlink(missing_ok=True)
 
 
+def what_is_written_beside_the_mesh_is_there_with_it_or_nothing_is():
+    """Status 1 means that OUT is old, whatever could not be written."""
+    with Folder() as folder:
+        shutil.copy(MESHES.parent / "lessons" / "1-core.mesh", folder / "core.mesh")
+        (folder / "r.json").write_text("older")
+        def room_for_the_mesh():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+        for out in ("o.mesh", "o.ele", "o.vtu"):
+            for reports in (["r.json"], ["r.html"], ["s.json", "r.html"], ["r.json", "s.json"]):
+                for name in ("o.mesh", "o.ele", "o.node", "o.face", "o.vtu"):
+                    (folder / name).write_text("older")
+                kept = entries(folder)
+                told = [word for report in reports for word in ("--report", folder / report)]
+                status, _, err = run("improve", folder / "core.mesh", "-o", folder / out, "-q", *told, limits=room_for_the_mesh)
+                check(status == 1 and one_line(err) and ".json: " in err or ".html: " in err, "a report does not fit", status, err)
+                check(entries(folder) == kept, "then nothing is written", out, reports, entries(folder))
+                check(all((folder / name).read_text() == "older" for name in kept if name not in ("in.mesh", "core.mesh")),
+                      "and what was there is as it was", out, reports)
+                status, _, err = run("improve", folder / "core.mesh", "-o", folder / out, "-q", *told)
+                check(status == 0 and (folder / out).read_text() != "older" and
+                      all((folder / report).read_text() != "older" for report in reports), "with room all is written", err)
+                for report in reports:
+                    (folder / report).unlink()
+                (folder / "r.json").write_text("older")
+        status, _, _ = run("improve", folder / "core.mesh", "-o", folder / "plain.mesh", "-q", limits=room_for_the_mesh)
+        check(status == 0, "the mesh alone fits")
+
+
 same_files_are_refused()
 files_of_meshes_are_not_outputs()
 a_set_is_all_new_or_all_old()
@@ -427,4 +454,5 @@ signal_at_a_rename()
 signal_while_writing()
 writing_outlives_signals_and_loss_of_power()
 limits_are_errors()
+what_is_written_beside_the_mesh_is_there_with_it_or_nothing_is()
 sys.exit(f"{len(failures)} checks failed" if failures else 0)

@@ -157,6 +157,8 @@ TEST_CASE("in C: a wrong call is told, and does nothing") {
   CHECK(tetmend_set(nullptr, "goal", "30") == TETMEND_WRONG_CALL);
   CHECK(tetmend_count(nullptr, TETMEND_POINTS) == 0);
   CHECK(tetmend_note(nullptr, 0) == nullptr);
+  CHECK(tetmend_worse_count(nullptr) == 0);
+  CHECK(tetmend_worse(nullptr, 0) == nullptr);
   CHECK(std::string(tetmend_last_error(nullptr)) == "the handle is null");
   tetmend_destroy(nullptr);
   const Handle mesh = two_tets_in();
@@ -353,6 +355,10 @@ TEST_CASE("in C: improving is that of C++: bytes, figures, maps and notes") {
     for (std::size_t i = 0; i < result.notes.size(); ++i) {
       CHECK(tetmend_note(mesh.get(), i) == result.notes[i]);
     }
+    const std::vector<std::string> worse = result.worse_than_before();
+    REQUIRE(tetmend_worse_count(mesh.get()) == worse.size());
+    for (std::size_t i = 0; i < worse.size(); ++i) CHECK(tetmend_worse(mesh.get(), i) == worse[i]);
+    CHECK(tetmend_worse(mesh.get(), worse.size()) == nullptr);
     std::vector<std::int32_t> map(before.vertices), tet_map(before.tets);
     CHECK(tetmend_get_vertex_map(mesh.get(), map.data(), map.size() - 1) == TETMEND_WRONG_CALL);
     CHECK(tetmend_get_vertex_map(mesh.get(), map.data(), map.size()) == TETMEND_OK);

@@ -2,6 +2,8 @@
 // The one verb: what it gives, what it leaves as it was, how it ends.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -12,6 +14,8 @@
 #include <tetmend/measure.h>
 
 #include "contract/zoo.h"
+#include "face/mesh_access.h"
+#include "face/worse.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "schedule/schedule.h"
@@ -275,7 +279,7 @@ TEST_CASE("a mistake in a script has its line, and the mesh is sound and improve
   CHECK(message_of([&] { improve(mesh, {.schedule = file}); }).starts_with(file + ":1: "));
 }
 
-TEST_CASE("where inverted tets are mended, their angles and edge ratios are no measure") {
+TEST_CASE("what fell for mended inverted tets is named, and is no reason to go back") {
   Result result;
   const auto edge_ratio = [](std::optional<MeshRulers>& rulers) -> double& {
     return rulers->figures[static_cast<std::size_t>(Ruler::edge_ratio)].worst;
@@ -289,11 +293,67 @@ TEST_CASE("where inverted tets are mended, their angles and edge ratios are no m
   edge_ratio(result.rulers_before) = 7.4;
   edge_ratio(result.rulers_after) = 10.1;
   result.not_positive_before = result.not_positive_after = 5;
-  CHECK(result.worse().size() == 3);
+  const std::vector<std::string> all = {"a theta_min of 0.05 instead of 0.1",
+                                        "a theta_max of 170 instead of 160",
+                                        "a worst edge ratio of 10.1 instead of 7.4"};
+  CHECK(result.worse() == all);
+  CHECK(face::worse_for_nothing(result) == all);
   result.not_positive_after = 4;
-  CHECK(result.worse().empty());
+  CHECK(result.worse() == all);
+  CHECK(face::worse_for_nothing(result).empty());
   result.after.n_bad = result.before.n_bad + 1;
-  CHECK(result.worse().size() == 1);
+  CHECK(result.worse().size() == 4);
+  CHECK(face::worse_for_nothing(result).size() == 1);
+}
+
+TEST_CASE("a tangled mesh ends with no worse angle or edge ratio, or the report names it") {
+  // Waves on a box whose vertices, those on its sides as well, are moved until tets turn over.
+  const auto waves = [](unsigned cells, double jitter, unsigned seed) {
+    MeshData data = kuhn_cube(cells, 0, 1);
+    std::mt19937 random(seed);
+    for (Point& p : data.points) {
+      Point q = cells * p;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (p[axis] > 0.01 && p[axis] < 0.99)
+          q[axis] += jitter * (static_cast<double>(random()) / 2147483648.0 - 1);
+      }
+      q.z() += 0.3 * std::sin(q.x()) * std::cos(0.7 * q.y());
+      p = q;
+    }
+    return data;
+  };
+  const auto improved = [&](unsigned cells, double jitter, unsigned seed) {
+    Mesh mesh = MeshAccess::make(waves(cells, jitter, seed));
+    Result result = improve(mesh);
+    CHECK(result.not_positive_after < result.not_positive_before);
+    const auto edge_ratio = [](const std::optional<MeshRulers>& rulers) {
+      return (*rulers)[Ruler::edge_ratio].worst;
+    };
+    const bool is_worse =
+        result.after.theta_min < result.before.theta_min - 1e-9 ||
+        result.after.theta_max > std::max(result.before.theta_max, 150.0) + 1e-9 ||
+        edge_ratio(result.rulers_after) > std::max(edge_ratio(result.rulers_before), 10.0) + 1e-9;
+    CHECK(is_worse == !result.worse().empty());
+    return result;
+  };
+  CHECK(improved(3, 0.45, 4).worse().empty());  // edge ratio, unless held
+  CHECK(improved(4, 0.5, 3).worse().empty());   // angles, unless each step holds them
+  CHECK_FALSE(improved(4, 0.5, 5).worse().empty());
+}
+
+TEST_CASE("what is worse than before is one list: promised figures, then aims") {
+  Result result;
+  result.rulers_before.emplace();
+  result.rulers_after.emplace();
+  result.rulers_before->figures[static_cast<std::size_t>(Ruler::radius_ratio)].mean = 0.7;
+  result.rulers_after->figures[static_cast<std::size_t>(Ruler::radius_ratio)].mean = 0.6;
+  const std::string aim = "a mean radius ratio of 0.6 instead of 0.7";
+  CHECK(result.worse().empty());
+  CHECK(result.missed_aims() == std::vector{aim});
+  CHECK(result.worse_than_before() == std::vector{aim});
+  result.before.lambda = 1;
+  result.after.lambda = 2;
+  CHECK(result.worse_than_before() == std::vector{std::string("a lambda of 2 instead of 1"), aim});
 }
 
 TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {

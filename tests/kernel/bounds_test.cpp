@@ -113,16 +113,34 @@ TEST_CASE("of a mesh with bounds the angles get tighter, never looser, and nothi
   CHECK_FALSE(admits(Bounds::of(worse), wedge(19.999)));
 }
 
-TEST_CASE("a mesh without bounds, and one with an inverted tet, admit all") {
+TEST_CASE("a mesh without bounds admits all") {
   CHECK(admits({}, wedge(0.01)));
   CHECK(Bounds().safe() < -1e30f);
-  MeshData data;
-  const Corners p = wedge(60);
-  data.points.assign(p.begin(), p.end());
-  data.points.push_back({1, 0.5, 0.1});
-  data.tets = {{{0, 1, 2, 3}, 0}};
-  TetMesh mesh(data);
-  CHECK_FALSE(admits(Bounds::of(mesh), wedge(10)));
+}
+
+TEST_CASE(
+    "an inverted tet bounds angles and edges as its mirror image does, and ratios not at all") {
+  const auto with_inverted = [](const Corners& sharp) {
+    MeshData data;
+    const Corners fine = wedge(60);
+    data.points.assign(fine.begin(), fine.end());
+    data.points.insert(data.points.end(), sharp.begin(), sharp.end());
+    data.points.insert(data.points.end(), {{50, 0, 0}, {51, 0, 0}, {50, 1, 0}, {50, 0, 1}});
+    // Two of three are positive, so the mesh is not taken for a mirrored one.
+    data.tets = {{{0, 1, 2, 3}, 0}, {{5, 4, 6, 7}, 0}, {{8, 9, 10, 11}, 0}};
+    return TetMesh(data);
+  };
+  const TetMesh mesh = with_inverted(wedge(10));
+  REQUIRE(compute_statistics(mesh).inverted == 1);
+  const Bounds bounds = Bounds::of(mesh);
+  CHECK(admits(bounds, wedge(10.001)));
+  CHECK_FALSE(admits(bounds, wedge(9.999)));
+  CHECK_FALSE(admits(bounds, {Point(0, 0, 0), Point(11, 0, 0), Point(0, 1, 0), Point(0, 0, 1)}));
+  const Corners flat = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1e-9)};
+  CHECK_FALSE(admits(bounds, flat));
+  const Corners inverted = {Point(1, 0, 0), Point(0, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
+  CHECK(admits(bounds, inverted));
+  CHECK_FALSE(admits(Bounds::of(mesh_of(wedge(10))), inverted));
 }
 
 TEST_CASE("widened tet by tet, or part by part, bounds are those of a mesh of these tets") {
@@ -151,8 +169,11 @@ TEST_CASE("widened tet by tet, or part by part, bounds are those of a mesh of th
   }
   CHECK(admitted > 1000);
   CHECK(admitted < 19'000);
-  all.widen(Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1));  // inverted
-  CHECK(admits(all, wedge(0.001)));
+  const Corners inverted = {Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1)};
+  CHECK_FALSE(admits(all, inverted));
+  all.widen(inverted[0], inverted[1], inverted[2], inverted[3]);
+  CHECK(admits(all, inverted));
+  CHECK_FALSE(admits(all, wedge(0.001)));
 }
 
 TEST_CASE("a tet of the quality that is called safe keeps the bounds") {

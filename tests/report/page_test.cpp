@@ -34,7 +34,6 @@ json report_of(const std::string& text) {
           {"settings", {{text, text}}},
           {"notes", {text}},
           {"data", {{{"name", text}, {"on", text}, {"rule", text}, {"integral_error", 0.5}}}},
-          {"missed_aims", {text}},
           {"worse_than_before", {text}},
           {"before", mesh},
           {"after", mesh},

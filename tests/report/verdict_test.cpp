@@ -33,7 +33,6 @@ json example() {
       {"out_of_time", false},
       {"limit", {{"n_forced", 0}, {"bad", json::object()}}},
       {"worse_than_before", json::array()},
-      {"missed_aims", json::array()},
       {"not_positive_tets", {{"before", 0}, {"after", 0}}},
       {"volume_change", 1e-16},
       {"surface", {{"unchanged", true}, {"fingerprint_before", "ab"}, {"fingerprint_after", "ab"}}},
@@ -115,8 +114,22 @@ TEST_CASE("promises are kept unless the report says what is worse") {
   report["surface"]["fingerprint_after"] = "ab";
   report["not_positive_tets"]["after"] = 1;
   CHECK(broken().size() == 1);
-  report["missed_aims"] = {"a mean <ratio>"};
+  report["worse_than_before"] = {"a mean <ratio>"};
+  CHECK(broken().size() == 1);
   CHECK(contains(promise_table(Figures(report)), "<li>a mean &lt;ratio&gt;</li>"));
+}
+
+TEST_CASE("an angle that fell for mended tets is no broken promise, and is listed as worse") {
+  json report = example();
+  report["worse_than_before"] = {"a theta_min of 0.5 instead of 2.5"};
+  const auto table = [&] { return promise_table(Figures(report)); };
+  CHECK(contains(table(), "\u2717 broken"));
+  report["not_positive_tets"] = {{"before", 9}, {"after", 0}};
+  CHECK_FALSE(contains(table(), "\u2717 broken"));
+  CHECK(contains(table(), "\u2717 worse, for mended tets"));
+  CHECK(contains(table(), "<li>a theta_min of 0.5 instead of 2.5</li>"));
+  report["worse_than_before"] = {"a lambda of 3 instead of 2"};
+  CHECK(contains(table(), "\u2717 broken"));
 }
 
 TEST_CASE(

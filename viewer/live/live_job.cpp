@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "face/mesh_access.h"
 #include "kernel/error.h"
 
 namespace tetmend::viewer {
@@ -29,8 +30,9 @@ std::string trouble_of(const Step& step) {
 
 }  // namespace
 
-LiveJob::LiveJob(TetMesh mesh, LivePlan plan)
-    : mesh_(std::move(mesh)),
+LiveJob::LiveJob(MeshData mesh, const Standard& shown, LivePlan plan)
+    : data_(std::move(mesh)),
+      shown_by_(shown),
       plan_(std::move(plan)),
       demand_(plan_.paused ? Demand::pause : Demand::go_on),
       speed_(plan_.speed),
@@ -106,7 +108,8 @@ std::unique_ptr<MeasuredMesh> LiveJob::take_snapshot() {
 // ---- The thread ---------------------------------------------------------------------------------
 
 void LiveJob::work() {
-  std::string trouble = trouble_of([&] { run_schedule(); });
+  std::string trouble = trouble_of([&] { run(); });
+  mesh_ = nullptr;
   const auto then = [&](const auto& step) {
     const std::string more = trouble_of(step);
     if (trouble.empty()) trouble = more;
@@ -117,7 +120,11 @@ void LiveJob::work() {
   });
   const bool has_trace = recorder_ && trouble.empty();
   recorder_.reset();
-  then([&] { snap(); });
+  then([&] {
+    TetMesh result = TetMesh::build(data_, {.sorted = false});
+    result.set_standard(shown_by_);
+    snap(std::move(result));
+  });
   {
     const std::lock_guard lock(lock_);
     is_over_ = true;
@@ -131,24 +138,42 @@ void LiveJob::work() {
   changed_.notify_all();
 }
 
-void LiveJob::run_schedule() {
-  mesh_.set_bounds({});                 // those of a run before
-  mesh_.set_bounds(Bounds::of(mesh_));  // as `tetmend improve` does
-  mesh_.sort_spatially();
+/// `data_` is as the run leaves it, also when it fails.
+void LiveJob::run() {
+  Options options = plan_.options;
+  options.cancel = &cancel_;
+  options.maps = false;
+  options.progress = [this](const Progress& progress) { return show(progress), true; };
+  options.note = [this](std::string_view text) { show_note(text); };
+  Mesh mesh = MeshAccess::make(std::move(data_));
+  try {
+    face::improve(mesh, options, *this);
+  } catch (...) {
+    data_ = MeshAccess::take(mesh);
+    throw;
+  }
+  data_ = MeshAccess::take(mesh);
+}
+
+TraceSink* LiveJob::follow(const TetMesh& mesh) {
+  mesh_ = &mesh;
+  const QualityIndicators before = quality_indicators(mesh);
+  attempts_ = accepted_ = 0;
+  calls_.clear();
+  last_.reset();
+  last_accepted_.reset();
   {
-    const QualityIndicators before = quality_indicators(mesh_);
     const std::lock_guard lock(lock_);
     shown_.before = before;
+    shown_.passes.clear();
   }
+  publish();
+  recorder_.reset();
   begin_trace();
   breakpoints_.set(plan_.breakpoints);
   last_snapshot_ = Clock::now();
   come_to(Event::start);
-  Run run(mesh_, plan_.registry);
-  run.set_listener(this);
-  run.set_cancel_flag(&cancel_);
-  run.set_trace(this);
-  improve(run, plan_.schedule, plan_.settings);
+  return this;
 }
 
 void LiveJob::begin_trace() {
@@ -158,8 +183,8 @@ void LiveJob::begin_trace() {
   header.input = plan_.input.string();
   header.schedule = plan_.schedule.name();
   header.schedule_text = plan_.schedule.text();
-  header.settings = plan_.settings;
-  recorder_ = std::make_unique<TraceRecorder>(plan_.trace, mesh_, std::move(header));
+  header.settings = plan_.options.set;
+  recorder_ = std::make_unique<TraceRecorder>(plan_.trace, *mesh_, std::move(header));
 }
 
 void LiveJob::take_breakpoints() {
@@ -226,11 +251,15 @@ void LiveJob::hold(Demand demand) {
 /// are right.
 void LiveJob::snap() {
   const Clock::time_point start = Clock::now();
-  TetMesh copy = mesh_;
+  TetMesh copy = *mesh_;
   copy.collect_garbage();
-  auto snapshot = std::make_unique<MeasuredMesh>(std::move(copy));
-  last_snapshot_ = Clock::now();
+  snap(std::move(copy));
   snapshot_cost_ = last_snapshot_ - start;
+}
+
+void LiveJob::snap(TetMesh mesh) {
+  auto snapshot = std::make_unique<MeasuredMesh>(std::move(mesh));
+  last_snapshot_ = Clock::now();
   const std::lock_guard lock(lock_);
   snapshot_.swap(snapshot);
 }
@@ -258,6 +287,7 @@ void LiveJob::pass_begins(std::string_view name, unsigned round) {
 
 void LiveJob::pass_ends(const QualityIndicators& now) {
   if (recorder_) recorder_->pass_ends(now);
+  show_pass(now);
 }
 
 void LiveJob::visit_begins(const TetVertices& tet, Quality quality) {
@@ -276,7 +306,7 @@ void LiveJob::standard_changed(const Standard& standard) {
 void LiveJob::attempt_begins(const AttemptEvent& event) {
   if (recorder_) recorder_->attempt_begins(event);
   take_breakpoints();
-  if (breakpoints_.is_following()) breakpoints_.attempt_begins(mesh_, event);
+  if (breakpoints_.is_following()) breakpoints_.attempt_begins(*mesh_, event);
   const bool is_asked = calls_.empty() || breakpoints_.is_following();
   calls_.push_back(is_asked ? call_of(event) : LiveCall());
   come_to_condition(calls_.back());
@@ -290,8 +320,8 @@ LiveCall LiveJob::call_of(const AttemptEvent& event) const {
   call.is_inside = !calls_.empty();
   call.is_under_way = true;
   for (const VertexHandle v : event.target) {
-    call.place += mesh_.point(v);
-    call.target.push_back(mesh_.point(v));
+    call.place += mesh_->point(v);
+    call.target.push_back(mesh_->point(v));
   }
   call.place /= static_cast<double>(event.target.size());
   return call;
@@ -320,7 +350,7 @@ void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
                            std::span<const Quality> now) {
   if (recorder_) recorder_->attempt_ends(verdict, before, now);
   if (breakpoints_.is_following()) {
-    breakpoints_.attempt_ends(mesh_, verdict, before.empty() ? 0 : before.front());
+    breakpoints_.attempt_ends(*mesh_, verdict, before.empty() ? 0 : before.front());
   }
   LiveCall call = std::move(calls_.back());
   calls_.pop_back();
@@ -348,16 +378,18 @@ void LiveJob::edit_undone() noexcept {
   if (recorder_) recorder_->edit_undone();
 }
 
-void LiveJob::progress(std::string_view phase, unsigned round, double share) {
+/// All that is done, also before and after the passes.
+void LiveJob::show(const Progress& progress) {
   publish();
   const std::lock_guard lock(lock_);
-  shown_.phase = phase;
-  shown_.round = round;
-  shown_.share = share;
+  shown_.phase = progress.stage == Stage::building    ? "building"
+                 : progress.stage == Stage::measuring ? "measuring"
+                                                      : progress.phase;
+  shown_.round = progress.round;
+  shown_.share = progress.share;
 }
 
-void LiveJob::pass_done(std::string_view /*phase*/, unsigned /*round*/,
-                        const QualityIndicators& now) {
+void LiveJob::show_pass(const QualityIndicators& now) {
   constexpr int kShare = 10;  // of the time may go into snapshots: one part in so many
   publish();
   pass_.after = now;
@@ -371,7 +403,7 @@ void LiveJob::pass_done(std::string_view /*phase*/, unsigned /*round*/,
   come_to(Event::pass_end);
 }
 
-void LiveJob::noted(std::string_view text) {
+void LiveJob::show_note(std::string_view text) {
   const std::lock_guard lock(lock_);
   shown_.notes.emplace_back(text);
 }

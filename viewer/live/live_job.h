@@ -16,7 +16,9 @@
 #include <thread>
 #include <vector>
 
-#include "schedule/run.h"
+#include <tetmend/improve.h>
+
+#include "face/recorded.h"
 #include "schedule/schedule.h"
 #include "trace/recorder.h"
 #include "viewer/live/live_breakpoints.h"
@@ -36,24 +38,25 @@ enum class Demand : std::uint8_t {
 };
 
 struct LivePlan {
-  Schedule schedule;
-  ScheduleSettings settings;
+  Options options;              ///< of the run, as `tetmend improve` has them
+  Schedule schedule;            ///< of these, for the trace
   std::filesystem::path input;  ///< name of the mesh, for the trace
   std::filesystem::path trace;  ///< file to record into; empty: none
   bool paused = false;          ///< before the first call
   double speed = 0;             ///< see LiveJob::set_speed()
   std::vector<Condition> breakpoints;
-  Registry registry = Registry::builtin();
 };
 
+/// One `tetmend improve`, followed: layers, walls, bounds, comparison and the way back are its own, so
+/// the result has its bytes. A run that goes back begins anew, with its passes and calls.
+///
 /// All member functions are for one other thread, or several. One thread makes all calls of the
 /// schedule, so that a mesh that rests is that between two calls, or at a breakpoint inside of one
-/// that of its trial, which may yet be undone. The result is the same as that of
-/// `tetmend improve`, byte for byte. A job that is held costs nothing.
-class LiveJob final : private TraceSink, private ProgressListener {
+/// that of its trial, which may yet be undone. A job that is held costs nothing.
+class LiveJob final : private TraceSink, private face::Follower {
  public:
-  /// Begins to work on `mesh`, which it sorts first.
-  LiveJob(TetMesh mesh, LivePlan plan);
+  /// Begins to work on `mesh`. What comes of it is judged by `shown`, once the run is over.
+  LiveJob(MeshData mesh, const Standard& shown, LivePlan plan);
   /// Ends the run and waits for that: for one call, or a pass over the whole mesh.
   ~LiveJob() override;
   LiveJob(const LiveJob&) = delete;
@@ -82,8 +85,12 @@ class LiveJob final : private TraceSink, private ProgressListener {
   enum class Event : std::uint8_t { start, refused_call, accepted_call, pass_end };
 
   void work();
-  void run_schedule();
+  void run();
+  TraceSink* follow(const TetMesh& mesh) override;
   void begin_trace();
+  void show_pass(const QualityIndicators& now);
+  void show(const Progress& progress);
+  void show_note(std::string_view text);
   void come_to(Event event);
   void come_to_condition(const LiveCall& call);
   LiveCall call_of(const AttemptEvent& event) const;
@@ -91,6 +98,7 @@ class LiveJob final : private TraceSink, private ProgressListener {
   void dwell(double seconds);
   void take_breakpoints();
   void snap();
+  void snap(TetMesh mesh);
   void publish();
   LiveState state_now() const;
   double seconds_until(Clock::time_point now) const;
@@ -106,12 +114,11 @@ class LiveJob final : private TraceSink, private ProgressListener {
                     std::span<const Quality> now) override;
   void edit_made(const TetMesh& mesh, const Journal& journal) noexcept override;
   void edit_undone() noexcept override;
-  void progress(std::string_view phase, unsigned round, double share) override;
-  void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) override;
-  void noted(std::string_view text) override;
 
   // Of the thread alone.
-  TetMesh mesh_;
+  MeshData data_;                  // before the run and after it
+  const TetMesh* mesh_ = nullptr;  // meanwhile
+  const Standard shown_by_;
   LivePlan plan_;
   std::unique_ptr<TraceRecorder> recorder_;
   LiveBreakpoints breakpoints_;

@@ -2,6 +2,7 @@
 #include "viewer/live/live_run.h"
 
 #include <algorithm>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,7 @@ void LiveRun::load_plugins(std::span<const std::filesystem::path> files) {
     for (const OperatorInfo* info : load_plugin(file, registry_).operators) {
       plugin_operators_.emplace_back(info->name);
     }
+    plugins_.push_back(file);
   }
 }
 
@@ -102,14 +104,13 @@ void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
   if (is_active()) throw Error("a run is at work: stop it first");
   check_trace(file);
   Schedule schedule = load(name_);  // the file may have changed
-  LivePlan plan{.schedule = std::move(schedule),
-                .settings = settings_,
+  LivePlan plan{.options = options_for(schedule, shown.mesh.standard()),
+                .schedule = std::move(schedule),
                 .input = file,
                 .trace = trace,
                 .paused = paused,
                 .speed = speed_,
-                .breakpoints = conditions(),
-                .registry = registry_};
+                .breakpoints = conditions()};
   if (!input_) input_ = std::make_unique<Input>(shown);
   if (input_->mesh.standard() != shown.mesh.standard()) {
     Input judged = *input_;
@@ -117,9 +118,28 @@ void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
     judged.statistics = compute_statistics(judged.mesh, judged.mesh.standard().goal());
     input_ = std::make_unique<Input>(std::move(judged));
   }
-  TetMesh mesh = from == From::shown ? std::move(shown.mesh) : input_->mesh;
+  const Standard standard = shown.mesh.standard();
+  MeshData mesh = from == From::shown ? std::move(shown.mesh).to_data()
+                  : input_->data      ? *input_->data
+                                      : input_->mesh.to_data();
   job_.reset();
-  job_ = std::make_unique<LiveJob>(std::move(mesh), std::move(plan));
+  job_ = std::make_unique<LiveJob>(std::move(mesh), standard, std::move(plan));
+}
+
+/// Those of a `tetmend improve` that gives the same mesh.
+Options LiveRun::options_for(const Schedule& schedule, const Standard& standard) const {
+  Options options;
+  if (name_.starts_with(kOperatorPrefix)) {
+    options.script = schedule.text();
+  } else {
+    options.schedule = name_;
+  }
+  options.set = settings_;
+  options.plugin = plugins_;
+  options.goal = standard.goal();
+  options.measure = to_string(standard.terms());
+  options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
+  return options;
 }
 
 void LiveRun::ask(Demand demand) {

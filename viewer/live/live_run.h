@@ -52,6 +52,9 @@ class LiveRun {
   struct Input {
     TetMesh mesh;
     MeshStatistics statistics;
+    /// The mesh as its file has it, where that holds what a run respects and `mesh` does not know:
+    /// parts, mid-side nodes. Null: there is no such thing.
+    std::shared_ptr<const MeshData> data = nullptr;
   };
   enum class From : std::uint8_t {
     file,  ///< the mesh that the first run since forget() began with
@@ -79,12 +82,14 @@ class LiveRun {
  private:
   void check_trace(const std::filesystem::path& mesh) const;
   Schedule load(const std::string& name_or_file);
+  Options options_for(const Schedule& schedule, const Standard& standard) const;
   std::vector<Condition> conditions() const;
 
   std::string name_;  // of a schedule, or its file
   ScheduleInfo info_;
   ScheduleSettings settings_;
   Registry registry_ = Registry::builtin();
+  std::vector<std::filesystem::path> plugins_;
   std::vector<std::string> plugin_operators_;
   double speed_ = 0;
   std::unique_ptr<const Input> input_;

@@ -175,7 +175,7 @@ py::dict to_dict(const Result& result) {
           py::dict("tets"_a = result.protected_tets, "bad_tets"_a = result.protected_bad_tets),
       "layers"_a = py::dict("tets"_a = result.layer_tets, "bad_tets"_a = result.layer_bad_tets),
       "touched_tets"_a = result.touched_tets, "limit"_a = to_object(result.limit),
-      "worse_than_before"_a = result.worse(), "missed_aims"_a = result.missed_aims(),
+      "worse_than_before"_a = result.worse_than_before(), "missed_aims"_a = result.missed_aims(),
       "surface_fingerprint"_a = result.surface_fingerprint,
       "surface_fingerprint_before"_a = result.surface_fingerprint_before,
       "surface_change"_a = to_object(result.surface_change),

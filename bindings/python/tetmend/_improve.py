@@ -47,7 +47,10 @@ class Result:
     notes: list[str]
     """What the schedule said, what was kept, what holds the bad tets that are left."""
     worse_than_before: list[str]
-    """Figures that are worse, in words: empty, for that is promised."""
+    """All figures that are worse, in words, as the report has them: the promised ones first, which are worse only where inverted
+    tets were mended, then `missed_aims`."""
+    missed_aims: list[str]
+    """Those of them that are aims and no promises: means, and non-orthogonal faces."""
     touched_tets: int
     """New tets, and those with a vertex that moved."""
     volume_change: float
@@ -245,5 +248,5 @@ def improve(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = No
         mesh=Mesh._of(core, mesh._forms, mesh._integer), vertex_map=vertex_map, tet_map=tet_map,
         before=Statistics(figures["before"]), after=Statistics(figures["after"]), goal=figures["goal"], ending=figures["ending"],
         passes=[Pass(**each) for each in figures["passes"]], notes=figures["notes"],
-        worse_than_before=figures["worse_than_before"], touched_tets=figures["touched_tets"],
+        worse_than_before=figures["worse_than_before"], missed_aims=figures["missed_aims"], touched_tets=figures["touched_tets"],
         volume_change=figures["volume_change"], seconds=figures["seconds"], figures=figures)
