@@ -54,10 +54,10 @@ bool check_operator(const Registry& registry, std::string_view name,
     total.complaint = error.what();
   }
   const bool kept = total.complaint.empty();
-  say(stdout, fmt::format("{} {} its contract: {} attempts, {} accepted{}{}\n\n", name,
-                          kept ? "keeps" : "BREAKS", grouped(total.attempts),
-                          grouped(total.accepted), kept && total.note.empty() ? "" : "; ",
-                          kept ? total.note : total.complaint));
+  say(stdout,
+      fmt::format("{} {} its contract: {} attempts, {} accepted{}{}\n\n", name,
+                  kept ? "keeps" : "BREAKS", grouped(total.attempts), grouped(total.accepted),
+                  kept && total.note.empty() ? "" : "; ", kept ? total.note : total.complaint));
   return kept;
 }
 
