@@ -13,7 +13,7 @@ namespace {
 
 using CommonFace = std::array<std::uint32_t, 3>;
 using CommonEdge = std::array<std::uint32_t, 2>;
-using Elements = std::span<const std::uint32_t>;
+using PointElements = std::span<const std::uint32_t>;
 
 constexpr int kVertex = 1;      // of VTK
 constexpr int kPolyVertex = 2;  // a cloud of points
@@ -64,28 +64,28 @@ std::vector<char> points_of_others(const MeshData& mesh) {
 class ElementsOfPoints {
  public:
   explicit ElementsOfPoints(const MeshData& mesh) : begin_(mesh.points.size() + 1, 0) {
-    for_each_element(mesh, [&](Elements points) {
+    for_each_element(mesh, [&](PointElements points) {
       for (const std::uint32_t v : points) ++begin_[v + 1];
     });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     elements_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), std::prev(begin_.end()));
     std::uint32_t number = 0;
-    for_each_element(mesh, [&](Elements points) {
+    for_each_element(mesh, [&](PointElements points) {
       for (const std::uint32_t v : points) elements_[next[v]++] = number;
       ++number;
     });
   }
 
-  Elements of(std::uint32_t point) const {
+  PointElements of(std::uint32_t point) const {
     return {elements_.data() + begin_[point], elements_.data() + begin_[point + 1]};
   }
   template <std::size_t N>
   bool have_one_in_common(const std::array<std::uint32_t, N>& points) const {
-    const Elements first = of(points[0]);
+    const PointElements first = of(points[0]);
     return std::any_of(first.begin(), first.end(), [&](std::uint32_t element) {
       return std::all_of(points.begin() + 1, points.end(), [&](std::uint32_t v) {
-        const Elements others = of(v);
+        const PointElements others = of(v);
         return std::binary_search(others.begin(), others.end(), element);
       });
     });
