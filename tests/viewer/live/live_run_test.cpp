@@ -371,7 +371,9 @@ TEST_CASE("the document shows a run, and opening another mesh ends it") {
     expect(live_wait().state == "stopped", "the end")
   )lua",
              "test");
-  CHECK(s.document.statistics().q_worst > before.q_worst);
+  // Smoothing without end had made more tets bad, so the run went back.
+  CHECK(s.document.statistics().n_bad == before.n_bad);
+  CHECK(s.document.statistics().q_worst == before.q_worst);
   REQUIRE(s.document.statistics_before());
   CHECK(s.document.statistics_before()->n_bad == before.n_bad);
   s.run("save", {(folder / "better.mesh").string()});
@@ -450,7 +452,7 @@ TEST_CASE("the goal of the viewer is that of the figures, of live runs and of th
   CHECK(s.run("goal")["min"] == 30);
   CHECK(s.document.statistics().n_bad == bad);
   s.run("to_end");
-  CHECK(s.run("goal")["min"] == 10);
+  CHECK(s.run("goal")["min"] == 30);  // the schedule is over
   CHECK_THROWS_WITH_AS(s.run("goal", {20}), doctest::Contains("trace"), Error);
 }
 
