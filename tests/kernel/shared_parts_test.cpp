@@ -28,7 +28,7 @@ OtherElements element(int type, std::vector<std::uint32_t> vertices) {
 }
 
 /// Two tets on either side of the triangle 0, 1, 2.
-MeshData two_tets() {
+MeshData two_tets_at_prism() {
   MeshData data;
   data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {5, 5, 5}};
   data.tets = {{{0, 1, 2, 3}, 0}, {{0, 2, 1, 4}, 0}};
@@ -53,7 +53,7 @@ TEST_CASE("tets share with a bed of other elements all faces, edges and points t
 }
 
 TEST_CASE("points share themselves alone, and a chain its edges") {
-  MeshData data = two_tets();
+  MeshData data = two_tets_at_prism();
   data.other_elements = {element(1, {0}), element(2, {1, 2, 3, 4})};
   CHECK(find_shared_parts(data).points == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
   CHECK(find_shared_parts(data).edges.empty());
@@ -63,7 +63,7 @@ TEST_CASE("points share themselves alone, and a chain its edges") {
 }
 
 TEST_CASE("what lies between tets of one region is held, and walls are not named anew") {
-  MeshData data = two_tets();
+  MeshData data = two_tets_at_prism();
   data.other_elements = {element(13, {0, 1, 2, 5, 5, 5})};  // only its triangle counts
   MeshData held = data;
   hold_shared_inside(held);

@@ -32,7 +32,7 @@ std::uint32_t grid_index(int i, int j, int k, int n) {
 
 /// The unit cube as n^3 cells of six Kuhn tets each. There is one for every order in which a path
 /// from the low to the high corner of a cell can walk along x, y and z.
-MeshData kuhn_cube(int n) {
+MeshData split_cubes(int n) {
   MeshData data;
   for (int k = 0; k <= n; ++k) {
     for (int j = 0; j <= n; ++j) {
@@ -192,7 +192,7 @@ TEST_CASE("a right corner has three angles of 90 degrees and three of 54.74") {
 
 TEST_CASE("a cube of six Kuhn tets has angles of 45, 60 and 90 degrees, each in one bin") {
   for (const int n : {1, 3, 7}) {  // cells of 1/3 and 1/7: the angles are right up to rounding only
-    const MeshStatistics s = compute_statistics(TetMesh(kuhn_cube(n)));
+    const MeshStatistics s = compute_statistics(TetMesh(split_cubes(n)));
     const auto tets = static_cast<std::size_t>(6 * n * n * n);
     CAPTURE(n);
     CHECK(s.tets == tets);
@@ -273,7 +273,7 @@ TEST_CASE("a flat tet is counted as flat and has angles of 0 and 180 degrees") {
 }
 
 TEST_CASE("a tet with a collapsed face has finite statistics") {
-  MeshData data = kuhn_cube(1);
+  MeshData data = split_cubes(1);
   data.points[data.tets[0].vertices[1]] = data.points[data.tets[0].vertices[0]];
   const MeshStatistics s = compute_statistics(TetMesh(data));
   CHECK(s.flat > 0);
@@ -286,7 +286,7 @@ TEST_CASE("a tet with a collapsed face has finite statistics") {
 
 TEST_CASE(
     "an inverted tet counts with negative quality and volume, and its mirror image's angles") {
-  MeshData data = kuhn_cube(2);
+  MeshData data = split_cubes(2);
   const std::uint32_t centre = grid_index(1, 1, 1, 2);
   data.points[centre] = Point(0.5, 0.5, 1.1);  // through the lid: the tets between turn over
   const TetMesh mesh(data);
@@ -303,32 +303,32 @@ TEST_CASE(
 
 TEST_CASE("statistics of a jittered grid agree with the definitions") {
   for (const double amount : {0.01, 0.03, 0.06, 0.2}) {
-    const TetMesh mesh(jittered(kuhn_cube(8), amount));
+    const TetMesh mesh(jittered(split_cubes(8), amount));
     CAPTURE(amount);
     check_equal(compute_statistics(mesh), direct_statistics(mesh));
   }
 }
 
 TEST_CASE("the five bands add up to lambda") {
-  const MeshStatistics s = compute_statistics(TetMesh(jittered(kuhn_cube(6), 0.05)));
+  const MeshStatistics s = compute_statistics(TetMesh(jittered(split_cubes(6), 0.05)));
   CHECK(s.lambda > 1);
   const double sum = std::accumulate(s.lambda_bands.begin(), s.lambda_bands.end(), 0.0);
   CHECK(sum == doctest::Approx(s.lambda).epsilon(1e-14));
 }
 
 TEST_CASE("the volume is right to 13 digits far away from the origin and with many tets") {
-  MeshData data = kuhn_cube(16);
+  MeshData data = split_cubes(16);
   for (Point& p : data.points) p = 16 * p + Point(1024, -2048, 4096);  // whole numbers: no rounding
   const MeshStatistics s = compute_statistics(TetMesh(data));
   CHECK(s.volume == doctest::Approx(4096).epsilon(1e-14).scale(0));
 
-  data = kuhn_cube(20);
+  data = split_cubes(20);
   for (Point& p : data.points) p *= 20 * 0.1;
   CHECK(compute_statistics(TetMesh(data)).volume == doctest::Approx(8).epsilon(1e-14).scale(0));
 }
 
 TEST_CASE("statistics do not depend on the order of the tets beyond rounding") {
-  TetMesh mesh(jittered(kuhn_cube(6), 0.04));
+  TetMesh mesh(jittered(split_cubes(6), 0.04));
   const MeshStatistics before = compute_statistics(mesh);
   mesh.sort_spatially();
   check_equal(compute_statistics(mesh), before);
@@ -376,13 +376,13 @@ TEST_CASE("an empty mesh has statistics of zero") {
 }
 
 TEST_CASE("coordinates whose products overflow still give one entry for each angle") {
-  MeshData data = kuhn_cube(1);
+  MeshData data = split_cubes(1);
   for (Point& p : data.points) p *= 1e150;
   CHECK(total(compute_statistics(TetMesh(data)).histogram) == 36);
 }
 
 TEST_CASE("bad tets and lambda are those of the goal asked for") {
-  const TetMesh mesh(jittered(kuhn_cube(8), 0.04));
+  const TetMesh mesh(jittered(split_cubes(8), 0.04));
   for (const Goal goal : {Goal{35, 140}, Goal{15, 168}, Goal{25.1, 150}}) {
     CAPTURE(goal.min_angle);
     std::size_t n_bad = 0;
@@ -415,7 +415,7 @@ TEST_CASE("bad tets and lambda are those of the goal asked for") {
 }
 
 TEST_CASE("quality indicators from the cache agree with the statistics") {
-  TetMesh mesh(jittered(kuhn_cube(6), 0.05));
+  TetMesh mesh(jittered(split_cubes(6), 0.05));
   mesh.set_standard(Standard(Goal{}, Standard::Terms::sine));
   const MeshStatistics s = compute_statistics(mesh);
   const QualityIndicators indicators = quality_indicators(mesh);
@@ -424,14 +424,14 @@ TEST_CASE("quality indicators from the cache agree with the statistics") {
   CHECK(indicators.q_worst == doctest::Approx(2 * s.q_worst).epsilon(1e-6));
   CHECK(indicators.q_aver == doctest::Approx(2 * s.q_aver).epsilon(1e-6));
 
-  const QualityIndicators good = quality_indicators(TetMesh(kuhn_cube(2)));
+  const QualityIndicators good = quality_indicators(TetMesh(split_cubes(2)));
   CHECK(good.n_bad == 0);
   CHECK(good.q_aver == 0);
   CHECK(good.q_worst == doctest::Approx(std::numbers::sqrt2));
 }
 
 TEST_CASE("quality indicators leave frozen tets out, the statistics do not") {
-  TetMesh mesh(jittered(kuhn_cube(6), 0.05));
+  TetMesh mesh(jittered(split_cubes(6), 0.05));
   const MeshStatistics s = compute_statistics(mesh);
   const auto worst = [&](TetHandle t) { return mesh.quality(t) < s.q_worst + 0.1; };
   const std::size_t frozen = mesh.freeze(worst);
@@ -448,7 +448,7 @@ TEST_CASE("quality indicators leave frozen tets out, the statistics do not") {
 }
 
 TEST_CASE("any quality measure can be summarized over a mesh") {
-  const TetMesh mesh(jittered(kuhn_cube(4), 0.02));
+  const TetMesh mesh(jittered(split_cubes(4), 0.02));
   for (const QualityMeasure& measure : quality_measures()) {
     const MeasureSummary summary = summarize(mesh, measure);
     CAPTURE(measure.name);
@@ -463,7 +463,8 @@ TEST_CASE("any quality measure can be summarized over a mesh") {
 }
 
 TEST_CASE("statistics are the same, bit for bit, for every number of threads") {
-  const TetMesh mesh(jittered(kuhn_cube(17), 0.03));  // 29478 tets: two chunks, the second not full
+  const TetMesh mesh(
+      jittered(split_cubes(17), 0.03));  // 29478 tets: two chunks, the second not full
   REQUIRE(mesh.tet_slots() > kChunkSize);
   const auto all_of = [&](int threads) {
     return on_threads(threads, [&] {
