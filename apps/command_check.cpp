@@ -164,10 +164,10 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command->footer(fmt::format(
       R"(Prints a line for each fact. With two meshes, from the files alone: the same
 surface, bit for bit, the same faces between labels, named triangles and groups,
-the same volume of each label, no inverted tet, no smaller theta_min, no larger
-theta_max unless the goal allows it, not more bad tets. Where inverted tets were
-mended, these two angles are shown and not asked for. Thresholds are then asked
-of OUT.
+the same other elements with all that tets share with them, the same volume of
+each label, no inverted tet, no smaller theta_min, no larger theta_max unless
+the goal allows it, not more bad tets. Where inverted tets were mended, these
+two angles are shown and not asked for. Thresholds are then asked of OUT.
 
 Presets; all of them ask for no inverted tet:
 {}

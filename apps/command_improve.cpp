@@ -276,8 +276,8 @@ untouched and no tet got inverted. On a terminal a line shows the progress.
 An operator of a plugin that does not come back is named; two seconds after the
 time limit or Ctrl-C it ends the run with exit status 1, and no mesh is written.
 Mesh, reports and trace appear together: where one cannot be written, none is.
-Where the mesh goes from file to file (--memory, --checkpoint, parts), reports
-come after it.
+Where the mesh goes from file to file (--memory, --checkpoint, parts), the trace
+comes before it and reports after it.
 
 Ctrl-C, SIGTERM, SIGUSR1, SIGXCPU and their like stop the work: OUT is still
 written, with the mesh as improved so far, and the exit status is 4. The second
@@ -304,9 +304,9 @@ Examples:
   tetmend improve part.mesh -o better.mesh --protect label:3
   mesher | tetmend improve - -o - --format msh | solver
 
-Exit status: 0 success, 1 the work failed and nothing was written, 2 wrong
-usage, 3 written, but tets miss the goal that --goal asked for, 4 written, but
-interrupted)",
+Exit status: 0 success, 1 the work failed and OUT is as it was (but see above),
+2 wrong usage, 3 written, but tets miss the goal that --goal asked for, 4
+written, but interrupted)",
       region_help(), mesh_format_list()));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return run_improve(*options, invocation); };

@@ -229,7 +229,7 @@ std::string region_help() {
   label:1,4                the tets with label 1 or 4
   box:x0,y0,z0,x1,y1,z1    the tets with all four vertices in the box, its
                            surface included; inf and -inf are allowed
---protect prevails over --only. Protected tets keep their vertices, bit by bit.
+--protect prevails over --only. Protected tets keep their vertices, bit for bit.
 So do boundary layers: stacks of prisms on walls, each cut into three tets. They
 are found by their structure, and --layers improve gives them up.
 

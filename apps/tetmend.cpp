@@ -51,7 +51,7 @@ Examples:
   tetmend quality better.mesh                  look at its dihedral angles
   tetmend improve --help                       all about one subcommand
 
-Exit status: 0 success, 1 the work failed and nothing was written, 2 wrong
+Exit status: 0 success, 1 the work failed and OUT is as it was, 2 wrong
 usage, 3 written, but a goal that was asked for is missed, 4 written, but
 interrupted)",
       mesh_format_list()));

@@ -181,7 +181,7 @@ Outcome check_contract(const Registry& registry, std::string_view name,
   }
   Outcome inside = try_in_territories(*cast.normal.op, meshes);
   if (inside.complaint.empty() && inside.accepted == 0) {
-    inside.note = "nothing was accepted in a territory: what threads do is not shown";
+    inside.note = "nothing was accepted in a territory: so what it does in threads was not tried";
   }
   listener("territory", inside);
   total += inside;

@@ -61,10 +61,10 @@ std::optional<std::size_t> Growth::most(std::size_t now) const {
   if (number_ && *number_ < now && !is_meant_) {
     constexpr std::size_t kMostPercent = 100;
     const std::string guess = *number_ <= kMostPercent ? fmt::format(": did you mean {}%?", text_)
-                                                       : ": 0% lets the mesh not grow.";
+                                                       : ": 0% keeps the mesh from growing.";
     throw OptionError("tets",
-                      fmt::format("tets: {} is less than the {} tets that are there{} {}! is taken "
-                                  "as it is",
+                      fmt::format("tets: {} is less than the {} tets that are there{} write {}! "
+                                  "if that is meant",
                                   text_, grouped(now), guess, text_));
   }
   if (!share_) return number_;

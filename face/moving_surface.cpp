@@ -51,10 +51,9 @@ void SurfaceTolerance::check_length(double diagonal) const {
   if (is_meant_ || length_ <= kMostShare * diagonal) return;
   const std::string guess = length_ <= 100 ? fmt::format(": did you mean {}%?", length_) : ".";
   throw OptionError(
-      "surface",
-      fmt::format("surface: {} is {:.2g} % of the diagonal of the mesh{} Above 5 % write "
-                  "{}! for a length that is meant",
-                  length_, 100 * length_ / diagonal, guess, length_));
+      "surface", fmt::format("surface: {} is {:.2g} % of the diagonal of the mesh{} Write {}! if "
+                             "that length is meant",
+                             length_, 100 * length_ / diagonal, guess, length_));
 }
 
 namespace {

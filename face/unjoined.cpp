@@ -174,8 +174,8 @@ std::vector<std::string> describe(const UnjoinedPoints& points, std::size_t of_a
   }
   if (points.hanging > 0) {
     notes.push_back(fmt::format(
-        "{} of {} points {} on a face or an edge that does not have them: what meets there is not "
-        "joined, and surface to both sides",
+        "{} of {} points {} on a face or an edge of others: what meets there is not joined, and is "
+        "surface to both sides",
         grouped(points.hanging), grouped(of_all), lie(points.hanging)));
   }
   return notes;

@@ -384,14 +384,19 @@ void check(const Options& options, const Division& division) {
   check_trace_piece(options, division.pieces, division.divisions, division.zone_rounds);
 }
 
+namespace {
+
+constexpr std::size_t kLeastTets = 300;  // of a piece
+
+}  // namespace
+
 std::size_t limited_pieces(std::size_t pieces, std::size_t tets) {
-  constexpr std::size_t kLeastTets = 300;
   return std::min(pieces, std::max<std::size_t>(2, tets / kLeastTets));
 }
 
 std::string why_fewer_pieces(std::size_t asked, std::size_t pieces, std::size_t tets) {
-  return fmt::format("{} pieces, not {}: the mesh has no more than {} tets", grouped(pieces),
-                     grouped(asked), grouped(tets));
+  return fmt::format("{} pieces, not {}: more would have less than {} of the {} tets each",
+                     grouped(pieces), grouped(asked), kLeastTets, grouped(tets));
 }
 
 std::size_t usual_pieces(std::size_t tets) {
@@ -407,7 +412,7 @@ constexpr std::uint64_t kProgram = 40'000'000;  // bytes, without a piece
 
 void check_memory(std::uint64_t memory) {
   if (memory == 0 || memory >= kProgram) return;
-  throw OptionError("memory", fmt::format("memory: {} bytes are less than the {}M that the program "
+  throw OptionError("memory", fmt::format("memory: {} bytes is less than the {}M that the program "
                                           "takes without a piece: expected a size such as 2G",
                                           memory, kProgram / 1'000'000));
 }

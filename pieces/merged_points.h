@@ -27,7 +27,7 @@ struct MergedPoints {
 };
 
 /// All ranks. Points of one id are one, in the order of ids; without ids those are one that lie at
-/// one place, bit by bit, in the order in which the parts name them first. How many ranks there are
+/// one place, bit for bit, in the order in which the parts name them first. How many ranks there are
 /// cannot show in the numbers.
 /// @throws Error for one id at two places; without ids for two points of a part at a place where
 /// another part has one, too: which of them it is cannot be told

@@ -16,7 +16,7 @@ void divide_into_parts(DividedMesh& mesh, std::size_t parts);
 
 /// `.pvtu` of VTK with its `.vtu` files. Those that are written lie in a folder of the name of the file
 /// without its ending, a piece in each, and name their points by an array `GlobalNodeId`. Where files
-/// that are read have no such array, points of several at one place, bit by bit, are one. Ghost cells
+/// that are read have no such array, points of several at one place, bit for bit, are one. Ghost cells
 /// (`vtkGhostType`) go. Arrays are kept that all parts have; others are named in notes.
 class PvtuFiles final : public ArrayFiles {
  public:

@@ -234,7 +234,7 @@ struct Result {
   double building = 0;   ///< adjacency, order along a space-filling curve
   double measuring = 0;  ///< statistics and checks, before and after
   double improving = 0;  ///< the schedule
-  double carrying = 0;   ///< bringing over all that the mesh holds besides; into arrays again
+  double carrying = 0;   ///< bringing labels, groups and arrays over to the new mesh
 
   /// All figures that are worse than before, in words: worse(), then missed_aims(). The same list in
   /// the report as text, page and JSON, in Python and in C.

@@ -244,7 +244,7 @@ InpLines::InpLines(const std::filesystem::path& file) {
 /// A file that is included again is not read again.
 const InputFile& InpLines::open(const std::filesystem::path& path, const InpBlock* from) {
   constexpr int kMostFiles = 10000;
-  if (++inclusions_ > kMostFiles) from->fail("more files are included than anybody writes");
+  if (++inclusions_ > kMostFiles) from->fail("more than 10,000 files are included");
   std::unique_ptr<InputFile>& file = files_[std::filesystem::weakly_canonical(path)];
   try {
     if (file == nullptr) {
@@ -258,7 +258,7 @@ const InputFile& InpLines::open(const std::filesystem::path& path, const InpBloc
   }
   included_ += file->size();
   if (from != nullptr && is_bomb(size_of_files_, included_)) {
-    from->fail("the same files are included more often than anybody does");
+    from->fail("the same files are included again and again, hundreds of times their size");
   }
   return *file;
 }

@@ -230,7 +230,7 @@ class Reader {
   void refuse_many_parts() const {
     constexpr std::size_t kBytesOfPart = 256;
     if (!is_bomb(lines_.size_of_files(), kBytesOfPart * parts_.all.size())) return;
-    fail("the sets overlap in hundreds of times more ways than the deck has bytes");
+    fail("the sets overlap in more ways than a deck of this size can have");
   }
 
   /// A shell may lie on a face: then it is the triangle.

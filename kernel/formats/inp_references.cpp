@@ -539,7 +539,7 @@ class Remarks {
                           count == 1 ? "point" : "points", count == 1 ? "it is" : "they are");
     }
     if (remarks_.size() > kMost) {
-      text += fmt::format("{} more keep points where they are\n", remarks_.size() - kMost);
+      text += fmt::format("{} more lines keep points where they are\n", remarks_.size() - kMost);
     }
     return text;
   }

@@ -119,8 +119,9 @@ class Reader {
     constexpr std::size_t kNodeAndText = 128;
     const auto tags = static_cast<std::size_t>(std::count(xml.begin(), xml.end(), '<'));
     if (!is_bomb(file_.size_of_file(), kNodeAndText * tags)) return;
-    file_.fail_at_line(file_.begin(),
-                       fmt::format("{} tags are in the gzip file, which no mesh has", tags));
+    file_.fail_at_line(
+        file_.begin(),
+        fmt::format("the gzip file has {} tags, more than a mesh of its size", tags));
   }
 
   const char* place_of(const pugi::xml_node& node) const {

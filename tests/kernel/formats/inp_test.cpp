@@ -600,8 +600,7 @@ TEST_CASE("a file that a deck includes again and again counts once") {
   CHECK(read_mesh(folder / "a.inp").tets.size() == 1);
   for (int i = 0; i < 400; ++i) deck += "*INCLUDE, INPUT=big.inc\n";
   write_text(folder / "a.inp", deck);
-  CHECK(error_of_reading(folder / "a.inp").find("more often than anybody does") !=
-        std::string::npos);
+  CHECK(error_of_reading(folder / "a.inp").find("again and again") != std::string::npos);
 }
 
 TEST_CASE("bad decks are refused with line, word and what was expected") {
