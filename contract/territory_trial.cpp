@@ -182,6 +182,7 @@ std::string attempt_and_judge(Side& side, const Operator& op, Target target, Out
 double bound_below(const TetMesh& mesh, double share) {
   std::vector<double> places;
   for (const VertexHandle v : live_vertices(mesh)) places.push_back(mesh.point(v).x());
+  if (places.empty()) return 0;
   const auto at = std::min(places.size() - 1,
                            static_cast<std::size_t>(share * static_cast<double>(places.size())));
   const auto nth = places.begin() + static_cast<std::ptrdiff_t>(at);

@@ -369,16 +369,21 @@ class Carrying {
     }
   }
 
-  /// What walls_between_parts() added, sorted; they cannot have changed.
+  /// What walls_between_parts() and hold_shared_inside() added, sorted; they cannot have changed.
   template <class Element>
   std::set<decltype(Element::vertices)> walls_now() const {
     std::set<decltype(Element::vertices)> walls;
+    if (marks_ == nullptr) return walls;
+    const auto add = [&](decltype(Element::vertices) wall) {
+      for (std::uint32_t& v : wall) v = vertex_map_[v];
+      walls.insert(sorted(wall));
+    };
+    const SharedParts inside = find_shared_inside(before_, find_shared_parts(before_));
     if constexpr (std::is_same_v<Element, MeshData::Triangle>) {
-      if (marks_ == nullptr) return walls;
-      for (MeshData::Triangle& wall : walls_between_parts(before_)) {
-        for (std::uint32_t& v : wall.vertices) v = vertex_map_[v];
-        walls.insert(sorted(wall.vertices));
-      }
+      for (const MeshData::Triangle& wall : walls_between_parts(before_)) add(wall.vertices);
+      for (const auto& face : inside.faces) add(face);
+    } else {
+      for (const auto& edge : inside.edges) add(edge);
     }
     return walls;
   }

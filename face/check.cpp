@@ -407,6 +407,7 @@ Fact same_shared_parts(const MeshData& before, const MeshData& after) {
   const auto elements_of = [&](const MeshData& mesh) {
     std::vector<std::pair<int, std::vector<Bits>>> elements;
     for (const OtherElements& others : mesh.other_elements) {
+      if (others.vertex_count == 0) continue;
       const std::span<const std::uint32_t> all = others.vertices;
       for (std::size_t i = 0; i < all.size(); i += others.vertex_count) {
         elements.emplace_back(others.vtk_type, corners(mesh, all.subspan(i, others.vertex_count)));

@@ -12,6 +12,7 @@
 #include <tetmend/improve.h>
 
 #include "face/moving_surface.h"
+#include "kernel/formats/deck_remarks.h"
 #include "pieces/divided_mesh.h"
 #include "pieces/file_slices.h"
 #include "pieces/piece_run.h"
@@ -35,6 +36,8 @@ class InputMesh {
   bool holds_more(const std::filesystem::path& output) const;
   /// First rank: what of the file will not be in that one, a sentence each.
   std::vector<std::string> lost_in(const std::filesystem::path& output) const;
+  /// First rank: deck_remarks().
+  std::vector<std::string> remarks() const { return deck_remarks(data_); }
   /// All ranks: @throws OptionError, where the arrays are, unless each name is that of one of the tets
   void check_conserve(const std::vector<std::string>& names) const;
   /// All ranks: adds all of it, in slices for so many pieces, with end_slices(). Once.

@@ -191,6 +191,10 @@ bool FileRun::read() {
     files_.tell_lost(input.lost_in(files_.output));
   }
   if (!is_in_pieces) return false;
+  for (const std::string& text : input.remarks()) {
+    result_.notes.push_back(text);
+    watcher_.noted(text);
+  }
   check(options_, division_);
   vertices_ = input.vertices();
   holds_more_ = input.holds_more(files_.output);

@@ -19,7 +19,7 @@
 
 namespace tetmend::pieces {
 
-/// By which a file is known again. Of a mesh in several files: nothing is known.
+/// By which a file is known again. Of a mesh in several files: the named one alone.
 struct FileIdentity {
   std::uint64_t size = 0;  ///< bytes
   std::uint32_t checksum = 0;

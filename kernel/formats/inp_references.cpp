@@ -483,25 +483,29 @@ class Unmarking {
 /// Says who keeps how many points, in the order of the deck.
 class Remarks {
  public:
-  explicit Remarks(const std::vector<char>& marks) : marks_(marks) {}
+  Remarks(const InpLines& lines, const std::vector<char>& marks) : marks_(marks) {
+    for (const InpBlock& block : lines.blocks) places_.emplace(&block, places_.size());
+  }
 
   void add_keywords(const InpReferences& references) {
     struct Pins {
+      const InpBlock* first;
       std::set<const InpBlock*> blocks;
       std::vector<std::uint32_t> points;
     };
     std::map<std::string_view, Pins> pins;
     for (const InpReference& each : references.points) {
       if (marks_[each.point] == 0) continue;
-      pins[each.block->keyword].blocks.insert(each.block);
-      pins[each.block->keyword].points.push_back(each.point);
+      Pins& of = pins.try_emplace(each.block->keyword, Pins{each.block, {}, {}}).first->second;
+      if (places_.at(each.block) < places_.at(of.first)) of.first = each.block;
+      of.blocks.insert(each.block);
+      of.points.push_back(each.point);
     }
     for (auto& [keyword, of] : pins) {
       std::sort(of.points.begin(), of.points.end());
       of.points.erase(std::unique(of.points.begin(), of.points.end()), of.points.end());
-      const InpBlock* first = *of.blocks.begin();  // blocks lie in the order of the deck
-      const bool is_known = first->keyword == "EQUATION" || nodes_of(*first).is_known;
-      add(*first, of.blocks.size(),
+      const bool is_known = of.first->keyword == "EQUATION" || nodes_of(*of.first).is_known;
+      add(*of.first, of.blocks.size(),
           fmt::format("*{}{}", keyword, is_known ? "" : ", whose fields are not known,"),
           of.points.size());
     }
@@ -528,8 +532,9 @@ class Remarks {
 
   std::string text() {
     constexpr std::size_t kMost = 20;
-    std::sort(remarks_.begin(), remarks_.end(),
-              [](const Remark& a, const Remark& b) { return a.block < b.block; });
+    std::sort(remarks_.begin(), remarks_.end(), [this](const Remark& a, const Remark& b) {
+      return places_.at(a.block) < places_.at(b.block);
+    });
     std::string text;
     for (std::size_t i = 0; i < std::min(remarks_.size(), kMost); ++i) {
       const auto& [block, blocks, who, count] = remarks_[i];
@@ -556,6 +561,7 @@ class Remarks {
   }
 
   const std::vector<char>& marks_;
+  std::map<const InpBlock*, std::size_t> places_;  // in the deck
   std::vector<Remark> remarks_;
 };
 
@@ -584,7 +590,7 @@ InpPins find_pins(const InpLines& lines, const InpMesh& mesh, InpSets& sets, con
     if (marks[v] != 0) pins.points.push_back(v);
   }
   if (pins.points.empty()) return pins;
-  Remarks remarks(marks);
+  Remarks remarks(lines, marks);
   remarks.add_keywords(references);
   remarks.add_sets(lines, sets, references);
   pins.remarks = remarks.text();

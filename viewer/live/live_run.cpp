@@ -119,9 +119,10 @@ void LiveRun::start(Input shown, From from, const std::filesystem::path& file) {
     input_ = std::make_unique<Input>(std::move(judged));
   }
   const Standard standard = shown.mesh.standard();
-  MeshData mesh = from == From::shown ? std::move(shown.mesh).to_data()
-                  : input_->data      ? *input_->data
-                                      : input_->mesh.to_data();
+  const auto& data = from == From::shown ? shown.data : input_->data;
+  MeshData mesh = data                  ? *data
+                  : from == From::shown ? std::move(shown.mesh).to_data()
+                                        : input_->mesh.to_data();
   job_.reset();
   job_ = std::make_unique<LiveJob>(std::move(mesh), standard, std::move(plan));
 }
