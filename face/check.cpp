@@ -361,6 +361,22 @@ const MeshData& put_right(const Mesh& mesh, MeshData& own) {
   return own;
 }
 
+/// As the second mesh is put right, unless it lists more tets in the wrong sense than the first: a solver
+/// reads what is listed. A mesh that is mirrored as a whole has another sense, no wrong one.
+Fact not_more_inverted(const MeshData& before, const MeshData& listed_before, const MeshData& after,
+                       const MeshData& listed_after) {
+  const auto count = [](const MeshData& mesh) {
+    return std::get<std::uint64_t>(no_inverted(mesh).value);
+  };
+  const auto count_listed = [&](const MeshData& mesh) {
+    const std::uint64_t inverted = count(mesh);
+    return inverted == mesh.tets.size() ? 0 : inverted;
+  };
+  const std::uint64_t allowed = std::max(count(before), count_listed(listed_before));
+  const bool is_listed_worse = count_listed(listed_after) > allowed;
+  return is_listed_worse ? no_inverted(listed_after, allowed) : no_inverted(after, count(before));
+}
+
 /// One fact for all groups, which names the first that differs.
 Fact same_groups(const MeshData& before, const MeshData& after, const Scale& scale) {
   constexpr double kRounding = 1e-9;
@@ -598,7 +614,8 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
   if (!before.other_elements.empty()) facts.push_back(same_shared_parts(before, after));
   for (Fact& fact : same_volumes(before, after, scale)) facts.push_back(std::move(fact));
   const auto inverted_before = std::get<std::uint64_t>(no_inverted(before).value);
-  facts.push_back(no_inverted(after, inverted_before));
+  facts.push_back(
+      not_more_inverted(before, MeshAccess::data(first), after, MeshAccess::data(second)));
   const bool is_mended = std::get<std::uint64_t>(facts.back().value) < inverted_before;
   if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
     facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),

@@ -124,10 +124,10 @@ TEST_CASE(
     MeshData data;
     const Corners fine = wedge(60);
     data.points.assign(fine.begin(), fine.end());
-    data.points.insert(data.points.end(), sharp.begin(), sharp.end());
+    data.points.push_back(sharp[3]);
     data.points.insert(data.points.end(), {{50, 0, 0}, {51, 0, 0}, {50, 1, 0}, {50, 0, 1}});
-    // Two of three are positive, so the mesh is not taken for a mirrored one.
-    data.tets = {{{0, 1, 2, 3}, 0}, {{5, 4, 6, 7}, 0}, {{8, 9, 10, 11}, 0}};
+    // Folded back into the larger one, whose volume tells the sense of both.
+    data.tets = {{{0, 1, 2, 3}, 0}, {{0, 1, 2, 4}, 0}, {{5, 6, 7, 8}, 0}};
     return TetMesh(data);
   };
   const TetMesh mesh = with_inverted(wedge(10));

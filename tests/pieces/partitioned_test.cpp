@@ -390,9 +390,16 @@ TEST_CASE("ghost tets of parts go with their values, and arrays that some parts 
   for (const auto& part : pieces::read_pvtu(parts)) {
     MeshData data = read_mesh(part);
     tets += data.tets.size();
-    std::vector<std::int32_t> ghosts(data.tets.size(), 0);
+    const std::size_t tets_here = data.tets.size();
+    std::vector<std::int32_t> ghosts(tets_here, 0);
     for (std::size_t i = 0; i < 3; ++i) {
-      data.tets.push_back(data.tets[i]);
+      // A tet of another part, which nothing here has: copies would be dropped before.
+      MeshData::Tet ghost = data.tets[i];
+      const auto& others = data.tets[tets_here - 1 - i].vertices;
+      ghost.vertices[3] = *std::find_if(others.begin(), others.end(), [&](std::uint32_t v) {
+        return std::find(ghost.vertices.begin(), ghost.vertices.end(), v) == ghost.vertices.end();
+      });
+      data.tets.push_back(ghost);
       ghosts.push_back(1);
     }
     data.tet_data.push_back({"vtkGhostType", 1, ghosts});

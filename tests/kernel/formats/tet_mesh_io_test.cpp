@@ -10,11 +10,11 @@ using namespace tetmend::test;
 
 namespace {
 
-/// The second of two tets lies on the first.
+/// Three tets at one face.
 constexpr std::string_view kFolded =
-    "MeshVersionFormatted 2\nDimension 3\nVertices 5\n"
-    "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 2 0\n"
-    "Tetrahedra 2\n1 2 3 4 7\n1 2 3 5 8\nEnd\n";
+    "MeshVersionFormatted 2\nDimension 3\nVertices 6\n"
+    "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 -1 0\n0 0 2 0\n"
+    "Tetrahedra 3\n1 2 3 4 7\n2 1 3 5 7\n1 2 3 6 8\nEnd\n";
 
 }  // namespace
 
@@ -30,12 +30,13 @@ TEST_CASE("a file becomes a mesh in the order of the file or along a curve") {
   CHECK(report.constrained_faces == expected.constrained_faces);
 }
 
-TEST_CASE("tets that overlap are an error that begins with the line of the second") {
+TEST_CASE(
+    "tets that share a face with two others are an error that begins with the line of the third") {
   const TempFolder folder;
   write_text(folder / "a.mesh", kFolded);
   for (const MeshOrder order : {MeshOrder::of_file, MeshOrder::spatial}) {
     CHECK_THROWS_WITH_AS(read_tet_mesh(folder / "a.mesh", order),
-                         doctest::Contains("a.mesh:11: tet 2 (vertices 1 2 3 5)"), Error);
+                         doctest::Contains("a.mesh:13: tet 3 (vertices 1 2 3 6)"), Error);
   }
 }
 
