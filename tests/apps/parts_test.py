@@ -210,7 +210,7 @@ def interrupted(folder):
                 for each in remains(folder):
                     check("KILL" in end, "drafts are left", name, end, number, each)
                     shutil.rmtree(folder / each) if (folder / each).is_dir() else (folder / each).unlink()
-                if done.returncode == 0:
+                if done.returncode == 0 and number > 1:  # the first gives a lock its name, and a run does without
                     break
         check(states == {(ends[0], "old"), (ends[0], "none"), (ends[0], "new"), (ends[1], "old"), (ends[1], "new")},
               "not all ends were tried", name, states)
