@@ -76,7 +76,6 @@ struct Wall {
   std::array<Label, 2> labels{};
   bool is_boundary = true;
   auto all() const { return std::tie(corners, labels, is_boundary); }
-  friend bool operator==(const Wall& a, const Wall& b) { return a.all() == b.all(); }
   friend bool operator<(const Wall& a, const Wall& b) { return a.all() < b.all(); }
 };
 

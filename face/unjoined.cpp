@@ -45,11 +45,14 @@ class Finder {
     add_boxes();
     UnjoinedPoints points;
     points.coincident = vertices_.size() - places_;
-    points.hanging = count_in_chunks(vertices_.size(), [&](std::size_t begin, std::size_t end) {
-      std::size_t count = 0;
-      for (std::size_t i = begin; i < end; ++i) count += hangs(vertices_[i]) ? 1 : 0;
-      return count;
+    std::vector<char> hangs_at(place_.size(), 0);
+    for_chunks(vertices_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t v = vertices_[i];
+        if (place_[v] == v && hangs(v)) hangs_at[v] = 1;
+      }
     });
+    for (const std::uint32_t v : vertices_) points.hanging += hangs_at[place_[v]] != 0 ? 1 : 0;
     return points;
   }
 
@@ -85,8 +88,15 @@ class Finder {
     for (const SurfaceTriangle& each : mesh_.surface_triangles()) {
       if (each.interior || each.loose) continue;
       const auto& v = each.vertices;
-      triangles.push_back({v[0].index(), v[1].index(), v[2].index()});
-      centres.emplace_back((mesh_.point(v[0]) + mesh_.point(v[1]) + mesh_.point(v[2])) / 3);
+      triangles.push_back({place_[v[0].index()], place_[v[1].index()], place_[v[2].index()]});
+    }
+    if (places_ < vertices_.size()) {  // thousands may lie on each other: one of them is enough
+      for (auto& triangle : triangles) std::sort(triangle.begin(), triangle.end());
+      std::sort(triangles.begin(), triangles.end());
+      triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    }
+    for (const auto& [a, b, c] : triangles) {
+      centres.emplace_back((point(a) + point(b) + point(c)) / 3);
     }
     std::vector<std::uint32_t> order(triangles.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -124,6 +134,7 @@ class Finder {
     }
   }
 
+  /// Precondition, here and below: v is a place.
   bool hangs(std::uint32_t v) const {
     const std::size_t top = levels_.size() - 1;
     return hangs(v, top, 0, levels_[top].size());
@@ -142,9 +153,7 @@ class Finder {
   }
 
   bool lies_on(std::uint32_t v, const std::array<std::uint32_t, 3>& triangle) const {
-    for (const std::uint32_t corner : triangle) {
-      if (place_[corner] == place_[v]) return false;
-    }
+    if (std::find(triangle.begin(), triangle.end(), v) != triangle.end()) return false;
     const std::array<Point, 3> p = corners(triangle);
     const double most = reach(p);
     return (nearest_point(p, 3, point(v)) - point(v)).squaredNorm() <= most * most;
@@ -154,7 +163,7 @@ class Finder {
   std::vector<std::uint32_t> vertices_;  // on the boundary
   std::vector<std::uint32_t> place_;     // by vertex slot
   std::size_t places_ = 0;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;  // of places
   std::vector<std::vector<Box>> levels_;
 };
 
