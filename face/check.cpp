@@ -343,7 +343,6 @@ const MeshData& numbered_as(const MeshData& before, const MeshData& after, MeshD
 /// @return the mesh, or `own` where that differs
 const MeshData& put_right(const Mesh& mesh, MeshData& own) {
   const MeshData& data = MeshAccess::data(mesh);
-  if (no_inverted(data).holds) return data;
   MeshData bare;
   bare.points = data.points;
   bare.tets = data.tets;

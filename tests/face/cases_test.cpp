@@ -225,16 +225,18 @@ void check_notes(const Case& wanted, const std::vector<std::string>& notes) {
 
 void check_values(const Case& wanted, const Mesh& mesh) {
   const auto volumes = volumes_by_label(mesh.arrays());
-  for (const auto& [label, volume] : wanted.volumes) {
+  for (const auto& each : wanted.volumes) {
+    const auto label = each.first;
     CAPTURE(label);
     REQUIRE(volumes.contains(label));
-    CHECK(volumes.at(label) == doctest::Approx(volume));
+    CHECK(volumes.at(label) == doctest::Approx(each.second));
   }
   const auto values = values_by_label(mesh, wanted.array);
-  for (const auto& [label, value] : wanted.of_label) {
+  for (const auto& each : wanted.of_label) {
+    const auto label = each.first;
     CAPTURE(label);
     REQUIRE(values.contains(label));
-    CHECK(values.at(label) == std::set<double>{value});
+    CHECK(values.at(label) == std::set<double>{each.second});
   }
 }
 

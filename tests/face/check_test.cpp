@@ -71,6 +71,22 @@ TEST_CASE("two meshes are compared by surface, walls and volumes") {
         }) == 2);  // one label is gone, one is new
 }
 
+TEST_CASE("a tet that is folded over its neighbour is inverted however it is listed") {
+  const auto folded = [](const std::array<std::uint32_t, 4>& second) {
+    return Mesh({.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.2, 0.3}},
+                 .tets = {{0, 1, 2, 3}, second}});
+  };
+  const Mesh positive = folded({0, 1, 2, 4});
+  const Mesh negative = folded({0, 2, 1, 4});
+  for (const Mesh* before : {&positive, &negative}) {
+    for (const Mesh* after : {&positive, &negative}) {
+      const std::vector<Fact> facts = compare(*before, *after);
+      CHECK(find(facts, "inverted").holds);
+      CHECK(find(facts, "volume").holds);
+    }
+  }
+}
+
 TEST_CASE("tets that were torn from other elements are told, and those that stayed joined") {
   const MeshData before = test::tets_on(test::Bed::wedges, 3, 1);
   const Mesh mesh = MeshAccess::make(before);

@@ -100,7 +100,9 @@ TEST_CASE(
       {"Tangents 2\n1 0 0\nTangentAtVertices 1\n1 1\n", "'TangentAtVertices' is not a number"},
       {"Tangents 1\n1 0 0\nTangentAtVertices 1\n9 1\n", "'9' is out of range"},
       {"Ridges 1\n1\n", "'1' is out of range"}};
-  for (const auto& [section, reason] : wrong) {
+  for (const auto& each : wrong) {
+    const std::string section = each.first;
+    const std::string reason = each.second;
     CAPTURE(section);
     write_text(folder / "a.mesh", kHead + kPoints + vectors + section + kTets + "End\n");
     const MeshData mesh = read_mesh(folder / "a.mesh");

@@ -163,10 +163,10 @@ TEST_CASE("a card of Nastran keeps the points that it names, and no other number
     base = replaced(base, line, "");
   }
   const TempFolder folder;
-  for (const auto& [card, expected] : cards) {
-    CAPTURE(card);
-    CHECK(read(folder, replaced(base, "ENDDATA", card + "\nENDDATA")).required_vertices ==
-          expected);
+  for (const auto& each : cards) {
+    CAPTURE(each.first);
+    CHECK(read(folder, replaced(base, "ENDDATA", each.first + "\nENDDATA")).required_vertices ==
+          each.second);
   }
 }
 

@@ -127,7 +127,9 @@ TEST_CASE("what a live run saves has the bytes of improve, whatever the schedule
       {script.string(), labels},  {"shell", layered},
       {"conservative", layered},  {"grummp", ball},
       {script.string(), layered}, {spoils.string(), write("flat.mesh", flat)}};
-  for (const auto& [schedule, file] : runs) {
+  for (const auto& each : runs) {
+    const std::string& schedule = each.first;
+    const std::filesystem::path& file = each.second;
     CAPTURE(schedule);
     CAPTURE(file);
     Mesh mesh = load(file);
