@@ -92,7 +92,7 @@ constexpr std::uint32_t kNone = Bodies::kNone;
 class FaceMatcher {
  public:
   FaceMatcher(std::size_t points, std::size_t sides)
-      : heads_(3 * points, kNone), sides_(std::make_unique_for_overwrite<Side[]>(sides)) {}
+      : heads_(3 * points, kNone), sides_(new Side[sides]) {}
 
   /// The side of the same face that was added before, or kNone. @param side a number of its own
   std::uint32_t add(std::uint32_t side, std::array<std::uint32_t, 3> face) {
