@@ -105,7 +105,8 @@ void Document::open(const std::filesystem::path& file) {
   refuse_what_is_no_mesh(file);
   MeshData data = read_mesh(file);
   const std::string beside = named_beside(data);
-  const bool holds_more = !data.tet_parts.empty() || !data.mid_nodes.empty() || !data.other_elements.empty();
+  const bool holds_more =
+      !data.tet_parts.empty() || !data.mid_nodes.empty() || !data.other_elements.empty();
   std::shared_ptr<const MeshData> held =
       holds_more ? std::make_shared<const MeshData>(data) : nullptr;
   BuildReport report;

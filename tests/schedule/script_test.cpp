@@ -468,8 +468,7 @@ TEST_CASE("notes come to an end, and show no control characters") {
   for (const std::string& text : flood.notes) bytes += text.size();
   CHECK(bytes > (std::size_t{40} << 20));
   CHECK(bytes < (std::size_t{64} << 20));
-  CHECK(note("'a\\27[2Jb\\n', 3, {}, log, nil, '\\255'") ==
-        "a\\x1b[2Jb\\n 3 table function nil ÿ");
+  CHECK(note("'a\\27[2Jb\\n', 3, {}, log, nil, '\\255'") == "a\\x1b[2Jb\\n 3 table function nil ÿ");
   const ScheduleInfo info = Schedule("test.lua",
                                      "description 'a\\7b'\n"
                                      "parameter{'p', default = 1, help = '\\27[1m'}")

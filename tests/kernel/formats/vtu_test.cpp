@@ -235,7 +235,8 @@ TEST_CASE("a packed VTU file of tags, and one whose arrays are the same bytes, a
   for (int i = 0; i < 1000000; ++i) tags += "<a/>";
   tags += "</UnstructuredGrid></VTKFile>";
   write_text(folder / "a.vtu", packed(tags));
-  CHECK(error_of_reading(folder / "a.vtu").find("tags, more than a mesh of its size") != std::string::npos);
+  CHECK(error_of_reading(folder / "a.vtu").find("tags, more than a mesh of its size") !=
+        std::string::npos);
   write_text(folder / "a.vtu", tags);  // takes twenty times its size, and is no mesh
   CHECK(error_of_reading(folder / "a.vtu").find("no Piece is here") != std::string::npos);
 
