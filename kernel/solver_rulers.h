@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What linear (P1) elements make of a mesh: how large the steps of explicit time integration may be.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <tetmend/api.h>
+
+#include "kernel/geometry.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend {
+
+/// The share of one tet in the lumped mass and in the diagonal of the stiffness matrix of the
+/// Laplacian: V / 4 for each vertex, and V |grad phi_i|^2 for vertex i.
+struct TETMEND_API P1Diagonal {
+  double mass = 0;
+  std::array<double, 4> stiffness{};
+};
+
+/// Infinite stiffness, or none, where the volume is not positive: see stable_step().
+/// Source: grad phi_i = normal of face i, twice its area long, / (6 V).
+inline P1Diagonal p1_diagonal(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Point u = b - a, v = c - a, w = d - a, r = c - b, s = d - b;
+  const double v6 = u.dot(v.cross(w));
+  return {v6 / 24,
+          {r.cross(s).squaredNorm() / (6 * v6), v.cross(w).squaredNorm() / (6 * v6),
+           w.cross(u).squaredNorm() / (6 * v6), u.cross(v).squaredNorm() / (6 * v6)}};
+}
+
+/// Lumped mass and diagonal of the stiffness matrix of a mesh, by VertexHandle::index(). Vertices of
+/// no tet have 0.
+struct TETMEND_API P1Diagonals {
+  std::vector<double> mass;
+  std::vector<double> stiffness;
+
+  /// Squared: mass over stiffness.
+  double squared_step(VertexHandle v) const { return mass[v.index()] / stiffness[v.index()]; }
+};
+
+/// @param[out] step of the mesh as stable_step() has it; null: not wanted
+/// The sums run in the order of the tets, whatever the number of threads.
+/// Cost: linear, about 0.02 s for a million tets; 16 bytes a vertex, and a buffer of 40 MB at most.
+TETMEND_API P1Diagonals p1_diagonals(const TetMesh& mesh, double* step = nullptr);
+
+/// The smallest sqrt(m_i / k_ii) over the vertices, m the lumped mass and k the stiffness matrix of
+/// the Laplacian: a length, as mesh.point() has it. Explicit time integration of a wave of speed 1
+/// is stable up to dt = 2 / sqrt(largest eigenvalue of M^-1 K), and step <= dt <= 2 step. 0 for a
+/// mesh with a tet of no positive volume, and without tets. Mid-side nodes are not looked at.
+/// Cost: as p1_diagonals().
+TETMEND_API double stable_step(const TetMesh& mesh);
+
+}  // namespace tetmend

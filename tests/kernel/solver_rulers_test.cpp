@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// The stable step against closed forms and against eigenvalues of the whole matrix.
+#include "kernel/solver_rulers.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <doctest/doctest.h>
+
+#include "kernel/chunks.h"
+#include "tests/support/threads.h"
+#include "tests/support/zoo.h"
+
+using namespace tetmend;
+using tetmend::test::on_threads;
+
+namespace {
+
+/// Stiffness matrix of the Laplacian and lumped mass, from gradients that solve linear systems.
+struct Matrices {
+  Eigen::MatrixXd stiffness;
+  Eigen::VectorXd mass;
+};
+
+Matrices assemble(const TetMesh& mesh) {
+  const auto size = static_cast<Eigen::Index>(mesh.vertex_slots());
+  Matrices all = {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const TetVertices& v = mesh.vertices(TetHandle(slot));
+    Eigen::Matrix4d rows;  // the coordinates and 1: its inverse has the linear functions
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      rows.row(i) << mesh.point(v[static_cast<std::size_t>(i)]).transpose(), 1;
+    }
+    const double volume = std::abs(rows.determinant()) / 6;
+    const Eigen::Matrix<double, 3, 4> gradients = rows.inverse().topRows<3>();
+    const Eigen::Matrix4d local = volume * gradients.transpose() * gradients;
+    for (std::size_t i = 0; i < 4; ++i) {
+      all.mass[v[i].index()] += volume / 4;
+      for (std::size_t j = 0; j < 4; ++j) {
+        all.stiffness(v[i].index(), v[j].index()) +=
+            local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
+    }
+  }
+  return all;
+}
+
+/// 2 / sqrt(largest eigenvalue of M^-1 K).
+double largest_step(const Matrices& of) {
+  const Eigen::VectorXd root = of.mass.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = root.asDiagonal() * of.stiffness * root.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  return 2 / std::sqrt(solver.eigenvalues().maxCoeff());
+}
+
+}  // namespace
+
+TEST_CASE("the step of a regular tet is that of its altitude") {
+  MeshData data;
+  data.points = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  data.tets = {{{0, 1, 2, 3}}};
+  // m = V / 4 and k = V / h^2
+  CHECK(stable_step(TetMesh(data)) == doctest::Approx((4 / std::sqrt(3.0)) / 2));
+}
+
+TEST_CASE("the step is the least of sqrt(m / k), and dt lies between it and twice as much") {
+  for (const MeshData& data :
+       {test::kuhn_cube(4, 0, 7), test::kuhn_cube(5, 0.3, 7), test::delaunay_ball(150, 3)}) {
+    const TetMesh mesh(data);
+    const Matrices matrices = assemble(mesh);
+    const Eigen::VectorXd squares =
+        matrices.mass.cwiseQuotient(Eigen::VectorXd(matrices.stiffness.diagonal()));
+    const double step = stable_step(mesh);
+    CHECK(step == doctest::Approx(std::sqrt(squares.minCoeff())).epsilon(1e-12));
+    const P1Diagonals diagonals = p1_diagonals(mesh);
+    for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+      CHECK(diagonals.squared_step(VertexHandle(v)) == doctest::Approx(squares[v]));
+    }
+    const double dt = largest_step(matrices);
+    CHECK(step <= dt);
+    CHECK(dt <= 2 * step);
+  }
+}
+
+TEST_CASE("the diagonal of one tet is what the sums over a mesh of one tet have") {
+  MeshData data;
+  data.points = {{0, 0, 0}, {1, 0.1, 0}, {0.2, 1.5, 0.1}, {0.3, 0.2, 0.7}};
+  data.tets = {{{0, 1, 2, 3}}};
+  const TetMesh mesh(data);
+  const auto& p = data.points;
+  const P1Diagonal one = p1_diagonal(p[0], p[1], p[2], p[3]);
+  const P1Diagonals all = p1_diagonals(mesh);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(all.mass[i] == doctest::Approx(one.mass));
+    CHECK(all.stiffness[i] == doctest::Approx(one.stiffness[i]));
+  }
+}
+
+TEST_CASE("a mesh with a tet of no positive volume, or without tets, has no step") {
+  CHECK(stable_step(TetMesh()) == 0);
+  CHECK(stable_step(TetMesh(test::tangled_ball(60, 3))) == 0);
+}
+
+TEST_CASE("the step is the same, bit for bit, for every number of threads") {
+  const TetMesh mesh(test::kuhn_cube(17, 0.3, 7));
+  REQUIRE(mesh.tet_slots() > kChunkSize);
+  const double step = on_threads(1, [&] { return stable_step(mesh); });
+  CHECK(step > 0);
+  CHECK(on_threads(2, [&] { return stable_step(mesh); }) == step);
+  CHECK(on_threads(5, [&] { return stable_step(mesh); }) == step);
+}
