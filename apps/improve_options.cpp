@@ -65,6 +65,12 @@ void add_schedule_options(CLI::App& command, ImproveOptions& options) {
   add_values(command, run, "set",
              "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
              "given several times");
+  command
+      .add_option_function<std::string>(
+          "--for,--purpose", [&run](const std::string& value) { set(run, "purpose", value); },
+          "What the mesh is for: explicit, implicit,\nvolumes or angles (see docs/choosing.md;\n"
+          "default: any solver)")
+      ->type_name("NAME");
   add_value(command, run, "goal",
             "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "
             "180\nless MIN). Tets that miss it are bad")
@@ -106,7 +112,8 @@ void add_layers_and_tets(CLI::App& command, Options& options) {
       ->needs(surface);
   add_value(command, options, "tets",
             "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all, not "
-            "less\nthan there are (default: as far as it pays)");
+            "less\nthan there are (default: 15%; with\nother schedules than shell and polish, "
+            "as\nfar as it pays)");
 }
 
 void add_protected_regions(CLI::App& command, Options& options) {

@@ -103,6 +103,7 @@ class Improvement {
   /// Without its trace.
   Result run() {
     result_.goal = options_.goal;
+    result_.holds_solver = plan_.purpose.keeps_step;
     build();
     try {
       measure_before();
@@ -229,7 +230,8 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  const Bounds bounds = Bounds::of(mesh_);
+  const Bounds bounds = Bounds::of(
+      mesh_, plan_.purpose.keeps_step ? Bounds::Holding::solver : Bounds::Holding::angles);
   mesh_.set_bounds(mending == Mending::keeps_bounds ? bounds.for_mending() : bounds);
   if (!plan_.surface.is_fixed()) mesh_.set_surface_guard(plan_.surface.guard(mesh_, input_));
   hold_curved();
@@ -273,7 +275,7 @@ void Improvement::measure_before() {
 /// The passes of the schedule, or so many of them, for so many seconds; 0: without a limit.
 void Improvement::run_schedule(std::size_t passes, double seconds) {
   trace_.reset();  // of the run before, when going back
-  trace_ = plan_.trace.start(mesh_, file_, plan_.schedule, options_.set);
+  trace_ = plan_.trace.start(mesh_, file_, plan_.schedule, plan_.settings);
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
@@ -287,7 +289,7 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
     run.set_cancel_flag(options_.cancel);
     if (seconds > 0) run.set_time_limit(seconds);
     if (passes != kAllPasses) run.stop_after(passes);
-    tetmend::improve(run, plan_.schedule, options_.set);
+    tetmend::improve(run, plan_.schedule, plan_.settings);
     // Where the fixed surface holds bad tets, it moves.
     if (!plan_.surface.is_fixed() && !run.cancelled()) {
       run.set_standard(plan_.standard);
@@ -491,8 +493,9 @@ std::vector<Fall> falls_of(const Result& result) {
   const bool is_mended = result.not_positive_after < result.not_positive_before;
   compare("a theta_min", after.theta_min, before.theta_min,
           after.theta_min < before.theta_min - kRounding, is_mended);
-  compare("a theta_max", after.theta_max, before.theta_max,
-          after.theta_max > std::max(before.theta_max, result.goal.max_angle) + kRounding,
+  const double most =
+      result.holds_solver ? before.theta_max : std::max(before.theta_max, result.goal.max_angle);
+  compare("a theta_max", after.theta_max, before.theta_max, after.theta_max > most + kRounding,
           is_mended);
   compare("a number of bad tets", static_cast<double>(after.n_bad),
           static_cast<double>(before.n_bad), after.n_bad > before.n_bad);
@@ -514,9 +517,9 @@ std::vector<Fall> falls_of(const Result& result) {
     compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
             now < then - kRounding);
   }
-  const double most = std::max(edge_ratio, kEdgeRatio) + kRounding;
+  const double most_ratio = std::max(edge_ratio, kEdgeRatio) + kRounding;
   compare("a worst edge ratio", worst(*result.rulers_after, Ruler::edge_ratio), edge_ratio,
-          worst(*result.rulers_after, Ruler::edge_ratio) > most, is_mended);
+          worst(*result.rulers_after, Ruler::edge_ratio) > most_ratio, is_mended);
   return falls;
 }
 

@@ -95,6 +95,7 @@ constexpr Row kRows[] = {
     {{"script", "TEXT"}, [](Options& o, std::string_view text) { o.script = text; }},
     {{"set", "NAME=VALUE", kAdds},
      [](Options& o, std::string_view text) { o.set.push_back(read_setting(text)); }},
+    {{"purpose", "NAME"}, [](Options& o, std::string_view text) { o.purpose = text; }},
     {{"goal", "MIN[,MAX]"}, [](Options& o, std::string_view text) { o.goal = read_goal(text); }},
     {{"measure", "NAME"}, [](Options& o, std::string_view text) { o.measure = text; }},
     {{"time-limit", "SECONDS"},

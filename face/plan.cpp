@@ -31,7 +31,9 @@ Plan::Plan(const Options& options)
     : registry(load_registry(options.plugin)),
       schedule(find_schedule(options)),
       trace(options, registry),
-      growth(options.tets),
+      purpose(find_purpose(options)),
+      settings(settings_of(options)),
+      growth(tets_of(options)),
       surface(options) {
   check_threads(options.threads);
   check_regions(options);

@@ -6,6 +6,7 @@
 
 #include "face/growth.h"
 #include "face/moving_surface.h"
+#include "face/purpose.h"
 #include "face/trace_plan.h"
 #include "kernel/quality.h"
 #include "ops/registry.h"
@@ -18,6 +19,8 @@ struct Plan {
   Registry registry;
   Schedule schedule;
   TracePlan trace;
+  const Purpose& purpose;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< of the schedule
   Growth growth;
   SurfaceTolerance surface;
   Standard standard;

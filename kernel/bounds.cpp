@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kernel/chunks.h"
+#include "kernel/solver_rulers.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -94,14 +95,14 @@ Shape worst_shape(const TetMesh& mesh, Quality from, Quality to) {
 
 }  // namespace
 
-Bounds Bounds::of(const TetMesh& mesh) {
+Bounds Bounds::of(const TetMesh& mesh, Holding holding) {
   constexpr Quality kInfinity = std::numeric_limits<Quality>::infinity();
   const Standard& standard = mesh.standard();
   Shape worst = worst_shape(mesh, -kInfinity, kBadThreshold);
   const auto bounds_by = [&] {
     Bounds bounds;
     bounds.least_sine2_ = worst.sine2;
-    bounds.least_obtuse_sine2_ = std::min(worst.obtuse_sine2, 1 / standard.obtuse2());
+    bounds.least_obtuse_sine2_ = worst.obtuse_sine2;
     bounds.least_volume_length2_ = worst.volume_length2;
     bounds.least_radius_ratio_ = worst.radius_ratio;
     bounds.most_edge_ratio2_ = std::max(worst.edge_ratio2, kEdgeRatio * kEdgeRatio);
@@ -109,9 +110,14 @@ Bounds Bounds::of(const TetMesh& mesh) {
     return bounds.under(standard);
   };
   // What is safe cannot be worse: with some bad tets that is all the rest, as a rule.
-  const Quality safe = bounds_by().safe();
+  const bool has_flat = worst.obtuse_sine2 < 1 / standard.obtuse2();
+  const bool is_soft = holding == Holding::angles;
+  if (is_soft && !has_flat) worst.obtuse_sine2 = 1 / standard.obtuse2();
+  const Quality safe = has_flat || is_soft ? bounds_by().safe() : kInfinity;
   if (safe > kBadThreshold) worst.include(worst_shape(mesh, kBadThreshold, safe));
-  const Bounds now = bounds_by();
+  Bounds now = bounds_by();
+  const double step = is_soft ? 0 : stable_step(mesh);
+  now.least_step2_ = step * step * (1 - 1e-9);  // sums in another order differ by rounding
   // A mesh that has bounds keeps them, with its angles of now where these are tighter.
   if (!mesh.bounds().any()) return now;
   Bounds tighter = mesh.bounds();
@@ -132,6 +138,12 @@ Bounds Bounds::under(const Standard& standard) const {
                 standard.flat2() + standard.length() / 432 * least_length2,
                 1.0});  // no tet of quality 1 has an edge ratio of 10
   bounds.safe_ = std::sqrt(safe2) * (1 + 1e-6);
+  return bounds;
+}
+
+Bounds Bounds::with_mean(double mean_ratio) const {
+  Bounds bounds = *this;
+  bounds.least_mean_ = mean_ratio;
   return bounds;
 }
 

@@ -17,12 +17,18 @@ class TetMesh;
 /// than a tet with a sharp angle. A value; immutable.
 class TETMEND_API Bounds {
  public:
+  /// What they are for.
+  enum class Holding : bool {
+    angles,  ///< the shapes of tets; an angle may be as large as the goal allows
+    solver   ///< the stable step as well, and no angle is larger than there was
+  };
+
   /// No bounds.
   Bounds() = default;
   /// Of the mesh: no smaller dihedral angle, no larger one than it or its goal has, no smaller mean or
-  /// radius ratio, no larger ratio of edges of a tet than it has or 10. Bounds that a mesh has stay; its
+  /// radius ratio, no larger ratio of edges of a tet than it has or 10, no smaller stable step at a vertex. Bounds that a mesh has stay; its
   /// angles of now make them tighter. Cost: one pass over the tets. An inverted tet counts as below.
-  static Bounds of(const TetMesh& mesh);
+  static Bounds of(const TetMesh& mesh, Holding holding = Holding::angles);
   /// Of no tet yet: what the goal allows, to be widened tet by tet. What comes of it are the bounds of a
   /// mesh of these tets, in whatever order they came.
   static Bounds of_goal(const Standard& standard);
@@ -47,6 +53,14 @@ class TETMEND_API Bounds {
   /// One not in positive order: as its mirror image, with ratios (mean, radius) of 0.
   bool admit(const Point& a, const Point& b, const Point& c, const Point& d) const;
 
+  /// Squared, see stable_step(): no vertex may allow less. 0: any may.
+  double least_step2() const { return least_step2_; }
+  /// What a change adds must be as round on average: the mean ratios, each less this, have no smaller
+  /// sum than before. 0: any may be.
+  double least_mean() const { return least_mean_; }
+  /// The same bounds, with that.
+  Bounds with_mean(double mean_ratio) const;
+
  private:
   bool any() const { return safe_ > -std::numeric_limits<double>::infinity(); }
 
@@ -54,6 +68,8 @@ class TETMEND_API Bounds {
   double least_obtuse_sine2_ = 0;    // of an obtuse one
   double least_volume_length2_ = 0;  // mean ratio = volume-length^(2/3)
   double least_radius_ratio_ = 0;    // 0 of an inverted tet, less in for_mending()
+  double least_step2_ = 0;
+  double least_mean_ = 0;
   double most_edge_ratio2_ = std::numeric_limits<double>::infinity();
   double safe_ = -std::numeric_limits<double>::infinity();  // that: no bounds
 };

@@ -7,6 +7,7 @@
 
 #include "kernel/curved.h"
 #include "kernel/size_field.h"
+#include "kernel/solver_rulers.h"
 #include "kernel/transaction.h"
 
 namespace tetmend {
@@ -78,6 +79,38 @@ bool keeps_bounds(const Transaction& transaction, Comparison& qualities) {
          is_no_further_beyond(transaction, bounds);
 }
 
+/// Each of the tets alone allows the step at a vertex, so that all of its star do if the others did.
+bool allow_step(const TetMesh& mesh, std::span<const TetHandle> tets, VertexHandle at,
+                double least2) {
+  return std::all_of(tets.begin(), tets.end(), [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    const auto corner = std::find(v.begin(), v.end(), at);
+    if (corner == v.end()) return true;
+    const P1Diagonal of =
+        p1_diagonal(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+    return of.mass >= least2 * of.stiffness[static_cast<std::size_t>(corner - v.begin())];
+  });
+}
+
+/// No vertex allows a smaller step of explicit time integration than the worst at first.
+bool keeps_step(const Transaction& transaction) {
+  const TetMesh& mesh = transaction.mesh();
+  const double least2 = mesh.bounds().least_step2();
+  if (least2 <= 0) return true;
+  std::vector<TetHandle> changed;
+  transaction.list_changed(changed);
+  std::vector<VertexHandle> corners;
+  for (const TetHandle t : changed) {
+    for (const VertexHandle v : mesh.vertices(t)) corners.push_back(v);
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return std::all_of(corners.begin(), corners.end(), [&](VertexHandle v) {
+    const std::optional<double> step2 = squared_step_at(mesh, v);
+    return step2 ? *step2 >= least2 : allow_step(mesh, changed, v, least2);
+  });
+}
+
 double gain_of_means(const Transaction& transaction, double usual) {
   const auto sum = [usual](std::span<const std::array<Point, 4>> tets) {
     double total = 0;
@@ -86,6 +119,15 @@ double gain_of_means(const Transaction& transaction, double usual) {
   };
   const Transaction::Tets tets = transaction.tets();
   return sum(tets.now) - sum(tets.before);
+}
+
+/// What makes the mesh grow adds tets that are round enough.
+bool keeps_mean(const Transaction& transaction) {
+  const double usual = transaction.mesh().bounds().least_mean();
+  if (usual <= 0) return true;
+  const Transaction::Tets tets = transaction.tets();
+  if (tets.now.size() <= tets.before.size()) return true;
+  return gain_of_means(transaction, usual) >= 0;
 }
 
 /// Every new edge is of about the length that edges had at its place.
@@ -116,7 +158,9 @@ bool keeps_limits(const Transaction& transaction, Comparison& qualities, Judge::
   // The edges of a tangled mesh are too long to be held to.
   const bool may_have_any_length = kind == Judge::Kind::untangles;
   return keeps_bounds(transaction, qualities) && !transaction.has_too_many_tets() &&
-         (may_have_any_length || keeps_lengths(transaction)) && keeps_curved(transaction);
+         (may_have_any_length || keeps_lengths(transaction)) && keeps_curved(transaction) &&
+         (may_have_any_length || (keeps_step(transaction) &&
+                                  (kind == Judge::Kind::raises_mean || keeps_mean(transaction))));
 }
 
 double largest_angle_sine(const Transaction& transaction) {

@@ -128,6 +128,9 @@ class TETMEND_API Judge {
   static Judge opening(double share = 0.2);
 
   Kind kind() const { return kind_; }
+  bool looks_at_mean() const { return kind_ == Kind::raises_mean; }
+  /// The usual mean ratio. Precondition: looks_at_mean().
+  double usual() const { return bound_; }
   /// One sentence.
   std::string_view promise() const;
 

@@ -10,6 +10,8 @@
 #include <limits>
 
 #include "kernel/chunks.h"
+#include "kernel/index_set.h"
+#include "kernel/star.h"
 #include "kernel/tet_rows.h"
 
 namespace tetmend {
@@ -96,6 +98,36 @@ double stable_step(const TetMesh& mesh) {
   double step = 0;
   p1_diagonals(mesh, &step);
   return step;
+}
+
+std::optional<double> squared_step_at(const TetMesh& mesh, VertexHandle v) {
+  thread_local IndexSet seen;
+  thread_local std::vector<TetHandle> star;
+  seen.clear();
+  star.assign(1, mesh.tet_of(v));
+  seen.insert(star[0].index());
+  double mass = 0;
+  double stiffness = 0;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const TetHandle t = star[i];
+    const TetVertices& corners = mesh.vertices(t);
+    unsigned at = 0;
+    while (corners[at] != v) ++at;
+    const auto& [j, k, l] = kFaceVertices[at];
+    const Point& p = mesh.point(corners[j]);
+    const Point normal = (mesh.point(corners[k]) - p).cross(mesh.point(corners[l]) - p);
+    const double v6 = normal.dot(mesh.point(v) - p);
+    mass += std::abs(v6) / 24;
+    stiffness += normal.squaredNorm() / (6 * std::abs(v6));
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace face(t, f);
+      if (f == at || mesh.is_boundary(face)) continue;
+      const TetHandle next = mesh.twin(face).tet();
+      if (seen.insert(next.index())) star.push_back(next);
+    }
+    if (star.size() > kMaxStar) return std::nullopt;
+  }
+  return mass / stiffness;
 }
 
 }  // namespace tetmend

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <tetmend/api.h>
@@ -50,5 +51,9 @@ TETMEND_API P1Diagonals p1_diagonals(const TetMesh& mesh, double* step = nullptr
 /// mesh with a tet of no positive volume, and without tets. Mid-side nodes are not looked at.
 /// Cost: as p1_diagonals().
 TETMEND_API double stable_step(const TetMesh& mesh);
+
+/// The same squared for one vertex, from its star; nothing for a star of more than kMaxStar tets. Any
+/// thread may ask whose territory holds the vertex. Cost: linear in the star.
+TETMEND_API std::optional<double> squared_step_at(const TetMesh& mesh, VertexHandle v);
 
 }  // namespace tetmend

@@ -70,6 +70,11 @@ class TETMEND_API Workspace {
   /// From now on judges refuse what makes the mesh grow beyond that many tets.
   void set_most_tets(std::size_t tets) { most_tets_ = tets; }
   std::size_t most_tets() const { return most_tets_; }
+  /// No judge accepts one more tet.
+  bool is_full(const TetMesh& mesh) const {
+    if (territory_.is_whole()) return mesh.tet_count_ >= most_tets_;
+    return static_cast<std::ptrdiff_t>(more_tets_ - most_more_tets_) >= 0;
+  }
 
   /// From now on the worker keeps to a territory and makes new tets and vertices of these slots
   /// only; the mesh does not grow. Exchanges the free slots of the workspace for `slots`. Judges

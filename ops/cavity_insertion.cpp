@@ -40,6 +40,7 @@ class CavityInsertion final : public OperatorOf<State> {
 
  protected:
   Verdict precondition(const OperatorContext& context, Target target, State&) const override {
+    if (has_no_room(context)) return Verdict::no_improvement;
     return context.mesh.is_frozen(target.tet()) ? Verdict::constrained : Verdict::accepted;
   }
 
@@ -102,7 +103,7 @@ class CavityInsertion final : public OperatorOf<State> {
 
   /// The worst new tet must promise to become better than the target.
   double least_promise(const OperatorContext& context, Target target) const {
-    constexpr double kBeforeRelaxation = 0.5;
+    constexpr double kBeforeRelaxation = 0.75;
     const Quality quality = context.mesh.quality(target.tet());
     const double floor = relax_ ? kBeforeRelaxation * quality : quality;
     return std::max(0.0, std::min(floor, context.judge->floor(quality)));
@@ -145,7 +146,7 @@ class CavityInsertion final : public OperatorOf<State> {
 
 constexpr std::array<ParameterSpec, 6> kParameters = {{
     {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64, "most tets that give way"},
-    {"tries", ParameterSpec::Kind::integer, 1, 11, 6,
+    {"tries", ParameterSpec::Kind::integer, 1, 11, 2,
      "most places at which the vertex is inserted and judged, the most promising first"},
     {"relax", ParameterSpec::Kind::flag, 0, 1, 1,
      "smooth and reconnect around the new vertex before judging"},

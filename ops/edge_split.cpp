@@ -39,6 +39,7 @@ class EdgeSplit final : public OperatorOf<State> {
   Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
     const Verdict verdict = find_searchable_shell(context, target.edge(), state.shell);
     if (verdict != Verdict::accepted) return verdict;
+    if (has_no_room(context)) return Verdict::no_improvement;
     return state.shell.degree <= max_degree_ ? Verdict::accepted : Verdict::not_applicable;
   }
 

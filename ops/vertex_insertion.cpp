@@ -132,7 +132,7 @@ Verdict trim_cavity(const TetMesh& mesh, VertexInsertionState& state) {
       if (is_outer(HalfFace(t, f))) link.push_back(HalfFace(t, f));
     }
   }
-  return is_sphere(mesh, link) ? Verdict::accepted : Verdict::inverted;
+  return Verdict::accepted;
 }
 
 }  // namespace
@@ -155,6 +155,7 @@ std::span<const ParameterSpec> VertexInsertion::parameters() {
 
 Verdict VertexInsertion::precondition(const OperatorContext& context, Target target, State&) const {
   const TetMesh& mesh = context.mesh;
+  if (has_no_room(context)) return Verdict::no_improvement;
   return mesh.is_certified_positive(mesh.vertices(target.tet())) ? Verdict::accepted
                                                                  : Verdict::not_applicable;
 }
@@ -171,10 +172,35 @@ Verdict VertexInsertion::evaluate(OperatorContext& context, Target target, State
   if (std::find(cavity.begin(), cavity.end(), target.tet()) == cavity.end()) {
     return Verdict::no_improvement;
   }
+  const Judge& judge = *context.judge;
+  if (judge.looks_at_mean() && !raises_mean(mesh, judge.usual(), state)) {
+    return Verdict::no_improvement;
+  }
+  if (!is_sphere(mesh, link)) return Verdict::inverted;
+  if (judge.looks_at_mean()) return Verdict::accepted;
   load_ball(mesh, link, ball);
   const double reached = smooth_ ? ball.optimise(point, limits_) : ball.worst(point);
   return reached > context.judge->floor(worst_quality(mesh, cavity)) ? Verdict::accepted
                                                                      : Verdict::no_improvement;
+}
+
+bool VertexInsertion::raises_mean(const TetMesh& mesh, double usual, State& state) {
+  double before = 0;
+  for (const TetHandle t : state.replacement.old_tets) {
+    const TetVertices& v = mesh.vertices(t);
+    before +=
+        mean_ratio(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])) - usual;
+  }
+  Point& point = state.ball.point;
+  state.mean_ball.clear(point);
+  for (const HalfFace f : state.ball.link) {
+    const auto [a, b, c] = mesh.vertices(f);
+    state.mean_ball.add(mesh.point(a), mesh.point(b), mesh.point(c));
+  }
+  constexpr int kSteps = 2;
+  point = state.mean_ball.descend(point, kSteps);
+  const auto count = static_cast<double>(state.ball.link.size());
+  return count * (state.mean_ball.mean(point) - usual) > before;
 }
 
 Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction,

@@ -5,11 +5,13 @@
 
 #include "kernel/index_set.h"
 #include "ops/smoothing.h"
+#include "search/mean_ratio_ball.h"
 
 namespace tetmend {
 
 struct VertexInsertionState {
   BallState ball;  // link: the outer faces of the cavity
+  MeanRatioBall mean_ball;
   IndexSet inside;
   Replacement replacement;
 };
@@ -42,6 +44,10 @@ class VertexInsertion : public OperatorOf<VertexInsertionState> {
                 State& state) const final;
 
  private:
+  /// Moves the vertex to where the new tets are round on average. False if their mean ratios, each less
+  /// the usual one, have no larger sum than those of the cavity.
+  static bool raises_mean(const TetMesh& mesh, double usual, State& state);
+
   std::size_t max_tets_;
   bool smooth_;
   BallOptimiser::Limits limits_;

@@ -35,7 +35,7 @@ class Tools {
       : options_(options),
         plan_(options),
         watcher_(options),
-        settings_(plan_.schedule, options.set),
+        settings_(plan_.schedule, plan_.settings),
         task_{plan_.registry, plan_.schedule, settings_, plan_.standard} {
     task_.check_operators = options.check_operators;
     task_.watch = [this](Run& run) {

@@ -205,7 +205,7 @@ MeshData Improvement::source(const TetMesh& mesh) const {
 void Improvement::work() {
   watcher_.begin(Stage::improving);
   const Stopwatch watch(result_.improving);
-  const AimSettings settings(plan_.schedule, options_.set);
+  const AimSettings settings(plan_.schedule, plan_.settings);
   TaskOptions task{plan_.registry, plan_.schedule, settings, plan_.standard};
   task.size_field = size_field_;
   task.trace = &trace_;

@@ -115,7 +115,7 @@ class FileRun {
 
 Result FileRun::run() {
   result_.goal = options_.goal;
-  const AimSettings settings(plan_.schedule, options_.set);
+  const AimSettings settings(plan_.schedule, plan_.settings);
   TaskOptions task{plan_.registry, plan_.schedule, settings, plan_.standard};
   task.fault = files_.fault;
   task.trace = &trace_;

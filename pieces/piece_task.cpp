@@ -345,15 +345,20 @@ void Task::take_tets(std::span<const std::uint32_t> numbers, Piece& all) {
 AimSettings::AimSettings(const Schedule& schedule, const ScheduleSettings& settings) {
   const ScheduleInfo info = schedule.describe();
   settings_.fill(settings);
-  const auto set = [&](Aim aim, std::string_view name) {
+  const auto set = [&](Aim aim, std::string_view name, std::string_view value) {
     const bool has = std::any_of(info.parameters.begin(), info.parameters.end(),
                                  [&](const ScheduleParameter& p) { return p.name == name; });
     const bool is_set = std::any_of(settings.begin(), settings.end(),
                                     [&](const auto& setting) { return setting.first == name; });
-    if (has && !is_set) settings_[static_cast<std::size_t>(aim)].emplace_back(name, "true");
+    if (has && !is_set) settings_[static_cast<std::size_t>(aim)].emplace_back(name, value);
   };
-  set(Aim::but_worst, "worst_later");
-  set(Aim::worst, "worst_only");
+  set(Aim::but_worst, "worst_later", "true");
+  set(Aim::worst, "worst_only", "true");
+  // A polish is for small meshes, and these are parts of a large one.
+  for (const Aim aim : {Aim::all, Aim::but_worst, Aim::worst}) {
+    set(aim, "polish_first", "0");
+    set(aim, "polish_last", "0");
+  }
 }
 
 TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kernel/size_field.h"
 #include "schedule/queue.h"
 #include "schedule/sweep.h"
 
@@ -13,8 +14,12 @@ namespace {
 /// For each selected tet on average, in a sweep that inserts.
 constexpr double kNewVerticesPerTet = 0.5;
 
-/// Passes that may succeed where another failed have a calendar of their own.
-std::string calendar(std::string_view pass, const Composition& what, const Selection& on) {
+/// Passes that may succeed where another failed have a calendar of their own. How many tets one takes
+/// is nothing that makes it succeed.
+std::string calendar(std::string_view pass, const Composition& what, Selection on) {
+  on.worst = Selection{}.worst;
+  on.at_least = 0;
+  on.share = 1;
   return std::string(pass) + ": " + what.describe() + " on " + on.describe();
 }
 
@@ -54,6 +59,35 @@ void sweep_vertices(Run& run, PassScope& scope, const Operator& op, const Select
            [&](Worker& worker, QueuedVertex entry) {
              return worker.attempt(op, Target::of(entry.vertex)) != Verdict::deferred;
            });
+}
+
+/// Vertices with an edge that is shorter than a share of the local length at both its ends.
+std::vector<QueuedVertex> queue_close(PassScope& scope, const TetMesh& mesh, double share,
+                                      Date since) {
+  const std::vector<double> lengths = local_lengths(mesh);
+  const auto is_close = [&](VertexHandle a, VertexHandle b) {
+    const double usual = (lengths[a.index()] + lengths[b.index()]) / 2;
+    return (mesh.point(a) - mesh.point(b)).squaredNorm() < share * share * usual * usual;
+  };
+  std::vector<QueuedVertex> all = collect<QueuedVertex>(
+      scope, mesh.tet_slots(),
+      [&](std::size_t begin, std::size_t end, std::vector<QueuedVertex>& out) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const TetHandle t(static_cast<std::uint32_t>(i));
+          if (mesh.is_deleted(t)) continue;
+          const TetVertices& v = mesh.vertices(t);
+          for (const auto& [j, k] : kEdgeVertices) {
+            if (!is_close(v[j], v[k])) continue;
+            for (const VertexHandle w : {v[j], v[k]}) {
+              if (!mesh.is_fixed(w) && mesh.changed(w) >= since) out.push_back({w});
+            }
+          }
+        }
+      });
+  const PassScope::Scan timed(scope);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace
@@ -135,30 +169,50 @@ void apply(Run& run, const ApplyOptions& options) {
 void polish(Run& run, const PolishOptions& options) {
   make_pass(run, "polish", [&](PassScope& scope) {
     const Selection all = {.below = Selection::kAll};
-    Selection flipped = all;
-    if (options.below < 1) flipped.value = ValueRange{.name = "mean_ratio", .high = options.below};
+    const auto poor = [&](double below) {
+      Selection some = all;
+      if (below < 1) some.value = ValueRange{.name = "mean_ratio", .high = below};
+      return some;
+    };
+    const Selection flipped = poor(options.below);
     const auto smoothing = run.registry().make("mean_smoothing", {});
+    const auto contraction = run.registry().make("edge_contraction", {});
     const Composition flips = {.kind = Composition::Kind::all_of,
                                .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
-    const TetAttempts attempts(run.registry(), flips);
+    const TetAttempts flipping(run.registry(), flips);
+    const TetAttempts inserting(run.registry(), one("centroid_insertion", {}));
     const std::string dates = calendar("polish", flips, flipped);
+    const std::size_t allowed = run.worker().workspace().most_tets();
+    const double most = (1 + options.grow) * static_cast<double>(run.mesh().tet_count());
+    run.set_most_tets(std::min(allowed, static_cast<std::size_t>(most)));
     for (unsigned cycle = 0; cycle < options.cycles && !run.cancelled(); ++cycle) {
       const std::size_t accepted = scope.accepted();
       const Judge judge =
           Judge::raises_mean(summarize(run.mesh(), find_quality_measure("mean_ratio")).mean);
       const Date since = run.begin_sweep(dates);
-      work_off(run, scope, queue_vertices(scope, run.mesh(), all, since), 0,
-               [&](Worker& worker, QueuedVertex entry) {
-                 const JudgedBy judged(worker, judge);
-                 return worker.attempt(*smoothing, Target::of(entry.vertex)) != Verdict::deferred;
-               });
-      work_off(run, scope, queue_tets(scope, run.mesh(), flipped, since), 0,
-               [&](Worker& worker, QueuedTet& entry) {
-                 const JudgedBy judged(worker, judge);
-                 return attempts.work_off(worker, entry, since);
-               });
-      if (scope.accepted() == accepted) return;
+      const auto try_vertices = [&](const Operator& op, std::vector<QueuedVertex> vertices) {
+        work_off(run, scope, std::move(vertices), 0, [&](Worker& worker, QueuedVertex entry) {
+          const JudgedBy judged(worker, judge);
+          return worker.attempt(op, Target::of(entry.vertex)) != Verdict::deferred;
+        });
+      };
+      const auto try_tets = [&](const TetAttempts& attempts, const Selection& on,
+                                double new_vertices) {
+        work_off(run, scope, queue_tets(scope, run.mesh(), on, since), new_vertices,
+                 [&](Worker& worker, QueuedTet& entry) {
+                   const JudgedBy judged(worker, judge);
+                   return attempts.work_off(worker, entry, since);
+                 });
+      };
+      try_vertices(*smoothing, queue_vertices(scope, run.mesh(), poor(options.smooth), since));
+      try_tets(flipping, flipped, 0);
+      if (options.contract > 0) {
+        try_vertices(*contraction, queue_close(scope, run.mesh(), options.contract, since));
+      }
+      if (options.insert > 0) try_tets(inserting, poor(options.insert), kNewVerticesPerTet);
+      if (scope.accepted() == accepted) break;
     }
+    run.set_most_tets(allowed);
   });
 }
 

@@ -43,8 +43,14 @@ struct InsertPointsOptions {
 };
 
 struct PolishOptions {
-  double below = 0.7;   ///< flips are tried where the mean ratio of a tet is less
-  unsigned cycles = 3;  ///< of smoothing and flips, at most; ends earlier when nothing is accepted
+  double below = 0.7;    ///< flips are tried where the mean ratio of a tet is less
+  double insert = 0.75;  ///< a vertex is inserted where the mean ratio of a tet is less; 0: nowhere
+  /// Free vertices are removed that have an edge shorter than this share of the length of the edges
+  /// around; 0: none
+  double contract = 2;
+  double grow = 1;      ///< the mesh grows by at most that share of its tets
+  double smooth = 1;    ///< free vertices of tets with a mean ratio below are smoothed
+  unsigned cycles = 3;  ///< at most; ends earlier when nothing is accepted
 };
 
 struct UntangleOptions {
@@ -74,8 +80,8 @@ void suppress_points(Run& run, const SuppressPointsOptions& options = {});
 /// edge once.
 void insert_points(Run& run, const InsertPointsOptions& options = {});
 
-/// Raises the mean of the mean ratios: smooths all movable vertices and flips, where that raises it
-/// and no tet falls below the goal or gets worse below it. For after the bad tets.
+/// Raises the mean of the mean ratios: smooths movable vertices, flips, contracts and inserts, where
+/// that raises it and no tet falls below the goal or gets worse below it.
 void polish(Run& run, const PolishOptions& options = {});
 
 /// Moves all free vertices of a tangle at once, so that its tets become positive. The mesh is the

@@ -233,6 +233,7 @@ void ScriptHost::add_words() {
   lua_.add_function("sequence", sequence);
   add("goal", &ScriptHost::goal);
   add("judge_by", &ScriptHost::judge_by);
+  add("hold_mean", &ScriptHost::hold_mean);
   add("hold_worst", &ScriptHost::hold_worst);
   add("quality_of_angle", &ScriptHost::quality_of_angle);
   lua_.add_word("quality", bind(&ScriptHost::quality), mark_quality_table);
@@ -409,6 +410,10 @@ void ScriptHost::polish(WordCall& call) {
   const Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const PolishOptions options = {.below = numbers.real("below"),
+                                 .insert = numbers.real("insert"),
+                                 .contract = numbers.real("contract"),
+                                 .grow = numbers.real("grow"),
+                                 .smooth = numbers.real("smooth"),
                                  .cycles = static_cast<unsigned>(numbers.integer("cycles"))};
   make_pass(call, [&] { tetmend::polish(*run_, options); });
 }
@@ -514,6 +519,12 @@ void ScriptHost::hold_worst(WordCall& call) {
   run_->mesh().set_bounds(Bounds::of(run_->mesh()));
 }
 
+void ScriptHost::hold_mean(WordCall& call) {
+  begin_work();
+  const double mean = read_number({"hold_mean"}, call.argument(1));
+  run_->mesh().set_bounds(run_->mesh().bounds().with_mean(mean));
+}
+
 void ScriptHost::quality_of_angle(WordCall& call) {
   begin_work();
   const double angle = read_number({"quality_of_angle"}, call.argument(1));
@@ -525,11 +536,13 @@ void ScriptHost::quality_of_angle(WordCall& call) {
 void ScriptHost::measure(WordCall& call) {
   const ScriptValue name = call.argument(1);
   const std::string& wanted = name.kind == ScriptValue::Kind::text ? name.text : "?";
-  if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda") {
-    throw Error(fmt::format(
-        "quality() has no '{}'; valid: date, goal_max, goal_min, lambda, n_bad, n_needles, "
-        "passes, q_aver, q_worst, seconds, tets, theta_max, theta_min, vertices",
-        wanted));
+  if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda" &&
+      wanted != "mean_ratio") {
+    throw Error(
+        fmt::format("quality() has no '{}'; valid: date, goal_max, goal_min, lambda, mean_ratio, "
+                    "n_bad, n_needles, "
+                    "passes, q_aver, q_worst, seconds, tets, theta_max, theta_min, vertices",
+                    wanted));
   }
   const ScriptValue passes = call.argument(2);
   if (!passes.is_integer || passes.number != static_cast<double>(run_->records.size())) {
@@ -538,9 +551,15 @@ void ScriptHost::measure(WordCall& call) {
                     "measured any more",
                     wanted));
   }
+  ScriptValue table = ScriptValue::empty_table();
+  if (wanted == "mean_ratio") {
+    const double mean = summarize(run_->mesh(), find_quality_measure(wanted)).mean;
+    table.fields = {{wanted, ScriptValue::of_number(mean)}};
+    call.give(std::move(table));
+    return;
+  }
   const MeshStatistics statistics =
       compute_statistics(run_->mesh(), run_->mesh().standard().goal());
-  ScriptValue table = ScriptValue::empty_table();
   table.fields = {{"theta_min", ScriptValue::of_number(statistics.theta_min)},
                   {"theta_max", ScriptValue::of_number(statistics.theta_max)},
                   {"lambda", ScriptValue::of_number(statistics.lambda)}};

@@ -53,6 +53,7 @@ class ScriptHost {
   void measure(WordCall& call);
   void goal(WordCall& call);
   void judge_by(WordCall& call);
+  void hold_mean(WordCall& call);
   void hold_worst(WordCall& call);
   void quality_of_angle(WordCall& call);
   void limit(WordCall& call);

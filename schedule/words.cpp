@@ -29,11 +29,20 @@ constexpr std::array<ParameterSpec, 1> kSmoothNumbers = {{
     {"cycles", ParameterSpec::Kind::integer, 1, 1000, 4,
      "at most; ends earlier when a cycle brings no progress"},
 }};
-constexpr std::array<ParameterSpec, 2> kPolishNumbers = {{
+constexpr std::array<ParameterSpec, 6> kPolishNumbers = {{
     {"below", ParameterSpec::Kind::real, 0, 1, 0.7,
      "flips are tried where the mean ratio of a tet is less"},
+    {"insert", ParameterSpec::Kind::real, 0, 1, 0.75,
+     "a vertex is inserted where the mean ratio of a tet is less; 0: nowhere"},
+    {"contract", ParameterSpec::Kind::real, 0, 10, 2,
+     "free vertices are removed that have an edge shorter than this share of the length of the "
+     "edges around; 0: none"},
+    {"grow", ParameterSpec::Kind::real, 0, 10, 1,
+     "the mesh grows by at most that share of its tets"},
+    {"smooth", ParameterSpec::Kind::real, 0, 1, 1,
+     "vertices of tets with a mean ratio below are smoothed"},
     {"cycles", ParameterSpec::Kind::integer, 1, 100, 3,
-     "of smoothing and flips, at most; ends earlier when nothing is accepted"},
+     "at most; ends earlier when nothing is accepted"},
 }};
 constexpr std::array<ParameterSpec, 4> kUntangleNumbers = {{
     {"share", ParameterSpec::Kind::real, 0, 1, 0.05,
@@ -65,7 +74,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 25> kWords = {{
+constexpr std::array<WordInfo, 26> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -95,8 +104,10 @@ constexpr std::array<WordInfo, 25> kWords = {{
      "edge_split"},
     {"polish",
      "polish{...}",
-     "raises the mean of the mean ratios: smooths all movable vertices and flips, where no tet "
-     "falls below the goal or gets worse below it. For the end",
+     "raises the mean of the mean ratios: smooths movable vertices, flips, contracts and inserts, "
+     "where no tet falls below the goal or gets worse below it. For the end, and, so that edges "
+     "are "
+     "about as long as those around, for the beginning",
      {},
      kPolishNumbers},
     {"untangle",
@@ -139,6 +150,9 @@ constexpr std::array<WordInfo, 25> kWords = {{
      "from now on other judges: what they take for the quality of a tet, and what new bad tets "
      "cost. Nothing counts as tried then",
      kJudgeFields, kJudgeNumbers},
+    {"hold_mean", "hold_mean(0.7)",
+     "from now on what makes the mesh grow adds tets that are round enough: the mean ratios of all "
+     "that changes, each less this number, have no smaller sum than before. 0: as from the start"},
     {"hold_worst", "hold_worst()",
      "from now on no change makes a tet with a smaller angle than the smallest of the mesh now, or "
      "with a larger one than its largest and that of the goal. From the start it is so with those "
@@ -148,9 +162,11 @@ constexpr std::array<WordInfo, 25> kWords = {{
     {"quality", "quality()",
      "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
      "(others of a quality below 1), q_aver (mean quality of both), goal_min, goal_max, theta_min, "
-     "theta_max, lambda, tets, vertices, seconds (since the start), passes (so far), date (of the "
-     "sweep that comes next, for selections). theta_min, theta_max and lambda are measured when "
-     "they are read, which must be before the next pass"},
+     "theta_max, lambda, mean_ratio (the mean of all tets), tets, vertices, seconds (since the "
+     "start), passes (so far), date (of the "
+     "sweep that comes next, for selections). theta_min, theta_max, lambda and mean_ratio are "
+     "measured "
+     "when they are read, which must be before the next pass"},
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
      "the least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. "

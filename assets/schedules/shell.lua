@@ -1,5 +1,5 @@
 -- Algorithm 6 of Chen et al., Tetrahedral Mesh Improvement by Shell Transformation.
-description "Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of points, each followed by smoothing, until rounds bring little; then costly operators, for the worst tets first"
+description "Algorithm 6 of the paper: rounds of reconnection, suppression and insertion of points, each followed by smoothing, until rounds bring little; then costly operators, for the worst tets first. A polish before that and at the end, of small meshes"
 
 local max_rounds     = parameter{"max_rounds", default = 30, low = 0, high = 10000, help = "rounds in all"}
 local least_progress = parameter{"least_progress", default = 0.1, low = 0, high = 1,
@@ -8,6 +8,10 @@ local last_sweeps    = parameter{"last_sweeps", default = 4, low = 0, high = 100
                                  help = "most sweeps of costly operators over the worst tets"}
 local least_yield    = parameter{"least_yield", default = 0.1, low = 0, high = 10,
                                  help = "least number of bad tets that a costly attempt must remove on average"}
+local polish_first   = parameter{"polish_first", default = 3, low = 0, high = 100,
+                                 help = "cycles of polish before the rounds, at most"}
+local polish_last    = parameter{"polish_last", default = 3, low = 0, high = 100,
+                                 help = "cycles of polish at the end, at most"}
 local worst_only     = parameter{"worst_only", default = false,
                                  help = "go for the worst tets at once, whatever that costs in mild ones"}
 local worst_later    = parameter{"worst_later", default = false,
@@ -37,6 +41,21 @@ untangle{}
 
 local start = quality()
 
+local first_mean = start.mean_ratio
+
+-- Where insertion costs the mean more than the polish at the end gains, only what is round enough is
+-- inserted. A part of the bad tets tells.
+local function insert_some()
+  local before = quality()
+  if before.n_bad < 40 or before.mean_ratio == 0 then return end
+  insert_points{on = {below = 1, worst = before.n_bad // 4}}
+  smooth{}
+  local now = quality()
+  if before.mean_ratio - 4 * (before.mean_ratio - now.mean_ratio) < first_mean - 0.02 then
+    hold_mean(0.85 * first_mean)
+  end
+end
+
 -- Returns the share of the bad tets that remains.
 local rounds = 0
 local function plain_round()
@@ -51,6 +70,7 @@ local function plain_round()
   smooth{}
   if is_growing then
     local before = quality()
+    if rounds == 1 then insert_some() end
     insert_points{}
     smooth{}
     is_growing = pays_growth(before, quality())
@@ -67,7 +87,7 @@ end
 -- counts against a worse one that vanishes.
 local function sweep_worst(on)
   return local_reconnection{on = on, reflex_only = false}
-       + apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = on})
+       + apply({"cavity_insertion", exponent = 12, desperate = 0, tries = 6}, {on = on})
        + apply({"polyhedron_reconnection", insert = true, remove = true, relax = true,
                 max_vertices = 14, max_nodes = 50, desperate = 0.7}, {on = few})
 end
@@ -126,6 +146,19 @@ if worst_only then
   rescue_worst()
   return
 end
+-- Size first: where edges are too long or too short for their place, what follows only adds to it. By
+-- sines, so that no angle pays for a needle. Of a large mesh all this would take longer than the rest.
+local is_small = start.tets <= 100000
+local function even_out(options)
+  if options.cycles == 0 then return end
+  begin_round()
+  judge_by{measure = "sine"}
+  polish(options)
+end
+
+if is_small then
+  even_out{cycles = polish_first, below = 0.8, insert = 0.7, contract = 0.75, grow = 0}
+end
 judge_by{price = full_price}
 plain_rounds()
 
@@ -134,4 +167,10 @@ local is_free = quality().n_bad < 2 / 3 * start.n_bad
 if rounds < max_rounds and last_sweeps > 0 and quality().n_bad > 0 then
   if is_free and not worst_later then rescue_worst() end
   insert_while_it_pays()
+end
+
+if is_small then
+  even_out{cycles = polish_last, below = 0.8, insert = 0.75, contract = 2}
+else
+  even_out{cycles = math.min(polish_last, 1), smooth = 0.5, below = 0.3, insert = 0, contract = 0}
 end

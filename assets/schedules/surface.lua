@@ -55,7 +55,7 @@ end
 local function open_by(operator)
   return sequence{operator, "surface_edge_removal", "surface_smoothing",
                   "recursive_shell_transformation", "smoothing", "joint_smoothing",
-                  "surface_smoothing", "surface_contraction", "cavity_insertion",
+                  "surface_smoothing", "surface_contraction", {"cavity_insertion", tries = 6},
                   {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                    max_vertices = 10, max_nodes = 15},
                   "smoothing", "surface_smoothing", "joint_smoothing", desperate = 0.7}
@@ -69,7 +69,7 @@ local openings = {"surface_contraction", "surface_edge_removal", "edge_removal",
 local function costly_round(on)
   begin_round()
   for _, opening in ipairs(openings) do apply(open_by(opening), {on = on}) end
-  apply({"cavity_insertion", exponent = 12, desperate = 0}, {on = on})
+  apply({"cavity_insertion", exponent = 12, desperate = 0, tries = 6}, {on = on})
   apply(refill, {on = on})
   local_reconnection{on = on, reflex_only = false}
   smooth{on = on, desperate = 0.7, steps = 30}
@@ -168,7 +168,7 @@ local function ease(most)
   for _, opening in ipairs{"edge_removal", {"edge_split", order = "angle", most_edges = 2},
                            "smoothing", "edge_contraction"} do
     apply(sequence{opening, "recursive_shell_transformation", "smoothing", "joint_smoothing",
-                   "cavity_insertion", "smoothing", "joint_smoothing", theta_max = most},
+                   {"cavity_insertion", tries = 6}, "smoothing", "joint_smoothing", theta_max = most},
           {on = blunt})
   end
 end

@@ -28,7 +28,7 @@ local refill = {"polyhedron_reconnection", insert = true, remove = true, relax =
 -- smaller polyhedron must do.
 local function open_by(operator)
   return sequence{operator, "recursive_shell_transformation", "smoothing", "joint_smoothing",
-                  "cavity_insertion",
+                  {"cavity_insertion", tries = 6},
                   {"polyhedron_reconnection", insert = true, remove = true, relax = true,
                    max_vertices = 10, max_nodes = 15},
                   "smoothing", "joint_smoothing", desperate = 0.7}
@@ -37,7 +37,7 @@ end
 -- With a steep exponent, a new mild bad tet hardly counts against a worse one that vanishes.
 local function rescue(exponent)
   local_reconnection{on = worst, reflex_only = false}
-  apply({"cavity_insertion", exponent = exponent, desperate = exponent > 4 and 0.7 or 0}, {on = worst})
+  apply({"cavity_insertion", exponent = exponent, tries = 6, desperate = exponent > 4 and 0.7 or 0}, {on = worst})
   apply(refill, {on = worst})
   smooth{on = worst, desperate = 0.7, steps = 30}
 end
@@ -57,7 +57,7 @@ local function aim(share)
        max = math.max(71, start.goal_max - (share - 1) * (180 - start.goal_max))}
 end
 
-run_schedule("shell")
+run_schedule("shell", {polish_last = 0})
 
 -- Where the surface forces most of the bad tets, a rescue only makes more of them.
 local is_free = quality().n_bad < 2 / 3 * start.n_bad
@@ -74,7 +74,7 @@ while is_free and rounds < max_rounds and failed < max_failed and not is_enough(
   apply(open_by("edge_removal"), {on = very_worst})
   apply(open_by{"edge_split", order = "angle", most_edges = 2}, {on = very_worst})
   aim(1)
-  run_schedule("shell", {last_sweeps = 0})
+  run_schedule("shell", {last_sweeps = 0, polish_first = 0, polish_last = 0})
   local now = quality()
   failed = is_progress(before, now) and 0 or failed + 1
   before = now

@@ -60,7 +60,11 @@ struct Options {
   std::string script = {};         ///< text of a schedule, instead of `schedule`; empty: none
   std::vector<std::pair<std::string, std::string>> set = {};  ///< its parameters: {"goal", "20"}
   std::vector<std::filesystem::path> plugin = {};             ///< further operators
-  Goal goal = {};                                             ///< tets that miss it are bad
+  /// What the mesh is for: "explicit" time integration, an "implicit" solver, finite "volumes",
+  /// "angles" alone, or empty: any solver. All but "angles" keep the stable step, no larger angle than
+  /// was there where none missed the goal, and bound the number of tets unless `tets` does.
+  std::string purpose = {};
+  Goal goal = {};  ///< tets that miss it are bad
   /// What tets are judged by: "sine_and_length" sees needles as well, "sine" angles alone.
   std::string measure = "sine_and_length";
   int threads = 1;  ///< 1 to 1024; the result is the same for every number
@@ -79,7 +83,8 @@ struct Options {
   /// Degrees by which faces bend along a line that the surface keeps.
   double feature_angle = 40;
   /// How far the mesh may grow: "10%" more tets than there were, or "500000" tets in all. A number
-  /// below what is there is marked ("10!"), and none is added then. Empty: as far as it pays.
+  /// below what is there is marked ("10!"), and none is added then. Empty: 15 % more at most, or what `purpose` says;
+  /// with a script or a schedule other than shell and polish as far as it pays.
   std::string tets = {};
   /// No new edge is shorter than half or longer than twice what edges were at its midpoint: the mean
   /// of those at the nearest vertex.
@@ -191,6 +196,7 @@ struct SurfaceChange {
 /// What improve() did.
 struct Result {
   Goal goal;                                      ///< what the run worked towards
+  bool holds_solver = false;                      ///< theta_max and the step of the input are held
   MeshStatistics before;                          ///< of the input
   MeshStatistics after;                           ///< of the improved mesh
   std::optional<MeshRulers> rulers_before;        ///< the measures of other programs

@@ -27,6 +27,7 @@ class Options(TypedDict, total=False):
     script: str
     set: Mapping[str, Any]
     plugin: Text | Sequence[Text]
+    purpose: str
     goal: float | tuple[float, float] | str
     measure: str
     threads: int
