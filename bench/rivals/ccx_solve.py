@@ -25,6 +25,15 @@ ONE_TET = medit.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)
 ALTITUDE_OF_ONE = 3 ** -0.5
 
 
+def turned(mesh: medit.Mesh, tet: medit.Tet) -> medit.Tet:
+    """As ccx wants it: of positive volume. Some formats list vertices the other way round."""
+    a, b, c, d = (mesh.points[v] for v in tet)
+    u, v, w = ([q - p for p, q in zip(a, end, strict=True)] for end in (b, c, d))
+    volume = (u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2])
+              + u[2] * (v[0] * w[1] - v[1] * w[0]))
+    return tet if volume >= 0 else (tet[0], tet[2], tet[1], tet[3])
+
+
 def deck(mesh: medit.Mesh, procedure: str) -> str:
     used = sorted({v for tet in mesh.tets for v in tet})
     sides = [max(p[i] for p in mesh.points) - min(p[i] for p in mesh.points) for i in range(3)]
@@ -35,7 +44,7 @@ def deck(mesh: medit.Mesh, procedure: str) -> str:
     rows = ["*NODE,NSET=ALL"]
     rows += ["{},{!r},{!r},{!r}".format(v + 1, *map(float, mesh.points[v])) for v in used]
     rows += ["*ELEMENT,TYPE=C3D4,ELSET=BODY"]
-    rows += [",".join(str(n) for n in (i + 1, *(v + 1 for v in tet)))
+    rows += [",".join(str(n) for n in (i + 1, *(v + 1 for v in turned(mesh, tet))))
              for i, tet in enumerate(mesh.tets)]
     rows += ["*NSET,NSET=HELD", *(f"{v + 1}," for v in held), "*MATERIAL,NAME=M", "*ELASTIC",
              "1.,0.", "*DENSITY", "1.", "*SOLID SECTION,ELSET=BODY,MATERIAL=M", "*BOUNDARY",
