@@ -85,16 +85,16 @@ TETMEND_WIDE void compute_diagonals(const PointRows<4>& rows, Shares<5>& shares)
 /// Of the vertices of a block of tets: a scale, and edges on the way to the surface.
 struct VertexRows {
   std::array<WideRows<4>, kGroups> scale{};
-  std::array<WideRows<4>, kGroups> layer{};
+  std::array<WideRows<4>, kGroups> depth{};
 };
 
-/// The product of the stiffness matrix, without signs, and the scale; then the energy of `layer`.
+/// The product of the stiffness matrix, without signs, and the scale; then the energy of `depth`.
 TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& vertices,
                                    Shares<5>& shares) {
   for (std::size_t g = 0; g < rows.groups(); ++g) {
     const WideFaces faces = faces_of(rows, g);
     const WideVector* const scale = vertices.scale[g].vectors();
-    const WideVector* const layer = vertices.layer[g].vectors();
+    const WideVector* const depth = vertices.depth[g].vectors();
     WideVector* const to = shares[g].vectors();
     const WideVector inverse = 1.0 / (6.0 * faces.v6);
     WidePoint gradient = {};
@@ -105,7 +105,7 @@ TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& v
         sum += magnitude(dot(n, faces.normal[j])) * scale[j];
       }
       to[i] = inverse * sum;
-      const WideVector rise = layer[i] - layer[0];
+      const WideVector rise = depth[i] - depth[0];
       gradient = {gradient.x + rise * n.x, gradient.y + rise * n.y, gradient.z + rise * n.z};
     }
     to[4] = inverse * dot(gradient, gradient);
@@ -114,21 +114,21 @@ TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& v
 
 /// By vertex: the number of edges on the way to the surface. Sweeps until nothing changes, so that it
 /// depends on the mesh alone.
-std::vector<std::uint32_t> find_layers(const TetMesh& mesh) {
+std::vector<std::uint32_t> find_depths(const TetMesh& mesh) {
   constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max() / 2;
-  std::vector<std::uint32_t> layers(mesh.vertex_slots(), kFar);
-  for (std::uint32_t i = 0; i < layers.size(); ++i) {
-    if (mesh.is_boundary(VertexHandle(i))) layers[i] = 0;
+  std::vector<std::uint32_t> depths(mesh.vertex_slots(), kFar);
+  for (std::uint32_t i = 0; i < depths.size(); ++i) {
+    if (mesh.is_boundary(VertexHandle(i))) depths[i] = 0;
   }
   const auto relax = [&](std::size_t slot) {
     const TetHandle t(static_cast<std::uint32_t>(slot));
     if (mesh.is_deleted(t)) return false;
     std::uint32_t next = kFar;
-    for (const VertexHandle v : mesh.vertices(t)) next = std::min(next, layers[v.index()] + 1);
+    for (const VertexHandle v : mesh.vertices(t)) next = std::min(next, depths[v.index()] + 1);
     bool changed = false;
     for (const VertexHandle v : mesh.vertices(t)) {
-      changed = changed || next < layers[v.index()];
-      layers[v.index()] = std::min(layers[v.index()], next);
+      changed = changed || next < depths[v.index()];
+      depths[v.index()] = std::min(depths[v.index()], next);
     }
     return changed;
   };
@@ -139,7 +139,7 @@ std::vector<std::uint32_t> find_layers(const TetMesh& mesh) {
       changed = relax(forward ? i : mesh.tet_slots() - 1 - i) || changed;
     }
   }
-  return layers;
+  return depths;
 }
 
 }  // namespace
@@ -179,17 +179,17 @@ double stable_step(const TetMesh& mesh) {
 double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals) {
   constexpr double kFactor = 7.9;
   if (!diagonals.are_positive) return 0;
-  const std::vector<std::uint32_t> layers = find_layers(mesh);
-  std::vector<double> scale(layers.size());
+  const std::vector<std::uint32_t> depths = find_depths(mesh);
+  std::vector<double> scale(depths.size());
   CompensatedSum squares;
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    if (layers[i] == 0 || !diagonals.is_in_use(VertexHandle(static_cast<std::uint32_t>(i))))
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    if (depths[i] == 0 || !diagonals.is_in_use(VertexHandle(static_cast<std::uint32_t>(i))))
       continue;
-    const double layer = layers[i];
+    const double depth = depths[i];
     scale[i] = 1 / std::sqrt(diagonals.stiffness[i]);
-    squares.add(diagonals.stiffness[i] * layer * layer);
+    squares.add(diagonals.stiffness[i] * depth * depth);
   }
-  std::vector<double> rows(layers.size());
+  std::vector<double> rows(depths.size());
   CompensatedSum energy;
   visit_shares<5>(
       mesh,
@@ -199,7 +199,7 @@ double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals) {
           const TetVertices& v = mesh.vertices(tets.tets[i]);
           for (std::size_t k = 0; k < 4; ++k) {
             vertices.scale[i / kWideLanes].of[k][i % kWideLanes] = scale[v[k].index()];
-            vertices.layer[i / kWideLanes].of[k][i % kWideLanes] = layers[v[k].index()];
+            vertices.depth[i / kWideLanes].of[k][i % kWideLanes] = depths[v[k].index()];
           }
         }
         compute_products(tets.points, vertices, shares);
