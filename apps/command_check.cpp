@@ -106,19 +106,19 @@ int run_check(Options& options, const pieces::ArrayFiles* parts) {
   }
   std::vector<Fact> facts;
   Mesh mesh = load_to_check(options, options.file, parts);
-  if (!options.improved.empty()) {
-    Mesh improved = load_to_check(options, options.improved, parts);
-    facts = compare(mesh, improved, wanted.threads);
-    mesh = std::move(improved);
-  }
-  if (wanted.asks()) {
-    try {
+  try {
+    if (!options.improved.empty()) {
+      Mesh improved = load_to_check(options, options.improved, parts);
+      facts = compare(mesh, improved, wanted.threads, wanted.preset);
+      mesh = std::move(improved);
+    }
+    if (wanted.asks()) {
       const auto& last = options.improved.empty() ? options.file : options.improved;
       const std::vector<Fact> asked = in_parts(last, parts, [&] { return check(mesh, wanted); });
       facts.insert(facts.end(), asked.begin(), asked.end());
-    } catch (const OptionError& error) {
-      throw UsageError("--" + message_of(error));
     }
+  } catch (const OptionError& error) {
+    throw UsageError("--" + message_of(error));
   }
   const bool holds =
       std::all_of(facts.begin(), facts.end(), [](const Fact& fact) { return fact.holds; });
@@ -167,7 +167,8 @@ surface, bit for bit, the same faces between labels, named triangles and groups,
 the same other elements with all that tets share with them, the same volume of
 each label, no inverted tet, no smaller theta_min, no larger theta_max unless
 the goal allows it, not more bad tets. Where inverted tets were mended, these
-two angles are shown and not asked for. Thresholds are then asked of OUT.
+two angles are shown and not asked for. Thresholds are then asked of OUT, and
+--for explicit or implicit that OUT is no dearer to solve on than FILE.
 
 Presets; all of them ask for no inverted tet:
 {}

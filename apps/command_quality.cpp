@@ -112,9 +112,10 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
   return 0;
 }
 
-std::string ruler_list() {
+template <class Infos>
+std::string ruler_list(const Infos& rulers) {
   std::string text;
-  for (const RulerInfo& each : kRulers) {
+  for (const auto& each : rulers) {
     std::string help = fmt::format("  {:<19}", each.name);
     for (const char c : each.help)
       help += c == '\n' ? "\n" + std::string(21, ' ') : std::string(1, c);
@@ -167,8 +168,8 @@ void add_quality(CLI::App& app, Invocation& invocation) {
 In JSON the names are the same; histogram counts the angles by 5 degrees.
 
 Of the measures of other programs: the worst value, the one that 1 % of the tets
-(or faces) do not surpass, and the mean.
-{}
+(faces, points) do not surpass, and the mean. Two are one number of the mesh.
+{}{}
 --limit proves what no mesh of this surface can beat: a bad tet is forced if
 every mesh with the same surface and constraints has one there. It counts these
 and bounds the smallest and largest angle; more may be forced than is found.
@@ -186,7 +187,8 @@ Examples:
   tetmend quality part.msh --list 20 --cells bad.vtu
 
 Exit status: 0 success, 1 the file cannot be read, 2 wrong usage)",
-                              ruler_list(), measure_list(), mesh_format_list(), parts_help()));
+                              ruler_list(kRulers), ruler_list(kSolverRulers), measure_list(),
+                              mesh_format_list(), parts_help()));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] {
       return run_quality(*options, invocation.array_files);

@@ -193,6 +193,11 @@ std::string format_rulers(const MeshRulers& before, const MeshRulers* after) {
       return figure == 0 ? fmt::format("{}", meshes[m]->faces_above_70) : std::string();
     });
   }
+  for (const SolverRulerInfo& ruler : kSolverRulers) {
+    line(ruler.title, [&](std::size_t figure, std::size_t m) {
+      return figure == 0 ? short_number(meshes[m]->*ruler.value) : std::string();
+    });
+  }
   return text;
 }
 
@@ -287,6 +292,9 @@ nlohmann::json to_json(const MeshRulers& rulers) {
   nlohmann::json result = {{"shortest_edge", number(rulers.shortest_edge)},
                            {"inner_faces", rulers.inner_faces},
                            {"faces_above_70", rulers.faces_above_70}};
+  for (const SolverRulerInfo& ruler : kSolverRulers) {
+    result[std::string(ruler.name)] = number(rulers.*ruler.value);
+  }
   for (std::size_t r = 0; r < kRulerCount; ++r) {
     const RulerFigures& of = rulers.figures[r];
     result[std::string(kRulers[r].name)] = {{"worst", number(of.worst)},

@@ -48,7 +48,8 @@ std::string format_limit(const SurfaceLimit& limit);
 /// An object with the names of the fields of MeshStatistics; lambda_bands and histogram are arrays.
 /// A number that is not finite becomes null, which JSON can express.
 nlohmann::json to_json(const MeshStatistics& statistics);
-/// An object with an object for each ruler by its name, and inner_faces and faces_above_70.
+/// An object with an object for each ruler by its name, and shortest_edge, inner_faces,
+/// faces_above_70 and the numbers of kSolverRulers.
 nlohmann::json to_json(const MeshRulers& rulers);
 nlohmann::json to_json(const CurvedStatistics& curved);
 /// The same for SurfaceLimit; `bad` is an object by hindrance, a bound that is not known is null.

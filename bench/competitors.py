@@ -220,6 +220,21 @@ def stellar_rows() -> list[Competitor]:
     ]
 
 
+def cgal_row(name: str) -> Competitor:
+    """Not among competitors(): whether the surface stays is up to the program that calls CGAL."""
+    found = variable("TETMEND_BENCH_CGAL")
+    return Competitor(
+        name=name,
+        short="CGAL",
+        found=found,
+        hint="Needs TETMEND_BENCH_CGAL=PROGRAM, called as PROGRAM IN.mesh OUT.mesh: a program that "
+        "calls CGAL's tetrahedral_isotropic_remeshing, which is under the GPL",
+        command=(found or "cgal", "input.mesh", "output.mesh"),
+        output="output.mesh",
+        phases=line_phases,
+    )
+
+
 def other_rows() -> list[Competitor]:
     """Programs that are called as PROGRAM IN.mesh OUT.mesh; a script can bring any to that."""
 

@@ -64,7 +64,6 @@ def rows(tetmend: Path, tolerance: float) -> list[Competitor]:
                                    *options.split()), phases=competitors.untold, ours=True)
 
     mmg = competitors.variable("TETMEND_BENCH_MMG3D")
-    cgal = competitors.variable("TETMEND_BENCH_CGAL")
     files = ("input.mesh", "output.mesh")
     return [
         own("fixed", "surface fixed", "thorough"),
@@ -75,11 +74,7 @@ def rows(tetmend: Path, tolerance: float) -> list[Competitor]:
                    hint="Needs TETMEND_BENCH_MMG3D=PROGRAM: mmg3d (www.mmgtools.org)",
                    command=(mmg or "mmg3d", "-optim", "-hausd", f"{tolerance:.6g}", "-in", files[0],
                             "-out", files[1]), output=files[1], phases=competitors.mmg_phases),
-        Competitor(name="CGAL, tetrahedral_isotropic_remeshing", short="CGAL", found=cgal,
-                   hint="Needs TETMEND_BENCH_CGAL=PROGRAM, called as PROGRAM IN.mesh OUT.mesh: a "
-                   "program that calls CGAL's function of that name, which is under the GPL",
-                   command=(cgal or "cgal", *files), output=files[1],
-                   phases=competitors.line_phases),
+        competitors.cgal_row("CGAL, tetrahedral_isotropic_remeshing"),
     ]
 
 

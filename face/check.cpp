@@ -483,10 +483,14 @@ Fact no_bare_boundary(const MeshData& mesh) {
   return {"bare_boundary", count == 0, text, count, std::uint64_t{0}};
 }
 
+/// What a mesh is for, whatever the program.
+enum class Use : std::uint8_t { any, explicit_steps, implicit_steps };
+
 struct Preset {
   CheckPreset shown;
   std::vector<std::pair<std::string_view, double>> rulers;
   bool wants_markers = false;  ///< on all of the boundary
+  Use use = Use::any;
 };
 
 std::span<const Preset> presets() {
@@ -497,12 +501,20 @@ std::span<const Preset> presets() {
        {{"non_orthogonality", 70}, {"skewness", 4}, {"aspect_ratio", 1000}}},
       {{"su2", "the dual volumes of a mesh must be positive, all of the boundary in markers"},
        {},
-       true}};
+       true},
+      {{"explicit", "steps in time: the step is at least a fifth of what 99 % of the points allow"},
+       {},
+       false,
+       Use::explicit_steps},
+      {{"implicit", "equations: 1 % of the tets at most have a condition number above 10"},
+       {},
+       false,
+       Use::implicit_steps}};
   return kPresets;
 }
 
 /// Null where no name was given.
-const Preset* find_preset(const std::string& name) {
+const Preset* find_preset(std::string_view name) {
   if (name.empty()) return nullptr;
   std::vector<std::string_view> names;
   for (const Preset& preset : presets()) {
@@ -536,6 +548,41 @@ Fact threshold(std::string_view name, double wanted, const MeshRulers& rulers) {
   const double worst = rulers.figures[i].worst;
   return of.large_is_good ? at_least(std::string(of.name), what, worst, wanted)
                           : at_most(std::string(of.name), what, worst, wanted);
+}
+
+/// What the mesh alone says about a use.
+std::vector<Fact> fitness(Use use, const MeshRulers& rulers) {
+  constexpr double kShareOfStep = 0.2;
+  constexpr double kMostCondition = 10;
+  const RulerFigures& step = rulers[Ruler::step];
+  if (use == Use::explicit_steps) {
+    return {at_least("step_share", "step, as a share of what 99 % of the points allow,",
+                     step.one_percent > 0 ? step.worst / step.one_percent : 0, kShareOfStep)};
+  }
+  if (use == Use::implicit_steps) {
+    return {at_most("condition_share", "condition number that 1 % of the tets reach",
+                    rulers[Ruler::condition].one_percent, kMostCondition)};
+  }
+  return {};
+}
+
+/// No dearer to solve on than before.
+std::vector<Fact> no_dearer(Use use, const Measurement& then, const Measurement& now) {
+  constexpr double kRounding = 1e-9;
+  constexpr double kOfEstimate = 0.02;  // it tells no smaller difference
+  const auto step = [](const Measurement& of) { return (*of.rulers)[Ruler::step].worst; };
+  const auto cost = [&](const Measurement& of) {
+    return static_cast<double>(of.statistics.tets) / step(of);  // infinite without a step
+  };
+  if (use == Use::explicit_steps) {
+    return {at_least("step", "step", step(now), (1 - kRounding) * step(then)),
+            at_most("explicit_cost", "tets by step", cost(now), (1 + kRounding) * cost(then))};
+  }
+  if (use == Use::implicit_steps) {
+    return {at_most("work", "work, tets x estimated CG steps,", now.rulers->work,
+                    (1 + kOfEstimate) * then.rulers->work)};
+  }
+  return {};
 }
 
 std::vector<Fact> same_walls(const MeshData& before, const MeshData& after) {
@@ -587,6 +634,7 @@ std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
     for (const auto& [name, wanted] : preset->rulers) {
       facts.push_back(threshold(name, wanted, *measured.rulers));
     }
+    for (Fact& fact : fitness(preset->use, *measured.rulers)) facts.push_back(std::move(fact));
   }
   for (const auto& [name, wanted] : options.measure) {
     facts.push_back(threshold(name, wanted, *measured.rulers));
@@ -594,7 +642,9 @@ std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
   return facts;
 }
 
-std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
+std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads,
+                          std::string_view name_of_preset) {
+  const Preset* const preset = find_preset(name_of_preset);
   const Scale scale = scale_of(first);
   scale_of(second);  // or an error
   MeshData own_before, own_after, numbered_after;
@@ -635,6 +685,9 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads) {
   }
   facts.push_back(
       at_most("n_bad", "bad tets", static_cast<double>(is.n_bad), static_cast<double>(was.n_bad)));
+  if (preset != nullptr) {
+    for (Fact& fact : no_dearer(preset->use, then, now)) facts.push_back(std::move(fact));
+  }
   return facts;
 }
 

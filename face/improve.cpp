@@ -517,6 +517,11 @@ std::vector<Fall> falls_of(const Result& result) {
     compare(ruler == Ruler::mean_ratio ? "a worst mean ratio" : "a worst radius ratio", now, then,
             now < then - kRounding);
   }
+  if (result.holds_solver) {
+    const double now = worst(*result.rulers_after, Ruler::step);
+    const double then = worst(*result.rulers_before, Ruler::step);
+    compare("a stable step", now, then, now < then * (1 - kRounding));
+  }
   const double most_ratio = std::max(edge_ratio, kEdgeRatio) + kRounding;
   compare("a worst edge ratio", worst(*result.rulers_after, Ruler::edge_ratio), edge_ratio,
           worst(*result.rulers_after, Ruler::edge_ratio) > most_ratio, is_mended);

@@ -109,8 +109,8 @@ void Portrait::draw_before(const TetMesh& mesh, const std::optional<MeshRulers>&
   }
   bad_before = draw_bad(mesh, {});
   if (!rulers) return;
-  mean_altitude_ = (*rulers)[Ruler::least_altitude].mean;
-  rulers_before = count_rulers(mesh, mean_altitude_);
+  means_ = *rulers;
+  rulers_before = count_rulers(mesh, means_);
 }
 
 void Portrait::draw_after(const TetMesh& mesh,
@@ -118,7 +118,7 @@ void Portrait::draw_after(const TetMesh& mesh,
                           const std::optional<MeshRulers>& rulers) {
   bad_after = draw_bad(mesh, hindrances);
   are_reasons_known = hindrances.size() == bad_after.size();
-  if (rulers) rulers_after = count_rulers(mesh, mean_altitude_);
+  if (rulers) rulers_after = count_rulers(mesh, means_);
 }
 
 }  // namespace tetmend::face

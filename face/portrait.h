@@ -48,7 +48,7 @@ struct Portrait {
                   const std::optional<MeshRulers>& rulers);
 
  private:
-  double mean_altitude_ = 0;
+  MeshRulers means_;  // of the mesh before: for the bins of both
 };
 
 }  // namespace tetmend::face

@@ -21,6 +21,7 @@ double width_for(Ruler ruler) {
     case Ruler::aspect_ratio:
     case Ruler::edge_ratio:
     case Ruler::least_altitude:
+    case Ruler::step:
       return 0;
     default:
       return 1.0 / RulerBins::kCount;
@@ -29,12 +30,10 @@ double width_for(Ruler ruler) {
 
 }  // namespace
 
-RulerBins::RulerBins(Ruler ruler, double mean_altitude) : width_(width_for(ruler)) {
-  if (ruler != Ruler::least_altitude) return;
+RulerBins::RulerBins(Ruler ruler, double mean) : width_(width_for(ruler)) {
+  if (!is_length(ruler)) return;
   constexpr int kDoublingsBelow = 7;
-  exponent_ = mean_altitude > 0 && std::isfinite(mean_altitude)
-                  ? std::ilogb(mean_altitude) - kDoublingsBelow
-                  : 0;
+  exponent_ = mean > 0 && std::isfinite(mean) ? std::ilogb(mean) - kDoublingsBelow : 0;
 }
 
 std::vector<double> RulerBins::edges() const {

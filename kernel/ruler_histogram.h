@@ -17,9 +17,10 @@ class RulerBins {
  public:
   static constexpr std::size_t kCount = 40;
 
-  /// Ratios from 0 to 1, angles to 100 degrees and skewness to 4 have bins of one width. What is 1 at best and has no bound has four bins for each doubling, as have altitudes.
-  /// @param mean_altitude a length that altitudes are about as long as; above 0 unless there are none
-  RulerBins(Ruler ruler, double mean_altitude);
+  /// Ratios from 0 to 1, angles to 100 degrees and skewness to 4 have bins of one width. What is 1 at best
+  /// and has no bound has four bins for each doubling, as have lengths.
+  /// @param mean of a ruler that is a length, what its values are about; above 0 unless there are none
+  RulerBins(Ruler ruler, double mean);
   RulerBins() = default;
 
   /// kCount + 1 values, ascending.
@@ -32,7 +33,12 @@ class RulerBins {
   int exponent_ = 0;  // then of the first edge
 };
 
-/// How many tets, or faces, are in each bin.
+/// The values are lengths: altitudes and steps.
+constexpr bool is_length(Ruler ruler) {
+  return ruler == Ruler::least_altitude || ruler == Ruler::step;
+}
+
+/// How many tets, faces or vertices are in each bin.
 struct RulerHistogram {
   RulerBins bins;
   std::array<std::size_t, RulerBins::kCount> counts{};
@@ -41,11 +47,11 @@ struct RulerHistogram {
 /// By Ruler.
 using RulerHistograms = std::array<RulerHistogram, kRulerCount>;
 
-/// Measures all tets and faces, as measure_rulers() does; the result does not depend on the number
-/// of threads.
-/// @param mean_altitude for the bins of that ruler, a length of the file; two meshes of one give
+/// Measures all tets, faces and vertices, as measure_rulers() does; the result does not depend on the
+/// number of threads.
+/// @param means for the bins of lengths: of this mesh or another; two meshes with the same give
 /// histograms that can be compared
 /// Cost: about 0.15 s for a million tets on one thread.
-RulerHistograms count_rulers(const TetMesh& mesh, double mean_altitude);
+RulerHistograms count_rulers(const TetMesh& mesh, const MeshRulers& means);
 
 }  // namespace tetmend

@@ -19,6 +19,7 @@
 #include "kernel/chunks.h"
 #include "kernel/compensated_sum.h"
 #include "kernel/ruler_histogram.h"
+#include "kernel/solver_rulers.h"
 #include "kernel/tet_rows.h"
 
 namespace tetmend {
@@ -29,13 +30,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // no score: below no limit
 constexpr std::size_t kTetRulers = 8;
 constexpr std::size_t kFaceRulers = 2;
-static_assert(kTetRulers + kFaceRulers == kRulerCount);
+constexpr std::size_t kSurveyed = kTetRulers + kFaceRulers;  // the others are of vertices
+static_assert(kSurveyed + 1 == kRulerCount);
 
 constexpr std::size_t at(Ruler ruler) {
   return static_cast<std::size_t>(ruler);
 }
 
-using Limits = std::array<double, kRulerCount>;
+using Limits = std::array<double, kSurveyed>;
 
 /// Of one ruler: the scores below a limit, and how many are just there.
 struct Sieve {
@@ -249,7 +251,7 @@ struct Part {
     CompensatedSum sum;
     Sieve sieve;
   };
-  std::array<Scores, kRulerCount> of;
+  std::array<Scores, kSurveyed> of;
   std::size_t faces_above_70 = 0;
   double shortest_edge = kInfinity;
 };
@@ -307,8 +309,8 @@ class Surveyor {
       for (std::size_t i = 0; i < size; ++i) {
         if (std::isnan(scores[i])) continue;  // no score
         const double value = value_of(ruler, scores[i]);
-        const bool is_length = ruler == Ruler::least_altitude;
-        ++histogram.counts[histogram.bins.find(is_length ? mesh_.scale().to_file(value) : value)];
+        ++histogram
+              .counts[histogram.bins.find(is_length(ruler) ? mesh_.scale().to_file(value) : value)];
       }
     }
   }
@@ -409,7 +411,7 @@ Limits estimate_limits(const TetMesh& mesh) {
   if (mesh.tet_count() < kLeast * kStep) return limits;
   auto sample = survey(mesh, limits, kStep);
   Limits estimate;
-  for (std::size_t r = 0; r < kRulerCount; ++r) {
+  for (std::size_t r = 0; r < kSurveyed; ++r) {
     const std::size_t rank = 3 * count_scores(sample, r) / 100;
     estimate[r] = find_score(sample, r, rank, kInfinity).value_or(kInfinity);
   }
@@ -440,6 +442,26 @@ std::optional<RulerFigures> figures_of(Ruler ruler, std::vector<Part>& parts, do
   return RulerFigures{value_of(ruler, worst), value_of(ruler, *one_percent), value_of(ruler, mean)};
 }
 
+/// Of all vertices of tets, in the order of their slots.
+std::vector<double> steps_of(const P1Diagonals& diagonals) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < diagonals.mass.size(); ++i) {
+    const VertexHandle v(static_cast<std::uint32_t>(i));
+    if (diagonals.is_in_use(v)) steps.push_back(diagonals.step(v));
+  }
+  return steps;
+}
+
+RulerFigures step_figures(const P1Diagonals& diagonals) {
+  std::vector<double> steps = steps_of(diagonals);
+  if (steps.empty()) return {};
+  CompensatedSum sum;
+  for (const double step : steps) sum.add(step);
+  const auto rank = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() + 99) / 100 - 1);
+  std::nth_element(steps.begin(), rank, steps.end());
+  return {stable_step(diagonals), *rank, sum.value() / static_cast<double>(steps.size())};
+}
+
 }  // namespace
 
 MeshRulers measure_rulers(const TetMesh& mesh) {
@@ -452,7 +474,7 @@ MeshRulers measure_rulers(const TetMesh& mesh) {
     result.inner_faces += part.of[at(Ruler::non_orthogonality)].count;
     result.faces_above_70 += part.faces_above_70;
   }
-  for (std::size_t r = 0; r < kRulerCount; ++r) {
+  for (std::size_t r = 0; r < kSurveyed; ++r) {
     auto figures = figures_of(static_cast<Ruler>(r), parts, limits[r]);
     if (!figures) {  // the sample was misleading: keep all
       limits.fill(kInfinity);
@@ -461,21 +483,26 @@ MeshRulers measure_rulers(const TetMesh& mesh) {
     }
     result.figures[r] = *figures;
   }
+  const P1Diagonals diagonals = p1_diagonals(mesh);
+  result.figures[at(Ruler::step)] = step_figures(diagonals);
+  result.cg_steps = estimate_cg_steps(mesh, diagonals);
+  result.work = static_cast<double>(mesh.tet_count()) * result.cg_steps;
   const Scale& scale = mesh.scale();
   result.shortest_edge = scale.to_file(result.shortest_edge);
-  RulerFigures& altitude = result.figures[at(Ruler::least_altitude)];
-  for (double* length : {&altitude.worst, &altitude.one_percent, &altitude.mean}) {
-    *length = scale.to_file(*length);
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    if (!is_length(static_cast<Ruler>(r))) continue;
+    RulerFigures& of = result.figures[r];
+    for (double* length : {&of.worst, &of.one_percent, &of.mean}) *length = scale.to_file(*length);
   }
   return result;
 }
 
-RulerHistograms count_rulers(const TetMesh& mesh, double mean_altitude) {
+RulerHistograms count_rulers(const TetMesh& mesh, const MeshRulers& means) {
   Limits keep_none;
   keep_none.fill(-kInfinity);
   RulerHistograms empty;
   for (std::size_t r = 0; r < kRulerCount; ++r) {
-    empty[r].bins = RulerBins(static_cast<Ruler>(r), mean_altitude);
+    empty[r].bins = RulerBins(static_cast<Ruler>(r), means.figures[r].mean);
   }
   const auto parts =
       map_chunks<RulerHistograms>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
@@ -488,6 +515,10 @@ RulerHistograms count_rulers(const TetMesh& mesh, double mean_altitude) {
     for (std::size_t r = 0; r < kRulerCount; ++r) {
       for (std::size_t i = 0; i < RulerBins::kCount; ++i) all[r].counts[i] += part[r].counts[i];
     }
+  }
+  RulerHistogram& of_steps = all[at(Ruler::step)];
+  for (const double step : steps_of(p1_diagonals(mesh))) {
+    ++of_steps.counts[of_steps.bins.find(mesh.scale().to_file(step))];
   }
   return all;
 }

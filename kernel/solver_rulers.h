@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What linear (P1) elements make of a mesh: how large the steps of explicit time integration may be.
+// What solvers with linear (P1) elements make of a mesh: how large steps in time may be, how much
+// an iteration costs.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -35,15 +37,19 @@ inline P1Diagonal p1_diagonal(const Point& a, const Point& b, const Point& c, co
 struct TETMEND_API P1Diagonals {
   std::vector<double> mass;
   std::vector<double> stiffness;
+  bool are_positive = false;  ///< the volumes of all tets; false without tets
 
-  /// Squared: mass over stiffness.
-  double squared_step(VertexHandle v) const { return mass[v.index()] / stiffness[v.index()]; }
+  bool is_in_use(VertexHandle v) const { return mass[v.index()] != 0 || stiffness[v.index()] != 0; }
+  /// sqrt(m / k); 0 where that is no positive number.
+  double step(VertexHandle v) const {
+    const double square = mass[v.index()] / stiffness[v.index()];
+    return square > 0 ? std::sqrt(square) : 0;
+  }
 };
 
-/// @param[out] step of the mesh as stable_step() has it; null: not wanted
 /// The sums run in the order of the tets, whatever the number of threads.
 /// Cost: linear, about 0.02 s for a million tets; 16 bytes a vertex, and a buffer of 40 MB at most.
-TETMEND_API P1Diagonals p1_diagonals(const TetMesh& mesh, double* step = nullptr);
+TETMEND_API P1Diagonals p1_diagonals(const TetMesh& mesh);
 
 /// The smallest sqrt(m_i / k_ii) over the vertices, m the lumped mass and k the stiffness matrix of
 /// the Laplacian: a length, as mesh.point() has it. Explicit time integration of a wave of speed 1
@@ -51,9 +57,16 @@ TETMEND_API P1Diagonals p1_diagonals(const TetMesh& mesh, double* step = nullptr
 /// mesh with a tet of no positive volume, and without tets. Mid-side nodes are not looked at.
 /// Cost: as p1_diagonals().
 TETMEND_API double stable_step(const TetMesh& mesh);
+TETMEND_API double stable_step(const P1Diagonals& diagonals);
 
 /// The same squared for one vertex, from its star; nothing for a star of more than kMaxStar tets. Any
 /// thread may ask whose territory holds the vertex. Cost: linear in the star.
 TETMEND_API std::optional<double> squared_step_at(const TetMesh& mesh, VertexHandle v);
+
+/// How many steps conjugate gradients with Jacobi's preconditioner take to 1e-8, for the Laplacian with
+/// linear elements and the surface fixed: an estimate from sums over the mesh, not an integer. 0 for a
+/// mesh with a tet of no positive volume, or without an inner vertex. docs/glossary.md says how good it
+/// is. Cost: linear, about 0.06 s for a million tets; 16 bytes a vertex more than p1_diagonals().
+TETMEND_API double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals);
 
 }  // namespace tetmend

@@ -99,6 +99,14 @@ std::string ruler_table(const Figures& figures) {
     }
     rows += "</tr>\n";
   }
+  for (const SolverRulerInfo& ruler : kSolverRulers) {
+    rows += fmt::format(
+        "<tr><th scope=\"row\" title=\"{}\">{}</th><td>{}</td><td>{}</td>"
+        "<td colspan=\"4\"></td></tr>\n",
+        escaped(ruler.help), escaped(ruler.title),
+        figures.shown_digits(fmt::format("before.rulers.{}", ruler.name), 4),
+        figures.shown_digits(fmt::format("after.rulers.{}", ruler.name), 4));
+  }
   return fmt::format(
       "<table class=\"rulers\"><thead><tr><th rowspan=\"2\">measure</th><th "
       "colspan=\"2\">worst</th>"
@@ -144,7 +152,7 @@ std::string histograms(const Figures& figures) {
     content.name = ruler.name;
     content.title = ruler.title;
     content.help = ruler.help;
-    content.unit = ruler.of_faces ? "faces" : "tets";
+    content.unit = ruler.of_faces ? "faces" : ruler.of_vertices ? "points" : "tets";
     content.edges = figures.at(path).at("edges").get<std::vector<double>>();
     content.before = counts_at(figures, path + ".before");
     content.after = counts_at(figures, path + ".after");

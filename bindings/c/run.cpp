@@ -23,6 +23,8 @@ void to_c(const MeshRulers& rulers, tetmend_statistics& made) {
   }
   made.shortest_edge = rulers.shortest_edge;
   made.faces_above_70 = rulers.faces_above_70;
+  made.cg_steps = rulers.cg_steps;
+  made.work = rulers.work;
 }
 
 tetmend_statistics to_c(const MeshStatistics& statistics, const std::optional<MeshRulers>& rulers) {

@@ -39,9 +39,10 @@ module tetmend
     integer(c_size_t) :: n_bad
     real(c_double) :: q_aver
     integer(c_size_t) :: histogram(36)
-    type(tetmend_ruler) :: rulers(10)
+    type(tetmend_ruler) :: rulers(11)
     real(c_double) :: shortest_edge
     integer(c_size_t) :: faces_above_70
+    real(c_double) :: cg_steps, work
   end type
 
   type, bind(c), public :: tetmend_result

@@ -32,7 +32,7 @@ struct CheckOptions {
       false;  ///< no inverted or flat tet, in exact arithmetic, as vertices are listed
   /// Worst values of rulers (kRulers): {"mean_ratio", 0.1}.
   std::vector<std::pair<std::string, double>> measure = {};
-  std::string preset = {};  ///< what a solver asks, see check_presets(); empty: none
+  std::string preset = {};  ///< what a solver or a use asks, see check_presets(); empty: none
   int threads = 1;          ///< 1 to 1024
 
   /// Whether there is anything to look at.
@@ -49,12 +49,14 @@ TETMEND_API std::vector<Fact> check(const Mesh& mesh, const CheckOptions& option
 
 /// What an improved mesh must have in common with the mesh that it came from, and that it is no
 /// worse. Looks at the two meshes alone: it knows nothing of the run.
-/// @throws Error as measure(). Cost: n log n.
-TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1);
+/// @param preset  a use that it must suit as well as before: "explicit", "implicit"; no other adds facts
+/// @throws Error as measure(); OptionError for an unknown preset ("for"). Cost: n log n.
+TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1,
+                                      std::string_view preset = {});
 
-/// What one solver asks of a mesh.
+/// What one solver, or one use, asks of a mesh.
 struct CheckPreset {
-  std::string_view name;    ///< of the solver: "calculix"
+  std::string_view name;    ///< of the solver or use: "calculix", "explicit"
   std::string_view source;  ///< who asks for it
 };
 /// What CheckOptions::preset can name; all of them ask for no inverted tet.

@@ -245,9 +245,9 @@ struct Result {
   /// All figures that are worse than before, in words: worse(), then missed_aims(). The same list in
   /// the report as text, page and JSON, in Python and in C.
   TETMEND_API std::vector<std::string> worse_than_before() const;
-  /// The promised figures among them: theta_min is not smaller, theta_max not above the larger of
-  /// what it was and the goal's, there are not more bad tets, lambda is not higher. With rulers also:
-  /// the worst mean ratio and radius ratio are not smaller, the worst edge ratio not above the larger
+  /// The promised figures among them: theta_min is not smaller, theta_max not above what
+  /// it was, or, without holds_solver, the larger of that and the goal's, there are not more bad tets, lambda is not higher. With rulers also:
+  /// the worst mean ratio and radius ratio are not smaller, nor with holds_solver the step, the worst edge ratio not above the larger
   /// of what it was and 10. Of a mesh of second order also: the worst Jacobian ratio, at the nodes and
   /// by its bound, is not smaller. Empty, unless the run mended inverted tets: that goes before
   /// theta_min, theta_max and the edge ratio, where they cannot be had together.

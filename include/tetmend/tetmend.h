@@ -233,11 +233,11 @@ TETMEND_API tetmend_status tetmend_get_tet_map(tetmend_mesh* mesh, int32_t* map,
 /** Bins of its histogram. */
 #define TETMEND_BINS 36
 /** How many measures of other programs there are. */
-#define TETMEND_RULERS 10
+#define TETMEND_RULERS 11
 
-/** Figures of one measure over all tets. */
+/** Figures of one measure over all tets, faces or vertices. */
 typedef struct tetmend_ruler {
-  double worst;       /**< of the worst tet */
+  double worst;       /**< of the worst of them */
   double one_percent; /**< 1 % are as bad or worse */
   double mean;        /**< of all */
 } tetmend_ruler;
@@ -263,6 +263,8 @@ typedef struct tetmend_statistics {
   tetmend_ruler rulers[TETMEND_RULERS]; /**< see tetmend_ruler_name() */
   double shortest_edge;                 /**< its length */
   size_t faces_above_70; /**< inner faces of more than 70 degrees non-orthogonality */
+  double cg_steps;       /**< estimate: of conjugate gradients with Jacobi's preconditioner */
+  double work;           /**< tets times cg_steps */
 } tetmend_statistics;
 
 /** "mean_ratio", ... of ruler 0 to TETMEND_RULERS - 1; null for another number. */

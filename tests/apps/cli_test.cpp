@@ -482,7 +482,7 @@ TEST_CASE("statistics as JSON are those of the library, with every measure asked
     CHECK(json["lambda"].get<double>() == doctest::Approx(expected.lambda));
     CHECK(json["histogram"].size() == expected.histogram.size());
     CHECK(json["measures"].size() == quality_measures().size());
-    CHECK(json["rulers"].size() == kRulerCount + 3);
+    CHECK(json["rulers"].size() == kRulerCount + 3 + kSolverRulers.size());
     CHECK(json["rulers"]["radius_ratio"]["worst"].get<double>() ==
           doctest::Approx(json["measures"]["radius_ratio"]["worst"].get<double>()));
     CHECK(json["measures"]["min_sine"]["worst"].get<double>() == doctest::Approx(expected.q_worst));

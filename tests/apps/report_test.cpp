@@ -245,6 +245,7 @@ TEST_CASE("the table of rulers has worst, 1 % and mean, of two meshes beside eac
   before.figures[static_cast<std::size_t>(Ruler::condition)].worst =
       std::numeric_limits<double>::infinity();
   before.faces_above_70 = 1234567;
+  before.work = 5e6;
   MeshRulers after = before;
   after.figures[0].worst = 0.5;
   after.faces_above_70 = 7;
@@ -254,7 +255,8 @@ TEST_CASE("the table of rulers has worst, 1 % and mean, of two meshes beside eac
   CHECK(has_line(one, "mean ratio 0.1235 2128 -1.9e-06"));
   CHECK(has_line(one, "condition number (VTK) inf 2128 -1.9e-06"));
   CHECK(has_line(one, "faces above 70 degrees 1234567"));
-  CHECK(lines(one).size() == kRulerCount + 3);
+  CHECK(has_line(one, "work, tets x CG steps 5e+06"));
+  CHECK(lines(one).size() == kRulerCount + 3 + kSolverRulers.size());
   const std::string two = format_rulers(before, &after);
   check_layout(two);
   CHECK(has_line(two, "before after before after before after"));
@@ -266,10 +268,12 @@ TEST_CASE("rulers as JSON have their names, and null for what is infinite") {
   MeshRulers rulers;
   rulers.inner_faces = 9;
   rulers.faces_above_70 = 2;
+  rulers.work = 600;
   rulers.figures[0] = {0.25, 0.5, 0.75};
   rulers.figures[4].worst = std::numeric_limits<double>::infinity();
   const nlohmann::json json = nlohmann::json::parse(to_json(rulers).dump());
-  CHECK(json.size() == kRulerCount + 3);
+  CHECK(json.size() == kRulerCount + 3 + kSolverRulers.size());
+  CHECK(json.at("work") == 600);
   CHECK(json.at("inner_faces") == 9);
   CHECK(json.at("faces_above_70") == 2);
   CHECK(json.at("mean_ratio") ==

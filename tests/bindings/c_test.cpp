@@ -343,6 +343,9 @@ TEST_CASE("in C: improving is that of C++: bytes, figures, maps and notes") {
     CHECK(after.n_bad == result.after.n_bad);
     CHECK(after.vertices == expected.point_count());
     CHECK(after.rulers[0].worst == (*result.rulers_after)[tetmend::Ruler::mean_ratio].worst);
+    CHECK(after.rulers[10].worst == (*result.rulers_after)[tetmend::Ruler::step].worst);
+    CHECK(after.cg_steps == result.rulers_after->cg_steps);
+    CHECK(after.work == result.rulers_after->work);
     CHECK(std::accumulate(after.histogram, after.histogram + TETMEND_BINS, std::size_t{0}) ==
           6 * after.tets);
     tetmend_result outcome;

@@ -61,6 +61,7 @@ NOT_RUN = {
     "parts": "times only",
     "promises": "sums over more than a thousand runs",
     "ranks": "large meshes only",
+    "solvers": "needs DOLFINx and CalculiX",
     "viewing": "times only",
 }
 NEED_TIME = {"rivals", "surface"}

@@ -71,6 +71,53 @@ TEST_CASE("two meshes are compared by surface, walls and volumes") {
         }) == 2);  // one label is gone, one is new
 }
 
+TEST_CASE("an inner point near a face makes explicit steps smaller and dearer than before") {
+  const auto around = [](double inner) {
+    std::vector<std::array<double, 3>> points(kPoints.begin(), kPoints.begin() + 4);
+    points.push_back({inner, inner, inner});
+    return Mesh(
+        {.points = points, .tets = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}}});
+  };
+  const Mesh even = around(0.25), uneven = around(0.02);
+  const std::vector<Fact> worse = compare(even, uneven, 1, "explicit");
+  CHECK_FALSE(find(worse, "step").holds);
+  CHECK_FALSE(find(worse, "explicit_cost").holds);
+  CHECK(find(compare(uneven, even, 1, "explicit"), "step").holds);
+  CHECK(find(compare(uneven, even, 1, "explicit"), "explicit_cost").holds);
+  CHECK(find(compare(even, even, 1, "explicit"), "step").holds);
+  const auto is_step = [](const Fact& fact) { return fact.name == "step"; };
+  const std::vector<Fact> plain = compare(even, uneven, 1, "calculix");
+  CHECK(std::none_of(plain.begin(), plain.end(), is_step));
+  CHECK_THROWS_WITH_AS(compare(even, uneven, 1, "solver"),
+                       doctest::Contains("for: 'solver' is no preset"), OptionError);
+}
+
+TEST_CASE("more tets for the same body are more work") {
+  std::vector<std::array<double, 3>> points(kPoints.begin(), kPoints.begin() + 4);
+  points.insert(points.end(), {{0.3, 0.2, 0.2}, {0.35, 0.3, 0.25}});
+  const Mesh coarse({.points = {points.begin(), points.begin() + 5},
+                     .tets = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}}});
+  const Mesh fine({.points = points,
+                   .tets = {{5, 1, 2, 3},
+                            {4, 5, 2, 3},
+                            {4, 1, 5, 3},
+                            {4, 1, 2, 5},
+                            {0, 4, 2, 3},
+                            {0, 1, 4, 3},
+                            {0, 1, 2, 4}}});
+  CHECK_FALSE(find(compare(coarse, fine, 1, "implicit"), "work").holds);
+  CHECK(find(compare(fine, coarse, 1, "implicit"), "work").holds);
+}
+
+TEST_CASE("a mesh alone fits a use unless few tets spoil it") {
+  const Mesh good({.points = {kPoints.begin(), kPoints.begin() + 4}, .tets = {{0, 1, 2, 3}}});
+  CHECK(find(check(good, {.preset = "explicit"}), "step_share").holds);
+  CHECK(find(check(good, {.preset = "implicit"}), "condition_share").holds);
+  const Mesh flat(
+      {.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.01}}, .tets = {{0, 1, 2, 3}}});
+  CHECK_FALSE(find(check(flat, {.preset = "implicit"}), "condition_share").holds);
+}
+
 TEST_CASE("a tet that is folded over its neighbour is inverted however it is listed") {
   const auto folded = [](const std::array<std::uint32_t, 4>& second) {
     return Mesh({.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.2, 0.3}},

@@ -49,8 +49,7 @@ double edge_ratio(const Point& a, const Point& b, const Point& c, const Point& d
 
 TEST_CASE("each bin has the tets whose value lies in it") {
   const TetMesh mesh = test::make_mesh(contract::kuhn_cube(9, 0.45, 3));
-  const double altitude = measure_rulers(mesh)[Ruler::least_altitude].mean;
-  const RulerHistograms all = count_rulers(mesh, altitude);
+  const RulerHistograms all = count_rulers(mesh, measure_rulers(mesh));
   const auto counts = [&](Ruler ruler) { return all[static_cast<std::size_t>(ruler)]; };
   const RulerHistogram& mean_ratios = counts(Ruler::mean_ratio);
   CHECK(mean_ratios.counts == count_literally(mesh, mean_ratios.bins, mean_ratio));
@@ -60,13 +59,15 @@ TEST_CASE("each bin has the tets whose value lies in it") {
   CHECK(edge_ratios.counts == count_literally(mesh, edge_ratios.bins, edge_ratio));
 }
 
-TEST_CASE("every tet and every face is in one bin, inverted ones in the first or the last") {
+TEST_CASE("every tet, face and vertex is in one bin, inverted ones in the first or the last") {
   const TetMesh mesh = test::make_mesh(contract::tangled_ball(300, 2));
   const MeshRulers rulers = measure_rulers(mesh);
-  const RulerHistograms all = count_rulers(mesh, rulers[Ruler::least_altitude].mean);
+  const RulerHistograms all = count_rulers(mesh, rulers);
   for (std::size_t r = 0; r < kRulerCount; ++r) {
     CAPTURE(kRulers[r].name);
-    if (!kRulers[r].of_faces) CHECK(sum_of(all[r].counts) == mesh.tet_count());
+    if (kRulers[r].of_faces) continue;
+    CHECK(sum_of(all[r].counts) ==
+          (kRulers[r].of_vertices ? mesh.vertex_count() : mesh.tet_count()));
   }
   const auto of = [&](Ruler ruler) { return all[static_cast<std::size_t>(ruler)].counts; };
   CHECK(sum_of(of(Ruler::non_orthogonality)) == rulers.inner_faces);
@@ -81,10 +82,11 @@ TEST_CASE("every tet and every face is in one bin, inverted ones in the first or
 
 TEST_CASE("the number of threads does not show in a histogram") {
   const TetMesh mesh = test::make_mesh(contract::kuhn_cube(24, 0.4, 5));
+  const MeshRulers means = measure_rulers(mesh);
   const auto counts = [&](int threads) {
     return test::on_threads(threads, [&] {
       std::vector<Counts> list;
-      for (const RulerHistogram& of : count_rulers(mesh, 0.01)) list.push_back(of.counts);
+      for (const RulerHistogram& of : count_rulers(mesh, means)) list.push_back(of.counts);
       return list;
     });
   };
@@ -93,7 +95,8 @@ TEST_CASE("the number of threads does not show in a histogram") {
 
 TEST_CASE("an edge belongs to the bin above it, and what is beyond to the bin at that end") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const Ruler ruler : {Ruler::mean_ratio, Ruler::edge_ratio, Ruler::least_altitude}) {
+  for (const Ruler ruler :
+       {Ruler::mean_ratio, Ruler::edge_ratio, Ruler::least_altitude, Ruler::step}) {
     const RulerBins bins(ruler, 3.7);
     const std::vector<double> edges = bins.edges();
     REQUIRE(edges.size() == RulerBins::kCount + 1);

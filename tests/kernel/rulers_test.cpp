@@ -105,9 +105,33 @@ Point centroid(const TetMesh& mesh, TetHandle t) {
   return (p[0] + p[1] + p[2] + p[3]) / 4;
 }
 
+/// sqrt(m / k) of each vertex, from heights: |grad phi_i| is the inverse of one.
+std::vector<double> direct_steps(const TetMesh& mesh) {
+  std::vector<double> mass(mesh.vertex_slots()), stiffness(mesh.vertex_slots());
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const TetHandle t(slot);
+    if (mesh.is_deleted(t)) continue;
+    const auto p = corners(mesh, t);
+    const double volume = volume6(p[0], p[1], p[2], p[3]) / 6;
+    for (unsigned f = 0; f < 4; ++f) {
+      const auto& [i, j, k] = kFaceVertices[f];
+      const double height = 6 * volume / (p[j] - p[i]).cross(p[k] - p[i]).norm();
+      const std::size_t v = mesh.vertices(t)[f].index();
+      mass[v] += volume / 4;
+      stiffness[v] += volume / (height * height);
+    }
+  }
+  std::vector<double> steps;
+  for (std::size_t v = 0; v < mass.size(); ++v) {
+    if (mass[v] > 0) steps.push_back(std::sqrt(mass[v] / stiffness[v]));
+  }
+  return steps;
+}
+
 /// Of non_orthogonality the cosines.
 Values direct_values(const TetMesh& mesh) {
   Values values;
+  values[10] = direct_steps(mesh);
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
     const TetHandle t(slot);
     if (mesh.is_deleted(t)) continue;
@@ -286,6 +310,7 @@ TEST_CASE("rulers of inverted, flat and collapsed tets are as bad as can be, and
   CHECK(inverted[Ruler::sicn].worst < 0);
   CHECK(inverted[Ruler::sige].worst < 0);
   CHECK(inverted[Ruler::least_altitude].worst < 0);
+  CHECK(inverted[Ruler::step].worst == 0);
   CHECK(inverted[Ruler::condition].worst == kInfinity);
   CHECK(inverted[Ruler::condition].mean == kInfinity);
   CHECK(inverted[Ruler::aspect_ratio].worst == kInfinity);
@@ -317,6 +342,7 @@ TEST_CASE("rulers are the same, bit for bit, for every number of threads") {
       values.insert(values.end(), {of.worst, of.one_percent, of.mean});
     }
     values.push_back(static_cast<double>(rulers.faces_above_70));
+    values.push_back(rulers.cg_steps);
     return values;
   };
   const auto expected = all_of(1);
@@ -332,4 +358,5 @@ TEST_CASE("an empty mesh has rulers of zero") {
     CHECK(of.mean == 0);
   }
   CHECK(rulers.inner_faces == 0);
+  CHECK(rulers.work == 0);
 }

@@ -81,6 +81,9 @@ TEST_CASE("a mesh multiplied by a power of two is the same to all but its file")
     CHECK(shortest == std::ldexp(rulers.shortest_edge, exponent));
     CHECK(measure_rulers(mesh)[Ruler::least_altitude].worst ==
           std::ldexp(rulers[Ruler::least_altitude].worst, exponent));
+    CHECK(measure_rulers(mesh)[Ruler::step].worst ==
+          std::ldexp(rulers[Ruler::step].worst, exponent));
+    CHECK(measure_rulers(mesh).work == doctest::Approx(rulers.work));
   }
 }
 

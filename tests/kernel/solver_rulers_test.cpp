@@ -54,6 +54,31 @@ double largest_step(const Matrices& of) {
   return 2 / std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
+/// Of conjugate gradients with Jacobi's preconditioner to 1e-8, load 1, surface fixed.
+int count_cg_steps(const TetMesh& mesh) {
+  const Matrices all = assemble(mesh);
+  std::vector<Eigen::Index> inner;
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+    if (!mesh.is_boundary(VertexHandle(v))) inner.push_back(v);
+  }
+  const Eigen::MatrixXd matrix = all.stiffness(inner, inner);
+  Eigen::VectorXd residual = all.mass(inner);
+  const Eigen::VectorXd inverse = matrix.diagonal().cwiseInverse();
+  const double end = 1e-8 * residual.norm();
+  Eigen::VectorXd z = inverse.cwiseProduct(residual);
+  Eigen::VectorXd direction = z;
+  int steps = 0;
+  while (residual.norm() > end) {
+    const Eigen::VectorXd product = matrix * direction;
+    const double before = residual.dot(z);
+    residual -= before / direction.dot(product) * product;
+    z = inverse.cwiseProduct(residual);
+    direction = z + residual.dot(z) / before * direction;
+    ++steps;
+  }
+  return steps;
+}
+
 }  // namespace
 
 TEST_CASE("the step of a regular tet is that of its altitude") {
@@ -75,7 +100,7 @@ TEST_CASE("the step is the least of sqrt(m / k), and dt lies between it and twic
     CHECK(step == doctest::Approx(std::sqrt(squares.minCoeff())).epsilon(1e-12));
     const P1Diagonals diagonals = p1_diagonals(mesh);
     for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
-      CHECK(diagonals.squared_step(VertexHandle(v)) == doctest::Approx(squares[v]));
+      CHECK(diagonals.step(VertexHandle(v)) == doctest::Approx(std::sqrt(squares[v])));
     }
     const double dt = largest_step(matrices);
     CHECK(step <= dt);
@@ -100,6 +125,35 @@ TEST_CASE("the diagonal of one tet is what the sums over a mesh of one tet have"
 TEST_CASE("a mesh with a tet of no positive volume, or without tets, has no step") {
   CHECK(stable_step(TetMesh()) == 0);
   CHECK(stable_step(TetMesh(test::tangled_ball(60, 3))) == 0);
+}
+
+TEST_CASE("the estimate of CG steps is of the size of those that are taken") {
+  for (const MeshData& data : {test::kuhn_cube(6, 0.15, 7), test::kuhn_cube(9, 0.15, 7),
+                               test::kuhn_cube(9, 0.3, 7), test::delaunay_ball(900, 3)}) {
+    const TetMesh mesh(data);
+    const double taken = count_cg_steps(mesh);
+    const double estimate = estimate_cg_steps(mesh, p1_diagonals(mesh));
+    CAPTURE(taken);
+    CHECK(estimate > taken / 1.6);
+    CHECK(estimate < taken * 1.6);
+  }
+}
+
+TEST_CASE("a mesh with flatter tets is estimated to take more CG steps, and takes them") {
+  const TetMesh even(test::kuhn_cube(8, 0.1, 7));
+  const TetMesh uneven(test::kuhn_cube(8, 0.3, 7));
+  CHECK(count_cg_steps(uneven) > 1.2 * count_cg_steps(even));
+  CHECK(estimate_cg_steps(uneven, p1_diagonals(uneven)) >
+        1.2 * estimate_cg_steps(even, p1_diagonals(even)));
+}
+
+TEST_CASE(
+    "a mesh whose vertices are all on the surface, or with an inverted tet, has no estimate") {
+  const TetMesh one(test::kuhn_cube(1, 0, 7));
+  CHECK(estimate_cg_steps(one, p1_diagonals(one)) == 0);
+  const TetMesh tangled(test::tangled_ball(60, 3));
+  CHECK(estimate_cg_steps(tangled, p1_diagonals(tangled)) == 0);
+  CHECK(estimate_cg_steps(TetMesh(), p1_diagonals(TetMesh())) == 0);
 }
 
 TEST_CASE("the step is the same, bit for bit, for every number of threads") {

@@ -18,7 +18,8 @@ using tetmend::python::to_dict;
 
 py::dict to_dict(const MeshRulers& rulers) {
   py::dict made("shortest_edge"_a = rulers.shortest_edge, "inner_faces"_a = rulers.inner_faces,
-                "faces_above_70"_a = rulers.faces_above_70);
+                "faces_above_70"_a = rulers.faces_above_70, "cg_steps"_a = rulers.cg_steps,
+                "work"_a = rulers.work);
   for (std::size_t i = 0; i < kRulerCount; ++i) {
     const RulerFigures& of = rulers.figures[i];
     made[py::str(std::string(kRulers[i].name))] =

@@ -139,7 +139,7 @@ py::dict measure_mesh(const Mesh& mesh, const std::vector<std::string>& measures
 py::list check_mesh(const Mesh& mesh, const Mesh* improved, const CheckOptions& options) {
   std::vector<Fact> facts;
   run_detached([&] {
-    if (improved != nullptr) facts = compare(mesh, *improved, options.threads);
+    if (improved != nullptr) facts = compare(mesh, *improved, options.threads, options.preset);
     if (!options.asks()) return;
     for (Fact& fact : check(improved != nullptr ? *improved : mesh, options)) {
       facts.push_back(std::move(fact));

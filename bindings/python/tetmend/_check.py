@@ -53,7 +53,7 @@ def check(mesh: Mesh | PathLike, improved: Mesh | PathLike | None = None, *, min
 
     With two meshes: the same surface, walls, labels, groups and volumes, and nothing worse; thresholds are asked of the second.
     min_dihedral, max_dihedral: degrees. no_inverted: in exact arithmetic. measure: worst values of rulers,
-    {"mean_ratio": 0.1}. preset: what a solver asks: "calculix", "fenicsx", "openfoam", "su2" (`--for`).
+    {"mean_ratio": 0.1}. preset: what a solver or a use asks: "calculix", "explicit", "fenicsx", "implicit", "openfoam", "su2" (`--for`).
 
     >>> tet = Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     >>> print(check(tet, min_dihedral=60, no_inverted=True))
