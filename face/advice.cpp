@@ -2,7 +2,7 @@
 // Counts the bad tets that are left by what holds them.
 //
 //   mark the vertices of borders between labels -> for each bad tet: which kinds of constraints
-//   touch it -> a sentence for each kind that holds a tenth of them
+//   touch it -> a sentence for each kind that holds a tenth of them -> what a flat surface would free
 #include "face/advice.h"
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "face/flat_offer.h"
 #include "face/unjoined.h"
 #include "kernel/chunks.h"
 #include "kernel/grouped.h"
@@ -166,6 +167,14 @@ std::string reasons_of_inverted(const InvertedTets& count) {
                      fmt::join(reasons, ", "));
 }
 
+constexpr std::size_t kLeastOffer = 10;
+
+/// What a script of the user makes of a surface that moves, nobody knows.
+bool offers_flat(const Options& options, const Result& result) {
+  const bool is_fixed = options.surface.empty() || options.surface == "fixed";
+  return is_fixed && options.script.empty() && result.ending != Ending::cancelled;
+}
+
 }  // namespace
 
 std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result) {
@@ -184,8 +193,8 @@ std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result
   return texts;
 }
 
-std::vector<std::string> advice_after(const TetMesh& mesh, const Options& options,
-                                      const Result& result) {
+std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input,
+                                      const Options& options, const Result& result) {
   if (result.after.n_bad == 0) return {};
   const InnerFaces faces = find_inner_faces(mesh);
   const Held held = count_held(mesh, faces);
@@ -213,6 +222,13 @@ std::vector<std::string> advice_after(const TetMesh& mesh, const Options& option
   if (held.by_surface > 0 && 2 * held.by_surface >= held.bad) {
     texts.push_back(fmt::format("the surface, which stays, has all vertices of {}",
                                 share_of_bad(held.by_surface, held.bad)));
+  }
+  if (offers_flat(options, result)) {
+    const std::size_t freed = estimate_freed_by_flat(mesh, input, held.bad);
+    if (freed >= kLeastOffer && 20 * freed >= held.bad) {
+      texts.push_back(fmt::format("about {} of the {} bad tets left would go with --surface flat",
+                                  grouped(freed), grouped(held.bad)));
+    }
   }
   return texts;
 }

@@ -111,7 +111,7 @@ class Improvement {
       measure_after();
       if (gives_for_mending()) mend_within_bounds();
       if (!face::worse_for_nothing(result_).empty()) go_back();
-      note(face::advice_after(mesh_, options_, result_));
+      note(face::advice_after(mesh_, input_, options_, result_));
       map_entities();
     } catch (const contract::Breach& breach) {
       give_back_input();

@@ -299,7 +299,7 @@ void Improvement::measure_after(Joined& joined) {
     portrait_->draw_after(mesh, hindrances, result_.rulers_after);
     for (face::DrawnTet& tet : portrait_->bad_after) tet.facts.tet = numbers[tet.facts.tet];
   }
-  for (const std::string& text : face::advice_after(mesh, options_, result_)) {
+  for (const std::string& text : face::advice_after(mesh, joined.data, options_, result_)) {
     note(text);
   }
 }
