@@ -84,9 +84,7 @@ std::vector<QueuedVertex> queue_close(PassScope& scope, const TetMesh& mesh, dou
           }
         }
       });
-  const PassScope::Scan timed(scope);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  keep_each_once(scope, mesh, all);
   return all;
 }
 

@@ -73,10 +73,25 @@ std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
   } else {
     for (const QueuedTet& tet : queue_tets(scope, mesh, selection, 0)) take(tet.vertices, all);
   }
-  const PassScope::Scan timed(scope);
-  tbb::parallel_sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  keep_each_once(scope, mesh, all);
   return all;
+}
+
+void keep_each_once(PassScope& scope, const TetMesh& mesh, std::vector<QueuedVertex>& vertices) {
+  const PassScope::Scan timed(scope);
+  // Of most vertices of a mesh, each comes once for each of its tets.
+  constexpr std::size_t kFew = 8;
+  if (vertices.size() < mesh.vertex_slots() / kFew) {
+    tbb::parallel_sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return;
+  }
+  std::vector<bool> is_in(mesh.vertex_slots());
+  for (const QueuedVertex entry : vertices) is_in[entry.vertex.index()] = true;
+  vertices.clear();
+  for (std::uint32_t i = 0; i < is_in.size(); ++i) {
+    if (is_in[i]) vertices.push_back({VertexHandle(i)});
+  }
 }
 
 }  // namespace tetmend

@@ -51,4 +51,7 @@ std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
                                          const Selection& selection, Date since,
                                          bool at_surface = false);
 
+/// Sorted, and without repeats. Cost: linear in both, or n log n.
+void keep_each_once(PassScope& scope, const TetMesh& mesh, std::vector<QueuedVertex>& vertices);
+
 }  // namespace tetmend

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 #include <tetmend/improve.h>
+#include <tetmend/rulers.h>
 
 #include "tests/face/meshes.h"
 
@@ -127,6 +128,40 @@ TEST_CASE("a run makes no more tets than it may, for any number of threads") {
     return improve(mesh, {.tets = "1000%"});
   }();
   CHECK(bounded.after.tets == free.arrays().tets.size());
+}
+
+TEST_CASE("by itself a mesh grows by 15 % at most, or by what its purpose allows") {
+  // Thin parts between two materials, whose bad tets go by insertion alone.
+  const Mesh input = load(asset("sheet.mesh"));
+  const double before = static_cast<double>(input.arrays().tets.size());
+  const auto growth = [&](const Options& options) {
+    Mesh mesh = input;
+    const Result result = improve(mesh, options);
+    CHECK(result.after.n_bad < result.before.n_bad);
+    return static_cast<double>(result.after.tets) / before;
+  };
+  CHECK(growth({.goal = {40, 140}}) <= 1.15);
+  CHECK(growth({.purpose = "explicit", .goal = {40, 140}}) <= 1);
+  CHECK(growth({.purpose = "implicit", .goal = {40, 140}}) <= 1.05);
+  CHECK(growth({.purpose = "volumes", .goal = {40, 140}}) <= 1.15);
+  CHECK(growth({.purpose = "angles", .goal = {40, 140}}) > 1.15);
+  CHECK(growth({.purpose = "explicit", .goal = {40, 140}, .tets = "1000%"}) > 1.15);
+  CHECK_THROWS_AS(check({.purpose = "explicitly"}), OptionError);
+}
+
+TEST_CASE("all purposes but angles hold the stable step") {
+  const Mesh input = load(asset("two_materials.mesh"));
+  for (const std::string purpose : {"", "explicit", "implicit", "volumes", "angles"}) {
+    CAPTURE(purpose);
+    Mesh mesh = input;
+    const Result result = improve(mesh, {.purpose = purpose});
+    CHECK(result.holds_solver == (purpose != "angles"));
+    REQUIRE(result.rulers_after.has_value());
+    const double then = (*result.rulers_before)[Ruler::step].worst;
+    const double now = (*result.rulers_after)[Ruler::step].worst;
+    if (result.holds_solver) CHECK(now >= then * (1 - 1e-9));
+    CHECK(result.worse().empty());
+  }
 }
 
 TEST_CASE("where the lengths of edges are kept, no new edge is much shorter or longer") {
