@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "kernel/curved.h"
 #include "kernel/size_field.h"
@@ -31,6 +32,11 @@ bool is_better(Comparison& qualities) {
     if (now > before + kQualityTolerance) return true;
   }
   return improves(qualities.now(), qualities.before());
+}
+
+bool has_bad(const Comparison& qualities) {
+  return !qualities.has_both() || qualities.worst_before() < kBadThreshold ||
+         qualities.worst_now() < kBadThreshold;
 }
 
 bool is_there(const TetMesh& mesh, TetHandle t, const TetVertices& corners) {
@@ -77,6 +83,26 @@ bool keeps_bounds(const Transaction& transaction, Comparison& qualities) {
   if (are_kept || !bounds.are_of_inverted()) return are_kept;
   return (bounds.yield_to_mending() && mends(qualities)) ||
          is_no_further_beyond(transaction, bounds);
+}
+
+/// How many dihedral angles of the tets are at the ends of the goal or outside.
+std::size_t count_bad_angles(std::span<const std::array<Point, 4>> tets, const Goal& goal) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double most = std::cos(goal.min_angle * kDegree);
+  const double least = std::cos(goal.max_angle * kDegree);
+  std::size_t count = 0;
+  for (const auto& p : tets) {
+    std::array<Point, 4> normal;
+    for (std::size_t f = 0; f < 4; ++f) {
+      const auto& [i, j, k] = kFaceVertices[f];
+      normal[f] = (p[j] - p[i]).cross(p[k] - p[i]).normalized();
+    }
+    for (const auto& [k, l] : kEdgeVertices) {
+      const double cosine = -normal[k].dot(normal[l]);
+      if (!(cosine < most && cosine > least)) ++count;
+    }
+  }
+  return count;
 }
 
 /// Each of the tets alone allows the step at a vertex, so that all of its star do if the others did.
@@ -313,6 +339,11 @@ bool Judge::accepts(const Change& change) const {
   if (kind_ == Kind::reaches) aim.reached = reaches_goal(change, bound_);
   if (kind_ == Kind::lowers_angle) aim.sine = largest_angle_sine(change.transaction);
   if (kind_ == Kind::raises_mean) aim.gain = gain_of_means(change.transaction, bound_);
+  if (kind_ == Kind::raises_mean && has_bad(change.qualities)) {
+    const Goal goal = change.transaction.mesh().standard().goal();
+    const Transaction::Tets tets = change.transaction.tets();
+    aim.more_bad_angles = count_bad_angles(tets.now, goal) > count_bad_angles(tets.before, goal);
+  }
   return holds_for(change.qualities, aim) &&
          (kind_ == Kind::opening || keeps_limits(change.transaction, change.qualities, kind_));
 }
@@ -329,7 +360,7 @@ bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
     case Kind::lowers_angle:
       return lowers_angle(qualities, aim.sine);
     case Kind::raises_mean:
-      return aim.gain > kQualityTolerance && spares_bad(qualities);
+      return aim.gain > kQualityTolerance && !aim.more_bad_angles && spares_bad(qualities);
     case Kind::untangles:
       return untangles(qualities);
     case Kind::opening:

@@ -118,8 +118,8 @@ class TETMEND_API Judge {
   /// The sine of the largest angle of what changed is above `sine` by the price, and by as much for
   /// each more bad tet; the worst tet is no worse.
   static Judge lowers_angle(double sine);
-  /// The mean ratios of what changed, each less `usual`, have a larger sum, and no bad tet is new or
-  /// worse. With the mean over the mesh for `usual`, that mean rises, whatever the number of tets.
+  /// The mean ratios of what changed, each less `usual`, have a larger sum, no bad tet is new or
+  /// worse, and no more angles are bad. With the mean over the mesh for `usual`, that mean rises, whatever the number of tets.
   static Judge raises_mean(double usual);
   /// Fewer tets are inverted or flat, and no more are bad. New edges may have any length.
   static Judge untangles() { return Judge(Kind::untangles); }
@@ -149,10 +149,11 @@ class TETMEND_API Judge {
 
   /// What a judge may ask beside the qualities.
   struct Aim {
-    double price = 0;      ///< Standard::price()
-    bool reached = false;  ///< the tet aimed at is gone, or as good as the goal
-    double sine = 1;       ///< of the largest angle of what changed; 1 if none is obtuse
-    double gain = 0;       ///< of the sum of mean ratios, each less the usual one
+    double price = 0;              ///< Standard::price()
+    bool reached = false;          ///< the tet aimed at is gone, or as good as the goal
+    double sine = 1;               ///< of the largest angle of what changed; 1 if none is obtuse
+    bool more_bad_angles = false;  ///< in number, of what changed
+    double gain = 0;               ///< of the sum of mean ratios, each less the usual one
   };
   /// The promise itself.
   bool holds_for(Comparison& qualities, const Aim& aim) const;

@@ -61,6 +61,14 @@ void sweep_vertices(Run& run, PassScope& scope, const Operator& op, const Select
            });
 }
 
+/// Fewer tets after a cycle of polish would not raise the share of bad angles beyond that many percent.
+bool has_share_left(const TetMesh& mesh, double lambda) {
+  constexpr double kLeftByCycle = 0.95;  // of the tets
+  if (lambda >= 100) return true;
+  const double now = compute_statistics(mesh, mesh.standard().goal()).lambda;
+  return now == 0 || now <= kLeftByCycle * lambda;
+}
+
 /// Vertices with an edge that is shorter than a share of the local length at both its ends.
 std::vector<QueuedVertex> queue_close(PassScope& scope, const TetMesh& mesh, double share,
                                       Date since) {
@@ -203,8 +211,9 @@ void polish(Run& run, const PolishOptions& options) {
                  });
       };
       try_vertices(*smoothing, queue_vertices(scope, run.mesh(), poor(options.smooth), since));
-      try_tets(flipping, flipped, 0);
-      if (options.contract > 0) {
+      const bool may_shrink = has_share_left(run.mesh(), options.lambda);
+      if (may_shrink) try_tets(flipping, flipped, 0);
+      if (options.contract > 0 && may_shrink) {
         try_vertices(*contraction, queue_close(scope, run.mesh(), options.contract, since));
       }
       if (options.insert > 0) try_tets(inserting, poor(options.insert), kNewVerticesPerTet);

@@ -48,6 +48,9 @@ struct PolishOptions {
   /// Free vertices are removed that have an edge shorter than this share of the length of the edges
   /// around; 0: none
   double contract = 2;
+  /// Percent: where the bad angles come to this share of all, no tet is flipped and no vertex removed,
+  /// for fewer tets raise the share.
+  double lambda = 100;
   double grow = 1;      ///< the mesh grows by at most that share of its tets
   double smooth = 1;    ///< free vertices of tets with a mean ratio below are smoothed
   unsigned cycles = 3;  ///< at most; ends earlier when nothing is accepted

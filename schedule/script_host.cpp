@@ -412,6 +412,7 @@ void ScriptHost::polish(WordCall& call) {
   const PolishOptions options = {.below = numbers.real("below"),
                                  .insert = numbers.real("insert"),
                                  .contract = numbers.real("contract"),
+                                 .lambda = numbers.real("lambda"),
                                  .grow = numbers.real("grow"),
                                  .smooth = numbers.real("smooth"),
                                  .cycles = static_cast<unsigned>(numbers.integer("cycles"))};

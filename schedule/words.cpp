@@ -29,7 +29,7 @@ constexpr std::array<ParameterSpec, 1> kSmoothNumbers = {{
     {"cycles", ParameterSpec::Kind::integer, 1, 1000, 4,
      "at most; ends earlier when a cycle brings no progress"},
 }};
-constexpr std::array<ParameterSpec, 6> kPolishNumbers = {{
+constexpr std::array<ParameterSpec, 7> kPolishNumbers = {{
     {"below", ParameterSpec::Kind::real, 0, 1, 0.7,
      "flips are tried where the mean ratio of a tet is less"},
     {"insert", ParameterSpec::Kind::real, 0, 1, 0.75,
@@ -37,6 +37,9 @@ constexpr std::array<ParameterSpec, 6> kPolishNumbers = {{
     {"contract", ParameterSpec::Kind::real, 0, 10, 2,
      "free vertices are removed that have an edge shorter than this share of the length of the "
      "edges around; 0: none"},
+    {"lambda", ParameterSpec::Kind::real, 0, 100, 100,
+     "percent: where the bad angles come to this share of all, no tet is flipped and no vertex "
+     "removed, for fewer tets raise the share"},
     {"grow", ParameterSpec::Kind::real, 0, 10, 1,
      "the mesh grows by at most that share of its tets"},
     {"smooth", ParameterSpec::Kind::real, 0, 1, 1,

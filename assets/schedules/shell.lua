@@ -41,7 +41,7 @@ untangle{}
 
 local start = quality()
 
-local first_mean = start.mean_ratio
+local first_mean, first_lambda = start.mean_ratio, start.lambda
 
 -- Where insertion costs the mean more than the polish at the end gains, only what is round enough is
 -- inserted. A part of the bad tets tells.
@@ -157,7 +157,9 @@ local function even_out(options)
 end
 
 if is_small then
-  even_out{cycles = polish_first, below = 0.8, insert = 0.7, contract = 0.75, grow = 0}
+  -- With few bad angles to lose, fewer tets would raise their share.
+  even_out{cycles = polish_first, below = 0.8, insert = 0.7, contract = first_lambda > 0.3 and 0.75 or 0,
+           grow = 0}
 end
 judge_by{price = full_price}
 plain_rounds()
@@ -170,7 +172,12 @@ if rounds < max_rounds and last_sweeps > 0 and quality().n_bad > 0 then
 end
 
 if is_small then
-  even_out{cycles = polish_last, below = 0.8, insert = 0.75, contract = 2}
+  even_out{cycles = polish_last, below = 0.8, insert = 0.75, contract = 2, lambda = first_lambda}
+  -- The mean of the radius ratios lags behind that of the mean ratios.
+  if polish_last > 0 and quality().mean_ratio < first_mean + 0.01 then
+    even_out{cycles = 2 * polish_last, below = 0.9, insert = 0.8, contract = 2, lambda = first_lambda}
+  end
 else
-  even_out{cycles = math.min(polish_last, 1), smooth = 0.5, below = 0.3, insert = 0, contract = 0}
+  even_out{cycles = math.min(polish_last, 1), smooth = 0.5, below = 0.3, insert = 0, contract = 0,
+           lambda = first_lambda}
 end
