@@ -96,11 +96,11 @@ def judges() -> dict[str, str]:
 
 def judge(mesh: Path, folder: Path) -> dict:
     """What the judges find; those that fail leave out what is theirs."""
-    plain = folder / "judged.mesh"
-    tetmend = str(compare.BUILD / "bin" / "tetmend")
-    subprocess.run([tetmend, "convert", mesh, plain], check=True, capture_output=True)
-    rulers = json.loads(subprocess.run([tetmend, "quality", plain, "--json"], check=True,
-                                       capture_output=True, text=True).stdout)["rulers"]
+    plain = folder / "judged.mesh"  # tets and surface alone, whatever else the improver wrote
+    subprocess.run([compare.BUILD / "bench" / "prepare", mesh, plain], check=True)
+    quality = subprocess.run([compare.BUILD / "bin" / "tetmend", "quality", plain, "--json"],
+                             check=True, capture_output=True, text=True).stdout
+    rulers = json.loads(quality)["rulers"]
     told = {"estimate": rulers.get("cg_steps"),
             "ruler step": rulers.get("step", {}).get("worst")}
     for script, python in judges().items():

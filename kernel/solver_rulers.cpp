@@ -2,7 +2,7 @@
 // Sums over the tets around each vertex: the shares of tets are computed four at a time by all
 // threads, and added to the vertices in the order of the tets by one.
 //
-//   estimate of CG steps: 7.9 (g^2 / lambda)^(3/8), whose powers and factor are fitted
+//   estimate of CG steps: 8 (g^2 / lambda)^(3/8), whose powers and factor are fitted
 //     g       largest row sum of |K| scaled by its diagonal, of inner vertices, tets not yet summed:
 //             large where tets are flat; about the largest eigenvalue of the scaled matrix
 //     lambda  u'Ku / u'Du, D the diagonal of K, for u = edges on the way to the surface: about the
@@ -179,7 +179,7 @@ double stable_step(const TetMesh& mesh) {
 }
 
 double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals) {
-  constexpr double kFactor = 7.9;
+  constexpr double kFactor = 8;
   if (!diagonals.are_positive) return 0;
   const std::vector<std::uint32_t> depths = find_depths(mesh);
   std::vector<double> scale(depths.size());
