@@ -104,28 +104,33 @@ def mmg_phases(folder: Path) -> Phases:
 # --- the table
 
 
-def tetmend_rows(tetmend: Path) -> list[Competitor]:
-    def row(name: str, short: str, threads: int, schedule: str = "") -> Competitor:
-        options = f"--quiet --report report.json --threads {threads}"
-        options += f" --schedule {schedule}" if schedule else ""
-        command = (str(tetmend), "improve", "input.mesh", "-o", "output.mesh", *options.split())
-        return Competitor(
-            name=f"tetmend, {name}",
-            short=f"tetmend {short}",
-            found=str(tetmend),
-            hint="",
-            command=command,
-            output="output.mesh",
-            phases=tetmend_phases,
-            ours=True,
-        )
+def tetmend_row(tetmend: Path, name: str, short: str, options: str) -> Competitor:
+    options = f"--quiet --report report.json {options}"
+    command = (str(tetmend), "improve", "input.mesh", "-o", "output.mesh", *options.split())
+    return Competitor(
+        name=f"tetmend, {name}",
+        short=f"tetmend {short}",
+        found=str(tetmend),
+        hint="",
+        command=command,
+        output="output.mesh",
+        phases=tetmend_phases,
+        ours=True,
+    )
 
+
+def tetmend_rows(tetmend: Path) -> list[Competitor]:
     return [
-        row("1 thread", "(1)", 1),
-        row("2 threads", "(2)", 2),
-        row("thorough, 1 thread", "thorough", 1, "thorough"),
-        row("polish, 1 thread", "polish", 1, "polish"),
+        tetmend_row(tetmend, "1 thread", "(1)", "--threads 1"),
+        tetmend_row(tetmend, "2 threads", "(2)", "--threads 2"),
+        tetmend_row(tetmend, "thorough, 1 thread", "thorough", "--threads 1 --schedule thorough"),
+        tetmend_row(tetmend, "polish, 1 thread", "polish", "--threads 1 --schedule polish"),
     ]
+
+
+def purpose_rows(tetmend: Path) -> list[Competitor]:
+    return [tetmend_row(tetmend, f"--for {purpose}", purpose, f"--for {purpose}")
+            for purpose in ("explicit", "implicit", "volumes", "angles")]
 
 
 def gmsh_rows() -> list[Competitor]:

@@ -127,8 +127,9 @@ def judged(row: Row, inputs: Path, folder: Path, limit: float) -> Judged:
 
 
 def rows(only: list[str]) -> list[Competitor]:
-    all_rows = [row for row in competitors.competitors(compare.BUILD / "bin" / "tetmend")
-                if row.name != "tetmend, 2 threads"]  # the same bytes
+    tetmend = compare.BUILD / "bin" / "tetmend"
+    all_rows = [*competitors.purpose_rows(tetmend), *competitors.competitors(tetmend)]
+    all_rows = [row for row in all_rows if row.name != "tetmend, 2 threads"]  # the same bytes
     found = compare.chosen([*all_rows, competitors.cgal_row("CGAL")], only)
     for row in found:
         if row.found is None:

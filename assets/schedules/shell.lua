@@ -51,7 +51,7 @@ local function insert_some()
   insert_points{on = {below = 1, worst = before.n_bad // 4}}
   smooth{}
   local now = quality()
-  if before.mean_ratio - 4 * (before.mean_ratio - now.mean_ratio) < first_mean - 0.02 then
+  if before.mean_ratio - 4 * (before.mean_ratio - now.mean_ratio) < first_mean - 0.01 then
     hold_mean(0.85 * first_mean)
   end
 end
