@@ -28,7 +28,7 @@ TAKES = {
     "check-plugin FILE": ".so", "tetmend-view FILE": "mesh .trace", "operators NAME": "<operator>",
     "schedules NAME": "<schedule> .lua", "--schedule": "<schedule> .lua", "--set": "<setting>=",
     "check --measure": "<ruler>=", "improve --measure": "<objective>", "pieces --measure": "<objective>", "quality --measure": "<figure>",
-    "--for": "<preset>", "--variant": "<variant>", "--format": "<format>", "--plugin": ".so", "--trace": ".trace",
+    "--for": "<preset>", "--purpose": "<purpose>", "--variant": "<variant>", "--format": "<format>", "--plugin": ".so", "--trace": ".trace",
     "--trace-operator": "<operator>", "--report": ".json", "improve --report": ".json .html", "--render": ".png", "--script": ".lua", "--layers": "<layers>", "--surface": "<surface>", "--feature-angle": "",
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
     "--conserve": "", "--trace-piece": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
@@ -40,7 +40,7 @@ TAKES = {
 
 def with_derived_words(words: dict[str, list[str]]) -> dict[str, list[str]]:
     formats = [ending.removeprefix(".") for ending in words["extension"] if ending.startswith(".")]
-    return {**words, "format": formats, "layers": ["keep", "improve"], "surface": ["fixed", "flat", "1%"], "figure": [*words["measure"], "all"],
+    return {**words, "format": formats, "layers": ["keep", "improve"], "purpose": ["explicit", "implicit", "volumes", "angles"], "surface": ["fixed", "flat", "1%"], "figure": [*words["measure"], "all"],
             "subject": ["tet:worst"], "background": ["gradient", "white", "transparent"], "drawing": ["ring", "tree", "timeline", "shell"], "step": ["split", "improve", "join"], "lesson": sorted(file.stem for file in LESSONS.glob("*.json"))}
 
 
