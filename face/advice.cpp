@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "face/unjoined.h"
+#include "envelope/unjoined.h"
 #include "kernel/chunks.h"
 #include "kernel/grouped.h"
 #include "kernel/stretching.h"
