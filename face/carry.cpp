@@ -148,7 +148,7 @@ void add_integrals(const MeshData& data, std::size_t begin, std::span<const doub
                    const std::vector<Value>& values, bool is_of_points,
                    std::vector<Integral>& integrals) {
   const std::size_t components = integrals.size();
-  constexpr std::integral_constant<std::size_t, 1> kOne;
+  constexpr std::integral_constant<std::size_t, 1> kOne{};
   if (components == 1)
     return add_integral(data, begin, volumes, values.data(), kOne, is_of_points, integrals[0]);
   for (std::size_t k = 0; k < components; ++k) {

@@ -53,6 +53,12 @@ def main():
             done = subprocess.run([PROGRAM, "improve", file, "-o", out, "-q", "--strict", *options], capture_output=True,
                                   text=True)
             check(done.returncode == 1 and not out.exists(), what, "--strict", done.returncode, done.stderr)
+        # Slices do not know that a tet is there twice: pieces say which.
+        write_meshb(file, again[0])
+        done = subprocess.run([PROGRAM, "improve", file, "-o", out, "-q", "--memory", "1G", "--pieces", "2"],
+                              capture_output=True, text=True)
+        is_told = done.stderr.count(again[1]) == 1 if done.returncode == 0 else "tet 3 of the file" in done.stderr
+        check(is_told, "a tet that is there twice in pieces", done.returncode, done.stderr)
     if failures:
         sys.exit(f"{len(failures)} failures")
 
