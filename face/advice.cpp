@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "envelope/unjoined.h"
 #include "face/flat_offer.h"
-#include "face/unjoined.h"
 #include "kernel/chunks.h"
 #include "kernel/grouped.h"
 #include "kernel/stretching.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include "face/overlap.h"
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
+#include "kernel/face_matcher.h"
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/geometry.h"
@@ -58,11 +58,127 @@ std::vector<bool> inner_vertices(const MeshData& data) {
   for (const MeshData::Tet& tet : data.tets) {
     for (const std::uint32_t v : tet.vertices) is_inside[v] = true;
   }
-  for_face_pairs(sorted_tet_faces(data), [&](const TetFace& face, const TetFace* other) {
-    if (other != nullptr) return;
-    for (const std::uint32_t v : face.vertices) is_inside[v] = false;
+  FaceMatcher matcher(data.points.size(), 4 * data.tets.size());
+  for (std::uint32_t t = 0; t < data.tets.size(); ++t) {
+    const auto& v = data.tets[t].vertices;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      matcher.add(4 * t + k, {v[(k + 1) % 4], v[(k + 2) % 4], v[(k + 3) % 4]});
+    }
+  }
+  matcher.for_single([&](const std::array<std::uint32_t, 3>& face) {
+    for (const std::uint32_t v : face) is_inside[v] = false;
   });
   return is_inside;
+}
+
+/// Finds elements by their two or three vertices. Of several that are alike each is taken once, in their
+/// order.
+class OldElements {
+ public:
+  /// @param vertices ascending
+  template <std::size_t N>
+  void add(const std::array<std::uint32_t, N>& vertices) {
+    all_.push_back(key_of(vertices, static_cast<std::uint32_t>(all_.size())));
+  }
+  /// Before the first take().
+  void sort() {
+    std::sort(all_.begin(), all_.end());
+    taken_.assign(all_.size(), 0);
+  }
+  /// The number of the next that was added with these vertices, or kGone.
+  template <std::size_t N>
+  std::uint32_t take(const std::array<std::uint32_t, N>& vertices) {
+    const Key wanted = key_of(vertices, 0);
+    const auto first = std::lower_bound(all_.begin(), all_.end(), wanted);
+    const auto place = static_cast<std::size_t>(first - all_.begin());
+    if (place == all_.size() || !is_alike(*first, wanted)) return kGone;
+    const std::size_t next = place + taken_[place];
+    if (next == all_.size() || !is_alike(all_[next], wanted)) return kGone;
+    ++taken_[place];
+    return static_cast<std::uint32_t>(all_[next].second);
+  }
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint64_t>;  // the vertices, then the number
+
+  template <std::size_t N>
+  static Key key_of(const std::array<std::uint32_t, N>& vertices, std::uint32_t number) {
+    static_assert(N == 2 || N == 3);
+    const std::uint64_t last = N == 3 ? vertices[N - 1] : 0;
+    return {std::uint64_t{vertices[0]} << 32 | vertices[1], last << 32 | number};
+  }
+  static bool is_alike(const Key& a, const Key& b) {
+    return a.first == b.first && a.second >> 32 == b.second >> 32;
+  }
+
+  std::vector<Key> all_;
+  std::vector<std::uint32_t> taken_;  // of those alike, at the first of them
+};
+
+/// Over a mesh, of a component of an array.
+struct Integral {
+  double of_values = 0;
+  double of_sizes = 0;  // absolute values
+};
+
+/// Adds what tets from `begin` on, of these volumes, make of a component.
+/// @param values of the component; the next row's is `stride` further
+template <class Value, class Stride>
+void add_integral(const MeshData& data, std::size_t begin, std::span<const double> volumes,
+                  const Value* values, Stride stride, bool is_of_points, Integral& integral) {
+  const auto value = [&](std::size_t row) { return static_cast<double>(values[row * stride]); };
+  Integral sum = integral;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    double mean = 0;
+    if (is_of_points) {
+      const auto& v = data.tets[begin + i].vertices;
+      mean = (value(v[0]) + value(v[1]) + value(v[2]) + value(v[3])) / 4;
+    } else {
+      mean = value(begin + i);
+    }
+    const double part = volumes[i] * mean;
+    sum.of_values += part;
+    sum.of_sizes += std::abs(part);
+  }
+  integral = sum;
+}
+
+template <class Value>
+void add_integrals(const MeshData& data, std::size_t begin, std::span<const double> volumes,
+                   const std::vector<Value>& values, bool is_of_points,
+                   std::vector<Integral>& integrals) {
+  const std::size_t components = integrals.size();
+  constexpr std::integral_constant<std::size_t, 1> kOne{};
+  if (components == 1)
+    return add_integral(data, begin, volumes, values.data(), kOne, is_of_points, integrals[0]);
+  for (std::size_t k = 0; k < components; ++k) {
+    add_integral(data, begin, volumes, values.data() + k, components, is_of_points, integrals[k]);
+  }
+}
+
+/// Of the components of each array of points, then of tets. Each volume is computed once.
+std::vector<std::vector<Integral>> integrals_of(const MeshData& data) {
+  constexpr std::size_t kTetsAtOnce = 512;
+  std::vector<std::vector<Integral>> all;
+  for (const DataArray& array : data.point_data) all.emplace_back(array.components);
+  for (const DataArray& array : data.tet_data) all.emplace_back(array.components);
+  std::vector<double> volumes;
+  for (std::size_t begin = 0; begin < data.tets.size() && !all.empty(); begin += kTetsAtOnce) {
+    volumes.clear();
+    const std::size_t end = std::min(begin + kTetsAtOnce, data.tets.size());
+    for (std::size_t t = begin; t < end; ++t) volumes.push_back(volume(data, data.tets[t]));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool is_of_points = i < data.point_data.size();
+      const DataArray& array =
+          is_of_points ? data.point_data[i] : data.tet_data[i - data.point_data.size()];
+      std::visit(
+          [&](const auto& values) {
+            add_integrals(data, begin, volumes, values, is_of_points, all[i]);
+          },
+          array.values);
+    }
+  }
+  return all;
 }
 
 class Carrying {
@@ -73,6 +189,11 @@ class Carrying {
       : before_(before), now_(now), vertex_map_(vertex_map), conserve_(conserve), marks_(marks) {
     old_point_ = inverse(vertex_map, now.points.size());
     old_tet_ = inverse(tet_map, now.tets.size());
+    stayed_.resize(now.points.size());
+    for (std::uint32_t i = 0; i < now.points.size(); ++i) {
+      const std::uint32_t old = old_point_[i];
+      stayed_[i] = old != kGone && before.points[old] == now.points[i] ? 1 : 0;
+    }
     moved_from_.assign(now.tets.size(), kGone);
     for (std::uint32_t i = 0; i < now.tets.size(); ++i) {
       if (old_tet_[i] != kGone && !has_changed(now.tets[i])) continue;
@@ -104,7 +225,7 @@ class Carrying {
     now_.deck = before_.deck;
     now_.variant = before_.variant;
     now_.label_array = before_.label_array;
-    return std::move(carried_);
+    return tell();
   }
 
  private:
@@ -121,10 +242,7 @@ class Carrying {
       return group.dimension == dimension && !group.members.empty();
     });
   }
-  bool stayed(std::uint32_t point) const {
-    const std::uint32_t old = old_point_[point];
-    return old != kGone && before_.points[old] == now_.points[point];
-  }
+  bool stayed(std::uint32_t point) const { return stayed_[point] != 0; }
   bool has_changed(const MeshData::Tet& tet) const {
     return !std::all_of(tet.vertices.begin(), tet.vertices.end(),
                         [this](std::uint32_t v) { return stayed(v); });
@@ -173,7 +291,6 @@ class Carrying {
       DataArray& made = now_.point_data.emplace_back(DataArray{array.name, array.components, {}});
       std::visit([&](const auto& old) { made.values = interpolated(old, array.components); },
                  array.values);
-      tell(array, made, true, false);
     }
   }
 
@@ -226,13 +343,13 @@ class Carrying {
       }
     }
     for (const DataArray& array : before_.tet_data) {
-      if (std::find(conserve_.begin(), conserve_.end(), array.name) != conserve_.end()) {
-        tell(array, now_.tet_data.emplace_back(conserved(array, shares)), false, true);
-        continue;
-      }
-      tell(array, now_.tet_data.emplace_back(formats::selected_rows(array, old_tet_)), false,
-           false);
+      now_.tet_data.push_back(is_conserved(array) ? conserved(array, shares)
+                                                  : formats::selected_rows(array, old_tet_));
     }
+  }
+
+  bool is_conserved(const DataArray& array) const {
+    return std::find(conserve_.begin(), conserve_.end(), array.name) != conserve_.end();
   }
 
   /// Old tets that a new one shares volume with, and which part of it.
@@ -328,27 +445,27 @@ class Carrying {
   void carry_elements(const Old& old, const New& made, std::size_t dimension,
                       const std::vector<Label>& marks) {
     using Element = typename std::remove_reference_t<decltype(made.elements)>::value_type;
-    std::multimap<decltype(Element::vertices), std::uint32_t> places;
-    for (std::uint32_t i = 0; i < old.elements.size(); ++i) {
-      auto vertices = old.elements[i].vertices;
+    OldElements places;
+    for (const auto& element : old.elements) {
+      auto vertices = element.vertices;
       for (std::uint32_t& v : vertices) v = vertex_map_[v];
-      places.emplace(sorted(vertices), i);
+      places.add(sorted(vertices));
     }
+    places.sort();
     const std::set<decltype(Element::vertices)> walls = walls_now<Element>();
     std::vector<std::uint32_t> from;  // whose values it takes
     std::vector<std::uint32_t> same;  // kGone for a new one
     std::vector<Element> kept;
     for (const Element& element : made.elements) {
-      const auto found = places.find(sorted(element.vertices));
-      const bool is_old = found != places.end();
+      const std::uint32_t found = places.take(sorted(element.vertices));
+      const bool is_old = found != kGone;
       if (!is_old && (marks_ == nullptr || walls.contains(sorted(element.vertices)))) continue;
-      const std::uint32_t model = is_old ? found->second : model_of(element, old.elements, marks);
+      const std::uint32_t model = is_old ? found : model_of(element, old.elements, marks);
       if (model == kGone) continue;
       from.push_back(model);
       same.push_back(is_old ? model : kGone);
       kept.push_back(element);
       if (!marks.empty()) kept.back().label = old.elements[model].label;
-      if (is_old) places.erase(found);
     }
     made.elements = std::move(kept);
     for (const DataArray& array : old.data) {
@@ -530,36 +647,22 @@ class Carrying {
     });
   }
 
-  void tell(const DataArray& old, const DataArray& made, bool is_of_points, bool is_conserved) {
-    std::vector<ComponentIntegral> integrals;
-    for (std::size_t k = 0; k < old.components; ++k) {
-      const auto [then, size] = integral(before_, old, k, is_of_points);
-      integrals.push_back({then, size, integral(now_, made, k, is_of_points).first});
-    }
-    carried_.push_back(carried_array(old, is_of_points, is_conserved, integrals));
-  }
-
-  static std::pair<double, double> integral(const MeshData& data, const DataArray& array,
-                                            std::size_t k, bool is_of_points) {
-    const auto value = [&](std::size_t row) {
-      return std::visit(
-          [&](const auto& v) { return static_cast<double>(v[row * array.components + k]); },
-          array.values);
-    };
-    double sum = 0;
-    double size = 0;
-    for (std::size_t t = 0; t < data.tets.size(); ++t) {
-      double mean = 0;
-      if (!is_of_points) {
-        mean = value(t);
-      } else {
-        for (const std::uint32_t v : data.tets[t].vertices) mean += value(v) / 4;
+  std::vector<CarriedArray> tell() const {
+    const auto then = integrals_of(before_);
+    const auto now = integrals_of(now_);
+    std::vector<CarriedArray> carried;
+    for (std::size_t i = 0; i < then.size(); ++i) {
+      std::vector<ComponentIntegral> components;
+      for (std::size_t k = 0; k < then[i].size(); ++k) {
+        components.push_back({then[i][k].of_values, then[i][k].of_sizes, now[i][k].of_values});
       }
-      const double part = volume(data, data.tets[t]);
-      sum += part * mean;
-      size += part * std::abs(mean);
+      const std::size_t points = before_.point_data.size();
+      const bool is_of_points = i < points;
+      const DataArray& array = is_of_points ? before_.point_data[i] : before_.tet_data[i - points];
+      carried.push_back(
+          carried_array(array, is_of_points, !is_of_points && is_conserved(array), components));
     }
-    return {sum, size};
+    return carried;
   }
 
   const MeshData& before_;
@@ -567,6 +670,7 @@ class Carrying {
   std::span<const std::uint32_t> vertex_map_;
   std::span<const std::string> conserve_;
   const SurfaceMarks* marks_;              // null: the surface is fixed
+  std::vector<char> stayed_;               // new points that are old ones where they were
   std::vector<std::uint32_t> old_point_;   // by new number; kGone: it is new
   std::vector<std::uint32_t> old_tet_;     // likewise; kGone also where a vertex has moved
   std::vector<std::uint32_t> moved_from_;  // the old tet with the vertices of one that has changed
@@ -581,7 +685,6 @@ class Carrying {
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
   // New ones of a changed surface, each with the old one that it is like.
   std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 4> new_elements_;
-  std::vector<CarriedArray> carried_;
 };
 
 }  // namespace

@@ -143,7 +143,15 @@ class Improvement {
   bool gives_for_mending() const {
     return result_.worse().size() > face::worse_for_nothing(result_).size();
   }
+  /// What a run has made, while another one is tried.
+  struct Made {
+    TetMesh mesh;
+    std::unique_ptr<TraceRecorder> trace;
+    Result result;
+  };
   void mend_within_bounds();
+  Made put_aside();
+  void put_back(Made made);
   void make_again(Mending mending, double seconds);
   void go_back();
   std::size_t best_pass() const;
@@ -361,17 +369,45 @@ void Improvement::make_again(Mending mending, double seconds) {
 /// mended as a rule. Where not, inverted tets go first, and the figure stays in Result::worse(). A run
 /// that was stopped, or has no time left for this, stays as it is.
 void Improvement::mend_within_bounds() {
-  // Time for this and for the run before once more.
+  // Time for this; who follows sees the run before once more.
   const bool is_limited = options_.time_limit > 0;
-  const double seconds = is_limited ? options_.time_limit - 2 * result_.improving : 0;
+  const double runs = follower_ != nullptr ? 2 : 1;
+  const double seconds = is_limited ? options_.time_limit - runs * result_.improving : 0;
   if (result_.ending != Ending::finished || seconds < (is_limited ? result_.improving : 0)) return;
-  goes_back_ = true;
   const std::size_t left = result_.not_positive_after;
-  make_again(Mending::keeps_bounds, seconds);
+  Made first = put_aside();
+  try {
+    make_again(Mending::keeps_bounds, seconds);
+  } catch (...) {
+    put_back(std::move(first));
+    throw;
+  }
+  const bool is_cancelled = result_.ending == Ending::cancelled;
   const bool is_kept = result_.ending != Ending::time_limit && result_.not_positive_after <= left &&
                        result_.worse().empty();
-  if (!is_kept && result_.ending != Ending::cancelled) make_again(Mending::breaks_bounds, 0);
-  goes_back_ = false;
+  if (is_kept) return;
+  if (follower_ != nullptr && !is_cancelled) {
+    make_again(Mending::breaks_bounds, 0);
+    return;
+  }
+  put_back(std::move(first));
+  if (is_cancelled) result_.ending = Ending::cancelled;
+}
+
+Improvement::Made Improvement::put_aside() {
+  return {std::move(mesh_), std::move(trace_), result_};
+}
+
+/// Instead of what was made since.
+void Improvement::put_back(Made made) {
+  mesh_ = std::move(made.mesh);
+  trace_ = std::move(made.trace);
+  made.result.building = result_.building;
+  made.result.measuring = result_.measuring;
+  made.result.improving = result_.improving;
+  result_ = std::move(made.result);
+  watcher_.watch(nullptr, quality_indicators(mesh_));
+  if (portrait_ != nullptr) measure_after();  // which draws
 }
 
 /// Some figure is worse than before: makes the run again, up to its best pass, or gives the input

@@ -5,10 +5,10 @@
 
 #include <tetmend/measure.h>
 
+#include "envelope/unjoined.h"
 #include "face/arena.h"
 #include "face/bad_tets.h"
 #include "face/mesh_access.h"
-#include "face/unjoined.h"
 #include "kernel/curved.h"
 #include "kernel/rulers.h"
 #include "kernel/statistics.h"
@@ -73,7 +73,7 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
       result.curved = curved_statistics(second_order, built);
     }
     result.statistics = compute_statistics(built);
-    result.notes = face::describe(face::find_unjoined(built), built.vertex_count());
+    result.notes = describe(find_unjoined(built), built.vertex_count());
     if (options.rulers) result.rulers = measure_rulers(built);
     for (const QualityMeasure* each : measures) result.measures.push_back(summarize(built, *each));
     std::vector<std::pair<TetHandle, Hindrance>> bad;

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <utility>
 
 #include <Eigen/LU>
 
+#include "kernel/face_matcher.h"
 #include "kernel/hilbert.h"
 
 namespace tetmend::face {
@@ -86,36 +86,6 @@ TetLocator::TetLocator(const MeshData& data, const Bodies& bodies, std::vector<s
 namespace {
 
 constexpr std::uint32_t kNone = Bodies::kNone;
-
-/// Finds the two sides of each face. Those that have no counterpart yet stand in lists, few in each: by
-/// the sum of their vertices, so that neighbours are near each other in memory.
-class FaceMatcher {
- public:
-  FaceMatcher(std::size_t points, std::size_t sides)
-      : heads_(3 * points, kNone), sides_(new Side[sides]) {}
-
-  /// The side of the same face that was added before, or kNone. @param side a number of its own
-  std::uint32_t add(std::uint32_t side, std::array<std::uint32_t, 3> face) {
-    if (face[0] > face[1]) std::swap(face[0], face[1]);
-    if (face[1] > face[2]) std::swap(face[1], face[2]);
-    if (face[0] > face[1]) std::swap(face[0], face[1]);
-    std::uint32_t& head = heads_[std::size_t{face[0]} + face[1] + face[2]];
-    std::uint32_t* link = &head;
-    for (; *link != kNone; link = &sides_[*link].next) {
-      if (sides_[*link].face == face) return std::exchange(*link, sides_[*link].next);
-    }
-    sides_[side] = {face, std::exchange(head, side)};
-    return kNone;
-  }
-
- private:
-  struct Side {
-    std::array<std::uint32_t, 3> face;
-    std::uint32_t next;
-  };
-  std::vector<std::uint32_t> heads_;
-  std::unique_ptr<Side[]> sides_;
-};
 
 }  // namespace
 

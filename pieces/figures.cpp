@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "kernel/boundary_layers.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_builder.h"
@@ -114,6 +116,23 @@ Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_
   return bounds;
 }
 
+namespace {
+
+/// @throws Error with the number in the file of a tet that does not fit
+TetMesh build_first(const Piece& gathered, BuildReport& report) {
+  MeshData data = to_data(gathered);
+  try {
+    return TetMesh::build(data, {.report = &report});
+  } catch (const BuildError& error) {
+    const std::uint32_t number = gathered.tets[error.tet()].origin & ~PieceTet::kProtected;
+    if (number == PieceTet::kNone) throw;
+    throw Error(fmt::format("tet {} of the file: counted from 0 in its piece, {}",
+                            std::uint64_t{number} + 1, error.what()));
+  }
+}
+
+}  // namespace
+
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
                     const Standard& standard, const HeldSurface* surface) {
   Figures figures;
@@ -121,8 +140,7 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
   const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   if (!gathered.tets.empty()) {
     BuildReport report;
-    MeshData data = to_data(gathered);
-    const TetMesh mesh = TetMesh::build(data, {.report = &report});
+    const TetMesh mesh = build_first(gathered, report);
     figures.peculiar = report.reordered_tets + report.inverted_tets + report.flat_tets +
                        (report.mirrored ? gathered.tets.size() : 0);
     const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) {

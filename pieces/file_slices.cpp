@@ -79,7 +79,7 @@ std::unique_ptr<FileSlices> open_slices(const std::filesystem::path& file,
                                         const std::string& label_array, Ranks& ranks) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return nullptr;
-  if (file.extension() == ".meshb") return MeditSlices::open(file);
+  if (file.extension() == ".meshb") return MeditSlices::open(file, ranks);
   if (file.extension() == ".msh" && label_array.empty()) return GmshSlices::open(file, ranks);
   if (file.extension() == ".vtu") return VtuSlices::open(file, label_array, ranks);
   return nullptr;

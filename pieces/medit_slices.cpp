@@ -9,8 +9,6 @@
 #include <fstream>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "kernel/formats/output_file.h"
 #include "pieces/bytes.h"
 #include "pieces/file_walk.h"
@@ -60,13 +58,18 @@ Integer load(const char* at) {
 
 }  // namespace
 
-std::unique_ptr<FileSlices> MeditSlices::open(const std::filesystem::path& file) {
+std::unique_ptr<FileSlices> MeditSlices::open(const std::filesystem::path& file, Ranks& ranks) {
   auto slices = std::make_unique<MeditSlices>();
   slices->file_ = file;
   if (!slices->list_sections()) return nullptr;
   slices->counts_ = {slices->vertices_.rows, slices->tets_.rows, slices->triangles_.rows,
                      slices->edges_.rows, slices->required_.rows};
   if (slices->counts_.tets == 0 || !slices->are_marks_sound()) return nullptr;
+  const bool are_sound = slices->are_vertices_sound(ranks) &&
+                         slices->are_elements_sound(slices->tets_, 4, ranks) &&
+                         slices->are_elements_sound(slices->triangles_, 3, ranks) &&
+                         slices->are_elements_sound(slices->edges_, 2, ranks);
+  if (ranks.any(!are_sound)) return nullptr;
   return slices;
 }
 
@@ -150,6 +153,8 @@ bool MeditSlices::are_marks_sound() const {
   const auto is_among = [](std::uint64_t most) {
     return [most](std::uint64_t number) { return number >= 1 && number <= most; };
   };
+  const std::vector<std::uint64_t> required = numbers(required_, 1);
+  if (!std::all_of(required.begin(), required.end(), is_among(vertices_.rows))) return false;
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     const int dimension = kMeditMarks[i].dimension;
     const std::uint64_t most = dimension == 0   ? vertices_.rows
@@ -169,6 +174,57 @@ bool MeditSlices::are_marks_sound() const {
     }
     std::sort(at.begin(), at.end());
     if (std::adjacent_find(at.begin(), at.end()) != at.end()) return false;
+  }
+  return true;
+}
+
+namespace {
+
+constexpr std::uint64_t kRowsAtOnce = std::uint64_t{1} << 16;
+
+bool is_label(std::int64_t number) {
+  return number >= INT32_MIN && number <= INT32_MAX;
+}
+
+}  // namespace
+
+/// Of this rank's share: places are finite, and labels have 32 bits.
+bool MeditSlices::are_vertices_sound(const Ranks& ranks) const {
+  constexpr std::uint64_t kPlace = 3 * sizeof(double);
+  const FileRange mine = FileRange::of_slice(vertices_.rows, ranks.number(), ranks.count());
+  const std::uint64_t size = row_size(vertices, integer_size());
+  FileBytes bytes(file_);
+  for (std::uint64_t i = mine.begin; i < mine.end; i += kRowsAtOnce) {
+    const std::uint64_t count = std::min(kRowsAtOnce, mine.end - i);
+    const char* at = bytes.read(vertices_.begin + i * size, count * size);
+    for (const char* const end = at + count * size; at != end; at += size) {
+      const Point place(load<double>(at), load<double>(at + 8), load<double>(at + 16));
+      const std::int64_t label =
+          version_ == 4 ? load<std::int64_t>(at + kPlace) : load<std::int32_t>(at + kPlace);
+      if (!place.allFinite() || !is_label(label)) return false;
+    }
+  }
+  return true;
+}
+
+/// Of this rank's share of a section: all numbers are of vertices, no element has one twice, and labels
+/// have 32 bits.
+bool MeditSlices::are_elements_sound(const Section& section, std::size_t vertices,
+                                     const Ranks& ranks) const {
+  const FileRange mine = FileRange::of_slice(section.rows, ranks.number(), ranks.count());
+  const std::size_t width = vertices + 1;
+  for (std::uint64_t i = mine.begin; i < mine.end; i += kRowsAtOnce) {
+    const Section some{section.begin + i * width * integer_size(),
+                       std::min(kRowsAtOnce, mine.end - i)};
+    const std::vector<std::uint64_t> rows = numbers(some, width);
+    for (std::size_t at = 0; at < rows.size(); at += width) {
+      const std::uint64_t* const row = rows.data() + at;
+      for (std::size_t k = 0; k < vertices; ++k) {
+        if (row[k] < 1 || row[k] > vertices_.rows) return false;
+        if (std::find(row, row + k, row[k]) != row + k) return false;
+      }
+      if (!is_label(static_cast<std::int64_t>(row[vertices]))) return false;
+    }
   }
   return true;
 }
@@ -296,9 +352,7 @@ class RowReader {
     elements.resize(range.size());
     for (auto& element : elements) {
       for (VertexId& v : element.vertices) v = number(std::exchange(at, at + sizeof(Integer)));
-      if (has_repeated(element.vertices)) {
-        throw Error(fmt::format("{}: an element has a vertex twice", file_.string()));
-      }
+      if (has_repeated(element.vertices)) fail_changed(file_);
       element.element.label = static_cast<Label>(load<Integer>(at));
       at += sizeof(Integer);
     }
@@ -318,10 +372,7 @@ class RowReader {
       for (std::size_t n = k; n < end; ++n) {
         const char* here = at + (slice.ids[n] - slice.ids[k]) * kRow;
         const Point p(load<double>(here), load<double>(here + 8), load<double>(here + 16));
-        if (!p.allFinite()) {
-          throw Error(fmt::format("{}: a coordinate of vertex {} is not a finite number",
-                                  file_.string(), slice.ids[n] + 1));
-        }
+        if (!p.allFinite()) fail_changed(file_);
         slice.points.push_back(p);
         labels.push_back(static_cast<Label>(load<Integer>(here + 24)));
       }
@@ -347,10 +398,7 @@ class RowReader {
  private:
   VertexId number(const char* at) const {
     const Integer value = load<Integer>(at);
-    if (value < 1 || static_cast<std::uint64_t>(value) > vertices_) {
-      throw Error(fmt::format("{}: {} is out of range: expected a vertex number, 1 to {}",
-                              file_.string(), value, vertices_));
-    }
+    if (value < 1 || static_cast<std::uint64_t>(value) > vertices_) fail_changed(file_);
     return static_cast<VertexId>(value - 1);
   }
 

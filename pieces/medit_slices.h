@@ -20,8 +20,9 @@ namespace tetmend::pieces {
 /// which a vertex has one. Others are read as a whole, see read_mesh().
 class MeditSlices final : public FileSlices {
  public:
-  /// Null for any other file, also one that cannot be read: read_mesh() tells why.
-  static std::unique_ptr<FileSlices> open(const std::filesystem::path& file);
+  /// All ranks. Null for any other file, also one that cannot be read, or has elements that are dropped:
+  /// read_mesh() tells why.
+  static std::unique_ptr<FileSlices> open(const std::filesystem::path& file, Ranks& ranks);
 
   MeshData digest() const override;
   bool has_all_in_rows() const override { return true; }
@@ -47,6 +48,8 @@ class MeditSlices final : public FileSlices {
   bool list_sections();
   Section* section_of(std::int32_t keyword);
   bool are_marks_sound() const;
+  bool are_vertices_sound(const Ranks& ranks) const;
+  bool are_elements_sound(const Section& section, std::size_t vertices, const Ranks& ranks) const;
   std::vector<std::uint64_t> numbers(const Section& section, std::size_t width) const;
   bool has_marks(int dimension) const;
   void add_vectors(std::size_t kind, const std::vector<VertexId>& ids,

@@ -65,6 +65,7 @@ class FileRun {
  private:
   Result improve_whole();
   bool read();
+  void tell_rest(std::vector<std::string> notes);
   void measure_before();
   void hold_surface();
   void lock();
@@ -107,6 +108,7 @@ class FileRun {
   std::uint64_t vertices_ = 0;
   bool holds_more_ = false;
   bool is_told_ = false;
+  std::vector<std::string> told_;  // of what is lost
   QualityIndicators now_;
   Figures before_;
   std::optional<SurfaceChange> unchanged_surface_;
@@ -165,6 +167,7 @@ Result FileRun::improve_whole() {
     if (ranks_.is_first()) mesh = MeshAccess::make(std::move(data));
   } else if (ranks_.is_first()) {
     mesh = load(files_.input, options_.threads, files_.label_array);
+    tell_rest(mesh.notes());
   }
   Result result;
   if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
@@ -181,6 +184,14 @@ Result FileRun::improve_whole() {
   return result;
 }
 
+/// What the reader of a whole file sees, and that of slices does not: that a tet is there twice.
+void FileRun::tell_rest(std::vector<std::string> notes) {
+  std::erase_if(notes, [this](const std::string& note) {
+    return std::find(told_.begin(), told_.end(), note) != told_.end();
+  });
+  if (!notes.empty() && files_.tell_lost) files_.tell_lost(notes);
+}
+
 /// False if one piece is enough.
 bool FileRun::read() {
   InputMesh input(files_.input, ranks_, files_.array_files, files_.label_array);
@@ -188,7 +199,8 @@ bool FileRun::read() {
   const bool is_in_pieces = is_divided(input.tets());
   if (is_in_pieces && !plan_.surface.is_fixed()) input.set_surface_moves();
   if (ranks_.is_first() && files_.tell_lost && !std::exchange(is_told_, true)) {
-    files_.tell_lost(input.lost_in(files_.output));
+    told_ = input.lost_in(files_.output);
+    files_.tell_lost(told_);
   }
   if (!is_in_pieces) return false;
   for (const std::string& text : input.remarks()) {

@@ -7,23 +7,21 @@
 #include <fmt/format.h>
 
 #include "pieces/bytes.h"
-#include "pieces/rows.h"
 #include "pieces/share_slices.h"
 
 namespace tetmend::pieces {
 
-PartArrays::Known& PartArrays::find(std::vector<Known>& among, const DataArray& array) {
-  const auto found = std::find_if(among.begin(), among.end(),
-                                  [&](const Known& known) { return is_like(known.array, array); });
-  if (found != among.end()) return *found;
-  return among.emplace_back(Known{nothing_of(array), 0, 0});
+PartArrays::Known& PartArrays::KnownArrays::find(const DataArray& array) {
+  const auto [found, is_new] = places.try_emplace(outline_key(array), all.size());
+  if (is_new) all.push_back({nothing_of(array), 0, 0});
+  return all[found->second];
 }
 
 void PartArrays::add(std::vector<DataArray> arrays, std::size_t count) {
   if (count == 0) return;
   ++parts_;
   for (const DataArray& array : arrays) {
-    Known& known = find(known_, array);
+    Known& known = known_.find(array);
     if (std::exchange(known.last, parts_) == parts_) continue;  // a second one of that name
     append_values(bytes_of_values(array), known.array);
     ++known.parts;
@@ -34,12 +32,12 @@ std::vector<DataArray> PartArrays::finish(Ranks& ranks, std::string_view on,
                                           std::vector<std::string>& notes) {
   std::string bytes;
   put(parts_, bytes);
-  put(std::uint64_t{known_.size()}, bytes);
-  for (const Known& known : known_) {
+  put(std::uint64_t{known_.all.size()}, bytes);
+  for (const Known& known : known_.all) {
     append_outline(known.array, bytes);
     put(known.parts, bytes);
   }
-  std::vector<Known> all;
+  KnownArrays those;  // of all ranks
   std::uint64_t parts = 0;
   for (const std::string& from : ranks.gather(bytes)) {
     std::string_view rest = from;
@@ -49,16 +47,16 @@ std::vector<DataArray> PartArrays::finish(Ranks& ranks, std::string_view on,
     pieces::take(rest, count);
     parts += theirs;
     for (std::uint64_t i = 0; i < count; ++i) {
-      Known& known = find(all, take_outline(rest));
+      Known& known = those.find(take_outline(rest));
       std::uint64_t having = 0;
       pieces::take(rest, having);
       known.parts += having;
     }
   }
   std::vector<DataArray> arrays;
-  for (const Known& known : all) {
+  for (const Known& known : those.all) {
     if (known.parts == parts) {
-      arrays.push_back(std::move(find(known_, known.array).array));
+      arrays.push_back(std::move(known_.find(known.array).array));
     } else {
       notes.push_back(fmt::format("the array '{}' of {} is not kept: not all parts have it",
                                   known.array.name, on));

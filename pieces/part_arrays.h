@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "kernel/mesh_data.h"
 #include "pieces/merged_points.h"
 #include "pieces/ranks.h"
+#include "pieces/rows.h"
 
 namespace tetmend::pieces {
 
@@ -31,9 +33,15 @@ class PartArrays {
     std::uint64_t parts = 0;  ///< that have it
     std::uint64_t last = 0;   ///< of these, by number from 1
   };
-  static Known& find(std::vector<Known>& among, const DataArray& array);
+  /// In the order in which they were asked for.
+  struct KnownArrays {
+    std::vector<Known> all;
+    std::map<OutlineKey, std::size_t> places;
 
-  std::vector<Known> known_;
+    Known& find(const DataArray& array);
+  };
+
+  KnownArrays known_;
   std::uint64_t parts_ = 0;
 };
 

@@ -56,8 +56,8 @@ std::vector<DataArray> nothing_of(const std::vector<DataArray>& arrays) {
   return all;
 }
 
-bool is_like(const DataArray& a, const DataArray& b) {
-  return a.name == b.name && a.components == b.components && a.values.index() == b.values.index();
+OutlineKey outline_key(const DataArray& array) {
+  return {array.name, array.components, array.values.index()};
 }
 
 std::string_view bytes_of_values(const DataArray& array) {

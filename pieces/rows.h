@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,8 +39,9 @@ using KindArrays = ByKind<std::vector<DataArray>>;
 /// Name, components and type, without values.
 DataArray nothing_of(const DataArray& array);
 std::vector<DataArray> nothing_of(const std::vector<DataArray>& arrays);
-/// True for arrays that differ in their values alone.
-bool is_like(const DataArray& a, const DataArray& b);
+/// Name, components and type: equal for arrays that differ in their values alone.
+using OutlineKey = std::tuple<std::string, std::size_t, std::size_t>;
+OutlineKey outline_key(const DataArray& array);
 /// Its numbers, as they are in memory.
 std::string_view bytes_of_values(const DataArray& array);
 /// Appends such numbers.

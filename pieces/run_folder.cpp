@@ -16,7 +16,6 @@ namespace tetmend::pieces {
 
 namespace {
 
-constexpr const char* kName = "run";
 constexpr const char* kSurface = "surface";
 constexpr const char* kLock = "lock";
 constexpr std::string_view kStep = "step-";
@@ -161,12 +160,12 @@ FolderLock::~FolderLock() {
 }
 
 formats::FileSet RunFolder::files() const {
-  return {.files = {folder_ / kName, folder_ / kSurface, folder_ / kLock},
+  return {.files = {folder_ / kRunFile, folder_ / kSurface, folder_ / kLock},
           .numbered = {{.folder = folder_, .begin = std::string(kStep), .end = {}}}};
 }
 
 bool RunFolder::has_run() const {
-  return root(0).has(kName);
+  return root(0).has(kRunFile);
 }
 
 bool RunFolder::is_empty() const {
@@ -183,24 +182,24 @@ SealedShelf RunFolder::root(std::uint32_t run) const {
 
 SavedRun RunFolder::load() const {
   const SealedShelf shelf = root(0);
-  if (!shelf.has(kName)) {
+  if (!shelf.has(kRunFile)) {
     throw Error(fmt::format("{}: there is no run in pieces", folder_.string()));
   }
   const std::string begin = signature();
-  if (shelf.first_bytes(kName, begin.size()) != begin) {
+  if (shelf.first_bytes(kRunFile, begin.size()) != begin) {
     throw Error(fmt::format("{}: is damaged, or was not written by tetmend {}",
-                            (folder_ / kName).string(), version()));
+                            (folder_ / kRunFile).string(), version()));
   }
-  const std::string bytes = shelf.read(kName);
+  const std::string bytes = shelf.read(kRunFile);
   SavedRun saved;
-  shelf.parse(kName, [&] { saved = take_run(std::string_view(bytes).substr(begin.size())); });
+  shelf.parse(kRunFile, [&] { saved = take_run(std::string_view(bytes).substr(begin.size())); });
   return saved;
 }
 
 void RunFolder::save(const SavedRun& run) const {
   std::string bytes = signature();
   append(run, bytes);
-  root(0).put(kName, std::move(bytes));
+  root(0).put(kRunFile, std::move(bytes));
   remove_steps_but(run.is_finished ? std::numeric_limits<std::size_t>::max() : step_of(run.run));
 }
 
@@ -250,7 +249,7 @@ void RunFolder::remove_steps_but(std::size_t number) const {
 
 void RunFolder::clear() const {
   remove_steps_but(std::numeric_limits<std::size_t>::max());
-  for (const char* name : {kName, kSurface}) platform::remove_file((folder_ / name).c_str());
+  for (const char* name : {kRunFile, kSurface}) platform::remove_file((folder_ / name).c_str());
 }
 
 }  // namespace tetmend::pieces

@@ -17,6 +17,16 @@
 
 namespace tetmend::pieces {
 
+namespace {
+
+/// Of the file itself, not of what it says.
+class ShelfError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace
+
 SealedShelf::SealedShelf(std::filesystem::path root, std::string step, std::uint32_t run)
     : root_(std::move(root)),
       folder_(step.empty() ? root_ : root_ / step),
@@ -88,6 +98,8 @@ void SealedShelf::parse(const std::string& name, const std::function<void()>& re
   read(name, 0, 0);  // whether it is sound
   try {
     read_parts();
+  } catch (const ShelfError&) {
+    throw;
   } catch (const Error& error) {
     fail(name, fmt::format("is damaged ({})", error.what()));
   }
@@ -174,12 +186,13 @@ void SealedShelf::rename(const std::string& from, const std::string& to) {
 }
 
 void SealedShelf::fail(const std::string& name, std::string_view what) const {
-  throw Error(fmt::format("{} {}: delete {}", (folder_ / name).string(), what, root_.string()));
+  throw ShelfError(fmt::format("{} {}: delete {}", (folder_ / name).string(), what,
+                               (root_ / kRunFile).string()));
 }
 
 void SealedShelf::fail(const std::string& name, std::string_view what, int error) const {
-  throw Error(fmt::format("{}: {}: {}", (folder_ / name).string(), what,
-                          std::generic_category().message(error)));
+  throw ShelfError(fmt::format("{}: {}: {}", (folder_ / name).string(), what,
+                               std::generic_category().message(error)));
 }
 
 }  // namespace tetmend::pieces

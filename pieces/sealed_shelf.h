@@ -15,11 +15,14 @@
 
 namespace tetmend::pieces {
 
+/// In the folder of a run; without it nothing else there counts.
+inline constexpr const char* kRunFile = "run";
+
 /// Each name is a file, which must be complete before it is read: what was appended needs its end().
 /// A file has its name when it is complete and on the disk, or that is so after its end(). All bytes
 /// of a file are looked at before the first of them is used. What is missing, damaged, of another
-/// name, step or run, a link or no regular file is an Error that names the file, and the folder that
-/// is to be deleted. Of a name the part before its first dot counts: so a file may be renamed.
+/// name, step or run, a link or no regular file is an Error that names the file, and kRunFile, which is
+/// to be deleted. Of a name the part before its first dot counts: so a file may be renamed.
 class SealedShelf final : public Shelf {
  public:
   /// @param root  folder of the run
@@ -39,7 +42,7 @@ class SealedShelf final : public Shelf {
   bool has(const std::string& name) const;
   /// The first bytes of a file, whether it is sound or not; less if it has not so many.
   std::string first_bytes(const std::string& name, std::uint64_t size) const;
-  /// An Error of read_parts() is one of damage.
+  /// An Error of read_parts() is one of damage, but where a file cannot be read.
   void parse(const std::string& name, const std::function<void()>& read_parts) const override;
 
   /// A file with these bytes ends with that.

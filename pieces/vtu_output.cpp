@@ -2,10 +2,10 @@
 // The layout of the format: kernel/formats/vtu_writer.cpp.
 #include "pieces/vtu_output.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,16 +31,22 @@ struct CellArray {
 
 constexpr std::array<RowKind, 3> kCellKinds = {RowKind::tet, RowKind::triangle, RowKind::edge};
 
+/// Of several alike in one kind each is joined with one of the others, in their order.
 std::vector<CellArray> join_cell_arrays(const CarriedRows& rows) {
   std::vector<CellArray> joined;
+  std::map<OutlineKey, std::vector<std::size_t>> alike;
   for (const RowKind kind : kCellKinds) {
     const std::vector<DataArray>& arrays = rows.layout(kind).arrays();
+    std::map<OutlineKey, std::size_t> seen;
     for (std::size_t i = 0; i < arrays.size(); ++i) {
-      auto found = std::find_if(joined.begin(), joined.end(), [&](const CellArray& array) {
-        return !array.places[kind] && is_like(array.outline, arrays[i]);
-      });
-      if (found == joined.end()) found = joined.insert(found, {arrays[i], {}});
-      found->places[kind] = i;
+      const OutlineKey key = outline_key(arrays[i]);
+      std::vector<std::size_t>& those = alike[key];
+      const std::size_t which = seen[key]++;
+      if (which == those.size()) {
+        those.push_back(joined.size());
+        joined.push_back({arrays[i], {}});
+      }
+      joined[those[which]].places[kind] = i;
     }
   }
   return joined;

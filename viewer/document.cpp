@@ -11,6 +11,7 @@
 
 #include "explain/lesson_guide.h"
 #include "kernel/error.h"
+#include "kernel/formats/degenerate.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/grouped.h"
@@ -104,6 +105,8 @@ void Document::open(const std::filesystem::path& file) {
   if (file.extension() == ".json") return open_trace(explain::trace_of_lesson(file));
   refuse_what_is_no_mesh(file);
   MeshData data = read_mesh(file);
+  std::vector<std::string> notes = data.notes;
+  std::erase_if(notes, [](const auto& note) { return !formats::tells_of_dropped(note); });
   const std::string beside = named_beside(data);
   const bool holds_more =
       !data.tet_parts.empty() || !data.mid_nodes.empty() || !data.other_elements.empty();
@@ -112,14 +115,16 @@ void Document::open(const std::filesystem::path& file) {
   BuildReport report;
   TetMesh read = build_tet_mesh(file, std::move(data), MeshOrder::of_file, &report);
   read.set_standard(standard_);
+  for (std::string& note : notes_of(report)) notes.push_back(std::move(note));
+  for (std::string& note : notes_of_parts(read)) notes.push_back(std::move(note));
   MeasuredMesh mesh(std::move(read));
   live.forget();
   followed_ = LiveState::idle;
   set_mesh(std::move(mesh), file.string());
   not_saved_ = beside;
   data_ = std::move(held);
-  notes_ = notes_of(report);
-  if (report.mirrored) message.text += "; " + notes_.front();
+  notes_ = std::move(notes);
+  if (report.mirrored) message.text += "; " + notes_of(report).front();
 }
 
 void Document::open_trace(const std::filesystem::path& file) {

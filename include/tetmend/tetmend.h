@@ -305,8 +305,9 @@ typedef struct tetmend_result {
 /** Of the last run. */
 TETMEND_API tetmend_status tetmend_get_result(tetmend_mesh* mesh, tetmend_result* result);
 
-/** How many sentences the last tetmend_load(), tetmend_improve() or tetmend_save() had to say: what
- * of a file is not kept, and what is left of bad tets and why. */
+/** How many sentences the last tetmend_load(), tetmend_measure(), tetmend_improve() or tetmend_save()
+ * had to say: what of a file is not kept, where points touch without being joined, and what is left of
+ * bad tets and why. */
 TETMEND_API size_t tetmend_note_count(const tetmend_mesh* mesh);
 /** Sentence i, from 0; null for another number. */
 TETMEND_API const char* tetmend_note(const tetmend_mesh* mesh, size_t i);

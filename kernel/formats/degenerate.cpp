@@ -167,14 +167,20 @@ struct Elements {
 
 class Dropping {
  public:
-  explicit Dropping(MeshData& mesh) : mesh_(mesh) {}
+  using PlaceOf = std::function<std::string(std::size_t)>;
+
+  Dropping(MeshData& mesh, const PlaceOf& place_of)
+      : mesh_(mesh), place_of_(place_of), is_second_order_(mesh.tets.empty()) {}
 
   std::vector<std::uint32_t> run() {
-    const std::vector<std::uint32_t> tets = find(list_of("tet", tets_of(mesh_)));
+    std::vector<std::uint32_t> tets = find(list_of("tet", tets_of(mesh_)), !is_second_order_);
     erase(tets, tets_of(mesh_), 3);
     erase(find(list_of("triangle", triangles_of(mesh_))), triangles_of(mesh_), 2);
     erase(find(list_of("edge", edges_of(mesh_))), edges_of(mesh_), 1);
-    for (OtherElements& others : mesh_.other_elements) drop_others(others);
+    for (OtherElements& others : mesh_.other_elements) {
+      const std::vector<std::uint32_t> dropped = drop_others(others);
+      if (is_second_order_ && others.vtk_type == vtk_tet10) tets = dropped;
+    }
     return tets;
   }
 
@@ -187,8 +193,9 @@ class Dropping {
   }
 
   /// Numbers of those to be dropped, ascending; they are noted.
-  std::vector<std::uint32_t> find(const Elements& elements) {
+  std::vector<std::uint32_t> find(const Elements& elements, bool has_places = false) {
     std::vector<std::uint32_t> found = find_collapsed(elements.corners);
+    has_places_ = has_places && place_of_;
     note_collapsed(elements, found);
     if (elements.corners.width < 4) return found;
     const std::vector<Repeated> repeated = find_repeated(elements.corners, mesh_.points.size());
@@ -213,13 +220,21 @@ class Dropping {
                        fmt::join(vertices, " "));
   }
 
+  /// "a.mesh:12: ", or nothing
+  std::string place_of(std::size_t i) const {
+    std::string place = has_places_ ? place_of_(i) : std::string();
+    if (!place.empty()) place += ": ";
+    return place;
+  }
+
   void note_collapsed(const Elements& elements, const std::vector<std::uint32_t>& found) {
     if (found.empty()) return;
     const std::string first = describe(elements, found[0]);
-    mesh_.notes.push_back(found.size() == 1
-                              ? fmt::format("{} has a vertex twice: dropped", first)
-                              : fmt::format("{} {}s have a vertex twice, the first is {}: dropped",
-                                            grouped(found.size()), elements.name, first));
+    mesh_.notes.push_back(place_of(found[0]) +
+                          (found.size() == 1
+                               ? fmt::format("{} has a vertex twice: dropped", first)
+                               : fmt::format("{} {}s have a vertex twice, the first is {}: dropped",
+                                             grouped(found.size()), elements.name, first)));
   }
 
   void note_repeated(const Elements& elements, const std::vector<Repeated>& found) {
@@ -230,10 +245,11 @@ class Dropping {
     if (const Label other = elements.label(found[0].first); label != other) {
       first += fmt::format(", with label {} instead of {}", label, other);
     }
-    mesh_.notes.push_back(found.size() == 1
-                              ? first + ": dropped"
-                              : fmt::format("{} tets are there already, {} and so on: dropped",
-                                            grouped(found.size()), first));
+    mesh_.notes.push_back(place_of(found[0].tet) +
+                          (found.size() == 1
+                               ? first + ": dropped"
+                               : fmt::format("{} tets are there already, {} and so on: dropped",
+                                             grouped(found.size()), first)));
   }
 
   /// The rows that stay, of so many.
@@ -281,9 +297,10 @@ class Dropping {
     }
   }
 
-  void drop_others(OtherElements& others) {
+  /// Numbers of those that went.
+  std::vector<std::uint32_t> drop_others(OtherElements& others) {
     const ElementKind* const kind = element_kind(others.vtk_type);
-    if (kind == nullptr || others.vertex_count != kind->width) return;
+    if (kind == nullptr || others.vertex_count != kind->width) return {};
     constexpr std::array<std::pair<int, std::string_view>, 3> kSecondOrder = {
         {{vtk_tet10, "tet"}, {vtk_triangle6, "triangle"}, {vtk_edge3, "edge"}}};
     for (const auto& [type, name] : kSecondOrder) {
@@ -292,26 +309,33 @@ class Dropping {
           find({{others.vertices.data(), kind->width, others.labels.size(), kind->corners},
                 name,
                 others.numbers,
-                [&](std::size_t i) { return others.labels[i]; }});
-      if (dropped.empty()) return;
+                [&](std::size_t i) { return others.labels[i]; }},
+               type == vtk_tet10 && is_second_order_);
+      if (dropped.empty()) return {};
       const std::vector<std::uint32_t> kept = others_than(dropped, others.labels.size());
       select(others.vertices, kept, kind->width);
       select(others.labels, kept);
       select(others.parts, kept);
       select(others.numbers, kept);
       for (DataArray& array : others.data) array = selected_rows(array, kept);
+      return dropped;
     }
+    return {};
   }
 
   static constexpr std::uint32_t kGone = UINT32_MAX;
 
   MeshData& mesh_;
+  const PlaceOf& place_of_;
+  bool is_second_order_;     // which its tets will be
+  bool has_places_ = false;  // of the list at hand
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> drop_degenerate(MeshData& mesh) {
-  return Dropping(mesh).run();
+std::vector<std::uint32_t> drop_degenerate(
+    MeshData& mesh, const std::function<std::string(std::size_t)>& place_of) {
+  return Dropping(mesh, place_of).run();
 }
 
 }  // namespace tetmend::formats

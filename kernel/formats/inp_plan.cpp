@@ -334,7 +334,7 @@ NewNumbers InpPlan::new_numbers(std::int64_t most, const std::vector<std::int64_
     std::vector<NewNumbers::Range> taken;
     for (const std::int64_t number : known) taken.emplace_back(number, number);
     for (const InpPiece& piece : deck.pieces) {
-      add_numbers_of(piece.kind == InpPieceKind::verbatim ? piece.text : piece.more, taken);
+      add_inp_numbers(piece.kind == InpPieceKind::verbatim ? piece.text : piece.more, taken);
     }
     return taken;
   });

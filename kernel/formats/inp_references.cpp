@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/field_pattern.h"
-#include "kernel/grouped.h"
+#include "kernel/formats/pin_remarks.h"
 #include "kernel/grouping.h"
 
 namespace tetmend::formats {
@@ -276,11 +276,13 @@ class Finder {
     needs_instance_ =
         block.is_in_assembly && (block.keyword == "ELEMENT" || block.keyword == "NSET");
     InpFields fields(block);
+    bool goes_on = false;  // an element, behind a comma
     for (bool is_first = true; fields.next_line(); is_first = false) {
       const bool has_nodes = is_first || !nodes.first_line_only;
-      for (std::size_t i = 0; fields.more(); ++i) {
+      for (std::size_t i = goes_on ? 1 : 0; fields.more(); ++i) {
         look_at(fields.field(), has_nodes && nodes.pattern.is_point(i));
       }
+      goes_on = block.keyword == "ELEMENT" && trimmed(fields.line()).ends_with(',');
     }
     needs_instance_ = false;
   }
@@ -531,33 +533,18 @@ class Remarks {
   }
 
   std::string text() {
-    constexpr std::size_t kMost = 20;
-    std::sort(remarks_.begin(), remarks_.end(), [this](const Remark& a, const Remark& b) {
-      return places_.at(a.block) < places_.at(b.block);
-    });
-    std::string text;
-    for (std::size_t i = 0; i < std::min(remarks_.size(), kMost); ++i) {
-      const auto& [block, blocks, who, count] = remarks_[i];
-      text += fmt::format("{}{}: {} {} {} {} where {}\n", block->file->line_place(block->begin),
-                          blocks == 1 ? "" : fmt::format(" and {} more", blocks - 1), who,
-                          blocks == 1 ? "keeps" : "keep", grouped(count),
-                          count == 1 ? "point" : "points", count == 1 ? "it is" : "they are");
-    }
-    if (remarks_.size() > kMost) {
-      text += fmt::format("{} more lines keep points where they are\n", remarks_.size() - kMost);
-    }
-    return text;
+    std::sort(remarks_.begin(), remarks_.end(),
+              [](const Remark& a, const Remark& b) { return a.first < b.first; });
+    std::vector<PinRemark> in_order;
+    for (Remark& each : remarks_) in_order.push_back(std::move(each.second));
+    return pin_remarks_text(in_order, "lines");
   }
 
  private:
-  struct Remark {
-    const InpBlock* block;
-    std::size_t blocks;
-    std::string who;
-    std::size_t count;
-  };
+  using Remark = std::pair<std::size_t, PinRemark>;  // place in the deck
   void add(const InpBlock& block, std::size_t blocks, std::string who, std::size_t count) {
-    remarks_.push_back({&block, blocks, std::move(who), count});
+    remarks_.push_back(
+        {places_.at(&block), {block.file, block.begin, blocks, std::move(who), count}});
   }
 
   const std::vector<char>& marks_;

@@ -18,8 +18,8 @@
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
 #include "kernel/formats/nastran_references.h"
+#include "kernel/formats/pin_remarks.h"
 #include "kernel/formats/text_reader.h"
-#include "kernel/grouped.h"
 
 namespace tetmend::formats {
 namespace {
@@ -323,7 +323,7 @@ class Reader {
 
   void require_points() {
     std::vector<std::pair<std::size_t, std::size_t>> all;  // places, the last is behind
-    std::vector<std::pair<const std::string*, std::size_t>> counts;
+    std::vector<PinRemark> remarks;
     for (auto& [name, pins] : pins_) {
       std::size_t count = 0;
       for (const auto& [first, last] : merged(std::move(pins.ranges))) {
@@ -333,7 +333,7 @@ class Reader {
         all.emplace_back(begin, end);
         count += end - begin;
       }
-      if (count > 0) counts.emplace_back(&name, count);
+      if (count > 0) remarks.push_back({&file_, pins.first, pins.cards, who(name, pins), count});
     }
     std::vector<bool> is_required(order_.size(), false);
     for (const auto& [begin, end] : merged(std::move(all))) {
@@ -342,35 +342,15 @@ class Reader {
     for (std::uint32_t i = 0; i < is_required.size(); ++i) {
       if (is_required[i]) mesh_.required_vertices.push_back(i);
     }
-    remark(std::move(counts));
+    if (remarks.empty()) return;
+    std::sort(remarks.begin(), remarks.end(),
+              [](const PinRemark& a, const PinRemark& b) { return a.place < b.place; });
+    mesh_.deck.push_back(pin_remarks_text(remarks, "kinds of cards"));  // nastran_remarks
   }
 
-  /// Says which cards keep how many points, in the order of the file.
-  void remark(std::vector<std::pair<const std::string*, std::size_t>> counts) {
-    constexpr std::size_t kMostRemarks = 20;
-    const auto pins_of = [this](const auto& entry) -> const Pins& {
-      return pins_.at(*entry.first);
-    };
-    std::sort(counts.begin(), counts.end(),
-              [&](const auto& a, const auto& b) { return pins_of(a).first < pins_of(b).first; });
-    if (counts.empty()) return;
-    std::string& text = mesh_.deck.emplace_back();  // nastran_remarks
-    for (std::size_t i = 0; i < std::min(counts.size(), kMostRemarks); ++i) {
-      const auto& [name, count] = counts[i];
-      const Pins& pins = pins_of(counts[i]);
-      const auto line = 1 + std::count(file_.begin(), pins.first, '\n');
-      text += fmt::format("line {}{}: {}{} {} {} {} where {}\n", line,
-                          pins.cards == 1 ? "" : fmt::format(" and {} more", pins.cards - 1), *name,
-                          *name == "GRID" ? " with constraints in field 8"
-                          : pins.is_known ? ""
-                                          : ", a card whose fields are not known,",
-                          pins.cards == 1 ? "keeps" : "keep", grouped(count),
-                          count == 1 ? "point" : "points", count == 1 ? "it is" : "they are");
-    }
-    if (counts.size() > kMostRemarks) {
-      text += fmt::format("{} more kinds of cards keep points where they are\n",
-                          counts.size() - kMostRemarks);
-    }
+  static std::string who(const std::string& name, const Pins& pins) {
+    if (name == "GRID") return name + " with constraints in field 8";
+    return pins.is_known ? name : name + ", a card whose fields are not known,";
   }
 
   const InputFile& file_;

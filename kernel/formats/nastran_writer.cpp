@@ -116,7 +116,7 @@ class Writer {
     return NewNumbers(most, kLimits, [this, &known] {
       std::vector<NewNumbers::Range> taken;
       for (const std::int64_t number : known) taken.emplace_back(number, number);
-      if (deck_ != nullptr) add_numbers_of((*deck_)[nastran_cards], taken);
+      if (deck_ != nullptr) add_nastran_numbers((*deck_)[nastran_cards], taken);
       return taken;
     });
   }

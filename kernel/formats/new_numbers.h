@@ -36,7 +36,10 @@ class NewNumbers {
   std::vector<Range> ranges_;  // that are ahead, those with the greatest numbers first
 };
 
-/// All numbers that the text of a deck names, whatever for: "7", "7 THRU 12".
-void add_numbers_of(std::string_view text, std::vector<NewNumbers::Range>& ranges);
+/// All numbers that lines of an Abaqus deck name, whatever for: "7", "REF NODE=7", below GENERATE
+/// "7, 12, 1".
+void add_inp_numbers(std::string_view text, std::vector<NewNumbers::Range>& ranges);
+/// All that fields of cards of Nastran name: "7", "7 THRU 12".
+void add_nastran_numbers(std::string_view cards, std::vector<NewNumbers::Range>& ranges);
 
 }  // namespace tetmend::formats

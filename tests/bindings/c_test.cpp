@@ -382,6 +382,18 @@ TEST_CASE("in C: improving is that of C++: bytes, figures, maps and notes") {
   }
 }
 
+TEST_CASE("in C: measuring tells where points touch without being joined") {
+  const Handle mesh = create();
+  const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, -1};
+  const std::int32_t tets[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  CHECK(tetmend_set_points(mesh.get(), points, 8) == TETMEND_OK);
+  CHECK(tetmend_set_tets(mesh.get(), tets, 2, nullptr) == TETMEND_OK);
+  tetmend_statistics measured;
+  CHECK(tetmend_measure(mesh.get(), &measured) == TETMEND_OK);
+  REQUIRE(tetmend_note_count(mesh.get()) == 1);
+  CHECK(std::strstr(tetmend_note(mesh.get(), 0), "3 of 8 points lie on others") != nullptr);
+}
+
 TEST_CASE("in C: a progress function sees the run and stops it") {
   struct Seen {
     int calls = 0;

@@ -359,6 +359,10 @@ TEST_CASE("a damaged file that would be read by slices has the error of the read
     check_damage(folder.path() / "good.msh", folder.path() / "bad.msh");
   }
   data.point_labels.assign(data.points.size(), 2);
+  data.required_vertices = {3, 7};
+  write(folder.path() / "good.meshb", data);
+  check_damage(folder.path() / "good.meshb", folder.path() / "bad.meshb");
+  data.required_vertices.clear();
   for (const Encoding& encoding : all_encodings()) {
     CAPTURE(static_cast<int>(encoding.coding));
     CAPTURE(encoding.is_packed);
@@ -439,5 +443,27 @@ TEST_CASE("what is lost of a file that is read by slices is told as of one in me
       for (const std::string& text : not_written(out, all)) expected.push_back(text);
       CHECK(pieces::InputMesh(file, one).lost_in(out) == expected);
     }
+  }
+}
+
+TEST_CASE("elements with a vertex twice are dropped by ranks and slices as with all in memory") {
+  const Folder folder;
+  MeshData data = lattice(4);
+  data.required_vertices.clear();
+  const auto v = data.tets[7].vertices;
+  data.tets.insert(data.tets.begin() + 100, {{v[0], v[1], v[0], v[3]}, 0});
+  data.triangles.push_back({{v[0], v[0], v[1]}, 0});
+  for (const std::string name : {"in.meshb", "in.vtu", "in.msh"}) {
+    CAPTURE(name);
+    const std::filesystem::path file = folder.path() / name;
+    write(file, data);
+    const MeshData whole = read_mesh(file);
+    REQUIRE(whole.tets.size() == data.tets.size() - 1);
+    pieces::OneRank one;
+    const pieces::InputMesh input(file, one);
+    CHECK(input.tets() == whole.tets.size());
+    const std::vector<std::string> told = input.lost_in("out.vtu");
+    CHECK(std::includes(told.begin(), told.end(), whole.notes.begin(), whole.notes.end()));
+    check_improved(file, ".vtu");
   }
 }

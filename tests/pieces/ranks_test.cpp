@@ -363,7 +363,7 @@ TEST_CASE("damage of any file of a checkpoint is an error that names the file, b
       char& byte = bytes[place % bytes.size()];
       byte = static_cast<char>(byte ^ 16);
       CHECK(complaint_after(bytes) == (files.checkpoint / file).string() + " is damaged: delete " +
-                                          files.checkpoint.string());
+                                          (files.checkpoint / "run").string());
     }
     const std::string lost = complaint_after("");
     const bool is_run = file == "run";  // without it there is no run: it begins anew

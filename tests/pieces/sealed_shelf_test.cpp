@@ -34,7 +34,7 @@ struct SealedRun {
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
   std::string complaint(const std::string& name, const std::string& what) const {
-    return (step() / name).string() + " " + what + ": delete " + root().string();
+    return (step() / name).string() + " " + what + ": delete " + (root() / "run").string();
   }
 
   test::Folder folder;
@@ -165,4 +165,14 @@ TEST_CASE(
   std::filesystem::create_directory_symlink(run.step(), run.root() / "step-9");
   CHECK(error_of([&] { SealedShelf(run.root(), "step-9", kRun); }).find("is no folder") !=
         std::string::npos);
+}
+
+TEST_CASE("what cannot be read while a file is parsed is told as it is, and is no damage of that") {
+  const SealedRun run;
+  SealedShelf shelf = run.shelf();
+  shelf.put("a", "one");
+  CHECK(error_of([&] { shelf.parse("a", [&] { shelf.read("none"); }); }) ==
+        run.complaint("none", "is missing"));
+  CHECK(error_of([&] { shelf.visit("a", [](auto) { throw Error("no list"); }); }) ==
+        run.complaint("a", "is damaged (no list)"));
 }

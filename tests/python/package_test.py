@@ -415,6 +415,14 @@ def test_quality_is_that_of_the_command_line(tmp_path, command_line, materials):
     assert set(found.measures) == {"mean_ratio"}
 
 
+def test_quality_tells_where_points_touch_without_being_joined():
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    points = np.concatenate([corners, corners[[0, 2, 1]], [[0, 0, -1.0]]])
+    apart = tetmend.quality(points, [[0, 1, 2, 3], [4, 5, 6, 7]])
+    assert len(apart.notes) == 1 and apart.notes[0].startswith("3 of 8 points lie on others and are not joined")
+    assert tetmend.quality(corners, [[0, 1, 2, 3]]).notes == []
+
+
 @pytest.mark.parametrize("words", [{"preset": "openfoam"}, {"min_dihedral": 15, "no_inverted": True}, {"measure": {"mean_ratio": 0.1}}])
 def test_check_is_that_of_the_command_line(tmp_path, materials, words):
     better = tetmend.improve(materials)

@@ -120,6 +120,24 @@ TEST_CASE("a mirrored mesh is told of") {
   CHECK(document.notes().empty());
 }
 
+TEST_CASE("elements that are dropped and parts that are not joined are told of") {
+  const test::TempFolder folder;
+  MeshData mesh = test::kuhn_cube(2, 0, 1);
+  const MeshData other = mesh;  // a second cube beside it
+  for (const Point& p : other.points) mesh.points.push_back(p + Point(1, 0, 0));
+  for (MeshData::Tet tet : other.tets) {
+    for (std::uint32_t& v : tet.vertices) v += static_cast<std::uint32_t>(other.points.size());
+    mesh.tets.push_back(tet);
+  }
+  mesh.tets.push_back(mesh.tets[5]);
+  write_mesh(folder / "a.mesh", mesh);
+  Document document;
+  document.open(folder / "a.mesh");
+  REQUIRE(document.notes().size() == 2);
+  CHECK(document.notes()[0].ends_with("is tet 6 again: dropped"));
+  CHECK(document.notes()[1].starts_with("9 of 54 points lie on others and are not joined"));
+}
+
 TEST_CASE("what has given vertices is found, and what the mesh has not is not") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   const TetMesh& mesh = s.document.mesh();

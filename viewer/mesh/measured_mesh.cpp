@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "envelope/unjoined.h"
 #include "viewer/mesh/tet_values.h"
 #include "viewer/mesh/visibility.h"
 
@@ -50,5 +51,9 @@ MeasuredMesh::MeasuredMesh(TetMesh measured)
       ball(enclosing_ball(mesh, box.front() / 2.0 + box.back() / 2.0)),
       statistics(compute_statistics(mesh, mesh.standard().goal())),
       regions(region_labels(mesh)) {}
+
+std::vector<std::string> notes_of_parts(const TetMesh& mesh) {
+  return describe(find_unjoined(mesh), mesh.vertex_count());
+}
 
 }  // namespace tetmend::viewer

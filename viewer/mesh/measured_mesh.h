@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -24,5 +25,8 @@ struct MeasuredMesh {
   MeshStatistics statistics;
   std::vector<Label> regions;  ///< ascending
 };
+
+/// Where parts of the mesh touch without being joined. Cost: n log n in the vertices of its boundary.
+std::vector<std::string> notes_of_parts(const TetMesh& mesh);
 
 }  // namespace tetmend::viewer

@@ -196,7 +196,8 @@ py::dict to_dict(const Measurement& measurement) {
   return py::dict(
       "statistics"_a = to_dict(measurement.statistics, measurement.rulers, measurement.curved),
       "build"_a = to_dict(measurement.build), "measures"_a = measures,
-      "limit"_a = to_object(measurement.limit), "bad_tets"_a = to_list(measurement.bad_tets));
+      "limit"_a = to_object(measurement.limit), "bad_tets"_a = to_list(measurement.bad_tets),
+      "notes"_a = to_texts(measurement.notes));
 }
 
 py::dict to_dict(const Fact& fact) {

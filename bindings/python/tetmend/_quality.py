@@ -46,6 +46,8 @@ class Quality:
     """The worst first."""
     build: dict[str, Any]
     """What is peculiar about the mesh."""
+    notes: list[str]
+    """Where points touch without being joined."""
 
 
 def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: ArrayLike | None = None,
@@ -74,4 +76,5 @@ def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: Ar
     except _core.OptionError as error:
         raise _core.OptionError(str(error).replace("measure:", "measures:", 1)) from None
     return Quality(Statistics(figures["statistics"]), figures["measures"], figures["limit"],
-                   [BadTet(**{**each, "centre": tuple(each["centre"])}) for each in figures["bad_tets"]], figures["build"])
+                   [BadTet(**{**each, "centre": tuple(each["centre"])}) for each in figures["bad_tets"]], figures["build"],
+                   figures["notes"])

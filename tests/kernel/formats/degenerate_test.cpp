@@ -53,7 +53,24 @@ TEST_CASE("degenerate and repeated elements are dropped with a note, whatever th
     CHECK_FALSE(has_vertex_twice(mesh.edges));
     CHECK(tells(mesh, "tet 2 (vertices 2 3 3 4) has a vertex twice: dropped"));
     CHECK(tells(mesh, "tet 4 is tet 1 again: dropped"));
+    for (const std::string& note : mesh.notes) {
+      if (note.find("tet ") == std::string::npos) continue;
+      CHECK(note.starts_with((folder / "").string()));  // the place in the file
+      CHECK(note.find(": ") < note.find("tet "));
+    }
   }
+}
+
+TEST_CASE("the note on elements that are dropped has the line of the first") {
+  const TempFolder folder;
+  write_text(folder / "a.mesh",
+             "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+             "1 1 1 0\nTetrahedra 5\n1 2 3 4 1\n2 3 3 4 1\n4 4 3 1 1\n2 3 4 5 1\n4 3 2 1 1\nEnd\n");
+  const std::string file = (folder / "a.mesh").string();
+  CHECK(read_mesh(folder / "a.mesh").notes ==
+        std::vector<std::string>{file + ":11: 2 tets have a vertex twice, the first is tet 2 "
+                                        "(vertices 2 3 3 4): dropped",
+                                 file + ":14: tet 5 is tet 1 again: dropped"});
 }
 
 TEST_CASE("what belongs to a dropped element goes with it, and the rest keeps what it has") {
@@ -80,7 +97,7 @@ TEST_CASE("a tet of second order with a corner twice goes, a collapsed hexahedro
   }
   mesh.other_elements[0].labels.push_back(1);
   mesh.other_elements.push_back({12, 8, {0, 1, 2, 2, 20, 21, 22, 22}, {1}, {}, {}, {}});
-  CHECK(drop_degenerate(mesh).empty());
+  CHECK(drop_degenerate(mesh) == std::vector<std::uint32_t>{1});
   CHECK(mesh.other_elements[0].labels.size() == 1);
   CHECK(mesh.other_elements[0].vertices.size() == 10);
   CHECK(mesh.other_elements[1].labels.size() == 1);
@@ -95,4 +112,23 @@ TEST_CASE("where a tet stands in the file counts those that were dropped before 
     return std::stoi(place.substr(place.rfind(':') + 1));
   };
   CHECK(line(second) == line(first) + 2);
+}
+
+TEST_CASE("where a tet of second order stands in the file counts those that were dropped, too") {
+  const TempFolder folder;
+  MeshData mesh;
+  for (int i = 0; i < 26; ++i) mesh.points.emplace_back(i, i % 3, i % 5);
+  OtherElements tets{24, 10, {}, {1, 1, 1}, {}, {}, {}};
+  for (std::uint32_t v = 0; v < 10; ++v) tets.vertices.push_back(v);
+  for (const std::uint32_t v : {0, 1, 1, 3, 10, 11, 12, 13, 14, 15}) tets.vertices.push_back(v);
+  for (std::uint32_t v = 16; v < 26; ++v) tets.vertices.push_back(v);
+  mesh.other_elements = {tets};
+  mesh.variant = "2.2 ASCII";
+  write_mesh(folder / "a.msh", mesh);
+  const MeshData read = read_mesh(folder / "a.msh");
+  REQUIRE(read.tets.size() == 2);
+  const auto line = [](const std::string& place) {
+    return std::stoi(place.substr(place.rfind(':') + 1));
+  };
+  CHECK(line(locate_tet(folder / "a.msh", 1)) == line(locate_tet(folder / "a.msh", 0)) + 2);
 }

@@ -218,6 +218,8 @@ TEST_CASE(
         "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n{0}, 20.\n",
         "*ORIENTATION, NAME=O, DEFINITION=NODES\n1, 2, {0}\n", "*MPC\nBEAM, 1, {0}\n",
         "*ELEMENT, TYPE=SPRINGA, ELSET=E\n90001, 1, {0}\n", "*NOT HEARD OF\n1., {0}\n",
+        "*USER ELEMENT, TYPE=U1, NODES=4\n1, 2\n*ELEMENT, TYPE=U1\n90001, 1, 2,\n{0}, 3\n",
+        "*USER ELEMENT, TYPE=U1, NODES=5\n1, 2\n*ELEMENT, TYPE=U1\n90001, 1, 2,\n 3, 4 ,\n{0}\n",
         "*EQUATION\n5\n1, 1, 1., 2, 1, 1., 3, 1, 1., 4, 1, 1.\n{0}, 1, 1.\n"}) {
     CAPTURE(lines);
     CHECK(required(fmt::format(fmt::runtime(lines), number)) == expected);
@@ -225,9 +227,10 @@ TEST_CASE(
   for (const std::string lines :
        {"*SURFACE, NAME=S\n{0}, S1\n", "*DLOAD\n{0}, P1, 1.\n", "*DSLOAD\nS, P, {0}\n",
         "*INITIAL CONDITIONS, TYPE=STRESS\n{0}, 1., 1., 1., 0., 0., 0.\n",
-        "*TIME POINTS, NAME=T\n{0}, 2\n", "*AMPLITUDE, NAME=A\n{0}, 1, 2, {0}\n",
-        "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n3, {0}\n", "*SPRING, ELSET=E\n{0}\n1.\n",
-        "*EQUATION\n2\n1, {0}, 1., 2, {0}, -1\n",
+        "*TIME POINTS, NAME=T\n{0}, 2\n",
+        "*USER ELEMENT, TYPE=U1, NODES=2\n1, 2\n*ELEMENT, TYPE=U1\n90001, 1, 2\n{0}, 3, 4\n",
+        "*AMPLITUDE, NAME=A\n{0}, 1, 2, {0}\n", "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n3, {0}\n",
+        "*SPRING, ELSET=E\n{0}\n1.\n", "*EQUATION\n2\n1, {0}, 1., 2, {0}, -1\n",
         "*COUPLING, CONSTRAINT NAME=C\n*KINEMATIC\n{0}, 3\n",
         "*STEP\n*STATIC\n1, {0}\n*NODE PRINT, NSET=N\nU\n*END STEP\n"}) {
     CAPTURE(lines);

@@ -108,9 +108,10 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
   CHECK(deck_of(mesh) == deck);
   // 60 to 80 for SPC1, 90 for FORCE. The coordinates of 50 are no constraint.
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 6, 7, 8});
+  const std::string file = (folder / "a.bdf").string();
   CHECK(deck_remarks(mesh) ==
-        std::vector<std::string>{"line 31: SPC1 keeps 3 points where they are",
-                                 "line 32: FORCE keeps 1 point where it is"});
+        std::vector<std::string>{file + ":31: SPC1 keeps 3 points where they are",
+                                 file + ":32: FORCE keeps 1 point where it is"});
 }
 
 TEST_CASE("a deck of Nastran survives writing, and the second time with the same bytes") {
@@ -184,7 +185,8 @@ TEST_CASE("fields 7 to 9 of a GRID go where the point goes, and field 8 alone ke
   MeshData mesh = read(folder, replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,3,456,2\n"));
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 8});
   CHECK(deck_remarks(mesh)[0] ==
-        "line 24: GRID with constraints in field 8 keeps 1 point where it is");
+        (folder / "a.bdf").string() +
+            ":24: GRID with constraints in field 8 keeps 1 point where it is");
   mesh.points[4].x() = 1.5;
   write_mesh(folder / "b.bdf", mesh);
   const std::string written = test::read_text(folder / "b.bdf");

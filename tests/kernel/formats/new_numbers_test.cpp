@@ -37,8 +37,40 @@ TEST_CASE("new numbers count on from the greatest, and come from between where t
   CHECK_THROWS_AS(numbers(100, {{1, 50}, {52, 100}}, 2), Error);
 }
 
-TEST_CASE("numbers of a deck that is kept word for word are those of all its words and ranges") {
+TEST_CASE(
+    "numbers of an Abaqus deck that is kept word for word are those of all words and ranges") {
   std::vector<NewNumbers::Range> found;
-  formats::add_numbers_of("SPOINT,5,THRU,9\n7 -3 2.5 12,x7\r\n1 thru 4 THRU 6", found);
-  CHECK(found == std::vector<NewNumbers::Range>{{5, 9}, {7, 7}, {12, 12}, {1, 6}});
+  formats::add_inp_numbers(
+      "*NSET, NSET=all, generate\n7, 12, 1\n** 3, 4\n20, 30\n40\n"
+      "*RIGID BODY, ELSET=E1, REF NODE=13\n-3, 2.5, 12,x7\r\nPart-1.15, 1, 6\n"
+      "*ELSET,\n ELSET=e,\nGENERATE\n 101,105 ,2\n*BOUNDARY\n51, 53",
+      found);
+  CHECK(found == std::vector<NewNumbers::Range>{{7, 12},
+                                                {20, 30},
+                                                {40, 40},
+                                                {13, 13},
+                                                {12, 12},
+                                                {15, 15},
+                                                {1, 1},
+                                                {6, 6},
+                                                {101, 105},
+                                                {51, 51},
+                                                {53, 53}});
+}
+
+TEST_CASE("numbers of Nastran are those of fields, which may touch, and of their ranges") {
+  std::vector<NewNumbers::Range> found;
+  formats::add_nastran_numbers(
+      "SPOINT,5,THRU,9\n$ 77\nSPC1    12345678        1111111122222222\n        333     thru    "
+      "340\n"
+      "CBAR*                  1        99999999\n*                     10\n",
+      found);
+  CHECK(found == std::vector<NewNumbers::Range>{{5, 9},
+                                                {12345678, 12345678},
+                                                {11111111, 11111111},
+                                                {22222222, 22222222},
+                                                {333, 340},
+                                                {1, 1},
+                                                {99999999, 99999999},
+                                                {10, 10}});
 }

@@ -8,7 +8,7 @@
 
 #include "kernel/tet_mesh.h"
 
-namespace tetmend::face {
+namespace tetmend {
 
 struct UnjoinedPoints {
   std::size_t coincident =
@@ -23,4 +23,4 @@ UnjoinedPoints find_unjoined(const TetMesh& mesh);
 /// Says so, in sentences.
 std::vector<std::string> describe(const UnjoinedPoints& points, std::size_t of_all);
 
-}  // namespace tetmend::face
+}  // namespace tetmend

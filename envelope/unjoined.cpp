@@ -4,7 +4,7 @@
 //   vertices of the boundary, by their coordinates: those that lie on others
 //   triangles of the boundary along a curve, boxes around each eight of them, around each eight of
 //   these, and so on; then each vertex down the boxes that hold it, to triangles of other corners
-#include "face/unjoined.h"
+#include "envelope/unjoined.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@
 #include "kernel/grouped.h"
 #include "kernel/hilbert.h"
 
-namespace tetmend::face {
+namespace tetmend {
 
 namespace {
 
@@ -191,4 +191,4 @@ std::vector<std::string> describe(const UnjoinedPoints& points, std::size_t of_a
   return notes;
 }
 
-}  // namespace tetmend::face
+}  // namespace tetmend
