@@ -31,7 +31,7 @@ LANCZOS_STEPS = 100  # the largest eigenvalue is there long before
 
 def load(file: Path) -> mesh.Mesh:
     """Without points of no tet, which would have empty rows."""
-    read = medit.read(file)
+    read = medit.read(file, leave_out_unknown=True)
     tets = numpy.array(read.tets, dtype=numpy.int64)
     used, numbers = numpy.unique(tets, return_inverse=True)
     points = numpy.array(read.points)[used]
