@@ -30,7 +30,8 @@ class Mesh:
         self.marks = self.marks or [0] * len(self.points)
 
 
-def read(file: Path) -> Mesh:
+def read(file: Path, *, leave_out_unknown: bool = False) -> Mesh:
+    """@param leave_out_unknown  sections such as Normals; else they are an error"""
     words = file.read_text().split()
     mesh = Mesh([], [])
     at = 0
@@ -65,6 +66,9 @@ def read(file: Path) -> Mesh:
             numbers = [*map(vertices, found[:corners]),
                        *(list(map(int, column)) for column in found[corners:])]
             mesh.sections[name] = list(zip(*numbers, strict=True))
+        elif leave_out_unknown:
+            while at < len(words) and not words[at][0].isalpha():
+                at += 1
         else:
             raise ValueError(f"{file}: section {name} is unknown")
     return mesh

@@ -201,6 +201,11 @@ def means(all_results: list[tuple[dict, list[Judged]]]) -> documents.Table:
 # --- the command line
 
 
+def write(file: Path, parts: list[str]) -> None:
+    made = documents.stamp("script/bench --solvers")
+    documents.write(file, documents.document("What solvers feel", made, parts))
+
+
 def shipped(mesh: Path) -> bool:
     return compare.ROOT / "assets" in mesh.resolve().parents
 
@@ -225,15 +230,13 @@ def main() -> None:
         base, results = measure(mesh, found, options.limit)
         everything.append((base, results))
         table = table_of(base, results)
-        print(f"{mesh.stem}\n{report.text_table(table)}\n")
+        print(f"{mesh.stem}\n{report.text_table(table)}\n", flush=True)
         note = [] if shipped(mesh) else ["This mesh does not come with tetmend."]
         parts += [f"## {mesh.stem}", *note, documents.markdown_table(table)]
-    together = means(everything)
-    print(report.text_table(together))
-    parts += ["## all meshes", MEANS, documents.markdown_table(together)]
-    if options.write:
-        made = documents.stamp("script/bench --solvers")
-        documents.write(options.write, documents.document("What solvers feel", made, parts))
+        if options.write:  # after each mesh: what was measured is not lost
+            write(options.write, [*parts, "## all meshes", MEANS,
+                                  documents.markdown_table(means(everything))])
+    print(report.text_table(means(everything)))
 
 
 if __name__ == "__main__":

@@ -17,9 +17,9 @@ class RulerBins {
  public:
   static constexpr std::size_t kCount = 40;
 
-  /// Ratios from 0 to 1, angles to 100 degrees and skewness to 4 have bins of one width. What is 1 at best
-  /// and has no bound has four bins for each doubling, as have lengths.
-  /// @param mean of a ruler that is a length, what its values are about; above 0 unless there are none
+  /// Ratios from 0 to 1, angles to 100 degrees and skewness to 4 have bins of one width. What is 1
+  /// at best and has no bound has four bins for each doubling, as have lengths.
+  /// @param mean  what values of a ruler that is a length are about; above 0 unless there are none
   RulerBins(Ruler ruler, double mean);
   RulerBins() = default;
 
@@ -47,8 +47,8 @@ struct RulerHistogram {
 /// By Ruler.
 using RulerHistograms = std::array<RulerHistogram, kRulerCount>;
 
-/// Measures all tets, faces and vertices, as measure_rulers() does; the result does not depend on the
-/// number of threads.
+/// Measures all tets, faces and vertices, as measure_rulers() does; the result does not depend on
+/// the number of threads.
 /// @param means for the bins of lengths: of this mesh or another; two meshes with the same give
 /// histograms that can be compared
 /// Cost: about 0.15 s for a million tets on one thread.

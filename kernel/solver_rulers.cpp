@@ -3,8 +3,8 @@
 // threads, and added to the vertices in the order of the tets by one.
 //
 //   estimate of CG steps: 8 (g^2 / lambda)^(3/8), whose powers and factor are fitted
-//     g       largest row sum of |K| scaled by its diagonal, of inner vertices, tets not yet summed:
-//             large where tets are flat; about the largest eigenvalue of the scaled matrix
+//     g       largest row sum of |K| scaled by its diagonal, of inner vertices, over their tets one
+//             by one: large where tets are flat; about the largest eigenvalue of the scaled matrix
 //     lambda  u'Ku / u'Du, D the diagonal of K, for u = edges on the way to the surface: about the
 //             smallest eigenvalue
 #include "kernel/solver_rulers.h"
@@ -114,8 +114,8 @@ TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& v
   }
 }
 
-/// By vertex: the number of edges on the way to the surface. Sweeps until nothing changes, so that it
-/// depends on the mesh alone.
+/// By vertex: the number of edges on the way to the surface. Sweeps until nothing changes, so that
+/// it depends on the mesh alone.
 std::vector<std::uint32_t> find_depths(const TetMesh& mesh) {
   constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max() / 2;
   std::vector<std::uint32_t> depths(mesh.vertex_slots(), kFar);

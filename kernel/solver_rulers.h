@@ -32,8 +32,8 @@ inline P1Diagonal p1_diagonal(const Point& a, const Point& b, const Point& c, co
            w.cross(u).squaredNorm() / (6 * v6), u.cross(v).squaredNorm() / (6 * v6)}};
 }
 
-/// Lumped mass and diagonal of the stiffness matrix of a mesh, by VertexHandle::index(). Vertices of
-/// no tet have 0.
+/// Lumped mass and diagonal of the stiffness matrix of a mesh, by VertexHandle::index(). Vertices
+/// of no tet have 0.
 struct TETMEND_API P1Diagonals {
   std::vector<double> mass;
   std::vector<double> stiffness;
@@ -63,10 +63,11 @@ TETMEND_API double stable_step(const P1Diagonals& diagonals);
 /// thread may ask whose territory holds the vertex. Cost: linear in the star.
 TETMEND_API std::optional<double> squared_step_at(const TetMesh& mesh, VertexHandle v);
 
-/// How many steps conjugate gradients with Jacobi's preconditioner take to 1e-8, for the Laplacian with
-/// linear elements and the surface fixed: an estimate from sums over the mesh, not an integer. 0 for a
-/// mesh with a tet of no positive volume, or without an inner vertex. docs/glossary.md says how good it
-/// is. Cost: linear, about 0.06 s for a million tets; 16 bytes a vertex more than p1_diagonals().
+/// How many steps conjugate gradients with Jacobi's preconditioner take to 1e-8, for the Laplacian
+/// with linear elements and the surface fixed: an estimate from sums over the mesh, not an integer.
+/// 0 for a mesh with a tet of no positive volume, or without an inner vertex. docs/glossary.md says
+/// how good it is. Cost: linear, about 0.06 s for a million tets; 16 bytes a vertex more than
+/// p1_diagonals().
 TETMEND_API double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals);
 
 }  // namespace tetmend

@@ -49,7 +49,8 @@ TETMEND_API std::vector<Fact> check(const Mesh& mesh, const CheckOptions& option
 
 /// What an improved mesh must have in common with the mesh that it came from, and that it is no
 /// worse. Looks at the two meshes alone: it knows nothing of the run.
-/// @param preset  a use that it must suit as well as before: "explicit", "implicit"; no other adds facts
+/// @param preset  a use that it must suit as well as before: "explicit", "implicit"; others add no
+/// facts
 /// @throws Error as measure(); OptionError for an unknown preset ("for"). Cost: n log n.
 TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1,
                                       std::string_view preset = {});

@@ -39,8 +39,8 @@ inline constexpr std::size_t kRulerCount = 11;
 
 /// All rulers, by Ruler. V is the volume, r and R the radii of the inner and the outer sphere. The
 /// first four have the sign of the volume, as has the altitude. The condition number and the aspect
-/// ratio of a tet without positive volume are infinite. m and k are the lumped mass and the stiffness
-/// matrix of the Laplacian with linear (P1) elements; a mesh with such a tet has no step, 0.
+/// ratio of a tet without positive volume are infinite. m and k are the lumped mass and the
+/// stiffness matrix of the Laplacian with linear (P1) elements; with such a tet the step is 0.
 inline constexpr std::array<RulerInfo, kRulerCount> kRulers = {{
     {"mean_ratio", "mean ratio", "12 (3 V)^(2/3) / sum of the squared edges; at best 1", true,
      false, false},
