@@ -137,11 +137,14 @@ end
 -- long as a round removes a fifth of the bad ones.
 for _ = 1, max_rounds do
   local n_bad = quality().n_bad
-  local is_held = n_bad > 0.002 * quality().tets and n_bad > most_left * start.n_bad
+  local is_crowded = n_bad > 0.002 * quality().tets
+  local is_held = is_crowded and n_bad > most_left * start.n_bad
   if not has_moved or n_bad <= few or is_held then break end
-  judge_by{price = half_price, measure = "sine"}
+  -- At half a price, a crowd of bad tets grows.
+  local price = is_crowded and full_price or half_price
+  judge_by{price = price, measure = "sine"}
   thinning_round()
-  judge_by{price = half_price}
+  judge_by{price = price}
   plain_rounds()
   if quality().n_bad > 0.8 * n_bad then break end
 end
