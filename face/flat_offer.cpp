@@ -38,22 +38,23 @@ class FlatSurface {
     }
     if (moves) {
       ++(all ? freed.in_wall : freed.beside_movable);
-    } else if (has_surface_face(t)) {
+    } else if (can_be_split(t)) {
       ++freed.at_face;
     }
   }
 
  private:
-  /// On the boundary, or between two labels.
-  bool has_surface_face(TetHandle t) const {
+  /// A face lies on the boundary or between two labels, and none is named inside a region.
+  bool can_be_split(TetHandle t) const {
+    bool at_surface = false;
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace face(t, f);
-      if (mesh_.is_boundary(face)) return true;
-      if (mesh_.is_constrained(face) && mesh_.label(mesh_.twin(face).tet()) != mesh_.label(t)) {
-        return true;
-      }
+      const bool is_boundary = mesh_.is_boundary(face);
+      if (!is_boundary && !mesh_.is_constrained(face)) continue;
+      if (!is_boundary && mesh_.label(mesh_.twin(face).tet()) == mesh_.label(t)) return false;
+      at_surface = true;
     }
-    return false;
+    return at_surface;
   }
 
   const TetMesh& mesh_;
@@ -87,14 +88,14 @@ std::size_t estimate_freed_by_flat(const TetMesh& mesh, const MeshData& input, s
     freed.in_wall += part.in_wall;
     freed.at_face += part.at_face;
   }
-  // Bad tets side by side leave no room for the splits of their faces.
-  const double good = 1 - static_cast<double>(bad) / static_cast<double>(mesh.tet_count());
+  // Bad tets side by side leave each other no room, least of all for splits.
+  const double room = 1 - static_cast<double>(bad) / static_cast<double>(mesh.tet_count());
   constexpr double kBesideMovable = 0.9;
-  constexpr double kInWall = 0.25;
+  constexpr double kInWall = 0.5;
   constexpr double kAtFace = 0.7;
   const double sum = kBesideMovable * static_cast<double>(freed.beside_movable) +
-                     kInWall * static_cast<double>(freed.in_wall) +
-                     kAtFace * good * good * static_cast<double>(freed.at_face);
+                     kInWall * room * static_cast<double>(freed.in_wall) +
+                     kAtFace * room * room * room * static_cast<double>(freed.at_face);
   return std::min(bad, static_cast<std::size_t>(std::lround(sum)));
 }
 

@@ -16,6 +16,8 @@ local start = quality()
 -- Where more are bad after the cheap rounds, what raises the worst at no price makes many mild ones.
 local few = 200
 local worst = {below = 1, worst = few}
+-- Where the cheap rounds leave more of those that there were, the surface holds them.
+local most_left = 0.9
 
 local function flip()
   return apply({"surface_edge_removal", order = "angle"}, {sweeps = 2})
@@ -116,11 +118,11 @@ local full_price, half_price = 0.1, 0.02
 -- than the worst that the fixed surface has left.
 hold_worst()
 judge_by{price = full_price}
-local can_move = plain_rounds() > 0
+local has_moved = plain_rounds() > 0
 
 -- Where too many are left for that, what takes little time, by sines alone, inside: a surface that moves
 -- so often loses volume.
-if can_move and quality().n_bad > math.max(few, 0.002 * quality().tets) then
+if has_moved and quality().n_bad > math.max(few, 0.002 * quality().tets) then
   begin_round()
   judge_by{price = full_price, measure = "sine"}
   apply({"cavity_insertion", desperate = 0, tries = 2})
@@ -131,20 +133,25 @@ if can_move and quality().n_bad > math.max(few, 0.002 * quality().tets) then
   judge_by{price = full_price}
 end
 
--- Where many are left, but few of all tets, the worst rise at a price, as long as a round removes a
--- fifth of the bad ones.
+-- Where many are left, but few of all tets or of those that there were, the worst rise at a price, as
+-- long as a round removes a fifth of the bad ones.
 for _ = 1, max_rounds do
   local n_bad = quality().n_bad
-  if not can_move or n_bad <= few or n_bad > 0.002 * quality().tets then break end
-  judge_by{price = half_price, measure = "sine"}
+  local is_crowded = n_bad > 0.002 * quality().tets
+  local is_held = is_crowded and n_bad > most_left * start.n_bad
+  if not has_moved or n_bad <= few or is_held then break end
+  -- At half a price, a crowd of bad tets grows.
+  local price = is_crowded and full_price or half_price
+  judge_by{price = price, measure = "sine"}
   thinning_round()
-  judge_by{price = half_price}
+  judge_by{price = price}
   plain_rounds()
   if quality().n_bad > 0.8 * n_bad then break end
 end
 
+-- Where a few are left, several changes together may move what none moves alone.
 local rounds, failed, before = 0, 0, quality()
-while can_move and rounds < max_rounds and failed < max_failed
+while rounds < max_rounds and failed < max_failed
       and quality().n_bad > 0 and quality().n_bad <= few do
   rounds = rounds + 1
   -- What is stuck at the goal has neighbours that just meet it and leave it no room.
@@ -174,7 +181,7 @@ local function ease(most)
 end
 
 local most = start.goal_max - 2
-if can_move and max_rounds > 0 and quality().n_bad == 0 and most > 90 then
+if max_rounds > 0 and quality().n_bad == 0 and most > 90 then
   judge_by{measure = "sine"}
   local largest
   repeat

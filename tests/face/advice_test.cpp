@@ -76,6 +76,17 @@ bool mentions(const std::vector<std::string>& notes, const std::string& text) {
                      [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
 
+/// So many tets a run offers to remove with a flat surface; 0: no such offer.
+std::size_t offered(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (note.find("would go with --surface flat") == std::string::npos) continue;
+    std::string digits = note.substr(0, note.find(" of the "));
+    std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+    return std::stoul(digits);
+  }
+  return 0;
+}
+
 }  // namespace
 
 TEST_CASE("boundary layers stay bit for bit while the rest improves, and are counted") {
@@ -224,4 +235,31 @@ TEST_CASE("a mesh that is stretched throughout gets a warning, layers that are k
   CHECK(!mentions(improve(mesh, {.script = kNothing}).notes, warning));
   mesh = Mesh(to_arrays(layered.data));
   CHECK(mentions(improve(mesh, {.script = kNothing, .layers = Layers::improve}).notes, warning));
+}
+
+TEST_CASE("a flat surface is offered for about as many bad tets as it removes") {
+  const std::vector<double> six = axis_of(std::vector<double>(6, 1));
+  const MeshData flat_cells = make_lattice(six, six, axis_of({0.5, 0.5}));
+  Mesh mesh(to_arrays(flat_cells));
+  const Result fixed = improve(mesh);
+  const std::size_t offer = offered(fixed.notes);
+  REQUIRE(fixed.after.n_bad > 50);
+  CHECK(mentions(fixed.notes,
+                 fmt::format(" of the {} bad tets left would go", grouped(fixed.after.n_bad))));
+  mesh = Mesh(to_arrays(flat_cells));
+  const Result flat = improve(mesh, {.surface = "flat"});
+  CHECK(offered(flat.notes) == 0);
+  const std::size_t removed = fixed.after.n_bad - flat.after.n_bad;
+  CHECK(3 * offer > 2 * removed);
+  CHECK(2 * offer < 3 * removed);
+}
+
+TEST_CASE("a flat surface is not offered where vertices that stay hold the tets, nor to a script") {
+  const std::vector<double> six = axis_of(std::vector<double>(6, 1));
+  MeshArrays arrays = to_arrays(make_lattice(six, six, axis_of({0.5, 0.5})));
+  Mesh mesh(arrays);
+  CHECK(offered(improve(mesh, {.script = kNothing}).notes) == 0);
+  for (std::uint32_t v = 0; v < arrays.points.size(); ++v) arrays.required_vertices.push_back(v);
+  mesh = Mesh(arrays);
+  CHECK(offered(improve(mesh).notes) == 0);
 }
