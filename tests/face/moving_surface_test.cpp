@@ -65,7 +65,8 @@ double diagonal(const MeshData& data) {
 
 }  // namespace
 
-TEST_CASE("a surface that may move leaves no more bad tets, fewer where no operator moves it alone") {
+TEST_CASE(
+    "a surface that may move leaves no more bad tets, fewer where no operator moves it alone") {
   for (const std::string name : {"folded_sheet.mesh", "two_materials.mesh"}) {
     CAPTURE(name);
     const Mesh input = load(asset(name));
