@@ -65,7 +65,8 @@ double diagonal(const MeshData& data) {
 
 }  // namespace
 
-TEST_CASE("a surface that may move leaves no more bad tets, and keeps to its tolerance") {
+TEST_CASE(
+    "a surface that may move leaves no more bad tets, fewer where no operator moves it alone") {
   for (const std::string name : {"folded_sheet.mesh", "two_materials.mesh"}) {
     CAPTURE(name);
     const Mesh input = load(asset(name));
@@ -77,6 +78,7 @@ TEST_CASE("a surface that may move leaves no more bad tets, and keeps to its tol
       Mesh mesh = input;
       const Result result = improve(mesh, {.surface = surface});
       CHECK(result.after.n_bad <= without.after.n_bad);
+      if (name == "folded_sheet.mesh") CHECK(result.after.n_bad < without.after.n_bad);
       REQUIRE(result.surface_change);
       const SurfaceChange& change = *result.surface_change;
       const double off = distance(MeshAccess::data(input), MeshAccess::data(mesh));
