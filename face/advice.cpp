@@ -223,7 +223,7 @@ std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input
     texts.push_back(fmt::format("the surface, which stays, has all vertices of {}",
                                 share_of_bad(held.by_surface, held.bad)));
   }
-  if (offers_flat(options, result)) {
+  if (held.bad >= kLeastOffer && offers_flat(options, result)) {
     const std::size_t freed = estimate_freed_by_flat(mesh, input, held.bad);
     if (freed >= kLeastOffer && 20 * freed >= held.bad) {
       texts.push_back(fmt::format("about {} of the {} bad tets left would go with --surface flat",
