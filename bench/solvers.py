@@ -234,7 +234,9 @@ def main() -> None:
         note = [] if shipped(mesh) else ["This mesh does not come with tetmend."]
         parts += [f"## {mesh.stem}", *note, documents.markdown_table(table)]
         if options.write:  # after each mesh: what was measured is not lost
-            write(options.write, [*parts, "## all meshes", MEANS,
+            rest = ", ".join(each.stem for each in meshes[len(everything):])
+            stopped = [f"Stopped before {rest}."] if rest else []
+            write(options.write, [*parts, *stopped, "## all meshes", MEANS,
                                   documents.markdown_table(means(everything))])
     print(report.text_table(means(everything)))
 
