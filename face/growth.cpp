@@ -41,7 +41,7 @@ double at_share(std::vector<double>& ratios, double share) {
 
 }  // namespace
 
-Growth::Growth(const std::string& tets) : text_(tets) {
+Growth::Growth(const std::string& tets, std::size_t more) : text_(tets), more_(more) {
   if (tets.empty()) return;
   std::string_view text = tets;
   if (text.back() == '%') {
@@ -68,7 +68,8 @@ std::optional<std::size_t> Growth::most(std::size_t now) const {
                                   text_, grouped(now), guess, text_));
   }
   if (!share_) return number_;
-  const double most = (1 + *share_) * static_cast<double>(now);
+  const double most = std::max((1 + *share_) * static_cast<double>(now),
+                               static_cast<double>(now) + static_cast<double>(more_));
   return most < 1e18 ? std::optional(static_cast<std::size_t>(most + 1e-9)) : std::nullopt;
 }
 

@@ -12,7 +12,8 @@ namespace tetmend::face {
 class Growth {
  public:
   /// @throws OptionError for a text that is neither a share nor a number
-  explicit Growth(const std::string& tets);
+  /// @param more  so many tets more are allowed whatever the share
+  explicit Growth(const std::string& tets, std::size_t more = 0);
   /// The most tets that a mesh of so many may come to; none for no bound.
   /// @throws OptionError for a number of tets below that, unless it is marked as meant: often its
   /// percent sign is missing
@@ -20,6 +21,7 @@ class Growth {
 
  private:
   std::string text_;
+  std::size_t more_;
   std::optional<double> share_;        // more
   std::optional<std::size_t> number_;  // in all
   bool is_meant_ = false;              // 10!

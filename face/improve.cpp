@@ -103,7 +103,6 @@ class Improvement {
   /// Without its trace.
   Result run() {
     result_.goal = options_.goal;
-    result_.holds_solver = plan_.purpose.keeps_step;
     build();
     try {
       measure_before();
@@ -238,8 +237,11 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  const Bounds bounds = Bounds::of(
+  Bounds bounds = Bounds::of(
       mesh_, plan_.purpose.keeps_step ? Bounds::Holding::solver : Bounds::Holding::angles);
+  // A mesh with inverted tets has no step, and what its angles are says little.
+  result_.holds_solver = plan_.purpose.keeps_step && !bounds.are_of_inverted();
+  if (!result_.holds_solver) bounds = Bounds::of(mesh_);
   mesh_.set_bounds(mending == Mending::keeps_bounds ? bounds.for_mending() : bounds);
   if (!plan_.surface.is_fixed()) mesh_.set_surface_guard(plan_.surface.guard(mesh_, input_));
   hold_curved();

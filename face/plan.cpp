@@ -33,7 +33,7 @@ Plan::Plan(const Options& options)
       trace(options, registry),
       purpose(find_purpose(options)),
       settings(settings_of(options)),
-      growth(tets_of(options)),
+      growth(tets_of(options), least_growth_of(options)),
       surface(options) {
   check_threads(options.threads);
   check_regions(options);

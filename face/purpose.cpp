@@ -45,6 +45,11 @@ std::string tets_of(const Options& options) {
   return std::string(find_purpose(options).tets);
 }
 
+std::size_t least_growth_of(const Options& options) {
+  constexpr std::size_t kHandful = 100;
+  return options.tets.empty() && options.purpose.empty() ? kHandful : 0;
+}
+
 std::vector<std::pair<std::string, std::string>> settings_of(const Options& options) {
   std::vector<std::pair<std::string, std::string>> settings;
   const Purpose& purpose = find_purpose(options);

@@ -27,6 +27,8 @@ const Purpose& find_purpose(const Options& options);
 /// Options::tets, or what the purpose says instead. Scripts, and schedules that go on as long as that
 /// helps, are bounded only where Options::tets or a purpose says so.
 std::string tets_of(const Options& options);
+/// So many tets more are allowed in any case: a share of a handful of tets would be none.
+std::size_t least_growth_of(const Options& options);
 /// Options::set, and before it what the purpose says.
 std::vector<std::pair<std::string, std::string>> settings_of(const Options& options);
 

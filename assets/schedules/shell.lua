@@ -148,10 +148,10 @@ if worst_only then
 end
 -- Size first: where edges are too long or too short for their place, what follows only adds to it. By
 -- sines, so that no angle pays for a needle. Of a large mesh all this would take longer than the rest.
+-- A mesh without bad tets comes back as it is.
 local is_small = start.tets <= 100000
 local function even_out(options)
-  if options.cycles == 0 then return end
-  begin_round()
+  if options.cycles == 0 or max_rounds == 0 or start.n_bad == 0 then return end
   judge_by{measure = "sine"}
   polish(options)
 end

@@ -91,4 +91,9 @@ end
 if max_rounds > 0 and not (time_limit > 0 and quality().seconds >= time_limit) then
   judge_by{measure = "sine"}
   polish{}
+  -- It has made room for what could not be mended before.
+  judge_by{}
+  reduce()
+  judge_by{measure = "sine"}
+  polish{cycles = 1}
 end

@@ -241,13 +241,13 @@ TEST_CASE("a flat surface is offered for about as many bad tets as it removes") 
   const std::vector<double> six = axis_of(std::vector<double>(6, 1));
   const MeshData flat_cells = make_lattice(six, six, axis_of({0.5, 0.5}));
   Mesh mesh(to_arrays(flat_cells));
-  const Result fixed = improve(mesh);
+  const Result fixed = improve(mesh, {.purpose = "angles"});
   const std::size_t offer = offered(fixed.notes);
   REQUIRE(fixed.after.n_bad > 50);
   CHECK(mentions(fixed.notes,
                  fmt::format(" of the {} bad tets left would go", grouped(fixed.after.n_bad))));
   mesh = Mesh(to_arrays(flat_cells));
-  const Result flat = improve(mesh, {.surface = "flat"});
+  const Result flat = improve(mesh, {.purpose = "angles", .surface = "flat"});
   CHECK(offered(flat.notes) == 0);
   const std::size_t removed = fixed.after.n_bad - flat.after.n_bad;
   CHECK(3 * offer > 2 * removed);

@@ -251,7 +251,7 @@ TEST_CASE("each input that people have is improved as its row says, and checked 
     const Mesh before = load(file);
     check_as_read(wanted, before);
     Mesh mesh = before;
-    const Result result = improve(mesh);
+    const Result result = improve(mesh, {.purpose = "angles"});
     check_run(wanted, result);
     std::vector<std::string> notes = before.notes();
     notes.insert(notes.end(), result.notes.begin(), result.notes.end());

@@ -7,12 +7,14 @@
 #include <doctest/doctest.h>
 
 #include "kernel/bounds.h"
+#include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
 #include "kernel/solver_rulers.h"
 #include "kernel/statistics.h"
 #include "ops/registry.h"
 #include "schedule/passes.h"
 #include "schedule/schedule.h"
+#include "tests/support/renumbered.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -46,10 +48,12 @@ Ended default_run(TetMesh& mesh, Bounds::Holding holding) {
 
 TEST_CASE("the stable step never falls where it is held, and falls where it is not") {
   bool has_fallen = false;
-  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     CAPTURE(seed);
-    TetMesh held(delaunay_ball(300, seed));
-    TetMesh free(delaunay_ball(300, seed));
+    const MeshData data = renumbered(
+        read_mesh(std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/folded_sheet.mesh"), seed);
+    TetMesh held(data);
+    TetMesh free(data);
     const double before = stable_step(held);
     REQUIRE(before > 0);
     CHECK(default_run(held, Bounds::Holding::solver).step >= before * (1 - 1e-9));
@@ -72,18 +76,23 @@ TEST_CASE("the step at a vertex from its star is that from the sums over all tet
 }
 
 TEST_CASE("where no angle misses the goal, none becomes larger than the largest") {
-  // Its angles are 45, 60 and 90 degrees.
-  const auto run_on_lattice = [](Bounds::Holding holding) {
-    TetMesh mesh(kuhn_cube(4, 0, 1));
-    Run run(mesh, kSolverRegistry);
-    const double before = compute_statistics(mesh).theta_max;
-    run.set_standard(Standard(Goal{.min_angle = 50, .max_angle = 150}));
-    mesh.set_bounds(Bounds::of(mesh, holding));
-    improve(run, Schedule::builtin("shell"));
-    return compute_statistics(mesh).theta_max - before;
-  };
-  CHECK(run_on_lattice(Bounds::Holding::solver) <= 1e-9);
-  CHECK(run_on_lattice(Bounds::Holding::angles) > 1);
+  bool has_grown = false;
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    CAPTURE(seed);
+    const auto growth = [&](Bounds::Holding holding) {
+      TetMesh mesh(kuhn_cube(5, 0.2, seed));
+      const double before = compute_statistics(mesh).theta_max;
+      REQUIRE(before < 140);
+      Run run(mesh, kSolverRegistry);
+      run.set_standard(Standard(Goal{.min_angle = 35, .max_angle = 150}));
+      mesh.set_bounds(Bounds::of(mesh, holding));
+      improve(run, Schedule::builtin("shell"));
+      return compute_statistics(mesh).theta_max - before;
+    };
+    CHECK(growth(Bounds::Holding::solver) <= 1e-9);
+    has_grown = has_grown || growth(Bounds::Holding::angles) > 1;
+  }
+  CHECK(has_grown);
 }
 
 TEST_CASE("a polish contracts and inserts as far as it is told to") {
