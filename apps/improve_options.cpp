@@ -65,11 +65,13 @@ void add_schedule_options(CLI::App& command, ImproveOptions& options) {
   add_values(command, run, "set",
              "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
              "given several times");
+  add_value(command, run, "purpose",
+            "What the mesh is for: explicit, implicit,\nvolumes or angles (see docs/choosing.md;\n"
+            "default: any solver)");
   command
       .add_option_function<std::string>(
-          "--for,--purpose", [&run](const std::string& value) { set(run, "purpose", value); },
-          "What the mesh is for: explicit, implicit,\nvolumes or angles (see docs/choosing.md;\n"
-          "default: any solver)")
+          "--for", [&run](const std::string& value) { set(run, "purpose", value); },
+          "The same as --purpose")
       ->type_name("NAME");
   add_value(command, run, "goal",
             "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "

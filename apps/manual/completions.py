@@ -28,7 +28,7 @@ TAKES = {
     "check-plugin FILE": ".so", "tetmend-view FILE": "mesh .trace", "operators NAME": "<operator>",
     "schedules NAME": "<schedule> .lua", "--schedule": "<schedule> .lua", "--set": "<setting>=",
     "check --measure": "<ruler>=", "improve --measure": "<objective>", "pieces --measure": "<objective>", "quality --measure": "<figure>",
-    "--for": "<preset>", "--purpose": "<purpose>", "--variant": "<variant>", "--format": "<format>", "--plugin": ".so", "--trace": ".trace",
+    "--for": "<preset>", "improve --for": "<purpose>", "pieces --for": "<purpose>", "--purpose": "<purpose>", "--variant": "<variant>", "--format": "<format>", "--plugin": ".so", "--trace": ".trace",
     "--trace-operator": "<operator>", "--report": ".json", "improve --report": ".json .html", "--render": ".png", "--script": ".lua", "--layers": "<layers>", "--surface": "<surface>", "--feature-angle": "",
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
     "--conserve": "", "--trace-piece": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",

@@ -37,7 +37,7 @@ TEST_CASE("the library knows the options of 'tetmend improve' by name, and takes
   // Those that are about files, the terminal, pieces, and the program's watch over plugins.
   const std::set<std::string> of_the_program = {
       "help",    "output",        "report", "quiet",  "strict",  "label-array", "format",
-      "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint"};
+      "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint",  "for"};
   const std::set<std::string> of_the_library = {"script", "limit"};
   std::set<std::string> names;
   const std::regex option(R"(\n +(?:-\w,\s*)?--([a-z-]+))");
@@ -135,6 +135,7 @@ TEST_CASE("options as text are those of C++") {
       {"schedule", "thorough"}, {"script", "smooth{}"},
       {"set", "a=b=c"},         {"set", "d="},
       {"goal", "35"},           {"measure", "sine"},
+      {"purpose", "explicit"},
       {"time-limit", "1.5"},    {"plugin", "a.so"},
       {"check-operators", ""},  {"threads", "8"},
       {"protect", "label:1"},   {"only", "label:2"},

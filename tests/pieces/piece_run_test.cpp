@@ -47,7 +47,8 @@ RunState state_after(const MeshData& data, std::size_t pieces, bool measures_bef
 TEST_CASE("pieces leave the worst to zones, as far as the schedule can and the user lets it") {
   const Schedule& shell = Schedule::builtin("shell");
   const AimSettings usual(shell, {{"max_rounds", "3"}});
-  CHECK(usual.of(Aim::all) == ScheduleSettings{{"max_rounds", "3"}});
+  CHECK(usual.of(Aim::all) ==
+        ScheduleSettings{{"max_rounds", "3"}, {"polish_first", "0"}, {"polish_last", "0"}});
   CHECK(value_of(usual.of(Aim::but_worst), "worst_later") == "true");
   CHECK(value_of(usual.of(Aim::but_worst), "worst_only").empty());
   CHECK(value_of(usual.of(Aim::worst), "worst_only") == "true");
