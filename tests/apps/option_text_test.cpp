@@ -135,17 +135,17 @@ TEST_CASE("options as text are those of C++") {
       {"schedule", "thorough"}, {"script", "smooth{}"},
       {"set", "a=b=c"},         {"set", "d="},
       {"goal", "35"},           {"measure", "sine"},
-      {"purpose", "explicit"},
-      {"time-limit", "1.5"},    {"plugin", "a.so"},
-      {"check-operators", ""},  {"threads", "8"},
-      {"protect", "label:1"},   {"only", "label:2"},
-      {"layers", "improve"},    {"tets", "10%"},
-      {"surface", "1%"},        {"feature-angle", "30"},
-      {"keep-size", "true"},    {"ignore-interior", ""},
-      {"conserve", "density"},  {"trace", "a.trace"},
-      {"trace-around", "7"},    {"trace-operator", "x"},
-      {"trace-depth", "0"},     {"trace-limit", "5K"},
-      {"trace-piece", "2:3"},   {"limit", "true"}};
+      {"purpose", "explicit"},  {"time-limit", "1.5"},
+      {"plugin", "a.so"},       {"check-operators", ""},
+      {"threads", "8"},         {"protect", "label:1"},
+      {"only", "label:2"},      {"layers", "improve"},
+      {"tets", "10%"},          {"surface", "1%"},
+      {"feature-angle", "30"},  {"keep-size", "true"},
+      {"ignore-interior", ""},  {"conserve", "density"},
+      {"trace", "a.trace"},     {"trace-around", "7"},
+      {"trace-operator", "x"},  {"trace-depth", "0"},
+      {"trace-limit", "5K"},    {"trace-piece", "2:3"},
+      {"limit", "true"}};
   for (const auto& [name, value] : all) set_option(options, name, value);
   CHECK(options.schedule == "thorough");
   CHECK(options.script == "smooth{}");
