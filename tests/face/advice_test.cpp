@@ -238,8 +238,8 @@ TEST_CASE("a mesh that is stretched throughout gets a warning, layers that are k
 }
 
 TEST_CASE("a flat surface is offered for about as many bad tets as it removes") {
-  const std::vector<double> six = axis_of(std::vector<double>(6, 1));
-  const MeshData flat_cells = make_lattice(six, six, axis_of({0.5, 0.5}));
+  const std::vector<double> cells = axis_of(std::vector<double>(14, 1));
+  const MeshData flat_cells = make_lattice(cells, cells, axis_of({0.5, 0.5}));
   Mesh mesh(to_arrays(flat_cells));
   const Result fixed = improve(mesh, {.purpose = "angles"});
   const std::size_t offer = offered(fixed.notes);

@@ -325,6 +325,17 @@ MeshData waves(unsigned cells, double jitter, unsigned seed) {
   return data;
 }
 
+/// Runs of the schedule that improving makes, until it is stopped at the beginning of the `last`-th.
+Result improve_in_runs(Mesh& mesh, int last, int& runs) {
+  Stage stage = Stage::building;
+  runs = 0;
+  return improve(mesh, {.progress = [&](const Progress& progress) {
+                   if (progress.stage == Stage::improving && stage != Stage::improving) ++runs;
+                   stage = progress.stage;
+                   return runs < last;
+                 }});
+}
+
 }  // namespace
 
 TEST_CASE("a tangled mesh ends with no worse angle or edge ratio, or the report names it") {
@@ -348,24 +359,26 @@ TEST_CASE("a tangled mesh ends with no worse angle or edge ratio, or the report 
 }
 
 TEST_CASE("who stops the second run on a tangled mesh gets what the first one made") {
-  const MeshData tangled = waves(4, 0.5, 5);
-  Mesh whole = MeshAccess::make(tangled);
-  const Result first = improve(whole);
-  REQUIRE_FALSE(first.worse().empty());  // so there was a second run, which did not do better
-  Mesh mesh = MeshAccess::make(tangled);
-  Stage last = Stage::building;
-  int runs = 0;
-  const auto stop_the_second = [&](const Progress& progress) {
-    if (progress.stage == Stage::improving && last != Stage::improving) ++runs;
-    last = progress.stage;
-    return runs < 2;
-  };
-  const Result stopped = improve(mesh, {.progress = stop_the_second});
-  CHECK(runs == 2);
-  CHECK(stopped.ending == Ending::cancelled);
-  CHECK(stopped.worse() == first.worse());
-  CHECK(stopped.not_positive_after == first.not_positive_after);
-  CHECK(equal(mesh, whole));
+  constexpr int kNever = 100;
+  int found = 0;
+  for (unsigned seed = 1; seed <= 40 && found < 2; ++seed) {
+    const MeshData tangled = waves(4, 0.5, seed);
+    Mesh whole = MeshAccess::make(tangled);
+    int runs = 0;
+    const Result first = improve_in_runs(whole, kNever, runs);
+    // A second run was made, which did not do better, and nothing else was worse.
+    if (runs != 2 || first.worse().empty()) continue;
+    ++found;
+    CAPTURE(seed);
+    Mesh mesh = MeshAccess::make(tangled);
+    const Result stopped = improve_in_runs(mesh, 2, runs);
+    CHECK(runs == 2);
+    CHECK(stopped.ending == Ending::cancelled);
+    CHECK(stopped.worse() == first.worse());
+    CHECK(stopped.not_positive_after == first.not_positive_after);
+    CHECK(equal(mesh, whole));
+  }
+  CHECK(found > 0);
 }
 
 TEST_CASE("what is worse than before is one list: promised figures, then aims") {
