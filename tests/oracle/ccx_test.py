@@ -176,7 +176,8 @@ def follow(order: int, wrong: list) -> None:
         expect("ccx refuses inverted tets: status 201", status == 201)
         expect("and says why", "nonpositive jacobian" in output)
         expect("check finds them: status 3", run_tetmend("check", broken, "--for", "calculix") == 3)
-        expect("improve succeeds", run_tetmend("improve", broken, "-o", fixed, "--quiet") == 0)
+        expect("improve succeeds", run_tetmend("improve", broken, "-o", fixed, "--quiet", "--set", "polish_first=0",
+                           "--set", "polish_last=0") == 0)  # the forces depend on the mesh a little
         expect("check finds none: status 0", run_tetmend("check", fixed, "--for", "calculix") == 0)
         expect("surface, labels, groups are kept",
                run_tetmend("check", broken, fixed) == 0)

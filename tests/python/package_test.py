@@ -239,7 +239,7 @@ def test_unknown_options_and_mixed_calls_are_type_errors(materials):
 def test_numbers_of_points_that_the_given_type_cannot_hold_are_of_32_bits(kind, n):
     from bridges_test import lattice
     points, tets, _ = lattice(n)
-    options = {"goal": (40, 120), "schedule": "thorough"}
+    options = {"goal": (40, 120), "schedule": "thorough", "purpose": "angles"}
     wide = tetmend.improve(points, tets, **options)
     assert len(points) - 1 <= np.iinfo(kind).max < len(wide.points) - 1
     result = tetmend.improve(points, tets.astype(kind), **options)

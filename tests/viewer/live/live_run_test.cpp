@@ -576,11 +576,11 @@ TEST_CASE("a breakpoint on an edge is met where the trace of the run has it") {
 
 TEST_CASE("a breakpoint holds inside of a recursion, as often as the trace has such calls") {
   const test::TempFolder folder;
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = asset("folded_sheet.mesh");
   LiveRun run;
   run.trace = folder / "live.trace";
   run.breakpoints = {{parse_condition("deeper 1")}};
-  run.start(mesh, LiveRun::From::file, "sheet.mesh");
+  run.start(mesh, LiveRun::From::file, "folded_sheet.mesh");
   std::size_t held = 0;
   while (run.wait(kForever) == LiveState::paused) {
     ++held;
