@@ -41,17 +41,17 @@ TEST_CASE("in the window a run is recorded, and opened in the debugger when it i
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
   click(800, 300);  // unfolds the panel
-  click(729, 516);  // record
-  click(737, 543);  // run
+  click(729, 570);  // record
+  click(737, 597);  // run
   wait_for("tetmend-live.trace");
   type("mousemove 500 350");
   wait_until_still();  // its last mesh is shown
-  click(890, 563);     // debug this run
+  click(890, 617);     // debug this run
   type("mousemove 500 350 key Right Right Right Right");
   const nlohmann::json state = viewer.quit();
   REQUIRE(state.contains("trace"));
   CHECK(state["trace"]["position"] == 4);
-  CHECK(state["trace"]["call"]["operator"] == "recursive_shell_transformation");
+  CHECK(state["trace"]["call"]["operator"] == "mean_smoothing");
 }
 
 TEST_CASE("a mesh is saved by the dialog") {
