@@ -96,10 +96,10 @@ struct MeshRulers {
 
 /// A ruler that is one number of a mesh.
 struct SolverRulerInfo {
-  std::string_view name;   ///< as in JSON: "work"
-  std::string_view title;  ///< as in tables
-  std::string_view help;   ///< formula
-  double MeshRulers::*value;
+  std::string_view name;      ///< as in JSON: "work"
+  std::string_view title;     ///< as in tables
+  std::string_view help;      ///< formula
+  double MeshRulers::*value;  ///< where it stands
 };
 
 /// What solving a system of equations on the mesh costs; less is better.
