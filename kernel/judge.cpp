@@ -105,35 +105,68 @@ std::size_t count_bad_angles(std::span<const std::array<Point, 4>> tets, const G
   return count;
 }
 
-/// Each of the tets alone allows the step at a vertex, so that all of its star do if the others did.
-bool allow_step(const TetMesh& mesh, std::span<const TetHandle> tets, VertexHandle at,
-                double least2) {
-  return std::all_of(tets.begin(), tets.end(), [&](TetHandle t) {
-    const TetVertices& v = mesh.vertices(t);
-    const auto corner = std::find(v.begin(), v.end(), at);
-    if (corner == v.end()) return true;
-    const P1Diagonal of =
-        p1_diagonal(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-    return of.mass >= least2 * of.stiffness[static_cast<std::size_t>(corner - v.begin())];
-  });
-}
+/// What a change adds at each vertex to mass - step^2 * stiffness, which no vertex may have below 0.
+class SlackOfStep {
+ public:
+  explicit SlackOfStep(double step2) : step2_(step2) {}
 
-/// No vertex allows a smaller step of explicit time integration than the worst at first.
+  /// False for a tet of no positive volume, which has none.
+  bool add(const std::array<Point, 4>& tet, const TetVertices& vertices, double sign) {
+    const P1Diagonal of = p1_diagonal(tet[0], tet[1], tet[2], tet[3]);
+    if (!(of.mass > 0)) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      Entry& to = at(vertices[i]);
+      to.gain += sign * (of.mass - step2_ * of.stiffness[i]);
+      to.mass += of.mass;
+    }
+    return true;
+  }
+
+  struct Entry {
+    VertexHandle vertex;
+    double gain = 0;
+    double mass = 0;  // of all that was added: what the gain is exact to
+
+    bool has_gained() const {
+      constexpr double kRounding = 1e-12;
+      return gain > kRounding * mass;
+    }
+  };
+  std::span<const Entry> entries() const { return entries_; }
+
+ private:
+  Entry& at(VertexHandle v) {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [v](const Entry& entry) { return entry.vertex == v; });
+    return found != entries_.end() ? *found : entries_.emplace_back(Entry{.vertex = v});
+  }
+
+  double step2_;
+  std::vector<Entry> entries_;
+};
+
+/// No vertex allows a smaller step of explicit time integration than the worst at first. Stars are
+/// walked only of those that lost something.
 bool keeps_step(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   const double least2 = mesh.bounds().least_step2();
   if (least2 <= 0) return true;
-  std::vector<TetHandle> changed;
-  transaction.list_changed(changed);
-  std::vector<VertexHandle> corners;
-  for (const TetHandle t : changed) {
-    for (const VertexHandle v : mesh.vertices(t)) corners.push_back(v);
+  const Transaction::Tets tets = transaction.tets();
+  SlackOfStep slack(least2);
+  bool are_positive = true;
+  for (std::size_t i = 0; i < tets.now.size(); ++i) {
+    are_positive = slack.add(tets.now[i], tets.vertices_now[i], 1) && are_positive;
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return std::all_of(corners.begin(), corners.end(), [&](VertexHandle v) {
-    const std::optional<double> step2 = squared_step_at(mesh, v);
-    return step2 ? *step2 >= least2 : allow_step(mesh, changed, v, least2);
+  const std::size_t corners = slack.entries().size();
+  for (std::size_t i = 0; i < tets.before.size(); ++i) {
+    are_positive = slack.add(tets.before[i], tets.vertices_before[i], -1) && are_positive;
+  }
+  // What follows are vertices that went.
+  const auto still_there = slack.entries().first(corners);
+  return std::all_of(still_there.begin(), still_there.end(), [&](const SlackOfStep::Entry& entry) {
+    if (are_positive && entry.has_gained()) return true;
+    const std::optional<double> step2 = squared_step_at(mesh, entry.vertex);
+    return step2 && *step2 >= least2;
   });
 }
 

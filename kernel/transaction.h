@@ -98,6 +98,8 @@ class TETMEND_API Transaction {
   struct Tets {
     std::span<const std::array<Point, 4>> before;
     std::span<const std::array<Point, 4>> now;
+    std::span<const TetVertices> vertices_before;  // of the same tets
+    std::span<const TetVertices> vertices_now;
   };
   /// Valid until the next question or edit. Cost: quadratic in the number of tets, with a small
   /// factor.

@@ -99,7 +99,10 @@ Transaction::Tets Transaction::tets() const {
   Workspace::Past& past = this->past();
   past.before.clear();
   past.now.clear();
+  past.vertices_before.clear();
+  past.vertices_now.clear();
   const auto add_before = [&](const TetVertices& tet) {
+    past.vertices_before.push_back(tet);
     auto& corners = past.before.emplace_back();
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto place = past.find(tet[i]);
@@ -111,9 +114,10 @@ Transaction::Tets Transaction::tets() const {
     const TetVertices& v = mesh_.vertices(t);
     past.now.push_back(
         {mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3])});
+    past.vertices_now.push_back(v);
     if (!past.was_made(t)) add_before(v);
   }
-  return {past.before, past.now};
+  return {past.before, past.now, past.vertices_before, past.vertices_now};
 }
 
 void Transaction::list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) const {

@@ -165,6 +165,8 @@ class TETMEND_API Workspace {
     std::vector<TetHandle> changed;  // live
     std::vector<std::array<Point, 4>> before;
     std::vector<std::array<Point, 4>> now;
+    std::vector<TetVertices> vertices_before;
+    std::vector<TetVertices> vertices_now;
 
     std::vector<Place>::const_iterator find(VertexHandle v) const {
       return std::find_if(displaced.begin(), displaced.end(),

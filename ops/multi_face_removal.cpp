@@ -80,6 +80,10 @@ class MultiFaceRemoval final : public OperatorOf<State> {
     const HalfFace twin = mesh.twin(target.face());
     if (!context.workspace.holds(mesh.vertices(twin.tet())[twin.face()])) return Verdict::deferred;
     const Sandwich sandwich = grow(context, target.face(), old_tets);
+    if (context.judge->looks_at_mean()) {
+      list_fan(sandwich, new_tets);
+      if (!may_raise_mean(mesh, *context.judge, state.replacement)) return Verdict::no_improvement;
+    }
 
     std::array<Point, kMaxSearchRing> ring;
     for (unsigned i = 0; i < sandwich.size; ++i) ring[i] = mesh.point(sandwich.ring[i]);
@@ -102,6 +106,14 @@ class MultiFaceRemoval final : public OperatorOf<State> {
   }
 
  private:
+  /// The tets around the new edge ab if all faces go.
+  static void list_fan(const Sandwich& s, std::vector<TetVertices>& tets) {
+    tets.clear();
+    for (unsigned i = 0; i < s.size; ++i) {
+      tets.push_back({s.a, s.b, s.ring[i], s.ring[i + 1 == s.size ? 0 : i + 1]});
+    }
+  }
+
   /// Lists the tets of the sandwich.
   Sandwich grow(const OperatorContext& context, HalfFace face, std::vector<TetHandle>& tets) const {
     const TetMesh& mesh = context.mesh;

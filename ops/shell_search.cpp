@@ -56,7 +56,25 @@ Verdict propose_covering(const OperatorContext& context, const Judge& judge, con
       std::erase(old_tets, shell.tets[i]);
     }
   }
-  return Verdict::accepted;
+  return may_raise_mean(mesh, judge, state.replacement) ? Verdict::accepted
+                                                        : Verdict::no_improvement;
+}
+
+bool may_raise_mean(const TetMesh& mesh, const Judge& judge, const Replacement& replacement) {
+  if (!judge.looks_at_mean()) return true;
+  const auto ratio = [&mesh](const TetVertices& v) {
+    return mean_ratio(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+  };
+  const auto& [old_tets, new_tets] = replacement;
+  double lacking = judge.usual() * static_cast<double>(new_tets.size());
+  for (const TetHandle t : old_tets) lacking += ratio(mesh.vertices(t)) - judge.usual();
+  auto left = static_cast<double>(new_tets.size());
+  for (const TetVertices& tet : new_tets) {
+    if (lacking >= left) return false;  // if all others were regular
+    lacking -= ratio(tet);
+    left -= 1;
+  }
+  return lacking < 0;
 }
 
 Verdict take_step(OperatorContext& context, const Judge& judge, const Replacement& replacement) {

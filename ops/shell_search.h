@@ -33,6 +33,10 @@ enum class Core : bool { refused, allowed };
 Verdict propose_covering(const OperatorContext& context, const Judge& judge, const Shell& shell,
                          ShellLocks locks, Core core, ShellState& state);
 
+/// False where a judge of the mean would refuse a replacement, which is cheaper than to make it and
+/// to undo it. True for other judges. Cost: a mean ratio for each tet, at most.
+bool may_raise_mean(const TetMesh& mesh, const Judge& judge, const Replacement& replacement);
+
 /// Makes a replacement as a step of a larger change, and keeps it if the judge accepts.
 Verdict take_step(OperatorContext& context, const Judge& judge, const Replacement& replacement);
 

@@ -197,9 +197,11 @@ bool VertexInsertion::raises_mean(const TetMesh& mesh, double usual, State& stat
     const auto [a, b, c] = mesh.vertices(f);
     state.mean_ball.add(mesh.point(a), mesh.point(b), mesh.point(c));
   }
+  const auto count = static_cast<double>(state.ball.link.size());
+  constexpr double kMostGain = 0.1;  // of the mean, by moving the point: rarely more
+  if (count * (state.mean_ball.mean(point) + kMostGain - usual) <= before) return false;
   constexpr int kSteps = 2;
   point = state.mean_ball.descend(point, kSteps);
-  const auto count = static_cast<double>(state.ball.link.size());
   return count * (state.mean_ball.mean(point) - usual) > before;
 }
 

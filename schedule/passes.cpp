@@ -14,6 +14,9 @@ namespace {
 /// For each selected tet on average, in a sweep that inserts.
 constexpr double kNewVerticesPerTet = 0.5;
 
+/// More tets around an edge become so many more that their mean hardly rises.
+constexpr double kMostAroundEdge = 5;
+
 /// Passes that may succeed where another failed have a calendar of their own. How many tets one takes
 /// is nothing that makes it succeed.
 std::string calendar(std::string_view pass, const Composition& what, Selection on) {
@@ -184,7 +187,8 @@ void polish(Run& run, const PolishOptions& options) {
     const auto smoothing = run.registry().make("mean_smoothing", {});
     const auto contraction = run.registry().make("edge_contraction", {});
     const Composition flips = {.kind = Composition::Kind::all_of,
-                               .parts = {one("edge_removal", {}), one("multi_face_removal", {})}};
+                               .parts = {one("edge_removal", {{"max_degree", kMostAroundEdge}}),
+                                         one("multi_face_removal", {})}};
     const TetAttempts flipping(run.registry(), flips);
     const TetAttempts inserting(run.registry(), one("centroid_insertion", {}));
     const std::string dates = calendar("polish", flips, flipped);

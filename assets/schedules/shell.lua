@@ -10,7 +10,7 @@ local least_yield    = parameter{"least_yield", default = 0.1, low = 0, high = 1
                                  help = "least number of bad tets that a costly attempt must remove on average"}
 local polish_first   = parameter{"polish_first", default = 3, low = 0, high = 100,
                                  help = "cycles of polish before the rounds, at most"}
-local polish_last    = parameter{"polish_last", default = 3, low = 0, high = 100,
+local polish_last    = parameter{"polish_last", default = 2, low = 0, high = 100,
                                  help = "cycles of polish at the end, at most"}
 local worst_only     = parameter{"worst_only", default = false,
                                  help = "go for the worst tets at once, whatever that costs in mild ones"}
@@ -40,6 +40,7 @@ end
 untangle{}
 
 local start = quality()
+local is_small = start.tets <= 100000
 
 local first_mean, first_lambda = start.mean_ratio, start.lambda
 
@@ -53,6 +54,15 @@ local function insert_some()
   local now = quality()
   if before.mean_ratio - 4 * (before.mean_ratio - now.mean_ratio) < first_mean - 0.01 then
     hold_mean(0.85 * first_mean)
+  end
+end
+
+-- Likewise where the insertions of several rounds together cost more: the first polish tells what the last
+-- one may gain.
+local room = 0.01
+local function hold_if_costly()
+  if is_small and start.n_bad > 0 and quality().mean_ratio < first_mean - room then
+    hold_mean(first_mean)
   end
 end
 
@@ -70,7 +80,7 @@ local function plain_round()
   smooth{}
   if is_growing then
     local before = quality()
-    if rounds == 1 then insert_some() end
+    if rounds == 1 then insert_some() else hold_if_costly() end
     insert_points{}
     smooth{}
     is_growing = pays_growth(before, quality())
@@ -113,11 +123,13 @@ local function rescue_worst()
   judge_by{price = 0}
   for _ = 1, last_sweeps // 2 do
     if is_too_costly() then break end
+    hold_if_costly()
     if sweep_worst(dire) + smooth{on = dire, desperate = 0.7} == 0 then break end
   end
   judge_by{price = 0, measure = "sine"}
   for _ = 1, last_sweeps - last_sweeps // 2 do
     if is_too_costly() then break end
+    hold_if_costly()
     if sweep_worst(worst) + split_worst() + smooth{on = worst, desperate = 0.7} == 0 then break end
   end
   judge_by{price = full_price}
@@ -130,6 +142,7 @@ local function insert_while_it_pays()
   local now, count, removed, tried = quality(), 200, 1, 0
   while now.n_bad > 0 and removed > 0 and removed >= least_yield * tried do
     local n_bad = now.n_bad
+    hold_if_costly()
     local accepted
     accepted, tried = apply({"cavity_insertion", desperate = 0}, {on = {below = 1, worst = count}})
     smooth{}
@@ -149,7 +162,6 @@ end
 -- Size first: where edges are too long or too short for their place, what follows only adds to it. By
 -- sines, so that no angle pays for a needle. Of a large mesh all this would take longer than the rest.
 -- A mesh without bad tets comes back as it is.
-local is_small = start.tets <= 100000
 local function even_out(options)
   if options.cycles == 0 or max_rounds == 0 or start.n_bad == 0 then return end
   judge_by{measure = "sine"}
@@ -160,6 +172,7 @@ if is_small then
   -- With few bad angles to lose, fewer tets would raise their share.
   even_out{cycles = polish_first, below = 0.8, insert = 0.7, contract = first_lambda > 0.3 and 0.75 or 0,
            grow = 0}
+  room = room + (quality().mean_ratio - first_mean) / 2
 end
 judge_by{price = full_price}
 plain_rounds()
