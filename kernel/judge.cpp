@@ -9,6 +9,7 @@
 #include "kernel/curved.h"
 #include "kernel/size_field.h"
 #include "kernel/solver_rulers.h"
+#include "kernel/thin_stars.h"
 #include "kernel/transaction.h"
 
 namespace tetmend {
@@ -105,22 +106,10 @@ std::size_t count_bad_angles(std::span<const std::array<Point, 4>> tets, const G
   return count;
 }
 
-/// What a change adds at each vertex to mass - step^2 * stiffness, which no vertex may have below 0.
+/// What a change adds at some vertices to mass - step^2 * stiffness, which no vertex may have below 0.
 class SlackOfStep {
  public:
   explicit SlackOfStep(double step2) : step2_(step2) {}
-
-  /// False for a tet of no positive volume, which has none.
-  bool add(const std::array<Point, 4>& tet, const TetVertices& vertices, double sign) {
-    const P1Diagonal of = p1_diagonal(tet[0], tet[1], tet[2], tet[3]);
-    if (!(of.mass > 0)) return false;
-    for (std::size_t i = 0; i < 4; ++i) {
-      Entry& to = at(vertices[i]);
-      to.gain += sign * (of.mass - step2_ * of.stiffness[i]);
-      to.mass += of.mass;
-    }
-    return true;
-  }
 
   struct Entry {
     VertexHandle vertex;
@@ -132,13 +121,34 @@ class SlackOfStep {
       return gain > kRounding * mass;
     }
   };
+
+  void look_at(VertexHandle v) {
+    if (find(v) == entries_.end()) entries_.push_back({.vertex = v});
+  }
   std::span<const Entry> entries() const { return entries_; }
 
+  void add(const Transaction::Tets& tets) {
+    for (std::size_t i = 0; i < tets.now.size(); ++i) add(tets.now[i], tets.vertices_now[i], 1);
+    for (std::size_t i = 0; i < tets.before.size(); ++i) {
+      add(tets.before[i], tets.vertices_before[i], -1);
+    }
+  }
+
  private:
-  Entry& at(VertexHandle v) {
-    const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                    [v](const Entry& entry) { return entry.vertex == v; });
-    return found != entries_.end() ? *found : entries_.emplace_back(Entry{.vertex = v});
+  void add(const std::array<Point, 4>& tet, const TetVertices& vertices, double sign) {
+    std::optional<P1Diagonal> of;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto entry = find(vertices[i]);
+      if (entry == entries_.end()) continue;
+      if (!of) of = p1_diagonal(tet[0], tet[1], tet[2], tet[3]);
+      constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+      entry->gain += of->mass > 0 ? sign * (of->mass - step2_ * of->stiffness[i]) : kUnknown;
+      entry->mass += of->mass;
+    }
+  }
+  std::vector<Entry>::iterator find(VertexHandle v) {
+    return std::find_if(entries_.begin(), entries_.end(),
+                        [v](const Entry& entry) { return entry.vertex == v; });
   }
 
   double step2_;
@@ -146,25 +156,28 @@ class SlackOfStep {
 };
 
 /// No vertex allows a smaller step of explicit time integration than the worst at first. Stars are
-/// walked only of those that lost something.
+/// walked only where a tet is thin and the vertex lost something.
 bool keeps_step(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   const double least2 = mesh.bounds().least_step2();
   if (least2 <= 0) return true;
+  ThinStars* const thin = mesh.thin_stars();
   const Transaction::Tets tets = transaction.tets();
   SlackOfStep slack(least2);
-  bool are_positive = true;
   for (std::size_t i = 0; i < tets.now.size(); ++i) {
-    are_positive = slack.add(tets.now[i], tets.vertices_now[i], 1) && are_positive;
+    const auto& [a, b, c, d] = tets.now[i];
+    const P1Diagonal of = p1_diagonal(a, b, c, d);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const VertexHandle v = tets.vertices_now[i][corner];
+      const bool is_thin = ThinStars::is_thin(of, corner, least2);
+      if (is_thin && thin != nullptr) thin->add(v);
+      if (is_thin || thin == nullptr || thin->contains(v)) slack.look_at(v);
+    }
   }
-  const std::size_t corners = slack.entries().size();
-  for (std::size_t i = 0; i < tets.before.size(); ++i) {
-    are_positive = slack.add(tets.before[i], tets.vertices_before[i], -1) && are_positive;
-  }
-  // What follows are vertices that went.
-  const auto still_there = slack.entries().first(corners);
-  return std::all_of(still_there.begin(), still_there.end(), [&](const SlackOfStep::Entry& entry) {
-    if (are_positive && entry.has_gained()) return true;
+  if (slack.entries().empty()) return true;
+  slack.add(tets);
+  return std::all_of(slack.entries().begin(), slack.entries().end(), [&](const auto& entry) {
+    if (entry.has_gained()) return true;
     const std::optional<double> step2 = squared_step_at(mesh, entry.vertex);
     return step2 && *step2 >= least2;
   });

@@ -11,6 +11,7 @@
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
 #include "kernel/mesh_view.h"
+#include "kernel/thin_stars.h"
 
 namespace tetmend {
 
@@ -105,6 +106,14 @@ void TetMesh::set_standard(const Standard& standard) {
   });
 }
 
+void TetMesh::set_bounds(const Bounds& bounds) {
+  const double step2 = bounds.least_step2();
+  if (step2 != bounds_.least_step2()) {
+    thin_stars_ = step2 > 0 ? std::make_shared<ThinStars>(*this, step2) : nullptr;
+  }
+  bounds_ = bounds.under(standard_);
+}
+
 void TetMesh::collect_garbage() {
   std::vector<std::uint32_t> kept_vertices;
   std::vector<std::uint32_t> kept_tets;
@@ -159,6 +168,7 @@ void gather(std::vector<T>& values, std::span<const std::uint32_t> order) {
 void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
                       std::span<const std::uint32_t> tet_order) {
   renew_surface();
+  thin_stars_.reset();
   std::vector<VertexHandle> new_vertex(points_.size());
   std::vector<TetHandle> new_tet(cells_.size());
   for (std::uint32_t i = 0; i < vertex_order.size(); ++i)

@@ -30,6 +30,7 @@ namespace tetmend {
 
 class CurvedEdges;
 class SizeField;
+class ThinStars;
 
 /// Counts commits or passes: which of two things happened later. 0 is "never".
 using Date = std::uint32_t;
@@ -166,7 +167,11 @@ class TETMEND_API TetMesh {
   void set_standard(const Standard& standard);
   /// What no change may make worse; at first nothing.
   const Bounds& bounds() const { return bounds_; }
-  void set_bounds(const Bounds& bounds) { bounds_ = bounds.under(standard_); }
+  /// Cost: linear where they hold another stable step.
+  void set_bounds(const Bounds& bounds);
+  /// Around which vertices the stable step of the bounds is in question; null where they have none, and
+  /// after the vertices got other handles.
+  ThinStars* thin_stars() const { return thin_stars_.get(); }
   /// What the lengths of new edges are held to; null: nothing.
   const SizeField* size_field() const { return size_field_.get(); }
   void set_size_field(std::shared_ptr<const SizeField> field) { size_field_ = std::move(field); }
@@ -313,6 +318,7 @@ class TETMEND_API TetMesh {
 
   Standard standard_ = Standard(Goal{});
   Bounds bounds_;
+  std::shared_ptr<ThinStars> thin_stars_;
   std::shared_ptr<const SizeField> size_field_;
   std::shared_ptr<const CurvedEdges> curved_edges_;
   std::vector<Cell> cells_;

@@ -101,13 +101,13 @@ struct TETMEND_API OperatorInfo {
   bool at_surface = false;
 };
 
-/// Whether an operator on vertices is to be tried on one.
 /// One more tet would be refused, whatever it brings: for operators that make the mesh grow. What opens
 /// a sequence may: what follows can remove tets.
 inline bool has_no_room(const OperatorContext& context) {
   return context.judge->kind() != Judge::Kind::opening && context.workspace.is_full(context.mesh);
 }
 
+/// Whether an operator on vertices is to be tried on one.
 inline bool is_worth_a_try(bool at_surface, const TetMesh& mesh, VertexHandle v) {
   if (!mesh.is_fixed(v)) return true;
   return at_surface && mesh.surface_guard() != nullptr && !mesh.is_frozen(v);

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "contract/zoo.h"
+#include "kernel/solver_rulers.h"
 #include "kernel/statistics.h"
 #include "kernel/tet_mesh.h"
 #include "ops/registry.h"
@@ -211,6 +212,47 @@ TEST_CASE("no schedule leaves a tet beyond the bounds of its mesh") {
       CHECK(now.mean_ratio >= before.mean_ratio - 1e-9);
       CHECK(now.radius_ratio >= before.radius_ratio - 1e-9);
       CHECK(now.edge_ratio <= std::max(before.edge_ratio, 10.0) + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("no schedule lowers the stable step below that of its mesh") {
+  for (const MeshData& data :
+       {delaunay_ball(120, 3), kuhn_cube(4, 0.35, 2), kuhn_cube(5, 0.2, 7)}) {
+    for (const char* name : {"shell", "conservative", "stellar", "polish"}) {
+      CAPTURE(name);
+      TetMesh mesh(data);
+      mesh.set_bounds(Bounds::of(mesh, Bounds::Holding::solver));
+      const double before = stable_step(mesh);
+      REQUIRE(before > 0);
+      Run run(mesh, kRegistry);
+      improve(run, Schedule::builtin(name));
+      CHECK(stable_step(mesh) >= before * (1 - 1e-9));
+    }
+  }
+}
+
+TEST_CASE("to know which stars have thin tets saves time and changes nothing") {
+  for (const MeshData& data : {delaunay_ball(120, 3), kuhn_cube(4, 0.35, 2)}) {
+    std::array<TetMesh, 2> meshes = {TetMesh(data), TetMesh(data)};
+    for (TetMesh& mesh : meshes) {
+      // In the order that it has, which forgets the stars of one.
+      if (&mesh == &meshes[0]) mesh.collect_garbage();
+      mesh.set_bounds(Bounds::of(mesh, Bounds::Holding::solver));
+      CHECK(mesh.thin_stars() != nullptr);
+      if (&mesh == &meshes[1]) mesh.collect_garbage();
+      CHECK((mesh.thin_stars() == nullptr) == (&mesh == &meshes[1]));
+      Run run(mesh, kRegistry);
+      improve(run, Schedule::builtin("shell"));
+      mesh.collect_garbage();
+    }
+    REQUIRE(meshes[0].vertex_slots() == meshes[1].vertex_slots());
+    REQUIRE(meshes[0].tet_slots() == meshes[1].tet_slots());
+    for (std::uint32_t v = 0; v < meshes[0].vertex_slots(); ++v) {
+      REQUIRE(meshes[0].point(VertexHandle(v)) == meshes[1].point(VertexHandle(v)));
+    }
+    for (std::uint32_t t = 0; t < meshes[0].tet_slots(); ++t) {
+      REQUIRE(meshes[0].vertices(TetHandle(t)) == meshes[1].vertices(TetHandle(t)));
     }
   }
 }
