@@ -25,7 +25,8 @@ namespace {
 constexpr std::string_view kAll = "all";
 
 struct QualityOptions {
-  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path file;  // the one that is measured now
   std::vector<std::string> measures;
   bool limit = false;
   std::size_t list = 0;         // --list
@@ -51,7 +52,7 @@ std::vector<std::string> list_measures(const std::vector<std::string>& names) {
   return list;
 }
 
-void print_json(const QualityOptions& options, const Measurement& measured) {
+nlohmann::json figures_of(const QualityOptions& options, const Measurement& measured) {
   nlohmann::json result = tetmend::to_json(measured.statistics);
   result["file"] = shown(options.file);
   result["build"] = to_json(measured.build);
@@ -64,40 +65,62 @@ void print_json(const QualityOptions& options, const Measurement& measured) {
     result["measures"][std::string(summary.name)] = {{"worst", summary.worst},
                                                      {"mean", summary.mean}};
   }
-  apps::print_json(result);
+  return result;
 }
 
-int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
-  name_streams(options.format, options.file, nullptr);
-  check_input_format(options.file, parts);
-  if (!options.cells.empty()) {
-    check_mesh_extension(options.cells);
-    const NamedFile input = {"FILE", options.file, NamedFile::Kind::mesh};
-    const NamedFile cells = {"--cells", options.cells, NamedFile::Kind::mesh};
-    prepare_files({&input, 1}, {&cells, 1}, parts);
+/// Of several meshes: the figures of a line, and what is the worst of all in each column.
+struct Row {
+  std::size_t tets = 0;
+  std::size_t n_bad = 0;
+  double theta_min = 180;
+  double theta_max = 0;
+  double mean_ratio = 1;
+
+  void include(const Row& other) {
+    tets = std::max(tets, other.tets);
+    n_bad = std::max(n_bad, other.n_bad);
+    theta_min = std::min(theta_min, other.theta_min);
+    theta_max = std::max(theta_max, other.theta_max);
+    mean_ratio = std::min(mean_ratio, other.mean_ratio);
   }
-  const MeasureOptions wanted = {.measure = list_measures(options.measures),
-                                 .limit = options.limit,
-                                 .bad_tets = options.list > 0 || !options.cells.empty(),
-                                 .threads = options.threads};
+  std::string text(std::string_view name) const {
+    return fmt::format("{:>11} {:>9} {:>9.4g} {:>9.4g} {:>10.4g}  {}\n", grouped(tets),
+                       grouped(n_bad), theta_min, theta_max, mean_ratio, name);
+  }
+};
+
+Row to_row(const Measurement& measured) {
+  const MeshStatistics& of = measured.statistics;
+  return {of.tets, of.n_bad, of.theta_min, of.theta_max,
+          measured.rulers ? (*measured.rulers)[Ruler::mean_ratio].mean : 1};
+}
+
+/// @throws UsageError
+MeasureOptions to_wanted(const QualityOptions& options) {
+  MeasureOptions wanted = {.measure = list_measures(options.measures),
+                           .limit = options.limit,
+                           .bad_tets = options.list > 0 || !options.cells.empty(),
+                           .threads = options.threads};
   try {
     check(wanted);
   } catch (const OptionError& error) {
     throw UsageError(fmt::format("--{}", error.what()));
   }
+  return wanted;
+}
+
+Measurement measure_file(const QualityOptions& options, const MeasureOptions& wanted,
+                         const pieces::ArrayFiles* parts) {
   Mesh mesh = load_whole(options.file, options.threads, parts);
   std::vector<std::string> dropped = mesh.notes();
   std::erase_if(dropped, [](const auto& note) { return !formats::tells_of_dropped(note); });
   Measurement measured =
       in_parts(options.file, parts, [&] { return measure(std::move(mesh), wanted); });
   measured.notes.insert(measured.notes.begin(), dropped.begin(), dropped.end());
-  if (!options.cells.empty()) {
-    write_bad_tets(read_whole(options.file, parts), options.cells, measured.bad_tets);
-  }
-  if (options.json) {
-    print_json(options, measured);
-    return 0;
-  }
+  return measured;
+}
+
+void print_text(const QualityOptions& options, const Measurement& measured) {
   say(stdout, fmt::format("{}\n\n", shown(options.file)));
   std::string notes = format_build(measured.build);
   for (const std::string& note : measured.notes) notes += fmt::format("note: {}\n", note);
@@ -109,7 +132,64 @@ int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
   if (measured.limit) say(stdout, fmt::format("\n{}", format_limit(*measured.limit)));
   if (options.list > 0)
     say(stdout, fmt::format("\n{}", format_bad_tets(measured.bad_tets, options.list)));
-  return 0;
+}
+
+/// A line each, and one of the worst. A file that cannot be read is named, and the others follow.
+int run_several(QualityOptions& options, const pieces::ArrayFiles* parts) {
+  if (options.limit || options.list > 0 || !options.cells.empty()) {
+    throw UsageError("--limit, --list and --cells take one mesh");
+  }
+  if (!options.measures.empty() && !options.json) {
+    throw UsageError("--measure takes one mesh, or --json");
+  }
+  const MeasureOptions wanted = to_wanted(options);
+  for (const auto& file : options.files) check_input_format(file, parts);
+  if (!options.json) {
+    say(stdout, fmt::format("{:>11} {:>9} {:>9} {:>9} {:>10}  {}\n", "tets", "bad tets",
+                            "theta_min", "theta_max", "mean ratio", "mesh"));
+  }
+  Row worst;
+  std::size_t measured_files = 0;
+  for (const auto& file : options.files) {
+    options.file = file;
+    try {
+      const Measurement measured = measure_file(options, wanted, parts);
+      ++measured_files;
+      worst.include(to_row(measured));
+      if (options.json) {
+        say(stdout, printable_for("standard output", figures_of(options, measured)).dump() + '\n');
+      } else {
+        say(stdout, to_row(measured).text(shown(file)));
+      }
+    } catch (const Error& error) {
+      complain(kFailed, error.what());
+    }
+  }
+  if (measured_files > 1 && !options.json) say(stdout, worst.text("the worst of each"));
+  return measured_files == options.files.size() ? kSuccess : kFailed;
+}
+
+int run_quality(QualityOptions& options, const pieces::ArrayFiles* parts) {
+  if (options.files.size() > 1) return run_several(options, parts);
+  options.file = options.files.front();
+  name_streams(options.format, options.file, nullptr);
+  check_input_format(options.file, parts);
+  if (!options.cells.empty()) {
+    check_mesh_extension(options.cells);
+    const NamedFile input = {"FILE", options.file, NamedFile::Kind::mesh};
+    const NamedFile cells = {"--cells", options.cells, NamedFile::Kind::mesh};
+    prepare_files({&input, 1}, {&cells, 1}, parts);
+  }
+  const Measurement measured = measure_file(options, to_wanted(options), parts);
+  if (!options.cells.empty()) {
+    write_bad_tets(read_whole(options.file, parts), options.cells, measured.bad_tets);
+  }
+  if (options.json) {
+    print_json(figures_of(options, measured));
+  } else {
+    print_text(options, measured);
+  }
+  return kSuccess;
 }
 
 template <class Infos>
@@ -136,9 +216,12 @@ std::string measure_list() {
 
 void add_quality(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<QualityOptions>();
-  CLI::App* command = app.add_subcommand("quality", "Print the statistics of a mesh");
-  command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
-  command->add_flag("--json", options->json, "Print JSON");
+  CLI::App* command = app.add_subcommand(
+      "quality", "Print the statistics of a mesh, or a line for each of several");
+  command->add_option("FILE", options->files, "Mesh; several give a line each and one of the worst")
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", options->json, "Print JSON; of several meshes a line each");
   command
       ->add_option(
           "--measure", options->measures,
@@ -185,8 +268,9 @@ Examples:
   tetmend quality part.mesh --limit
   tetmend quality part.vtk --measure radius_ratio --measure mean_ratio --json
   tetmend quality part.msh --list 20 --cells bad.vtu
+  tetmend quality results/*.vtu
 
-Exit status: 0 success, 1 the file cannot be read, 2 wrong usage)",
+Exit status: 0 success, 1 a file cannot be read, 2 wrong usage)",
                               ruler_list(kRulers), ruler_list(kSolverRulers), measure_list(),
                               mesh_format_list(), parts_help()));
   command->callback([options, &invocation] {

@@ -25,6 +25,7 @@
 #include "apps/files.h"
 #include "apps/help_formatter.h"
 #include "apps/interruption.h"
+#include "apps/nearest_word.h"
 #include "apps/standard_streams.h"
 #include "kernel/quality.h"
 #include "pieces/partitioned_files.h"
@@ -39,7 +40,7 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
       "tetmend improves tetrahedral meshes: it removes slivers and raises the worst\n"
       "dihedral angles while the surface stays exactly as it was.",
       "tetmend");
-  app->set_version_flag("--version", fmt::format("tetmend {}", version()));
+  app->set_version_flag("-V,--version", fmt::format("tetmend {}", version()));
   app->require_subcommand(1);
   app->allow_windows_style_options(false);  // /FOLDER/FILE is no option, there neither
   app->formatter(std::make_shared<HelpFormatter>());
@@ -49,7 +50,7 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
 Examples:
   tetmend improve part.mesh -o better.mesh     improve a mesh
   tetmend quality better.mesh                  look at its dihedral angles
-  tetmend improve --help                       all about one subcommand
+  tetmend help improve                         all about one subcommand
 
 Exit status: 0 success, 1 the work failed and OUT is as it was, 2 wrong
 usage, 3 written, but a goal that was asked for is missed, 4 written, but
@@ -96,6 +97,20 @@ void print_description(const CLI::App& app) {
   fmt::print("{}\n", description.dump(1));
 }
 
+std::vector<std::string> list_subcommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> list_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
 /// The parser's own messages come from another check first where a word is unknown, and do not say
 /// which subcommands there are.
 std::string describe(const CLI::ParseError& error, const CLI::App& app,
@@ -103,18 +118,21 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
   const auto chosen = app.get_subcommands();
   for (const std::string& word : app.remaining(true)) {
     if (!word.starts_with("-")) continue;
-    const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
-    return fmt::format("unknown option '{}' (see tetmend{} --help)", word, command);
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    return fmt::format("unknown option '{}'{} (see tetmend{} --help)", word,
+                       guess(word.substr(0, word.find('=')), list_options(command)),
+                       chosen.empty() ? "" : " " + command.get_name());
   }
   if (!chosen.empty()) {
     return fmt::format("{} (see tetmend {} --help)", error.what(), chosen.front()->get_name());
   }
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::vector<std::string> names = list_subcommands(app);
   for (const std::string& argument : invocation.arguments) {
     if (argument.starts_with("-")) continue;
-    return fmt::format("unknown subcommand '{}': expected one of {}", argument,
-                       fmt::join(names, ", "));
+    const std::string meant = guess(argument, names);
+    return fmt::format("unknown subcommand '{}'{}", argument,
+                       meant.empty() ? fmt::format(": expected one of {}", fmt::join(names, ", "))
+                                     : fmt::format("{} (see tetmend --help)", meant));
   }
   if (invocation.arguments.empty()) {
     return fmt::format("a subcommand is missing: expected one of {} (see tetmend --help)",
@@ -123,10 +141,26 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
   return fmt::format("{} (see tetmend --help)", error.what());
 }
 
+/// `tetmend help COMMAND` is `tetmend COMMAND --help`.
+void ask_for_help(std::vector<std::string>& arguments, const CLI::App& app) {
+  arguments.erase(arguments.begin());
+  const std::vector<std::string> names = list_subcommands(app);
+  const bool is_known = arguments.size() == 1 &&
+                        std::find(names.begin(), names.end(), arguments.front()) != names.end();
+  if (!arguments.empty() && !is_known) {
+    throw UsageError(fmt::format("help: '{}' is no subcommand: expected one of {}",
+                                 fmt::join(arguments, " "), fmt::join(names, ", ")));
+  }
+  arguments.emplace_back("--help");
+}
+
 int run(int argc, char** argv, Invocation& invocation) {
   invocation.arguments = platform::arguments(argc, argv);
   if (!invocation.arguments.empty()) invocation.arguments.erase(invocation.arguments.begin());
   const auto app = make_parser(invocation);
+  if (!invocation.arguments.empty() && invocation.arguments.front() == "help") {
+    ask_for_help(invocation.arguments, *app);
+  }
   if (invocation.arguments == std::vector<std::string>{std::string(kDescribe)}) {
     print_description(*app);
     return kSuccess;

@@ -12,7 +12,7 @@ namespace tetmend::apps {
 void add_threads_option(CLI::App& command, int& threads) {
   command
       .add_option_function<std::string>(
-          "--threads",
+          "-j,--threads",
           [&threads](const std::string& text) {
             Options options;
             try {

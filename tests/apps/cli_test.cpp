@@ -149,7 +149,8 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
       {"improve", mesh, "-o", out, "--report", out},
       {"improve", mesh, "-o", (folder / "out.stl").string()},
       {"quality"},
-      {"quality", mesh, mesh},
+      {"quality", mesh, mesh, "--list", "2"},
+      {"quality", mesh, mesh, "--measure", "radius_ratio"},
       {"quality", mesh, "--measure", "beauty"},
       {"convert", mesh},
       {"convert", mesh, (folder / "out").string()},
@@ -168,6 +169,42 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
   CHECK(contains(run_program({"polish"}).err, "improve, quality, check, convert"));
   CHECK(contains(run_program({"improve", mesh, "-o", out, "--polish"}).err, "--polish"));
   CHECK(contains(run_program(wrong[12]).err, "shell"));
+}
+
+TEST_CASE("a mistyped option or subcommand is told with what was meant") {
+  const std::string mesh = asset("sheet.mesh");
+  CHECK(contains(run_program({"imrpove", mesh}).err, "did you mean 'improve'?"));
+  CHECK(contains(run_program({"improve", mesh, "-o", "o.mesh", "--shedule", "shell"}).err,
+                 "unknown option '--shedule': did you mean '--schedule'?"));
+  CHECK(contains(run_program({"improve", mesh, "-o", "o.mesh", "--shedule=shell"}).err,
+                 "did you mean '--schedule'?"));
+  const auto unlike = run_program({"quality", mesh, "--smooth"});
+  CHECK(contains(unlike.err, "unknown option '--smooth' (see tetmend quality --help)"));
+}
+
+TEST_CASE("help and its short forms") {
+  CHECK(run_program({"help"}).out == run_program({"--help"}).out);
+  CHECK(run_program({"help", "quality"}).out == run_program({"quality", "--help"}).out);
+  CHECK(run_program({"-V"}).out == run_program({"--version"}).out);
+  check_complaint(run_program({"help", "qualty"}), 2);
+}
+
+TEST_CASE("several meshes are measured a line each, and one that cannot be read stops no other") {
+  const TempFolder folder;
+  const std::string sheet = asset("sheet.mesh");
+  const std::string two = asset("two_materials.mesh");
+  const auto all = run_program({"quality", sheet, two, "-j", "2"});
+  CHECK(all.status == 0);
+  CHECK(std::count(all.out.begin(), all.out.end(), '\n') == 4);
+  CHECK(contains(all.out, "mean ratio  mesh"));
+  CHECK(contains(all.out, sheet));
+  const auto alone = nlohmann::json::parse(run_program({"quality", two, "--json"}).out);
+  const auto lines = run_program({"quality", sheet, two, "--json"}).out;
+  CHECK(nlohmann::json::parse(lines.substr(lines.find('\n') + 1)) == alone);
+  const auto some = run_program({"quality", sheet, (folder / "none.mesh").string(), two});
+  CHECK(some.status == 1);
+  CHECK(some.out == all.out);
+  CHECK(contains(some.err, "none.mesh"));
 }
 
 #ifndef TETMEND_HAS_OPENMESH

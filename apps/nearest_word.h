@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What somebody who mistyped a word may have meant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tetmend::apps {
+
+/// The candidate of the fewest letters that are to be added, left out, replaced or swapped with the
+/// next one; of equal ones the first. Empty where that is more than a third of the word: then it is
+/// rather another word. Cost: quadratic in the lengths.
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+/// ": did you mean 'WORD'?", or nothing.
+std::string guess(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace tetmend::apps
