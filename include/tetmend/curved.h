@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include <tetmend/cxx20.h>
+
 namespace tetmend {
 
 /// Least by greatest Jacobian determinant of the map from a straight tet: 1 for a straight one, 0 or

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tetmend/api.h>
+#include <tetmend/cxx20.h>
 
 namespace tetmend {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <tetmend/api.h>
+#include <tetmend/cxx20.h>
 
 namespace tetmend {
 

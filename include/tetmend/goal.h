@@ -2,6 +2,8 @@
 // What a run works towards.
 #pragma once
 
+#include <tetmend/cxx20.h>
+
 namespace tetmend {
 
 /// No dihedral angle of a tet under `min_angle` or over `max_angle`, in degrees. A tet that misses

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <tetmend/cxx20.h>
+
 namespace tetmend {
 
 /// A measure of a whole mesh as another program defines it; kRulers has formulas.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include <tetmend/cxx20.h>
+
 namespace tetmend {
 
 /// How an attempt of an operator ended.

@@ -35,6 +35,17 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 
+# Where it is compiled for an older standard, one sentence says so; the header for C takes any.
+file(WRITE ${WORK}/old.cpp "#include <tetmend/improve.h>\n")
+execute_process(COMMAND ${COMPILER} -std=c++17 -fsyntax-only -I${WORK}/prefix/include ${WORK}/old.cpp
+                RESULT_VARIABLE status ERROR_VARIABLE output)
+if(status EQUAL 0)
+  message(FATAL_ERROR "tetmend's headers compile as C++17")
+endif()
+expect("The C++ headers of tetmend need C++20")
+file(WRITE ${WORK}/old.cpp "#include <tetmend/tetmend.h>\nint main() { return 0; }\n")
+run(${COMPILER} -std=c++11 -fsyntax-only -I${WORK}/prefix/include ${WORK}/old.cpp)
+
 # What users see of it is one folder. Programs need nothing but the standard library, plugins Eigen as well.
 file(GLOB_RECURSE headers ${WORK}/prefix/include/*.h)
 file(GLOB packages ${WORK}/prefix/lib*/cmake/tetmend ${WORK}/prefix/lib/*/cmake/tetmend)
