@@ -22,7 +22,7 @@ std::string event_text(const TraceFile& file, std::uint64_t position) {
     case EventKind::attempt_begins:
       return fmt::format("call {} begins", call);
     case EventKind::attempt_ends:
-      return fmt::format("call {} ends: {}", call, to_string(event.verdict));
+      return fmt::format("call {} ends: {}", call, file.calls()[call].verdict_in_words());
     case EventKind::replace_cavity:
       return fmt::format("{} tets are replaced by {}", event.removed.size(), event.created.size());
     case EventKind::move_vertex:

@@ -35,7 +35,7 @@ std::span<const Command> commands() {
     std::vector<Command> list;
     for (const auto group :
          {file_commands(), figure_commands(), view_commands(), show_commands(), select_commands(),
-          trace_commands(), history_commands(), live_commands(), script_commands()}) {
+          trace_commands(), history_commands(), ledger_commands(), live_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;

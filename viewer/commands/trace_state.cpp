@@ -89,9 +89,11 @@ json call_state(Document& document, std::uint32_t number) {
           {"target", target},
           {"level", call.level},
           {"verdict", outcome_text(call, debugger.position())},
+          {"undone_with", call.undone_with == kNoCall ? json() : json(call.undone_with)},
           {"degree_before", facts.degree_before},
           {"degree_after", facts.degree_after},
-          {"line", code.line}};
+          {"line", code.line},
+          {"goes_on", code.goes_on}};
 }
 
 }  // namespace

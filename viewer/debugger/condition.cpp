@@ -27,10 +27,12 @@ struct Form {
   std::size_t values;
   std::string_view usage;
 };
-constexpr std::array<Form, 13> kForms = {
+constexpr std::array<Form, 15> kForms = {
     {{Kind::accepted, "accepted", false, 0, 0, "accepted"},
+     {Kind::undone, "undone", false, 0, 0, "undone"},
      {Kind::refused, "refused", false, 0, 0, "refused"},
      {Kind::verdict, "verdict", true, 0, 0, "verdict NAME"},
+     {Kind::ending, "ending", true, 0, 0, "ending NAME"},
      {Kind::deeper, "deeper", false, 1, 0, "deeper LEVEL"},
      {Kind::level, "level", false, 1, 0, "level LEVEL"},
      {Kind::operator_name, "operator", true, 0, 0, "operator NAME"},
@@ -46,11 +48,15 @@ constexpr std::array<Form, 13> kForms = {
   throw Error(fmt::format("'{}' is no place to stop at: expected {}", part, condition_usage()));
 }
 
-/// "no_improvement": a verdict as one word.
-std::string word_of(Verdict verdict) {
-  std::string word(to_string(verdict));
+/// As one word: "no_improvement".
+std::string joined(std::string_view words) {
+  std::string word(words);
   std::replace(word.begin(), word.end(), ' ', '_');
   return word;
+}
+
+std::string word_of(Verdict verdict) {
+  return joined(to_string(verdict));
 }
 
 void check_verdict(const std::string& name) {
@@ -60,6 +66,13 @@ void check_verdict(const std::string& name) {
   }
   if (std::find(words.begin(), words.end(), name) != words.end()) return;
   throw Error(fmt::format("'{}' is no verdict: expected {}", name, fmt::join(words, ", ")));
+}
+
+void check_ending(const std::string& name) {
+  std::vector<std::string> words;
+  for (const EndingWords& ending : kEndingWords) words.push_back(joined(ending.name));
+  if (std::find(words.begin(), words.end(), name) != words.end()) return;
+  throw Error(fmt::format("'{}' is no way to end: expected {}", name, fmt::join(words, ", ")));
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -102,6 +115,7 @@ Term read_term(std::span<const std::string> words) {
       rest = rest.subspan(1);
     }
     if (form.kind == Kind::verdict) check_verdict(term.name);
+    if (form.kind == Kind::ending) check_ending(term.name);
     for (std::size_t i = 0; i < form.numbers; ++i) {
       term.numbers.push_back(read_number(rest[i], part));
     }
@@ -146,7 +160,7 @@ bool touches(const TraceEvent& event, const Term& term) {
 class Search {
  public:
   Search(const ConditionSource& source, const Condition& condition)
-      : file_(source.file), replay_(source.replay), trials_(source.trials), condition_(condition) {
+      : file_(source.file), replay_(source.replay), condition_(condition) {
     for (const Term& term : condition.terms) at_end_ = at_end_ || is_about_end(term);
   }
 
@@ -157,6 +171,18 @@ class Search {
     if (std::none_of(terms.begin(), terms.end(), is_about_edit)) return nearest;
     const auto edit = forward ? edit_after(from, nearest) : edit_before(from, nearest);
     return edit ? edit : nearest;
+  }
+
+  std::vector<std::uint32_t> all() {
+    std::vector<std::uint32_t> found;
+    const auto calls = file_.calls();
+    for (std::uint32_t k = 0; k < calls.size(); ++k) {
+      if (stop_of(k)) found.push_back(k);
+    }
+    std::stable_sort(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return calls[a].missing() < calls[b].missing();
+    });
+    return found;
   }
 
  private:
@@ -172,7 +198,7 @@ class Search {
   bool holds_of(std::uint32_t number, bool with_edit) {
     const Call& call = file_.calls()[number];
     ConditionCall asked{file_.name(call.operator_name), call.level, call.target(), call.verdict,
-                        worst_before(number)};
+                        worst_before(number), file_.ending(call)};
     const PlaceOf place_of = [&](VertexHandle v) -> std::optional<Point> {
       replay_.seek(call.events.begin);
       if (replay_.mesh().is_deleted(v)) return std::nullopt;
@@ -182,7 +208,8 @@ class Search {
       if (with_edit && is_about_edit(term)) continue;
       if (!holds(term, asked, place_of)) return false;
     }
-    return !condition_.for_good || with_edit || !trials_.is_undone(call.events.begin);
+    if (!condition_.for_good || with_edit) return true;
+    return !file_.is_undone(at_end_ ? call.events.end - 1 : call.events.begin);
   }
 
   /// Of the tets that it compared, or else the tet that the pass turned to.
@@ -238,7 +265,7 @@ class Search {
     for (const Term& term : condition_.terms) {
       if (is_about_edit(term) && !touches(event, term)) return false;
     }
-    if (condition_.for_good && trials_.is_undone(number)) return false;
+    if (condition_.for_good && file_.is_undone(number)) return false;
     const auto& terms = condition_.terms;
     if (std::all_of(terms.begin(), terms.end(), is_about_edit)) return true;
     const std::uint32_t call = file_.call_at(number);
@@ -278,12 +305,15 @@ class Search {
 
   const TraceFile& file_;
   Replay& replay_;
-  Trials& trials_;
   const Condition& condition_;
   bool at_end_ = false;
 };
 
 }  // namespace
+
+std::string word_of(Ending ending) {
+  return joined(name_of(ending));
+}
 
 std::string condition_usage() {
   std::vector<std::string_view> usages;
@@ -326,7 +356,12 @@ std::string to_text(const Condition& condition) {
 }
 
 bool is_about_end(const Term& term) {
-  return term.kind == Kind::accepted || term.kind == Kind::refused || term.kind == Kind::verdict;
+  return term.kind == Kind::accepted || term.kind == Kind::refused ||
+         term.kind == Kind::verdict || is_about_record(term);
+}
+
+bool is_about_record(const Term& term) {
+  return term.kind == Kind::undone || term.kind == Kind::ending;
 }
 
 bool is_about_edit(const Term& term) {
@@ -337,6 +372,10 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
   switch (term.kind) {
     case Kind::accepted:
       return call.verdict == Verdict::accepted;
+    case Kind::undone:
+      return call.ending == Ending::undone;
+    case Kind::ending:
+      return call.ending && word_of(*call.ending) == term.name;
     case Kind::refused:
       return call.verdict && call.verdict != Verdict::accepted;
     case Kind::verdict:
@@ -368,6 +407,14 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
 std::optional<std::uint64_t> find_stop(const ConditionSource& source, const Condition& condition,
                                        std::uint64_t from, Direction direction) {
   return Search(source, condition).find(from, direction);
+}
+
+std::vector<std::uint32_t> find_all(const ConditionSource& source, const Condition& condition) {
+  for (const Term& term : condition.terms) {
+    if (term.kind != Kind::tet) continue;
+    throw Error(fmt::format("'{}' is about edits, and no list of calls", to_text(condition)));
+  }
+  return Search(source, condition).all();
 }
 
 }  // namespace tetmend::viewer

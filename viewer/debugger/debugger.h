@@ -18,7 +18,7 @@
 #include "kernel/tet_mesh.h"
 #include "trace/history.h"
 #include "trace/replay.h"
-#include "trace/trials.h"
+#include "trace/run_comparison.h"
 #include "viewer/debugger/call_list.h"
 #include "viewer/debugger/condition.h"
 #include "viewer/debugger/explained.h"
@@ -57,7 +57,7 @@ class Debugger {
 
   std::vector<Breakpoint> breakpoints;
   std::map<std::uint64_t, std::string> bookmarks;  ///< by position
-  std::string typed_condition = "accepted";        ///< what the user is about to run to
+  std::string typed_condition = "accepted for good";  ///< what the user is about to run to
 
   // Play: as many events a second as `speed` says.
   bool playing = false;
@@ -91,6 +91,15 @@ class Debugger {
   /// The last answer.
   const std::optional<History>& history() const { return history_; }
   std::string asked;  ///< what the user is about to ask
+  /// The whole of the run. Made once, see make_ledger().
+  const Ledger& ledger();
+  /// Lists the calls of a condition, and keeps the list. Stays where it is. @throws Error as find_all()
+  void list_calls(const Condition& condition);
+  const std::optional<FoundCalls>& found() const { return found_; }
+  void forget_found() { found_.reset(); }
+  /// @throws Error as TraceFile does. Cost: see compare_runs().
+  void compare_with(const std::filesystem::path& file);
+  const std::optional<OtherRun>& other() const { return other_; }
   const std::optional<Lesson>& lesson() const { return lesson_; }
   /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
   /// call.
@@ -101,11 +110,10 @@ class Debugger {
 
  private:
   std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
-  ConditionSource source() { return {file_, replay_, trials_}; }
+  ConditionSource source() { return {file_, replay_}; }
 
   TraceFile file_;
   Replay replay_;
-  Trials trials_;
   Timeline timeline_;
   TraceMesh trace_mesh_;
   FactTable facts_;
@@ -113,6 +121,9 @@ class Debugger {
   std::vector<std::uint32_t> stack_;
   std::optional<CallStudy> study_;
   std::optional<History> history_;
+  std::optional<Ledger> ledger_;
+  std::optional<FoundCalls> found_;
+  std::optional<OtherRun> other_;
   std::optional<Lesson> lesson_;
   double unplayed_ = 0;  // share of an event
 };

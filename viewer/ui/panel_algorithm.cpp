@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "explain/paper_lines.h"
@@ -82,9 +83,7 @@ float algorithm_height(const Session& session) {
   const auto& stack = debugger.stack();
   const bool has_code =
       !stack.empty() || pass_place(debugger.file(), stack, debugger.position()).code != nullptr;
-  if (!has_code) {
-    return ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
-  }
+  if (!has_code) return 0;
   return kMostLines * (ImGui::GetTextLineHeight() + kGap) +
          (kCallerLines + 1) * ImGui::GetTextLineHeightWithSpacing() +
          2 * ImGui::GetStyle().WindowPadding.y;
@@ -99,7 +98,7 @@ void draw_algorithm_panel(Session& session) {
   const CodePlace pass = pass_place(debugger.file(), stack, debugger.position());
   const CodePlace here = stack.empty() ? pass : place_of(stack.size() - 1);
   if (here.code == nullptr) {
-    ImGui::TextDisabled(stack.empty() ? "no call here" : "an operator that is not described");
+    if (!stack.empty()) ImGui::TextDisabled("an operator that is not described");
     return;
   }
   show_code(*here.code, here.line, is_new_place(debugger.position()));
@@ -109,7 +108,9 @@ void draw_algorithm_panel(Session& session) {
   const std::string_view title = caller.code->title;
   const std::string name(title.substr(0, title.find(':')));
   ImGui::TextDisabled("called from line %u of %s:", caller.line, name.c_str());
-  ImGui::TextWrapped("%s", caller.code->lines[caller.line - 1].data());
+  const std::string_view line = caller.code->lines[caller.line - 1];
+  const std::string on = caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
+  ImGui::TextWrapped("%s%s", line.data(), on.c_str());
 }
 
 }  // namespace tetmend::viewer::ui

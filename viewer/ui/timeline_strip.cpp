@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "explain/icicle.h"
-#include "explain/outcome_colour.h"
+#include "explain/outcome_look.h"
 #include "kernel/grouped.h"
 #include "viewer/ui/drawing_canvas.h"
 
@@ -151,11 +151,17 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
   const float left = band.corner.x + band.size.x * static_cast<float>(bar.left);
   const float right = band.corner.x + band.size.x * static_cast<float>(bar.right);
   const float top = band.corner.y + height * static_cast<float>(bar.row);
-  Colour colour = outcome_colour(outcome_of(call));
+  const Outcome outcome = outcome_of(call);
+  Colour colour = outcome_colour(outcome);
   if (bar.count > 1) colour.alpha = 120;
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddRectFilled({left, top}, {std::max(right - 1, left + 1), top + height - 1},
                       to_imgui(colour), 2);
+  if (bar.count == 1 && outcome == Outcome::undone) {
+    figure::Drawing hatching;
+    add_hatching(hatching, {left, top}, right - 1 - left, height - 1);
+    paint(hatching, *list);
+  }
   if (is_pointed && bar.count == 1) {
     list->AddRectFilled({left, top}, {right - 1, top + height - 1}, to_imgui(kPointedColour), 2);
   }
@@ -165,9 +171,16 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
   }
   if (bar.count > 1) return;
   if (height < ImGui::GetFontSize()) return;
-  write_inside(left, right, top,
+  const float mark = ImGui::GetFontSize();
+  if (right - left < 1.4F * mark) return;
+  list->AddRectFilled({left + 1, top + 1}, {left + mark + 1, top + height - 2}, IM_COL32_WHITE, 2);
+  figure::Drawing drawing;
+  add_mark(drawing, outcome, {left + 1 + 0.15 * mark, top + (height - 0.7 * mark) / 2}, 0.7 * mark);
+  paint(drawing, *list);
+  const bool is_pale = is_pointed || outcome == Outcome::undone;
+  write_inside(left + mark, right, top,
                fmt::format("{} {}", short_name(debugger.file(), call), format_target(call)),
-               is_pointed ? IM_COL32_BLACK : IM_COL32_WHITE);
+               is_pale ? IM_COL32_BLACK : IM_COL32_WHITE);
 }
 
 void draw_icicles(Session& session, const Band& band, const CallWindow& window) {

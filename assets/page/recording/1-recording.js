@@ -5,8 +5,8 @@ const recording = JSON.parse(document.getElementById("recording").textContent);
 const points = recording.points.map(([vertex, ...place]) => ({vertex, place}));
 const tets = recording.tets.map(([a, b, c, d, quality]) => ({corners: [a, b, c, d], quality}));
 const calls = new Map(Object.entries(recording.calls).map(([number, call]) => [Number(number), {number: Number(number), ...call}]));
-const steps = recording.steps.map(([position, event, call, lines, passLine, ways, gone, come]) =>
-  ({position, event, call, lines, passLine, ways, gone, come}));
+const steps = recording.steps.map(([position, event, call, lines, passLine, ways, gone, come, goesOn]) =>
+  ({position, event, call, lines, passLine, ways, gone, come, goesOn}));
 for (const call of calls.values()) {
   if (call.shell !== undefined) call.shell = {...recording.shells[call.shell], ...call.made};
 }

@@ -22,7 +22,7 @@ class Trace:
     as the run numbered them. The calls that call c makes are those from c + 1 up to before its 'subtree_end'.
 
         trace = tetmend.Trace("run.trace")
-        accepted = sum(call["accepted"] for call in trace.calls())
+        lasting = sum(call["for_good"] for call in trace.calls())
         trace.mesh_at(trace.call(17)["events"][0]).save("then.vtu")
     """
 
@@ -114,6 +114,19 @@ class Trace:
     def mesh_at(self, n: int) -> Mesh:
         """The mesh after the first n events. Takes a microsecond for each of them."""
         return Mesh._of(self._core.mesh_at(self._number("n", n)))
+
+    def ledger(self) -> list[dict[str, Any]]:
+        """The whole of the run: a dict for each operator, level of recursion and way to end.
+
+        Keys are operator, level, ending, reason, refused, calls, share (of the operator's calls on the level) and seconds (of these
+        calls, without calls in them). Each call is in one of them: `pandas.DataFrame(trace.ledger())` is a table of all.
+        Takes a tenth of a microsecond for each call.
+        """
+        return self._core.ledger()
+
+    def calls_of(self, entry: dict[str, Any]) -> list[int]:
+        """The calls of an entry of the ledger, by number; those nearest to being accepted come first."""
+        return self._core.calls_of(entry["operator"], entry["level"], entry["ending"])
 
     def summary(self) -> str:
         """As `tetmend trace FILE` prints it."""
