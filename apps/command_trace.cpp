@@ -134,12 +134,11 @@ std::string ledger(const TraceOptions& options, const TraceFile& file) {
 }
 
 std::string comparison(const TraceOptions& options, const TraceFile& file) {
-  constexpr std::size_t kMostHistories = 3;
   const TraceFile other(options.against);
   if (!other.damage().empty()) complain(kSuccess, "warning: " + other.damage());
   const RunComparison made = compare_runs(file, other);
   return options.json ? comparison_json(file, other, made)
-                      : format_comparison(file, other, made, kMostHistories);
+                      : format_comparison(file, other, made);
 }
 
 void write_text(const std::filesystem::path& file, std::string_view text) {

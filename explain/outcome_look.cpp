@@ -107,4 +107,17 @@ void add_hatching(figure::Drawing& drawing, Place corner, double width, double h
   }
 }
 
+void add_shares(figure::Drawing& drawing, std::span<const std::uint32_t, kOutcomeCount> ended,
+                Place corner, double width, double height) {
+  double all = 0;
+  for (const std::uint32_t count : ended) all += count;
+  double y = corner.y;
+  for (std::size_t i = 0; i < kOutcomeCount; ++i) {
+    if (ended[i] == 0) continue;
+    const double part = height * ended[i] / all;
+    drawing.rectangle({corner.x, y}, width, part, outcome_colour(static_cast<Outcome>(i)));
+    y += part;
+  }
+}
+
 }  // namespace tetmend::explain

@@ -23,4 +23,8 @@ void add_mark(figure::Drawing& drawing, Outcome outcome, figure::Place corner, d
 /// Slanted white lines over the bar of a call that was undone.
 void add_hatching(figure::Drawing& drawing, figure::Place corner, double width, double height);
 
+/// A bar of many calls: as much of its height in each colour as ended so. `ended` is by Outcome.
+void add_shares(figure::Drawing& drawing, std::span<const std::uint32_t, kOutcomeCount> ended,
+                figure::Place corner, double width, double height);
+
 }  // namespace tetmend::explain

@@ -173,7 +173,7 @@ class Recording {
         {"begin", range_.begin},     {"goal", describe(standard_)},  {"start", std::move(start)},
         {"steps", std::move(steps)}, {"calls", std::move(calls)},    {"shells", std::move(shells_)},
         {"codes", make_codes()},     {"points", interned_.points()}, {"tets", interned_.tets()},
-        {"outcomes", outcomes()}};
+        {"outcomes", outcomes()},    {"visits", visits()}};
   }
 
  private:
@@ -187,8 +187,12 @@ class Recording {
     cursor.move_to(range_.begin);
     std::uint32_t next = first_call();
     while (cursor.position() < range_.end) {
-      const EventKind kind = cursor.next().kind;
-      if (changes_mesh(kind)) {
+      const TraceEvent& event = cursor.next();
+      const EventKind kind = event.kind;
+      if (kind == EventKind::visit_begins && !takes_all_) {
+        replay_.seek(cursor.position());
+        take_visit({event.vertices[0], event.vertices[1], event.vertices[2], event.vertices[3]});
+      } else if (changes_mesh(kind)) {
         replay_.seek(cursor.position());
         for (const CavityTet& t : replay_.cavity().removed) slots_.insert(t.tet.index());
         for (const CavityTet& t : replay_.cavity().created) slots_.insert(t.tet.index());
@@ -201,9 +205,18 @@ class Recording {
     }
   }
 
-  void take_target(std::uint32_t call) {
-    for (const TetHandle t : replay_.tets_around(file_.calls()[call].target())) {
-      slots_.insert(t.index());
+  void take_target(std::uint32_t call) { take_around(file_.calls()[call].target()); }
+
+  void take_around(std::span<const VertexHandle> vertices) {
+    for (const TetHandle t : replay_.tets_around(vertices)) slots_.insert(t.index());
+  }
+
+  /// A tet that a pass turns to, and its neighbours.
+  void take_visit(const TetVertices& tet) {
+    for (unsigned f = 0; f < 4; ++f) {
+      std::array<VertexHandle, 3> face;
+      for (unsigned k = 0; k < 3; ++k) face[k] = tet[(f + 1 + k) % 4];
+      take_around(face);
     }
   }
 
@@ -313,6 +326,16 @@ class Recording {
       named[std::string(name_of(outcome))] = {{"name", outcome_name(outcome)}, {"mark", lines}};
     }
     return named;
+  }
+
+  /// First and last position of each that is seen, and its tet.
+  Json visits() const {
+    Json list = Json::array();
+    for (const Visit& visit : file_.visits()) {
+      if (visit.events.begin >= range_.end || visit.events.end <= range_.begin) continue;
+      list.push_back({visit.events.begin + 1, visit.events.end, numbers_of(visit.tet)});
+    }
+    return list;
   }
 
   Json make_calls() {

@@ -8,8 +8,10 @@
 
 #include "face/mesh_access.h"
 #include "trace/call_tree.h"
+#include "trace/history.h"
 #include "trace/ledger.h"
 #include "trace/replay.h"
+#include "trace/run_comparison.h"
 #include "trace/trace_file.h"
 #include "trace/trace_summary.h"
 
@@ -200,6 +202,26 @@ std::vector<std::uint32_t> Trace::calls_of(const Entry& entry) const {
                                      static_cast<Ending>(i), false});
   }
   throw Error(fmt::format("no call ends with '{}'", entry.ending));
+}
+
+std::vector<Trace::TetPair> Trace::worse_than(const Trace& other) const {
+  std::vector<TetPair> pairs;
+  for (const auto& pair : compare_runs(content_->file, other.content_->file).worse_in_a) {
+    pairs.push_back(
+        {numbers_of(pair.bad), pair.bad_quality, numbers_of(pair.good), pair.good_quality});
+  }
+  return pairs;
+}
+
+std::string Trace::against(const Trace& other) const {
+  const TraceFile& b = other.content_->file;
+  return format_comparison(content_->file, b, compare_runs(content_->file, b));
+}
+
+std::string Trace::history(std::string_view what) const {
+  const TraceFile& file = content_->file;
+  Replay replay(file, 0);
+  return history_text(file, history_of(file, replay, find_subject(file, replay, what)));
 }
 
 std::string Trace::summary() const {

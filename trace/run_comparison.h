@@ -33,7 +33,7 @@ RunComparison compare_runs(const TraceFile& a, const TraceFile& b);
 /// Two ledgers with their differences, bad tets over one axis of time, and the histories in both runs of
 /// the `most` worst tets that only `a` left bad. Cost: see history_of().
 std::string format_comparison(const TraceFile& a, const TraceFile& b,
-                              const RunComparison& comparison, std::size_t most);
+                              const RunComparison& comparison, std::size_t most = 3);
 /// The same for other programs, without the histories.
 std::string comparison_json(const TraceFile& a, const TraceFile& b,
                             const RunComparison& comparison);

@@ -147,13 +147,14 @@ std::set<Outcome> add_bars(Drawing& drawing, const Plot& plot, const TraceFile& 
   std::set<Outcome> seen;
   for (const IcicleBar& bar : bars) {
     const Outcome outcome = outcome_of(file.calls()[bar.call]);
-    seen.insert(outcome);
+    for (std::size_t i = 0; i < kOutcomeCount; ++i) {
+      if (bar.ended[i] > 0) seen.insert(static_cast<Outcome>(i));
+    }
     const double left = plot.corner.x + plot.width * bar.left;
     const double right = plot.corner.x + plot.width * bar.right;
     const double top = plot.corner.y + kBarHeight * bar.row;
     const double wide = std::max(right - left - 0.3, 0.3);
-    drawing.rectangle({left, top + 0.4}, wide, kBarHeight - 0.8,
-                      figure::faint(outcome_colour(outcome), bar.count > 1 ? 0.5 : 1));
+    add_shares(drawing, bar.ended, {left, top + 0.4}, wide, kBarHeight - 0.8);
     if (bar.count > 1) continue;
     if (outcome == Outcome::undone) add_hatching(drawing, {left, top + 0.4}, wide, kBarHeight - 0.8);
     if (wide < kMarkRoom) continue;

@@ -92,6 +92,14 @@ class TETMEND_API Trace {
     double seconds = 0;         ///< of these calls, without calls in them
   };
 
+  /// A place where one run left a bad tet and another a good one.
+  struct TetPair {
+    std::vector<std::uint32_t> bad;   ///< its four vertices, as the one run numbered them
+    double bad_quality = 0;           ///< below 1
+    std::vector<std::uint32_t> good;  ///< of the tet that has the centroid of the bad one, in the other
+    double good_quality = 0;          ///< at least 1
+  };
+
   /// One event.
   struct Event {
     std::string_view kind;          ///< "pass begins", "cavity replaced", ...
@@ -143,9 +151,19 @@ class TETMEND_API Trace {
   /// their worst tet lacked. Cost: likewise.
   std::vector<std::uint32_t> calls_of(const Entry& entry) const;
 
+  /// Where this run left a bad tet and the other a good one at its end, the worst first. Cost: replay of
+  /// both, and a pass over their tets.
+  std::vector<TetPair> worse_than(const Trace& other) const;
+
   // What `tetmend trace` prints.
 
   std::string summary() const;                 ///< in numbers
+  /// Two runs side by side, as --against: this one is a. Cost: see worse_than(), and three histories.
+  std::string against(const Trace& other) const;
+  /// Why a tet, face, edge or vertex is there or gone: "tet:worst", "tet:3,5,8,9", "edge:3,5", in the
+  /// numbers of the trace. @throws Error when it is written in another way or was never there. Cost:
+  /// replay of the trace.
+  std::string history(std::string_view what) const;
   std::string tree(std::uint32_t call) const;  ///< a call and all in it
   std::string dot(std::uint32_t call) const;   ///< the same for Graphviz
   /// All of it as JSON for Perfetto and chrome://tracing, handed over piece by piece.

@@ -2,7 +2,7 @@
 #include "explain/outcome_look.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -61,4 +61,23 @@ TEST_CASE("hatching stays on its bar") {
       CHECK(at.y <= 29 + 1e-9);
     }
   }
+}
+
+TEST_CASE("a bar of many calls has as much of each colour as ended so") {
+  std::array<std::uint32_t, kOutcomeCount> ended{};
+  ended[static_cast<std::size_t>(Outcome::undone)] = 3;
+  ended[static_cast<std::size_t>(Outcome::limit)] = 1;
+  figure::Drawing drawing;
+  add_shares(drawing, ended, {5, 10}, 4, 20);
+  REQUIRE(drawing.shapes.size() == 2);
+  std::vector<double> heights;
+  for (const figure::Shape& shape : drawing.shapes) {
+    const auto& corners = std::get<figure::Area>(shape).corners;
+    const auto [low, high] = std::minmax_element(
+        corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
+    heights.push_back(high->y - low->y);
+  }
+  CHECK(heights[0] == doctest::Approx(15));
+  CHECK(heights[1] == doctest::Approx(5));
+  CHECK(std::get<figure::Area>(drawing.shapes[0]).fill == outcome_colour(Outcome::undone));
 }

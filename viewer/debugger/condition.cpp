@@ -27,7 +27,7 @@ struct Form {
   std::size_t values;
   std::string_view usage;
 };
-constexpr std::array<Form, 15> kForms = {
+constexpr std::array<Form, 16> kForms = {
     {{Kind::accepted, "accepted", false, 0, 0, "accepted"},
      {Kind::undone, "undone", false, 0, 0, "undone"},
      {Kind::refused, "refused", false, 0, 0, "refused"},
@@ -35,6 +35,7 @@ constexpr std::array<Form, 15> kForms = {
      {Kind::ending, "ending", true, 0, 0, "ending NAME"},
      {Kind::deeper, "deeper", false, 1, 0, "deeper LEVEL"},
      {Kind::level, "level", false, 1, 0, "level LEVEL"},
+     {Kind::visit, "visit", false, 1, 0, "visit NUMBER"},
      {Kind::operator_name, "operator", true, 0, 0, "operator NAME"},
      {Kind::edge, "edge", false, 2, 0, "edge A B"},
      {Kind::face, "face", false, 3, 0, "face A B C"},
@@ -167,6 +168,9 @@ class Search {
   std::optional<std::uint64_t> find(std::uint64_t from, Direction direction) {
     const bool forward = direction == Direction::forward;
     auto nearest = forward ? call_after(from) : call_before(from);
+    if (const auto begin = begin_of_visit(from, forward)) {
+      if (forward || !nearest) nearest = begin;
+    }
     const auto& terms = condition_.terms;
     if (std::none_of(terms.begin(), terms.end(), is_about_edit)) return nearest;
     const auto edit = forward ? edit_after(from, nearest) : edit_before(from, nearest);
@@ -198,7 +202,7 @@ class Search {
   bool holds_of(std::uint32_t number, bool with_edit) {
     const Call& call = file_.calls()[number];
     ConditionCall asked{file_.name(call.operator_name), call.level, call.target(), call.verdict,
-                        worst_before(number), file_.ending(call)};
+                        worst_before(number), file_.ending(call), visit_of(number)};
     const PlaceOf place_of = [&](VertexHandle v) -> std::optional<Point> {
       replay_.seek(call.events.begin);
       if (replay_.mesh().is_deleted(v)) return std::nullopt;
@@ -212,16 +216,31 @@ class Search {
     return !file_.is_undone(at_end_ ? call.events.end - 1 : call.events.begin);
   }
 
-  /// Of the tets that it compared, or else the tet that the pass turned to.
-  double worst_before(std::uint32_t number) const {
-    const Call& call = file_.calls()[number];
-    if (call.worst_before != 0 || call.worst_after != 0) return call.worst_before;
+  std::optional<std::uint32_t> visit_of(std::uint32_t number) const {
     const auto visits = file_.visits();
     const auto after =
         std::upper_bound(visits.begin(), visits.end(), number,
                          [](std::uint32_t n, const Visit& visit) { return n < visit.first_call; });
-    if (after == visits.begin() || number >= (after - 1)->last_call) return 1e30;
-    return (after - 1)->quality;
+    if (after == visits.begin() || number >= (after - 1)->last_call) return std::nullopt;
+    return static_cast<std::uint32_t>(after - visits.begin() - 1);
+  }
+
+  /// Of the tets that it compared, or else the tet that the pass turned to.
+  double worst_before(std::uint32_t number) const {
+    const Call& call = file_.calls()[number];
+    if (call.has_qualities()) return call.worst_before;
+    const auto visit = visit_of(number);
+    return visit ? file_.visits()[*visit].quality : 1e30;
+  }
+
+  /// The beginning of the visit, which is before its calls.
+  std::optional<std::uint64_t> begin_of_visit(std::uint64_t from, bool forward) const {
+    if (condition_.terms.size() != 1 || condition_.terms[0].kind != Kind::visit) return {};
+    const std::uint32_t number = condition_.terms[0].numbers[0];
+    if (number >= file_.visits().size()) return {};
+    const std::uint64_t stop = file_.visits()[number].events.begin + 1;
+    if (forward ? stop <= from : stop >= from) return {};
+    return stop;
   }
 
   /// The first call that begins at `event` or later.
@@ -357,11 +376,11 @@ std::string to_text(const Condition& condition) {
 
 bool is_about_end(const Term& term) {
   return term.kind == Kind::accepted || term.kind == Kind::refused ||
-         term.kind == Kind::verdict || is_about_record(term);
+         term.kind == Kind::verdict || term.kind == Kind::undone || term.kind == Kind::ending;
 }
 
 bool is_about_record(const Term& term) {
-  return term.kind == Kind::undone || term.kind == Kind::ending;
+  return term.kind == Kind::undone || term.kind == Kind::ending || term.kind == Kind::visit;
 }
 
 bool is_about_edit(const Term& term) {
@@ -384,6 +403,8 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
       return call.level > term.numbers[0];
     case Kind::level:
       return call.level == term.numbers[0];
+    case Kind::visit:
+      return call.visit == term.numbers[0];
     case Kind::operator_name:
       return call.operator_name == term.name;
     case Kind::edge:

@@ -26,6 +26,7 @@ struct Condition {
     ending,         ///< a call ended in the way `name`, see Ending
     deeper,         ///< a call on a deeper level of recursion than numbers[0]
     level,          ///< a call on this level
+    visit,          ///< a call in this visit of a tet, and the beginning of the visit
     operator_name,  ///< a call of `name`
     edge,           ///< a call whose target is the edge of two vertices
     face,           ///< likewise of three
@@ -69,6 +70,7 @@ struct ConditionCall {
   std::optional<Verdict> verdict;  ///< nothing: it has not ended
   double worst = 0;                ///< quality of the worst tet that it has before it
   std::optional<Ending> ending;    ///< what became of it; of live runs nobody knows yet
+  std::optional<std::uint32_t> visit;  ///< number of the visit that it is in; of a recorded run
 };
 /// Where a vertex is, in lengths of the file; nothing for one that is not there.
 using PlaceOf = std::function<std::optional<Point>(VertexHandle)>;
@@ -77,7 +79,7 @@ using PlaceOf = std::function<std::optional<Point>(VertexHandle)>;
 bool holds(const Condition::Term& term, const ConditionCall& call, const PlaceOf& place_of);
 /// A term that asks how the call ended.
 bool is_about_end(const Condition::Term& term);
-/// A term that asks what became of a call later, or for its reason: of recorded runs alone.
+/// A term that asks what became of a call later, for its reason, or for a number of the record.
 bool is_about_record(const Condition::Term& term);
 /// A term that edits make hold, too.
 bool is_about_edit(const Condition::Term& term);

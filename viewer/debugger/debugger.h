@@ -41,6 +41,8 @@ class Debugger {
   const std::vector<std::uint32_t>& stack() const { return stack_; }
   /// The innermost of them, or kNoCall.
   std::uint32_t call() const { return stack_.empty() ? kNoCall : stack_.back(); }
+  /// The visit of a tet that the last event belongs to.
+  std::optional<std::uint32_t> visit() const { return visit_at(file_, position()); }
 
   /// Precondition: at most end(). Cost: see Replay.
   void seek(std::uint64_t position);
@@ -57,6 +59,7 @@ class Debugger {
 
   std::vector<Breakpoint> breakpoints;
   std::map<std::uint64_t, std::string> bookmarks;  ///< by position
+  CallWindow zoom;  ///< what the strip shows of its window; of no events: all of it
   std::string typed_condition = "accepted for good";  ///< what the user is about to run to
 
   // Play: as many events a second as `speed` says.

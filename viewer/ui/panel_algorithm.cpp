@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "explain/event_text.h"
 #include "explain/paper_lines.h"
 #include "viewer/ui/panels.h"
 
@@ -14,7 +15,7 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-constexpr float kCallerLines = 3.5F;  // below the code
+constexpr float kCallerLines = 4.5F;  // below the code, with t
 constexpr float kNumbers = 2.2F;      // width of their column, in units of the text
 constexpr float kGap = 1;             // between its lines, in pixels
 
@@ -102,6 +103,12 @@ void draw_algorithm_panel(Session& session) {
     return;
   }
   show_code(*here.code, here.line, is_new_place(debugger.position()));
+  const auto visit = debugger.visit();
+  if (visit && pass.code != nullptr) {
+    const Visit& made = debugger.file().visits()[*visit];
+    ImGui::TextWrapped("t = %s, quality %.4f", format_visit(made).c_str(),
+                       static_cast<double>(made.quality));
+  }
   if (stack.empty()) return;
   const CodePlace caller = stack.size() > 1 ? place_of(stack.size() - 2) : pass;
   if (caller.code == nullptr) return;

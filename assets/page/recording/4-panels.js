@@ -293,7 +293,7 @@ function showTold(step, enter) {
   byId("reason").textContent = call && isDone(call, step.position) ? call.reason ?? "" : "";
 }
 
-const LEGEND = [["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
+const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
   ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
 
 function showLegend(scene) {

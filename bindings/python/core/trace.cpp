@@ -74,6 +74,19 @@ std::vector<std::uint32_t> calls_of(const Trace& trace, const std::string& opera
   return trace.calls_of(entry);
 }
 
+py::list worse_than(const Trace& trace, const Trace& other) {
+  std::vector<Trace::TetPair> pairs;
+  run_detached([&] { pairs = trace.worse_than(other); });
+  py::list made;
+  for (const Trace::TetPair& pair : pairs) {
+    made.append(py::dict("bad"_a = py::tuple(py::cast(pair.bad)),
+                         "bad_quality"_a = pair.bad_quality,
+                         "good"_a = py::tuple(py::cast(pair.good)),
+                         "good_quality"_a = pair.good_quality));
+  }
+  return made;
+}
+
 py::dict to_dict(const Trace::Event& event) {
   return py::dict("kind"_a = event.kind, "name"_a = event.name, "seconds"_a = event.seconds,
                   "vertices"_a = py::tuple(py::cast(event.vertices)), "verdict"_a = event.verdict,
@@ -119,6 +132,19 @@ void add_trace(py::module_& module) {
            })
       .def("ledger", &ledger_of)
       .def("calls_of", &calls_of)
+      .def("worse_than", &worse_than)
+      .def("against",
+           [](const Trace& trace, const Trace& other) {
+             std::string text;
+             run_detached([&] { text = trace.against(other); });
+             return text;
+           })
+      .def("history",
+           [](const Trace& trace, const std::string& what) {
+             std::string text;
+             run_detached([&] { text = trace.history(what); });
+             return text;
+           })
       .def("summary", &Trace::summary)
       .def("tree", &Trace::tree)
       .def("dot", &Trace::dot)

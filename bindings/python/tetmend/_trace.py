@@ -128,6 +128,20 @@ class Trace:
         """The calls of an entry of the ledger, by number; those nearest to being accepted come first."""
         return self._core.calls_of(entry["operator"], entry["level"], entry["ending"])
 
+    def worse_than(self, other: Trace) -> list[dict[str, Any]]:
+        """Where this run left a bad tet and the other a good one, the worst first: dicts of bad and good, which are four vertices as
+        the runs numbered them, and of bad_quality and good_quality. Takes a replay of both.
+        """
+        return self._core.worse_than(other._core)
+
+    def against(self, other: Trace) -> str:
+        """Two runs side by side, as `tetmend trace FILE --against OTHER` prints them: this one is a."""
+        return self._core.against(other._core)
+
+    def history(self, what: str) -> str:
+        """Why a tet, face, edge or vertex is there or gone, as `tetmend trace FILE --history WHAT --all` prints it."""
+        return self._core.history(what)
+
     def summary(self) -> str:
         """As `tetmend trace FILE` prints it."""
         return self._core.summary()
