@@ -285,7 +285,9 @@ RunComparison compare_runs(const TraceFile& a, const TraceFile& b) {
   Replay of_b(b, 0);
   of_a.seek(a.event_count());
   of_b.seek(b.event_count());
-  comparison.same_goal = of_a.mesh().standard() == of_b.mesh().standard();
+  const Standard& by_a = of_a.mesh().standard();
+  const Standard& by_b = of_b.mesh().standard();
+  comparison.same_goal = by_a.goal() == by_b.goal() && by_a.terms() == by_b.terms();
   std::vector<BadTet> bad_a = bad_tets(of_a.mesh());
   std::vector<BadTet> bad_b = bad_tets(of_b.mesh());
   find_there(of_b.mesh(), bad_a);
