@@ -50,7 +50,7 @@ struct TraceOptions {
   bool ledger = false;
   std::filesystem::path against;
   bool json = false;  // of a ledger or a comparison
-  bool all = false;  // the calls of a history
+  bool all = false;   // the calls of a history
   bool slices = false;
   bool html = false;
   std::string html_call;  // a number; empty: of the whole trace
@@ -137,8 +137,7 @@ std::string comparison(const TraceOptions& options, const TraceFile& file) {
   const TraceFile other(options.against);
   if (!other.damage().empty()) complain(kSuccess, "warning: " + other.damage());
   const RunComparison made = compare_runs(file, other);
-  return options.json ? comparison_json(file, other, made)
-                      : format_comparison(file, other, made);
+  return options.json ? comparison_json(file, other, made) : format_comparison(file, other, made);
 }
 
 void write_text(const std::filesystem::path& file, std::string_view text) {
@@ -339,11 +338,11 @@ void add_figure_options(CLI::App& command, CLI::Option_group& what, TraceOptions
 }
 
 void add_ledger_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
-  what.add_flag("--ledger", options.ledger,
-                "Who was asked how often, how that ended and why");
-  what.add_option("--against", options.against,
-                  "Two runs side by side: ledgers, time, tets that are\nbad in FILE and good in the "
-                  "other")
+  what.add_flag("--ledger", options.ledger, "Who was asked how often, how that ended and why");
+  what.add_option(
+          "--against", options.against,
+          "Two runs side by side: ledgers, time, tets that are\nbad in FILE and good in the "
+          "other")
       ->type_name("TRACE");
   command.add_flag("--json", options.json, "Ledger or comparison as JSON");
 }

@@ -60,8 +60,8 @@ inline constexpr std::size_t kOutcomeCount = static_cast<std::size_t>(Outcome::o
 Outcome outcome_of(const Call& call);
 /// As legends say it: "nothing better found".
 std::string_view outcome_name(Outcome outcome);
-/// "accepted", "undone with call 17", "no improvement", ...; "under way" for a call that has not ended
-/// at that position.
+/// "accepted", "undone with call 17", "no improvement", ...; "under way" for a call that has not
+/// ended at that position.
 std::string outcome_text(const Call& call, std::uint64_t position);
 
 }  // namespace tetmend::explain

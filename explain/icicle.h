@@ -29,15 +29,15 @@ CallWindow pass_around(const TraceFile& file, std::uint64_t position);
 /// Precondition: there is such a call.
 CallWindow call_window(const TraceFile& file, std::uint32_t call);
 
-/// A part of `shown`, or more of it up to `whole`: `factor` times as many events, the one at the share
-/// `at` of the width stays where it is.
+/// A part of `shown`, or more of it up to `whole`: `factor` times as many events, the one at the
+/// share `at` of the width stays where it is.
 CallWindow zoomed(const CallWindow& whole, const CallWindow& shown, double at, double factor);
 /// As many events from another on, within `whole`.
 CallWindow panned(const CallWindow& whole, const CallWindow& shown, std::int64_t events);
 
 /// Bars of at least `thinnest` of the width; what is thinner is joined with its neighbours, and
-/// what is in it left out. In the order of calls. Calls that reach beyond the events of the window are
-/// cut there. Cost: linear in the calls that are not left out.
+/// what is in it left out. In the order of calls. Calls that reach beyond the events of the window
+/// are cut there. Cost: linear in the calls that are not left out.
 std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& window,
                                       double thinnest);
 

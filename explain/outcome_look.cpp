@@ -49,8 +49,8 @@ std::array<Mark, kOutcomeCount> make_marks() {
       {{0.12, 0.4}, {0.64, 0.4}, {0.84, 0.5}, {0.88, 0.68}, {0.78, 0.84}, {0.5, 0.86}}};
   mark(Outcome::no_improvement) = {{{0.12, 0.5}, {0.88, 0.5}}};
   mark(Outcome::limit) = {ring(0.4), {{0.5, 0.24}, {0.5, 0.5}, {0.7, 0.6}}};
-  mark(Outcome::constrained) = {
-      {{0.18, 0.5}, {0.82, 0.5}, {0.82, 0.9}, {0.18, 0.9}, {0.18, 0.5}}, shackle()};
+  mark(Outcome::constrained) = {{{0.18, 0.5}, {0.82, 0.5}, {0.82, 0.9}, {0.18, 0.9}, {0.18, 0.5}},
+                                shackle()};
   mark(Outcome::rejected) = {{{0.18, 0.18}, {0.82, 0.82}}, {{0.82, 0.18}, {0.18, 0.82}}};
   mark(Outcome::other) = {{{0.26, 0.86}, {0.74, 0.14}}};
   return marks;

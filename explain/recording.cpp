@@ -169,11 +169,12 @@ class Recording {
     Json start = tets_at_begin();
     Json steps = make_steps();
     Json calls = make_calls();
-    return {
-        {"begin", range_.begin},     {"goal", describe(standard_)},  {"start", std::move(start)},
-        {"steps", std::move(steps)}, {"calls", std::move(calls)},    {"shells", std::move(shells_)},
-        {"codes", make_codes()},     {"points", interned_.points()}, {"tets", interned_.tets()},
-        {"outcomes", outcomes()},    {"visits", visits()}};
+    return {{"begin", range_.begin},     {"goal", describe(standard_)},
+            {"start", std::move(start)}, {"steps", std::move(steps)},
+            {"calls", std::move(calls)}, {"shells", std::move(shells_)},
+            {"codes", make_codes()},     {"points", interned_.points()},
+            {"tets", interned_.tets()},  {"outcomes", outcomes()},
+            {"visits", visits()}};
   }
 
  private:
@@ -223,9 +224,8 @@ class Recording {
   std::uint32_t first_call() const {
     const auto calls = file_.calls();
     const auto first = std::lower_bound(
-        calls.begin(), calls.end(), range_.begin, [](const Call& call, std::uint64_t position) {
-          return call.events.begin + 1 < position;
-        });
+        calls.begin(), calls.end(), range_.begin,
+        [](const Call& call, std::uint64_t position) { return call.events.begin + 1 < position; });
     return static_cast<std::uint32_t>(first - calls.begin());
   }
 
@@ -303,8 +303,11 @@ class Recording {
     }
     Json call;
     if (!stack.empty()) call = stack.back();
-    return {position,        event_text(file_, position), call, lines, pass.line,
-            ways(position), gone,                        come, caller.goes_on};
+    return {position,      event_text(file_, position),
+            call,          lines,
+            pass.line,     ways(position),
+            gone,          come,
+            caller.goes_on};
   }
 
   /// Name and mark of each way to end that the calls have, and of those under way.
@@ -509,9 +512,8 @@ unsigned depth_of(const TraceFile& file, const RecordingRange& range) {
 
 std::size_t count_calls(const TraceFile& file, const RecordingRange& range) {
   const auto calls = file.calls();
-  return static_cast<std::size_t>(std::count_if(calls.begin(), calls.end(), [&](const Call& call) {
-    return is_in(call, range);
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      calls.begin(), calls.end(), [&](const Call& call) { return is_in(call, range); }));
 }
 
 Json record(const TraceFile& file, Replay& replay, const RecordingRange& range) {

@@ -186,7 +186,7 @@ std::vector<Trace::Entry> Trace::ledger() const {
     for (std::size_t i = 0; i < kEndingCount; ++i) {
       const LedgerCell& cell = row.cells[i];
       if (cell.calls == 0) continue;
-      const auto ending = static_cast<Ending>(i);
+      const auto ending = static_cast<CallEnding>(i);
       entries.push_back({row.operator_name, row.level, name_of(ending), kEndingWords[i].reason,
                          is_refusal(ending), cell.calls, static_cast<double>(cell.calls) / all,
                          cell.seconds});
@@ -199,7 +199,7 @@ std::vector<std::uint32_t> Trace::calls_of(const Entry& entry) const {
   for (std::size_t i = 0; i < kEndingCount; ++i) {
     if (kEndingWords[i].name != entry.ending) continue;
     return calls_in(content_->file, {std::string(entry.operator_name), entry.level,
-                                     static_cast<Ending>(i), false});
+                                     static_cast<CallEnding>(i), false});
   }
   throw Error(fmt::format("no call ends with '{}'", entry.ending));
 }

@@ -95,8 +95,8 @@ std::string call_tree_dot(const TraceFile& file, std::uint32_t call) {
     }
     std::string label = in_quotes(fmt::format("{}: {}", k, describe_call(file, k)));
     label.pop_back();
-    fmt::format_to(out, "  c{} [label={}\\n{}{}\", {}];\n", k, label,
-                   c.verdict_in_words(), quality, look_of(c));
+    fmt::format_to(out, "  c{} [label={}\\n{}{}\", {}];\n", k, label, c.verdict_in_words(), quality,
+                   look_of(c));
     if (k != call) fmt::format_to(out, "  c{} -> c{};\n", c.parent, k);
   }
   return text + "}\n";

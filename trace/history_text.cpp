@@ -212,10 +212,9 @@ class Teller {
   }
 
   void table() {
-    text_ +=
-        fmt::format("{:<34} {:>7} {:>6} {:>8} {:>6} {:>7}  {}\n", "part", "where", "calls",
-                    "for good", "undone", "trials",
-                    "nearest refused call, worst tet before and with it");
+    text_ += fmt::format("{:<34} {:>7} {:>6} {:>8} {:>6} {:>7}  {}\n", "part", "where", "calls",
+                         "for good", "undone", "trials",
+                         "nearest refused call, worst tet before and with it");
     for (const PartHistory& part : history_.parts) {
       const bool is_interesting = part.calls + part.in_trials > 0 || part.part.size() == 2;
       if (!is_interesting && &part != &whole()) continue;
@@ -264,7 +263,8 @@ class Teller {
       const auto target = c.target();
       text_ += fmt::format("{:>9}  {:<32} {:<28} {:<24}", each.call, file_.name(c.operator_name),
                            in_words(target), c.verdict_in_words());
-      if (c.has_qualities()) text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
+      if (c.has_qualities())
+        text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
       if (each.in_trial) text_ += "  in a trial that was undone";
       text_ += '\n';
     }

@@ -37,8 +37,7 @@ double percent_of(std::size_t part, std::size_t all) {
   return all == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(all);
 }
 
-void write_line(std::string& text, std::string_view name, const LedgerCell& cell,
-                std::size_t all) {
+void write_line(std::string& text, std::string_view name, const LedgerCell& cell, std::size_t all) {
   fmt::format_to(std::back_inserter(text), "  {:<42} {:>9} {:>6.1f} {:>9.3f}\n", name, cell.calls,
                  percent_of(cell.calls, all), cell.seconds);
 }
@@ -48,18 +47,19 @@ void write_block(std::string& text, std::string_view name, const LedgerRow& row)
   const LedgerCell total = row.total();
   fmt::format_to(std::back_inserter(text), "\n{:<44} {:>9} {:>6} {:>9.3f}\n", name, total.calls, "",
                  total.seconds);
-  write_line(text, name_of(Ending::for_good), row.cell(Ending::for_good), total.calls);
-  write_line(text, name_of(Ending::undone), row.cell(Ending::undone), total.calls);
-  std::vector<Ending> others;
+  write_line(text, name_of(CallEnding::for_good), row.cell(CallEnding::for_good), total.calls);
+  write_line(text, name_of(CallEnding::undone), row.cell(CallEnding::undone), total.calls);
+  std::vector<CallEnding> others;
   for (std::size_t i = 0; i < kEndingCount; ++i) {
-    const auto ending = static_cast<Ending>(i);
-    const bool is_other = ending != Ending::for_good && ending != Ending::undone;
+    const auto ending = static_cast<CallEnding>(i);
+    const bool is_other = ending != CallEnding::for_good && ending != CallEnding::undone;
     if (is_other && row.cell(ending).calls > 0) others.push_back(ending);
   }
-  std::stable_sort(others.begin(), others.end(), [&](Ending one, Ending other) {
+  std::stable_sort(others.begin(), others.end(), [&](CallEnding one, CallEnding other) {
     return row.cell(one).calls > row.cell(other).calls;
   });
-  for (const Ending ending : others) write_line(text, name_of(ending), row.cell(ending), total.calls);
+  for (const CallEnding ending : others)
+    write_line(text, name_of(ending), row.cell(ending), total.calls);
 }
 
 void write_nearness(std::string& text, const LedgerRow& all) {
@@ -84,7 +84,7 @@ Json cells_json(const LedgerRow& row) {
   for (std::size_t i = 0; i < kEndingCount; ++i) {
     const LedgerCell& cell = row.cells[i];
     if (cell.calls == 0) continue;
-    cells[std::string(name_of(static_cast<Ending>(i)))] = {
+    cells[std::string(name_of(static_cast<CallEnding>(i)))] = {
         {"calls", cell.calls},
         {"share", percent_of(cell.calls, all) / 100},
         {"seconds", cell.seconds}};
@@ -127,7 +127,7 @@ LedgerCell LedgerRow::total() const {
 LedgerCell LedgerRow::refused() const {
   LedgerCell sum;
   for (std::size_t i = 0; i < kEndingCount; ++i) {
-    if (is_refusal(static_cast<Ending>(i))) sum += cells[i];
+    if (is_refusal(static_cast<CallEnding>(i))) sum += cells[i];
   }
   return sum;
 }
@@ -155,7 +155,7 @@ Ledger make_ledger(const TraceFile& file) {
   std::map<std::pair<std::uint32_t, unsigned>, LedgerRow> rows;  // by name and level
   for (std::size_t c = 0; c < calls.size(); ++c) {
     const Call& call = calls[c];
-    const Ending ending = file.ending(call);
+    const CallEnding ending = file.ending(call);
     LedgerRow& row = rows[{call.operator_name, call.level}];
     row.cells[static_cast<std::size_t>(ending)] += {1, call.events.seconds() - inner[c]};
     if (is_refusal(ending)) ++row.nearness[nearness_of(call)];
@@ -180,10 +180,10 @@ std::vector<std::uint32_t> calls_in(const TraceFile& file, const LedgerQuestion&
   std::vector<std::uint32_t> found;
   for (std::uint32_t c = 0; c < calls.size(); ++c) {
     const Call& call = calls[c];
-    const bool is_of = question.operator_name.empty() ||
-                       file.name(call.operator_name) == question.operator_name;
+    const bool is_of =
+        question.operator_name.empty() || file.name(call.operator_name) == question.operator_name;
     if (!is_of || (question.level && *question.level != call.level)) continue;
-    const Ending ending = file.ending(call);
+    const CallEnding ending = file.ending(call);
     if (question.ending && *question.ending != ending) continue;
     if (question.refused && !is_refusal(ending)) continue;
     found.push_back(c);
@@ -196,12 +196,13 @@ std::vector<std::uint32_t> calls_in(const TraceFile& file, const LedgerQuestion&
 
 std::string format_ledger(const Ledger& ledger) {
   std::string text;
-  fmt::format_to(std::back_inserter(text),
-                 "{} calls: {} accepted for good, {} accepted and undone with a caller, {} refused; "
-                 "{} of {} edits lasted\n\n{:<44} {:>9} {:>6} {:>9}\n",
-                 ledger.all.total().calls, ledger.all.cell(Ending::for_good).calls,
-                 ledger.all.cell(Ending::undone).calls, ledger.all.refused().calls, ledger.lasting,
-                 ledger.edits, "operator, and how its calls ended", "calls", "%", "seconds");
+  fmt::format_to(
+      std::back_inserter(text),
+      "{} calls: {} accepted for good, {} accepted and undone with a caller, {} refused; "
+      "{} of {} edits lasted\n\n{:<44} {:>9} {:>6} {:>9}\n",
+      ledger.all.total().calls, ledger.all.cell(CallEnding::for_good).calls,
+      ledger.all.cell(CallEnding::undone).calls, ledger.all.refused().calls, ledger.lasting,
+      ledger.edits, "operator, and how its calls ended", "calls", "%", "seconds");
   for (const LedgerRow& row : ledger.by_operator()) write_block(text, row.operator_name, row);
   write_block(text, "all operators", ledger.all);
   write_nearness(text, ledger.all);

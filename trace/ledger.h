@@ -20,19 +20,21 @@ struct LedgerCell {
   LedgerCell& operator+=(const LedgerCell& other);
 };
 
-/// By how much refused calls missed: less than the first, the second, ... of these; see Call::missing().
+/// Refused calls missed by less than the first, the second, ... of these: see Call::missing().
 inline constexpr std::array<double, 4> kNearness = {0.001, 0.01, 0.1, 1};
 
 /// Calls of one operator on one level of recursion, or a sum of such rows.
 struct LedgerRow {
   std::string_view operator_name;  ///< valid as long as the trace; empty: of all
   unsigned level = 0;
-  std::array<LedgerCell, kEndingCount> cells{};  ///< by Ending; each call is in one
+  std::array<LedgerCell, kEndingCount> cells{};  ///< by CallEnding; each call is in one
   /// Of refusals: worst tet good enough, but not others; within each of kNearness; farther away;
   /// nothing compared.
   std::array<std::size_t, kNearness.size() + 3> nearness{};
 
-  const LedgerCell& cell(Ending ending) const { return cells[static_cast<std::size_t>(ending)]; }
+  const LedgerCell& cell(CallEnding ending) const {
+    return cells[static_cast<std::size_t>(ending)];
+  }
   LedgerCell total() const;
   LedgerCell refused() const;
   LedgerRow& operator+=(const LedgerRow& other);
@@ -55,16 +57,16 @@ Ledger make_ledger(const TraceFile& file);
 struct LedgerQuestion {
   std::string operator_name;  ///< empty: all
   std::optional<unsigned> level;
-  std::optional<Ending> ending;
+  std::optional<CallEnding> ending;
   bool refused = false;  ///< all refusals
 };
-/// Nearest to being accepted first, that is by Call::missing(); those that lack as much in their order.
+/// By Call::missing(): the nearest to being accepted first, those that lack as much in their order.
 /// Cost: linear, and sorting what is found.
 std::vector<std::uint32_t> calls_in(const TraceFile& file, const LedgerQuestion& question);
 
 /// For people: a block for each operator, with a line for each way in which its calls ended.
 std::string format_ledger(const Ledger& ledger);
-/// For other programs: one object, with a number of calls, share and seconds for each cell that has calls.
+/// For other programs: an object with number, share and seconds for each cell that has calls.
 std::string ledger_json(const TraceFile& file, const Ledger& ledger);
 
 }  // namespace tetmend

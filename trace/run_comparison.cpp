@@ -47,7 +47,7 @@ double depth_in(const Corners& tet, const Point& p) {
 struct BadTet {
   TetHandle tet;
   Point centroid;
-  TetHandle there;                                            // of the other mesh
+  TetHandle there;                                          // of the other mesh
   double depth = -std::numeric_limits<double>::infinity();  // of the centroid in it
 };
 
@@ -186,7 +186,8 @@ void write_rows(std::string& text, std::string_view name, const LedgerRow& a, co
   write_cells(text, name, a.total(), b.total());
   for (std::size_t i = 0; i < kEndingCount; ++i) {
     if (a.cells[i].calls + b.cells[i].calls == 0) continue;
-    write_cells(text, fmt::format("  {}", name_of(static_cast<Ending>(i))), a.cells[i], b.cells[i]);
+    write_cells(text, fmt::format("  {}", name_of(static_cast<CallEnding>(i))), a.cells[i],
+                b.cells[i]);
   }
 }
 

@@ -193,8 +193,8 @@ void TraceFile::end_call(const TraceEvent& event) {
   if (call.accepted()) accepted_.push_back({number, trials_.standing()});
 }
 
-/// Of the last edit that stands: the audit has seen that there is one. Whoever was accepted while it
-/// stood goes with it.
+/// Of the last edit that stands: the audit has seen that there is one. Whoever was accepted while
+/// it stood goes with it.
 void TraceFile::undo() {
   trials_.undo(events_);
   for (; !accepted_.empty() && accepted_.back().edits > trials_.standing(); accepted_.pop_back()) {
@@ -302,40 +302,41 @@ std::uint32_t TraceFile::call_at(std::uint64_t event) const {
   return call;
 }
 
-Ending TraceFile::ending(const Call& call) const {
-  if (!call.verdict) return Ending::cut_off;
+CallEnding TraceFile::ending(const Call& call) const {
+  if (!call.verdict) return CallEnding::cut_off;
   const bool tried = call.candidate_found;
   const auto number = static_cast<std::uint32_t>(&call - calls_.data());
   const bool calls_others = call.subtree_end > number + 1;
   switch (*call.verdict) {
     case Verdict::accepted:
-      return call.undone ? Ending::undone : Ending::for_good;
+      return call.undone ? CallEnding::undone : CallEnding::for_good;
     case Verdict::not_applicable:
-      return tried ? Ending::does_not_fit : Ending::not_applicable;
+      return tried ? CallEnding::does_not_fit : CallEnding::not_applicable;
     case Verdict::constrained:
-      if (calls_others) return Ending::rest_constrained;
-      return tried ? Ending::candidate_constrained : Ending::target_constrained;
+      if (calls_others) return CallEnding::rest_constrained;
+      return tried ? CallEnding::candidate_constrained : CallEnding::target_constrained;
     case Verdict::no_improvement:
-      if (calls_others) return Ending::calls_not_enough;
-      if (!tried) return Ending::nothing_better;
-      if (!call.vector_improved) return Ending::vector_not_better;
-      return call.bad_after > call.bad_before ? Ending::more_bad_tets : Ending::judge_not_content;
+      if (calls_others) return CallEnding::calls_not_enough;
+      if (!tried) return CallEnding::nothing_better;
+      if (!call.vector_improved) return CallEnding::vector_not_better;
+      return call.bad_after > call.bad_before ? CallEnding::more_bad_tets
+                                              : CallEnding::judge_not_content;
     case Verdict::inverted:
-      return Ending::inverted;
+      return CallEnding::inverted;
     case Verdict::depth_spent:
-      return Ending::depth_spent;
+      return CallEnding::depth_spent;
     case Verdict::budget_spent:
-      return Ending::budget_spent;
+      return CallEnding::budget_spent;
     case Verdict::deferred:
-      return Ending::deferred;
+      return CallEnding::deferred;
   }
-  return Ending::cut_off;
+  return CallEnding::cut_off;
 }
 
 std::string_view TraceFile::reason(const Call& call) const {
-  const Ending end = ending(call);
+  const CallEnding end = ending(call);
   const bool compared = call.worst_after > 0 || call.worst_before != 0;
-  if (end == Ending::for_good && !compared) return "what the call was for is done";
+  if (end == CallEnding::for_good && !compared) return "what the call was for is done";
   return kEndingWords[static_cast<std::size_t>(end)].reason;
 }
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trace/ending.h"
+#include "trace/call_ending.h"
 #include "trace/recorder.h"
 #include "trace/slot_mesh.h"
 #include "trace/trace_event.h"
@@ -59,15 +59,15 @@ struct Call {
   bool accepted() const { return verdict == Verdict::accepted; }
   /// What it did has lasted.
   bool accepted_for_good() const { return accepted() && !undone; }
-  /// "accepted" for good, "undone with a caller", "no improvement", ...; "cut off" if the trace ends
-  /// before: calls with one text ended alike.
+  /// "accepted" for good, "undone with a caller", "no improvement", ...; "cut off" if the trace
+  /// ends before: calls with one text ended alike.
   std::string_view verdict_text() const;
   /// The same, and with which call: "undone with call 17".
   std::string verdict_in_words() const;
   /// Something was compared: worst_before and worst_after are known.
   bool has_qualities() const { return worst_before != 0 || worst_after != 0; }
-  /// How much quality the worst tet of a refused call lacked; negative where that was good enough and
-  /// others were not, infinite where nothing was compared.
+  /// How much quality the worst tet of a refused call lacked; negative where that was good enough
+  /// and others were not, infinite where nothing was compared.
   double missing() const;
   std::span<const VertexHandle> target() const { return {target_vertices.data(), target_size}; }
 };
@@ -120,7 +120,7 @@ class TraceFile {
   /// The innermost call that `event` belongs to, its first and last event included; kNoCall.
   std::uint32_t call_at(std::uint64_t event) const;
   /// How a call ended. Precondition: `call` is one of calls().
-  Ending ending(const Call& call) const;
+  CallEnding ending(const Call& call) const;
   /// Why a call ended as it did, in a sentence. Precondition: `call` is one of calls().
   std::string_view reason(const Call& call) const;
   /// What was edited, and how many of these edits were undone.

@@ -156,7 +156,8 @@ std::set<Outcome> add_bars(Drawing& drawing, const Plot& plot, const TraceFile& 
     const double wide = std::max(right - left - 0.3, 0.3);
     add_shares(drawing, bar.ended, {left, top + 0.4}, wide, kBarHeight - 0.8);
     if (bar.count > 1) continue;
-    if (outcome == Outcome::undone) add_hatching(drawing, {left, top + 0.4}, wide, kBarHeight - 0.8);
+    if (outcome == Outcome::undone)
+      add_hatching(drawing, {left, top + 0.4}, wide, kBarHeight - 0.8);
     if (wide < kMarkRoom) continue;
     drawing.rectangle({left + 1, top + 1.4}, kMarkRoom - 2, kBarHeight - 2.8, figure::kWhite);
     add_mark(drawing, outcome, {left + 2, top + 2.2}, kMarkRoom - 4);

@@ -74,8 +74,10 @@ TEST_CASE("a part of a window shows the calls in it, wider, and no others") {
   const TraceFile file(trace.path());
   const CallWindow whole = whole_trace(file);
   const CallWindow part = zoomed(whole, whole, 0.3, 0.05);
-  CHECK(part.end - part.begin == doctest::Approx(0.05 * static_cast<double>(whole.end)).epsilon(0.01));
-  const auto middle = static_cast<double>(part.begin) + 0.3 * static_cast<double>(part.end - part.begin);
+  CHECK(part.end - part.begin ==
+        doctest::Approx(0.05 * static_cast<double>(whole.end)).epsilon(0.01));
+  const auto middle =
+      static_cast<double>(part.begin) + 0.3 * static_cast<double>(part.end - part.begin);
   CHECK(middle == doctest::Approx(0.3 * static_cast<double>(whole.end)).epsilon(0.01));
   std::size_t shown = 0;
   for (const IcicleBar& bar : lay_out_icicle(file, part, 0)) {

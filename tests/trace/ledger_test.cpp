@@ -116,7 +116,7 @@ TEST_CASE("a call that was undone says with which call, which is around it") {
     CHECK(file.calls()[call.undone_with].subtree_end > c);
     CHECK(call.verdict_text() == "undone with a caller");
     CHECK(call.verdict_in_words() == "undone with call " + std::to_string(call.undone_with));
-    CHECK(file.ending(call) == Ending::undone);
+    CHECK(file.ending(call) == CallEnding::undone);
   }
   CHECK(seen > 20);
 }
@@ -137,7 +137,7 @@ TEST_CASE("each call is in one cell of the ledger, and the seconds of all are th
   CHECK(ledger.all.total().seconds == doctest::Approx(outermost));
   const auto lasted = std::count_if(file.calls().begin(), file.calls().end(),
                                     [](const Call& call) { return call.accepted_for_good(); });
-  CHECK(ledger.all.cell(Ending::for_good).calls == static_cast<std::size_t>(lasted));
+  CHECK(ledger.all.cell(CallEnding::for_good).calls == static_cast<std::size_t>(lasted));
   CHECK(ledger.edits > ledger.lasting);
   CHECK(std::accumulate(ledger.all.nearness.begin(), ledger.all.nearness.end(), std::size_t{0}) ==
         ledger.all.refused().calls);
@@ -148,9 +148,8 @@ TEST_CASE("the calls of a cell are as many as it says, the nearest to being acce
   const TraceFile file(trace.path());
   for (const LedgerRow& row : make_ledger(file).rows) {
     for (std::size_t i = 0; i < kEndingCount; ++i) {
-      const auto ending = static_cast<Ending>(i);
-      const auto calls =
-          calls_in(file, {std::string(row.operator_name), row.level, ending, false});
+      const auto ending = static_cast<CallEnding>(i);
+      const auto calls = calls_in(file, {std::string(row.operator_name), row.level, ending, false});
       REQUIRE(calls.size() == row.cells[i].calls);
       for (const std::uint32_t c : calls) {
         CHECK(file.calls()[c].level == row.level);
@@ -186,8 +185,8 @@ TEST_CASE("a ledger is written for people and for programs, with the same number
     CHECK(text.find(std::string(row.operator_name)) != std::string::npos);
   }
   CHECK(text.find(fmt::format("{} calls: {} accepted for good, {} accepted and undone",
-                              file.calls().size(), ledger.all.cell(Ending::for_good).calls,
-                              ledger.all.cell(Ending::undone).calls)) == 0);
+                              file.calls().size(), ledger.all.cell(CallEnding::for_good).calls,
+                              ledger.all.cell(CallEnding::undone).calls)) == 0);
 }
 
 TEST_CASE("a call that a cut trace does not see end is in the ledger as cut off") {
@@ -202,7 +201,7 @@ TEST_CASE("a call that a cut trace does not see end is in the ledger as cut off"
   test::cut_end(folder / "cut.trace");
   const TraceFile file(folder / "cut.trace");
   const Ledger ledger = make_ledger(file);
-  CHECK(ledger.all.cell(Ending::cut_off).calls == 1);
+  CHECK(ledger.all.cell(CallEnding::cut_off).calls == 1);
   CHECK(ledger.all.refused().calls == 0);
   CHECK(ledger.all.total().calls == 1);
 }

@@ -46,10 +46,10 @@ json against(Session& s, const json& a) {
   Debugger& debugger = need_trace(s.document);
   debugger.compare_with(Arguments("against", a).text(0));
   const RunComparison& made = debugger.other()->comparison;
-  s.document.message = {fmt::format("{} tets are bad here and good there, {} the other way round",
-                                    grouped(made.worse_in_a.size()),
-                                    grouped(made.worse_in_b.size())),
-                        false};
+  s.document.message = {
+      fmt::format("{} tets are bad here and good there, {} the other way round",
+                  grouped(made.worse_in_a.size()), grouped(made.worse_in_b.size())),
+      false};
   return {{"bad_here", made.bad_in_a},
           {"bad_there", made.bad_in_b},
           {"bad_here_good_there", pairs_of_tets(made.worse_in_a)},

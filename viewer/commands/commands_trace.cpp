@@ -141,7 +141,8 @@ std::vector<Breakpoint>& breakpoints_of(Document& document) {
 json breakpoint(Session& s, const json& a) {
   const Condition condition = parse_condition(Arguments("breakpoint", a).text(0));
   const auto& terms = condition.terms;
-  if (s.document.debugger() == nullptr && std::any_of(terms.begin(), terms.end(), is_about_record)) {
+  if (s.document.debugger() == nullptr &&
+      std::any_of(terms.begin(), terms.end(), is_about_record)) {
     throw Error(fmt::format("'{}' asks what became of a call: only recorded runs know",
                             to_text(condition)));
   }

@@ -201,8 +201,9 @@ class Search {
   /// `with_edit`: the terms about edits hold otherwise.
   bool holds_of(std::uint32_t number, bool with_edit) {
     const Call& call = file_.calls()[number];
-    ConditionCall asked{file_.name(call.operator_name), call.level, call.target(), call.verdict,
-                        worst_before(number), file_.ending(call), visit_of(number)};
+    ConditionCall asked{
+        file_.name(call.operator_name), call.level,         call.target(),   call.verdict,
+        worst_before(number),           file_.ending(call), visit_of(number)};
     const PlaceOf place_of = [&](VertexHandle v) -> std::optional<Point> {
       replay_.seek(call.events.begin);
       if (replay_.mesh().is_deleted(v)) return std::nullopt;
@@ -330,7 +331,7 @@ class Search {
 
 }  // namespace
 
-std::string word_of(Ending ending) {
+std::string word_of(CallEnding ending) {
   return joined(name_of(ending));
 }
 
@@ -375,8 +376,8 @@ std::string to_text(const Condition& condition) {
 }
 
 bool is_about_end(const Term& term) {
-  return term.kind == Kind::accepted || term.kind == Kind::refused ||
-         term.kind == Kind::verdict || term.kind == Kind::undone || term.kind == Kind::ending;
+  return term.kind == Kind::accepted || term.kind == Kind::refused || term.kind == Kind::verdict ||
+         term.kind == Kind::undone || term.kind == Kind::ending;
 }
 
 bool is_about_record(const Term& term) {
@@ -392,7 +393,7 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
     case Kind::accepted:
       return call.verdict == Verdict::accepted;
     case Kind::undone:
-      return call.ending == Ending::undone;
+      return call.ending == CallEnding::undone;
     case Kind::ending:
       return call.ending && word_of(*call.ending) == term.name;
     case Kind::refused:

@@ -23,7 +23,7 @@ struct Condition {
     undone,         ///< a call was accepted, and undone with a caller
     refused,        ///< a call ended with any other verdict
     verdict,        ///< a call ended with the verdict `name`
-    ending,         ///< a call ended in the way `name`, see Ending
+    ending,         ///< a call ended in the way `name`, see CallEnding
     deeper,         ///< a call on a deeper level of recursion than numbers[0]
     level,          ///< a call on this level
     visit,          ///< a call in this visit of a tet, and the beginning of the visit
@@ -58,7 +58,7 @@ struct Breakpoint {
 Condition parse_condition(std::string_view text);
 std::string to_text(const Condition& condition);
 /// "nothing_better": a way to end as conditions have it.
-std::string word_of(Ending ending);
+std::string word_of(CallEnding ending);
 /// "accepted, refused, deeper LEVEL, ...": for help.
 std::string condition_usage();
 
@@ -67,9 +67,9 @@ struct ConditionCall {
   std::string_view operator_name;
   unsigned level = 0;
   std::span<const VertexHandle> target;
-  std::optional<Verdict> verdict;  ///< nothing: it has not ended
-  double worst = 0;                ///< quality of the worst tet that it has before it
-  std::optional<Ending> ending;    ///< what became of it; of live runs nobody knows yet
+  std::optional<Verdict> verdict;      ///< nothing: it has not ended
+  double worst = 0;                    ///< quality of the worst tet that it has before it
+  std::optional<CallEnding> ending;    ///< what became of it; of live runs nobody knows yet
   std::optional<std::uint32_t> visit;  ///< number of the visit that it is in; of a recorded run
 };
 /// Where a vertex is, in lengths of the file; nothing for one that is not there.
@@ -96,7 +96,7 @@ struct ConditionSource {
 std::optional<std::uint64_t> find_stop(const ConditionSource& source, const Condition& condition,
                                        std::uint64_t from, Direction direction);
 
-/// All calls of which the condition holds, those nearest to being accepted first; see Call::missing().
+/// All calls of which the condition holds, the nearest to being accepted first: see Call::missing().
 /// @throws Error when it is about edits. Cost: linear in the calls; of a place, replays them.
 std::vector<std::uint32_t> find_all(const ConditionSource& source, const Condition& condition);
 

@@ -26,6 +26,18 @@
 
 namespace tetmend::viewer {
 
+/// Calls of which a condition holds, as a list to go through.
+struct FoundCalls {
+  Condition condition;
+  std::vector<std::uint32_t> calls;  ///< see find_all()
+};
+
+/// Another recorded run beside the one that is looked at.
+struct OtherRun {
+  std::filesystem::path file;
+  RunComparison comparison;  ///< `a` is the run that is looked at
+};
+
 /// Moves that lead nowhere leave the position as it is.
 class Debugger {
  public:
@@ -96,7 +108,8 @@ class Debugger {
   std::string asked;  ///< what the user is about to ask
   /// The whole of the run. Made once, see make_ledger().
   const Ledger& ledger();
-  /// Lists the calls of a condition, and keeps the list. Stays where it is. @throws Error as find_all()
+  /// Lists the calls of a condition, and keeps the list. Stays where it is.
+  /// @throws Error as find_all()
   void list_calls(const Condition& condition);
   const std::optional<FoundCalls>& found() const { return found_; }
   void forget_found() { found_.reset(); }

@@ -116,7 +116,8 @@ void draw_algorithm_panel(Session& session) {
   const std::string name(title.substr(0, title.find(':')));
   ImGui::TextDisabled("called from line %u of %s:", caller.line, name.c_str());
   const std::string_view line = caller.code->lines[caller.line - 1];
-  const std::string on = caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
+  const std::string on =
+      caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
   ImGui::TextWrapped("%s%s", line.data(), on.c_str());
 }
 

@@ -31,10 +31,9 @@ void list_parts(Session& session, const History& history) {
   for (const PartHistory& part : history.parts) {
     if (part.part.size() == history.subject.size()) continue;
     if (part.calls + part.in_trials == 0 && part.part.size() != 2) continue;
-    std::string text =
-        fmt::format("{}{}: {} calls, {} accepted for good, {} undone", in_words(part.part),
-                    part.on_surface ? ", on the surface" : "", part.calls, part.accepted,
-                    part.undone);
+    std::string text = fmt::format("{}{}: {} calls, {} accepted for good, {} undone",
+                                   in_words(part.part), part.on_surface ? ", on the surface" : "",
+                                   part.calls, part.accepted, part.undone);
     if (part.nearest != kNoCall) {
       const Call& call = file.calls()[part.nearest];
       if (!call.accepted()) text += fmt::format("; nearest {}", part.nearest);

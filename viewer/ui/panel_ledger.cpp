@@ -61,7 +61,7 @@ void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& cho
   for (std::size_t i = 0; i < kEndingCount; ++i) {
     const LedgerCell& cell = row.cells[i];
     if (cell.calls == 0 && (there == nullptr || there->cells[i].calls == 0)) continue;
-    const auto ending = static_cast<Ending>(i);
+    const auto ending = static_cast<CallEnding>(i);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::Indent();
@@ -101,16 +101,16 @@ void show_rows(Debugger& debugger, std::string& chosen) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
     const std::string of = fmt::format("operator {}", name);
     count_cell(row.total().calls, of, chosen);
-    count_cell(row.cell(Ending::for_good).calls, of + " and accepted for good", chosen);
-    count_cell(row.cell(Ending::undone).calls, of + " and undone", chosen);
+    count_cell(row.cell(CallEnding::for_good).calls, of + " and accepted for good", chosen);
+    count_cell(row.cell(CallEnding::undone).calls, of + " and undone", chosen);
     count_cell(row.refused().calls, of + " and refused", chosen);
     if (there != nullptr) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::TextDisabled("   in the other run");
       number_cell(grouped(there->total().calls));
-      number_cell(grouped(there->cell(Ending::for_good).calls));
-      number_cell(grouped(there->cell(Ending::undone).calls));
+      number_cell(grouped(there->cell(CallEnding::for_good).calls));
+      number_cell(grouped(there->cell(CallEnding::undone).calls));
       number_cell(grouped(there->refused().calls));
     }
     if (is_open) show_endings(row, there, chosen);
@@ -127,11 +127,12 @@ void show_nearness(const LedgerRow& all) {
 /// A click asks for the history of the bad tet.
 void show_pairs(Session& session, const OtherRun& other) {
   const auto& pairs = other.comparison.worse_in_a;
-  wrapped_text(fmt::format("Beside {}: {} tets are bad here, {} there. {} are bad here and good "
-                           "there, {} the other way round.",
-                           other.file.filename().string(), grouped(other.comparison.bad_in_a),
-                           grouped(other.comparison.bad_in_b), grouped(pairs.size()),
-                           grouped(other.comparison.worse_in_b.size())));
+  wrapped_text(
+      fmt::format("Beside {}: {} tets are bad here, {} there. {} are bad here and good "
+                  "there, {} the other way round.",
+                  other.file.filename().string(), grouped(other.comparison.bad_in_a),
+                  grouped(other.comparison.bad_in_b), grouped(pairs.size()),
+                  grouped(other.comparison.worse_in_b.size())));
   if (pairs.empty() || !ImGui::TreeNode("bad here and good there")) return;
   std::string asked;
   constexpr float kRows = 8;
@@ -186,11 +187,12 @@ void show_found_row(Session& session, std::uint32_t number) {
 void draw_ledger_panel(Session& session) {
   Debugger& debugger = *session.document.debugger();
   const LedgerRow& all = debugger.ledger().all;
-  wrapped_text(fmt::format("{} calls: {} accepted for good, {} accepted and undone with a caller, "
-                           "{} refused. {} of {} edits lasted.",
-                           grouped(all.total().calls), grouped(all.cell(Ending::for_good).calls),
-                           grouped(all.cell(Ending::undone).calls), grouped(all.refused().calls),
-                           grouped(debugger.ledger().lasting), grouped(debugger.ledger().edits)));
+  wrapped_text(
+      fmt::format("{} calls: {} accepted for good, {} accepted and undone with a caller, "
+                  "{} refused. {} of {} edits lasted.",
+                  grouped(all.total().calls), grouped(all.cell(CallEnding::for_good).calls),
+                  grouped(all.cell(CallEnding::undone).calls), grouped(all.refused().calls),
+                  grouped(debugger.ledger().lasting), grouped(debugger.ledger().edits)));
   std::string chosen;
   show_rows(debugger, chosen);
   show_nearness(all);
@@ -209,8 +211,7 @@ void draw_found_panel(Session& session) {
                            to_text(found.condition), grouped(found.calls.size())));
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
   constexpr float kRows = 8;
-  if (ImGui::BeginTable("##found", 2, kLooks,
-                        {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
+  if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 9 * ImGui::GetFontSize());
     ImGuiListClipper clipper;

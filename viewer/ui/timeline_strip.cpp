@@ -205,7 +205,7 @@ bool zoom_by_mouse(Session& session, const Band& band, const CallWindow& shown) 
 void draw_icicles(Session& session, const Band& band, const CallWindow& window) {
   const Debugger& debugger = *session.document.debugger();
   frame(band);
-  constexpr double kThinnest = 3;  // pixels
+  constexpr double kThinnest = 3;   // pixels
   constexpr float kHighest = 1.8F;  // of the text
   const auto bars = lay_out_icicle(debugger.file(), window,
                                    kThinnest / static_cast<double>(std::max(band.size.x, 1.0F)));

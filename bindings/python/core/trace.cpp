@@ -79,10 +79,9 @@ py::list worse_than(const Trace& trace, const Trace& other) {
   run_detached([&] { pairs = trace.worse_than(other); });
   py::list made;
   for (const Trace::TetPair& pair : pairs) {
-    made.append(py::dict("bad"_a = py::tuple(py::cast(pair.bad)),
-                         "bad_quality"_a = pair.bad_quality,
-                         "good"_a = py::tuple(py::cast(pair.good)),
-                         "good_quality"_a = pair.good_quality));
+    made.append(
+        py::dict("bad"_a = py::tuple(py::cast(pair.bad)), "bad_quality"_a = pair.bad_quality,
+                 "good"_a = py::tuple(py::cast(pair.good)), "good_quality"_a = pair.good_quality));
   }
   return made;
 }

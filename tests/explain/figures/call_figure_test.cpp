@@ -123,11 +123,11 @@ TEST_CASE("a tree has a row for each call, with its facts") {
   REQUIRE(wanted.size() > 1);
   for (const auto& [outcome, ended] : wanted) {
     const figure::Colour colour = outcome_colour(outcome);
-    const auto strokes = std::count_if(
-        drawing.shapes.begin(), drawing.shapes.end(), [&](const figure::Shape& shape) {
-          const auto* stroke = std::get_if<figure::Stroke>(&shape);
-          return stroke != nullptr && stroke->pen.colour == colour;
-        });
+    const auto strokes = std::count_if(drawing.shapes.begin(), drawing.shapes.end(),
+                                       [&](const figure::Shape& shape) {
+                                         const auto* stroke = std::get_if<figure::Stroke>(&shape);
+                                         return stroke != nullptr && stroke->pen.colour == colour;
+                                       });
     CHECK(strokes == static_cast<std::ptrdiff_t>((ended + 1) * outcome_mark(outcome).size()));
     CHECK(has_text(drawing, std::string(outcome_name(outcome))));
   }

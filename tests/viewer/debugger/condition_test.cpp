@@ -28,10 +28,10 @@ std::optional<std::uint64_t> stop(const TraceFile& file, const std::string& text
 
 TEST_CASE("a condition is written as it is read") {
   for (const char* text :
-       {"accepted", "accepted for good", "undone", "refused", "deeper 2", "operator edge_removal", "edge 3 17", "face 1 2 3",
-        "vertex 5", "tet 4711", "level 3", "worse than 0.2", "better than 0.5",
-        "near 1 -2.5 0 0.25", "verdict depth_spent", "edge 3 17 and refused", "tet 10391 for good",
-        "level 2 and operator smoothing and worse than 0.3 for good"}) {
+       {"accepted", "accepted for good", "undone", "refused", "deeper 2", "operator edge_removal",
+        "edge 3 17", "face 1 2 3", "vertex 5", "tet 4711", "level 3", "worse than 0.2",
+        "better than 0.5", "near 1 -2.5 0 0.25", "verdict depth_spent", "edge 3 17 and refused",
+        "tet 10391 for good", "level 2 and operator smoothing and worse than 0.3 for good"}) {
     CHECK(to_text(parse_condition(text)) == text);
   }
 }

@@ -9,7 +9,7 @@
 
 namespace tetmend {
 
-enum class Ending : std::uint8_t {
+enum class CallEnding : std::uint8_t {
   for_good,
   undone,
   nothing_better,
@@ -28,11 +28,11 @@ enum class Ending : std::uint8_t {
   deferred,
   cut_off
 };
-inline constexpr std::size_t kEndingCount = static_cast<std::size_t>(Ending::cut_off) + 1;
+inline constexpr std::size_t kEndingCount = static_cast<std::size_t>(CallEnding::cut_off) + 1;
 
 /// A refusal: neither accepted, for good or not, nor cut off.
-constexpr bool is_refusal(Ending ending) {
-  return ending > Ending::undone && ending < Ending::cut_off;
+constexpr bool is_refusal(CallEnding ending) {
+  return ending > CallEnding::undone && ending < CallEnding::cut_off;
 }
 
 struct EndingWords {
@@ -45,13 +45,10 @@ inline constexpr std::array<EndingWords, kEndingCount> kEndingWords = {{
     {"undone with a caller", "it was accepted, and undone by a call around it"},
     {"nothing better", "no candidate is better than what is there"},
     {"vector not better", "the quality vector with the candidate is not better"},
-    {"more bad tets",
-     "the quality vector is better, but the gain does not pay for more bad tets"},
-    {"judge not content",
-     "the quality vector is better, but not all that its judge asks for is"},
+    {"more bad tets", "the quality vector is better, but the gain does not pay for more bad tets"},
+    {"judge not content", "the quality vector is better, but not all that its judge asks for is"},
     {"calls not enough", "what the calls in it reached is not enough"},
-    {"not applicable",
-     "the target is gone or is not of the kind that the operator works on"},
+    {"not applicable", "the target is gone or is not of the kind that the operator works on"},
     {"does not fit", "the candidate does not fit into its cavity"},
     {"target constrained", "the target lies on the boundary or on a constraint"},
     {"candidate constrained", "the candidate would remove a constrained face, edge or vertex"},
@@ -63,7 +60,7 @@ inline constexpr std::array<EndingWords, kEndingCount> kEndingWords = {{
     {"cut off", "the trace ends before the call does"},
 }};
 
-constexpr std::string_view name_of(Ending ending) {
+constexpr std::string_view name_of(CallEnding ending) {
   return kEndingWords[static_cast<std::size_t>(ending)].name;
 }
 
