@@ -337,6 +337,13 @@ void add_figure_options(CLI::App& command, CLI::Option_group& what, TraceOptions
       ->expected(2);
 }
 
+void add_history_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
+  what.add_option("--history", options.history,
+                  "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
+      ->type_name("WHAT");
+  command.add_flag("--all", options.all, "Of a history, every call instead of the 20 nearest");
+}
+
 void add_ledger_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
   what.add_flag("--ledger", options.ledger, "Who was asked how often, how that ended and why");
   what.add_option(
@@ -373,12 +380,9 @@ void add_trace(CLI::App& app, Invocation& invocation) {
   what->add_option("--extract", options->extract,
                    "A folder (-o) with a small mesh and a schedule\nthat repeat a call")
       ->type_name("CALL");
-  what->add_option("--history", options->history,
-                   "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
-      ->type_name("WHAT");
+  add_history_options(*command, *what, *options);
   add_ledger_options(*command, *what, *options);
   what->require_option(0, 1);
-  command->add_flag("--all", options->all, "Of a history, every call instead of the 20 nearest");
   add_figure_options(*command, *what, *options);
   command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
 events are counted from 0; vertices are named by their handle numbers. Of

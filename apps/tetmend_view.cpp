@@ -219,13 +219,18 @@ int complain(Status status, const std::string& message) {
   return status;
 }
 
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("FILE", options.file, "Mesh or trace to open")->type_name("");
+/// What stands beside.
+void add_others(CLI::App& app, Options& options) {
   app.add_option("--before", options.before, "Mesh whose statistics are shown beside")
       ->type_name("MESH");
   app.add_option("--against", options.against,
                  "Of a trace: another run beside it, with differences")
       ->type_name("TRACE");
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("FILE", options.file, "Mesh or trace to open")->type_name("");
+  add_others(app, options);
   app.add_option("--reference", options.reference,
                  "Colour the surface by its distance from that of this\nmesh, which is seen as a "
                  "ghost")
