@@ -30,7 +30,9 @@
 #include "trace/call_script.h"
 #include "trace/call_tree.h"
 #include "trace/history.h"
+#include "trace/ledger.h"
 #include "trace/replay.h"
+#include "trace/run_comparison.h"
 #include "trace/trace_file.h"
 #include "trace/trace_summary.h"
 
@@ -45,7 +47,10 @@ struct TraceOptions {
   std::optional<std::uint64_t> at;
   std::optional<std::uint32_t> extract;
   std::string history;
-  bool all = false;  // the calls of a history
+  bool ledger = false;
+  std::filesystem::path against;
+  bool json = false;  // of a ledger or a comparison
+  bool all = false;   // the calls of a history
   bool slices = false;
   bool html = false;
   std::string html_call;  // a number; empty: of the whole trace
@@ -121,6 +126,18 @@ std::string history(const TraceOptions& options, const TraceFile& file) {
   } catch (const Error& error) {
     throw Error(fmt::format("--history {}: {}", options.history, error.what()));
   }
+}
+
+std::string ledger(const TraceOptions& options, const TraceFile& file) {
+  const Ledger made = make_ledger(file);
+  return options.json ? ledger_json(file, made) : format_ledger(made);
+}
+
+std::string comparison(const TraceOptions& options, const TraceFile& file) {
+  const TraceFile other(options.against);
+  if (!other.damage().empty()) complain(kSuccess, "warning: " + other.damage());
+  const RunComparison made = compare_runs(file, other);
+  return options.json ? comparison_json(file, other, made) : format_comparison(file, other, made);
 }
 
 void write_text(const std::filesystem::path& file, std::string_view text) {
@@ -242,6 +259,7 @@ void write_figure(const TraceOptions& options, const TraceFile& file) {
 void check_outputs(const TraceOptions& options) {
   using enum NamedFile::Kind;
   std::vector<NamedFile> inputs = {{"FILE", options.file}};
+  if (!options.against.empty()) inputs.push_back({"the trace of --against", options.against});
   if (!options.history.empty()) {
     inputs.push_back({"the mesh of --history", file_of_question(options.history), mesh});
   }
@@ -261,6 +279,9 @@ void check_outputs(const TraceOptions& options) {
 int run_trace(const TraceOptions& options) {
   check_figure(options);
   if (options.all && options.history.empty()) throw UsageError("--all is for --history");
+  if (options.json && !options.ledger && options.against.empty()) {
+    throw UsageError("--json is for --ledger and --against");
+  }
   if (!options.html_call.empty()) read_call(options.html_call);
   if (options.at) {
     if (options.output.empty()) throw UsageError("--at needs -o, a file for the mesh");
@@ -278,6 +299,10 @@ int run_trace(const TraceOptions& options) {
     write_extract(options, file);
   } else if (!options.history.empty()) {
     put_text(options, history(options, file));
+  } else if (options.ledger) {
+    put_text(options, ledger(options, file));
+  } else if (!options.against.empty()) {
+    put_text(options, comparison(options, file));
   } else if (!options.figure.empty()) {
     write_figure(options, file);
   } else if (options.html) {
@@ -312,6 +337,23 @@ void add_figure_options(CLI::App& command, CLI::Option_group& what, TraceOptions
       ->expected(2);
 }
 
+void add_history_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
+  what.add_option("--history", options.history,
+                  "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
+      ->type_name("WHAT");
+  command.add_flag("--all", options.all, "Of a history, every call instead of the 20 nearest");
+}
+
+void add_ledger_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
+  what.add_flag("--ledger", options.ledger, "Who was asked how often, how that ended and why");
+  what.add_option(
+          "--against", options.against,
+          "Two runs side by side: ledgers, time, tets that are\nbad in FILE and good in the "
+          "other")
+      ->type_name("TRACE");
+  command.add_flag("--json", options.json, "Ledger or comparison as JSON");
+}
+
 }  // namespace
 
 void add_trace(CLI::App& app, Invocation& invocation) {
@@ -338,11 +380,9 @@ void add_trace(CLI::App& app, Invocation& invocation) {
   what->add_option("--extract", options->extract,
                    "A folder (-o) with a small mesh and a schedule\nthat repeat a call")
       ->type_name("CALL");
-  what->add_option("--history", options->history,
-                   "Why a tet is still there: who aimed at it or its\nparts, and what was missing")
-      ->type_name("WHAT");
+  add_history_options(*command, *what, *options);
+  add_ledger_options(*command, *what, *options);
   what->require_option(0, 1);
-  command->add_flag("--all", options->all, "Of a history, every call instead of the 20 nearest");
   add_figure_options(*command, *what, *options);
   command->footer(R"(Without an option: a summary, with the numbers of the largest calls. Calls and
 events are counted from 0; vertices are named by their handle numbers. Of
@@ -356,6 +396,8 @@ is cut off or damaged is read up to there, with a warning.
 Examples:
   tetmend improve part.mesh -o better.mesh --trace run.trace
   tetmend trace run.trace
+  tetmend trace run.trace --ledger
+  tetmend trace shell.trace --against thorough.trace
   tetmend trace run.trace --tree 17
   tetmend trace run.trace --dot 17 | dot -Tsvg -o call.svg
   tetmend trace run.trace --html 17 -o call.html

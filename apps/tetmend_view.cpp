@@ -40,6 +40,7 @@ enum Status : int { kSuccess = 0, kFailed = 1, kWrongUsage = 2 };
 struct Options {
   std::string file;
   std::string before;
+  std::string against;
   std::string reference;
   std::string tolerance;
   bool both_ways = false;
@@ -97,11 +98,19 @@ void show_reference(const Options& options, Document& document) {
   document.view.scene.both_ways = options.both_ways;
 }
 
+void show_against(const Options& options, Document& document) {
+  if (options.against.empty()) return;
+  Debugger* debugger = document.debugger();
+  if (debugger == nullptr) throw Error("--against is for traces: there is none");
+  debugger->compare_with(options.against);
+}
+
 void prepare(const Options& options, Document& document) {
   document.live.load_plugins(all_plugins(options.plugins));
   if (!options.size.empty()) document.resize(read_size(options.size));
   if (!options.before.empty()) document.compare_with(options.before);
   if (!options.file.empty()) document.open(options.file);
+  show_against(options, document);
   if (options.at) go_to(document, *options.at);
   show_reference(options, document);
   if (!options.view.empty()) apply_json_text(document.view, options.view);
@@ -168,6 +177,7 @@ void check_files(const Options& options) {
     const auto trace = std::filesystem::path(*lesson).replace_extension(".trace");  // of its name
     files.read({"the lesson", {{*lesson, trace}, {}}});
   }
+  files.read({"--against", {{options.against}, {}}});
   files.read({"--script", {{options.script}, {}}});
   files.read({"--plugin", {options.plugins, {}}});
   files.write({"--render", {{options.picture}, {}}});
@@ -209,10 +219,18 @@ int complain(Status status, const std::string& message) {
   return status;
 }
 
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("FILE", options.file, "Mesh or trace to open")->type_name("");
+/// What stands beside.
+void add_others(CLI::App& app, Options& options) {
   app.add_option("--before", options.before, "Mesh whose statistics are shown beside")
       ->type_name("MESH");
+  app.add_option("--against", options.against,
+                 "Of a trace: another run beside it, with differences")
+      ->type_name("TRACE");
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("FILE", options.file, "Mesh or trace to open")->type_name("");
+  add_others(app, options);
   app.add_option("--reference", options.reference,
                  "Colour the surface by its distance from that of this\nmesh, which is seen as a "
                  "ghost")
@@ -262,6 +280,7 @@ void add_options(CLI::App& app, Options& options) {
   tetmend-view --before part.mesh better.mesh
   tetmend-view --reference part.mesh --tolerance 1% --both-ways moved.mesh
   tetmend-view run.trace
+  tetmend-view shell.trace --against thorough.trace
   tetmend-view --render part.png --size 1200x900 part.mesh
   tetmend-view --render fig.png --size 3840x2160 --scale 2 --view '{"colour": "quality"}' --colour-bar --background transparent part.mesh
   tetmend-view --video run.mp4 --size 1280x720 --frames 0,500,5 run.trace

@@ -156,7 +156,7 @@ Outcome outcome_of(const Call& call) {
   if (!call.verdict) return Outcome::unfinished;
   switch (*call.verdict) {
     case Verdict::accepted:
-      return Outcome::accepted;
+      return call.undone ? Outcome::undone : Outcome::accepted;
     case Verdict::no_improvement:
       return call.candidate_found ? Outcome::rejected : Outcome::no_improvement;
     case Verdict::inverted:
@@ -178,7 +178,9 @@ std::string_view outcome_name(Outcome outcome) {
     case Outcome::unfinished:
       return "cut off";
     case Outcome::accepted:
-      return "accepted";
+      return "accepted for good";
+    case Outcome::undone:
+      return "undone with a caller";
     case Outcome::no_improvement:
       return "nothing better found";
     case Outcome::limit:
@@ -194,7 +196,7 @@ std::string_view outcome_name(Outcome outcome) {
 }
 
 std::string outcome_text(const Call& call, std::uint64_t position) {
-  return std::string(position < call.events.end ? "under way" : call.verdict_text());
+  return position < call.events.end ? "under way" : call.verdict_in_words();
 }
 
 }  // namespace tetmend::explain

@@ -2,6 +2,7 @@
 // What the tree of calls says about each call, in one row.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -44,12 +45,23 @@ std::string degree_text(const CallFacts& facts);
 /// "0.074 -> 0.758": of what the call compared, or of the tets around its target.
 std::string quality_text(const Call& call, const CallFacts& facts);
 
-/// How a call ended, as colours tell it.
-enum class Outcome { unfinished, accepted, no_improvement, limit, constrained, rejected, other };
+/// How a call ended, as colours and marks tell it.
+enum class Outcome {
+  unfinished,
+  accepted,  ///< for good
+  undone,    ///< accepted, and undone with a caller
+  no_improvement,
+  limit,
+  constrained,
+  rejected,
+  other
+};
+inline constexpr std::size_t kOutcomeCount = static_cast<std::size_t>(Outcome::other) + 1;
 Outcome outcome_of(const Call& call);
 /// As legends say it: "nothing better found".
 std::string_view outcome_name(Outcome outcome);
-/// "accepted", "no improvement", ...; "under way" for a call that has not ended at that position.
+/// "accepted", "undone with call 17", "no improvement", ...; "under way" for a call that has not
+/// ended at that position.
 std::string outcome_text(const Call& call, std::uint64_t position);
 
 }  // namespace tetmend::explain

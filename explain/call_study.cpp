@@ -392,7 +392,13 @@ std::string explain_end(const TraceFile& file, const CallStudy& study) {
   if (call.accepted() && call.worst_before != 0) {
     text +=
         fmt::format(" Worst quality {:.4f}, before {:.4f}.", call.worst_after, call.worst_before);
-  } else if (study.undone) {
+  }
+  if (call.undone && call.undone_with != kNoCall) {
+    text += fmt::format(" Call {} undid it, and ended: {}.", call.undone_with,
+                        file.calls()[call.undone_with].verdict_in_words());
+  }
+  if (call.accepted()) return text;
+  if (study.undone) {
     const bool has_vectors = call.worst_before != 0;
     text += fmt::format(" Tried: worst quality {:.4f}, as against {:.4f}. Undone.",
                         has_vectors ? call.worst_after : worst_of(study.after),

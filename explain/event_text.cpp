@@ -1,11 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "explain/event_text.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "explain/stepper.h"
 #include "trace/traced_standard.h"
 
 namespace tetmend::explain {
+
+namespace {
+
+/// `position` is right after its first event.
+std::string visit_text(const TraceFile& file, std::uint64_t position) {
+  const auto number = visit_at(file, position);
+  if (!number) return std::string(to_string(EventKind::visit_begins));
+  const Visit& visit = file.visits()[*number];
+  return fmt::format("visit {} begins: t = {}, quality {:.4f}", *number, format_visit(visit),
+                     visit.quality);
+}
+
+}  // namespace
+
+std::string format_visit(const Visit& visit) {
+  std::string text = "tet";
+  TetVertices tet = visit.tet;
+  std::sort(tet.begin(), tet.end());
+  for (const VertexHandle v : tet) text += fmt::format(" {}", v.index());
+  return text;
+}
 
 std::string event_text(const TraceFile& file, std::uint64_t position) {
   if (position == 0) return "the trace begins";
@@ -18,11 +42,11 @@ std::string event_text(const TraceFile& file, std::uint64_t position) {
     case EventKind::pass_begins:
       return fmt::format("pass {} begins, round {}", file.name(event.name), event.number);
     case EventKind::visit_begins:
-      return fmt::format("a bad tet is visited, quality {:.4f}", event.quality);
+      return visit_text(file, position);
     case EventKind::attempt_begins:
       return fmt::format("call {} begins", call);
     case EventKind::attempt_ends:
-      return fmt::format("call {} ends: {}", call, to_string(event.verdict));
+      return fmt::format("call {} ends: {}", call, file.calls()[call].verdict_in_words());
     case EventKind::replace_cavity:
       return fmt::format("{} tets are replaced by {}", event.removed.size(), event.created.size());
     case EventKind::move_vertex:

@@ -2,6 +2,7 @@
 #include "explain/icicle.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tetmend::explain {
 
@@ -23,6 +24,29 @@ CallWindow call_window(const TraceFile& file, std::uint32_t call) {
   return {c.events.begin, c.events.end, call, c.subtree_end};
 }
 
+CallWindow zoomed(const CallWindow& whole, const CallWindow& shown, double at, double factor) {
+  constexpr double kFewest = 8;  // events
+  const auto all = static_cast<double>(whole.end - whole.begin);
+  const auto now = static_cast<double>(shown.end - shown.begin);
+  const double events = std::clamp(now * factor, std::min(kFewest, all), all);
+  const double fixed = static_cast<double>(shown.begin - whole.begin) + at * now;
+  const double begin = std::clamp(fixed - at * events, 0.0, all - events);
+  CallWindow made = whole;
+  made.begin += static_cast<std::uint64_t>(std::llround(begin));
+  made.end = std::min(whole.end, made.begin + static_cast<std::uint64_t>(std::llround(events)));
+  return made;
+}
+
+CallWindow panned(const CallWindow& whole, const CallWindow& shown, std::int64_t events) {
+  const std::uint64_t room = whole.end - whole.begin - (shown.end - shown.begin);
+  const std::int64_t wanted = static_cast<std::int64_t>(shown.begin - whole.begin) + events;
+  const std::int64_t begin = std::clamp<std::int64_t>(wanted, 0, static_cast<std::int64_t>(room));
+  CallWindow made = whole;
+  made.begin += static_cast<std::uint64_t>(begin);
+  made.end = made.begin + (shown.end - shown.begin);
+  return made;
+}
+
 std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& window,
                                       double thinnest) {
   std::vector<IcicleBar> bars;
@@ -30,24 +54,33 @@ std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& w
   std::vector<std::size_t> last_in_row;  // bars of joined calls grow
   const double events = static_cast<double>(std::max<std::uint64_t>(1, window.end - window.begin));
   const auto place = [&](std::uint64_t event) {
-    return static_cast<double>(event - window.begin) / events;
+    return static_cast<double>(std::clamp(event, window.begin, window.end) - window.begin) / events;
   };
   const unsigned top = file.calls()[window.first_call].depth;
   for (std::uint32_t k = window.first_call; k < window.last_call;) {
     const Call& call = file.calls()[k];
-    const IcicleBar bar{place(call.events.begin), place(call.events.end), call.depth - top, k, 1};
+    if (call.events.end <= window.begin) {
+      k = call.subtree_end;
+      continue;
+    }
+    if (call.events.begin >= window.end) break;
+    IcicleBar bar{place(call.events.begin), place(call.events.end), call.depth - top, k, 1, {}};
+    bar.ended[static_cast<std::size_t>(outcome_of(call))] = 1;
     if (bar.row >= last_in_row.size()) last_in_row.resize(bar.row + 1, bars.size());
     const bool is_thin = bar.right - bar.left < thinnest;
     IcicleBar* before = nullptr;
     if (const std::size_t i = last_in_row[bar.row]; i < bars.size() && bars[i].row == bar.row) {
       before = &bars[i];
     }
-    // Joined while the bar that results is thin itself, so that many make no long blur.
+    // Joined while the bar that results is short, so that many make no long blur.
+    constexpr double kLongest = 4;  // of the thinnest
     const bool joins = is_thin && before != nullptr && bar.left - before->right < thinnest &&
-                       before->right - before->left < thinnest;
+                       before->right - before->left < kLongest * thinnest &&
+                       (before->count > 1 || before->right - before->left < thinnest);
     if (joins) {
       before->right = std::max(before->right, bar.right);
       ++before->count;
+      ++before->ended[static_cast<std::size_t>(outcome_of(call))];
     } else {
       last_in_row[bar.row] = bars.size();
       bars.push_back(bar);

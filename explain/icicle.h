@@ -2,10 +2,11 @@
 // Calls as bars under each other, as wide as the events in them: a flame graph upside down.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "trace/trace_file.h"
+#include "explain/call_facts.h"
 
 namespace tetmend::explain {
 
@@ -14,6 +15,7 @@ struct IcicleBar {
   unsigned row = 0;              ///< calls around it, counted from the outermost in the window
   std::uint32_t call = kNoCall;  ///< of a bar of many calls: the first of them
   std::uint32_t count = 1;       ///< more than 1: neighbours that are too thin to be drawn alone
+  std::array<std::uint32_t, kOutcomeCount> ended{};  ///< how many of them in which way, by Outcome
 };
 
 /// A part of a trace: the calls of an outermost call, of a pass, or all.
@@ -27,8 +29,15 @@ CallWindow pass_around(const TraceFile& file, std::uint64_t position);
 /// Precondition: there is such a call.
 CallWindow call_window(const TraceFile& file, std::uint32_t call);
 
+/// A part of `shown`, or more of it up to `whole`: `factor` times as many events, the one at the
+/// share `at` of the width stays where it is.
+CallWindow zoomed(const CallWindow& whole, const CallWindow& shown, double at, double factor);
+/// As many events from another on, within `whole`.
+CallWindow panned(const CallWindow& whole, const CallWindow& shown, std::int64_t events);
+
 /// Bars of at least `thinnest` of the width; what is thinner is joined with its neighbours, and
-/// what is in it left out. In the order of calls. Cost: linear in the calls that are not left out.
+/// what is in it left out. In the order of calls. Calls that reach beyond the events of the window
+/// are cut there. Cost: linear in the calls that are not left out.
 std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& window,
                                       double thinnest);
 

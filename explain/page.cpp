@@ -65,7 +65,7 @@ Page write_page(const TraceFile& file, Replay& replay, const PageRequest& reques
     Page page{html_of(file, replay, request, range), std::nullopt};
     if (deepest < whole) page.deepest = deepest;
     if (page.html.size() <= request.largest) return page;
-    const bool is_least = deepest == 0 || deepest <= call_stack(file, range.begin).size();
+    const bool is_least = deepest == 0 || deepest < call_stack(file, range.begin).size();
     if (is_least) {
       throw Error(
           fmt::format("'{}' makes a page of {:.1f} MB, and {:.1f} MB is the most: choose a "

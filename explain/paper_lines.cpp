@@ -277,18 +277,18 @@ CodePlace code_place(const TraceFile& file, std::span<const std::uint32_t> stack
   const Pseudocode* code = code_of(file, call);
   if (code == nullptr) return {};
   const bool is_innermost = i + 1 == stack.size();
+  const bool is_back = !is_innermost && file.calls()[stack[i + 1]].events.end <= position;
   if (const Lines* lines = lines_of(file, call)) {
     const bool is_opening =
         lines == &kSequenceLines && !is_innermost && stack[i + 1] == stack[i] + 1;
-    if (is_opening) return {code, 1};
-    return {code, is_innermost ? line_of(file, *lines, call, position) : lines->inner};
+    if (is_opening) return {code, 1, is_back ? 2U : 0U};
+    return {code, is_innermost ? line_of(file, *lines, call, position) : lines->inner, 0};
   }
-  if (is_shell(call)) return {code, is_innermost ? line_of_shell(file, call, position) : 1};
-  if (is_innermost) return {code, line_of_recursion(file, stack[i], position)};
+  if (is_shell(call)) return {code, is_innermost ? line_of_shell(file, call, position) : 1, 0};
+  if (is_innermost) return {code, line_of_recursion(file, stack[i], position), 0};
   const Call& inner = file.calls()[stack[i + 1]];
-  const bool is_done = inner.events.end <= position;
-  if (is_shell(inner)) return {code, is_done ? 4U : 3U};
-  return {code, is_done ? 13U : 12U};
+  const unsigned line = is_shell(inner) ? 3 : 12;
+  return {code, line, is_back ? line + 1 : 0};
 }
 
 CodePlace pass_place(const TraceFile& file, std::span<const std::uint32_t> stack,
@@ -301,17 +301,18 @@ CodePlace pass_place(const TraceFile& file, std::span<const std::uint32_t> stack
     const Call& call = file.calls()[stack.front()];
     const bool is_face = call.target_size == kFaceOfTriangle;
     const bool is_done = call.events.end <= position;
-    return {&kReconnectionCode, (is_face ? 13U : 8U) + (is_done ? 1U : 0U)};
+    const unsigned line = is_face ? 13 : 8;
+    return {&kReconnectionCode, line, is_done ? line + 1 : 0};
   }
   switch (last_kind(file, position)) {
     case EventKind::pass_begins:
-      return {&kReconnectionCode, 1};
+      return {&kReconnectionCode, 1, 0};
     case EventKind::visit_begins:
-      return {&kReconnectionCode, 3};
+      return {&kReconnectionCode, 3, 0};
     case EventKind::visit_ends:
-      return {&kReconnectionCode, 16};
+      return {&kReconnectionCode, 16, 0};
     default:
-      return {&kReconnectionCode, 2};
+      return {&kReconnectionCode, 2, 0};
   }
 }
 

@@ -26,7 +26,10 @@ const Pseudocode& table_code();
 
 struct CodePlace {
   const Pseudocode* code = nullptr;  ///< null: an operator that is not described
-  unsigned line = 0;
+  unsigned line = 0;                 ///< of one that has called another: where it did that
+  /// Where it goes on, while the call that it made has ended and nothing has happened since; 0: not
+  /// so, or not known.
+  unsigned goes_on = 0;
 };
 
 /// What an attempt of that kind follows; null where it is not described.

@@ -15,6 +15,7 @@
 #include "explain/call_facts.h"
 #include "explain/call_study.h"
 #include "explain/event_text.h"
+#include "explain/outcome_look.h"
 #include "explain/paper_lines.h"
 #include "explain/removal.h"
 #include "explain/stepper.h"
@@ -39,8 +40,9 @@ Json numbers_of(std::span<const VertexHandle> vertices) {
 }
 
 std::string_view name_of(Outcome outcome) {
-  constexpr std::array<std::string_view, 7> kNames = {
-      "unfinished", "accepted", "no_improvement", "limit", "constrained", "rejected", "other"};
+  constexpr std::array<std::string_view, kOutcomeCount> kNames = {
+      "unfinished", "accepted",    "undone",   "no_improvement",
+      "limit",      "constrained", "rejected", "other"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
@@ -147,6 +149,11 @@ class Interned {
   std::vector<Tet> tets_;
 };
 
+/// All its steps are there, its first event included.
+bool is_in(const Call& call, const RecordingRange& range) {
+  return call.events.begin + 1 >= range.begin && call.events.end <= range.end;
+}
+
 class Recording {
  public:
   Recording(const TraceFile& file, Replay& replay, const RecordingRange& range)
@@ -162,17 +169,15 @@ class Recording {
     Json start = tets_at_begin();
     Json steps = make_steps();
     Json calls = make_calls();
-    return {
-        {"begin", range_.begin},     {"goal", describe(standard_)},  {"start", std::move(start)},
-        {"steps", std::move(steps)}, {"calls", std::move(calls)},    {"shells", std::move(shells_)},
-        {"codes", make_codes()},     {"points", interned_.points()}, {"tets", interned_.tets()}};
+    return {{"begin", range_.begin},     {"goal", describe(standard_)},
+            {"start", std::move(start)}, {"steps", std::move(steps)},
+            {"calls", std::move(calls)}, {"shells", std::move(shells_)},
+            {"codes", make_codes()},     {"points", interned_.points()},
+            {"tets", interned_.tets()},  {"outcomes", outcomes()},
+            {"visits", visits()}};
   }
 
  private:
-  bool is_in(const Call& call) const {
-    return call.events.begin >= range_.begin && call.events.end <= range_.end;
-  }
-
   /// All tets of a small mesh, else those at a target and those that change.
   void choose_tets() {
     constexpr std::size_t kSmall = 1000;
@@ -183,8 +188,12 @@ class Recording {
     cursor.move_to(range_.begin);
     std::uint32_t next = first_call();
     while (cursor.position() < range_.end) {
-      const EventKind kind = cursor.next().kind;
-      if (changes_mesh(kind)) {
+      const TraceEvent& event = cursor.next();
+      const EventKind kind = event.kind;
+      if (kind == EventKind::visit_begins && !takes_all_) {
+        replay_.seek(cursor.position());
+        take_visit({event.vertices[0], event.vertices[1], event.vertices[2], event.vertices[3]});
+      } else if (changes_mesh(kind)) {
         replay_.seek(cursor.position());
         for (const CavityTet& t : replay_.cavity().removed) slots_.insert(t.tet.index());
         for (const CavityTet& t : replay_.cavity().created) slots_.insert(t.tet.index());
@@ -197,9 +206,18 @@ class Recording {
     }
   }
 
-  void take_target(std::uint32_t call) {
-    for (const TetHandle t : replay_.tets_around(file_.calls()[call].target())) {
-      slots_.insert(t.index());
+  void take_target(std::uint32_t call) { take_around(file_.calls()[call].target()); }
+
+  void take_around(std::span<const VertexHandle> vertices) {
+    for (const TetHandle t : replay_.tets_around(vertices)) slots_.insert(t.index());
+  }
+
+  /// A tet that a pass turns to, and its neighbours.
+  void take_visit(const TetVertices& tet) {
+    for (unsigned f = 0; f < 4; ++f) {
+      std::array<VertexHandle, 3> face;
+      for (unsigned k = 0; k < 3; ++k) face[k] = tet[(f + 1 + k) % 4];
+      take_around(face);
     }
   }
 
@@ -207,7 +225,7 @@ class Recording {
     const auto calls = file_.calls();
     const auto first = std::lower_bound(
         calls.begin(), calls.end(), range_.begin,
-        [](const Call& call, std::uint64_t event) { return call.events.begin < event; });
+        [](const Call& call, std::uint64_t position) { return call.events.begin + 1 < position; });
     return static_cast<std::uint32_t>(first - calls.begin());
   }
 
@@ -276,14 +294,51 @@ class Recording {
   Json step_at(std::uint64_t position, const std::vector<std::uint32_t>& stack,
                const std::set<std::uint32_t>& gone, const std::set<std::uint32_t>& come) {
     Json lines = Json::array();
-    for (std::size_t i = 0; i < stack.size(); ++i) {
-      lines.push_back(code_place(file_, stack, i, position).line);
-    }
     const CodePlace pass = pass_place(file_, stack, position);
+    CodePlace caller = pass;
+    for (std::size_t i = 0; i < stack.size(); ++i) {
+      const CodePlace place = code_place(file_, stack, i, position);
+      lines.push_back(place.line);
+      if (i + 2 == stack.size()) caller = place;
+    }
     Json call;
     if (!stack.empty()) call = stack.back();
-    return {position, event_text(file_, position), call, lines, pass.line, ways(position), gone,
-            come};
+    return {position,      event_text(file_, position),
+            call,          lines,
+            pass.line,     ways(position),
+            gone,          come,
+            caller.goes_on};
+  }
+
+  /// Name and mark of each way to end that the calls have, and of those under way.
+  Json outcomes() const {
+    Json named = Json::object();
+    for (std::size_t i = 0; i < kOutcomeCount; ++i) {
+      const auto outcome = static_cast<Outcome>(i);
+      if (!seen_.contains(outcome)) continue;
+      Json lines = Json::array();
+      for (const auto& line : outcome_mark(outcome)) {
+        Json places = Json::array();
+        constexpr double kSteps = 100;
+        for (const figure::Place& at : line) {
+          places.push_back(std::round(at.x * kSteps) / kSteps);
+          places.push_back(std::round(at.y * kSteps) / kSteps);
+        }
+        lines.push_back(std::move(places));
+      }
+      named[std::string(name_of(outcome))] = {{"name", outcome_name(outcome)}, {"mark", lines}};
+    }
+    return named;
+  }
+
+  /// First and last position of each that is seen, and its tet.
+  Json visits() const {
+    Json list = Json::array();
+    for (const Visit& visit : file_.visits()) {
+      if (visit.events.begin >= range_.end || visit.events.end <= range_.begin) continue;
+      list.push_back({visit.events.begin + 1, visit.events.end, numbers_of(visit.tet)});
+    }
+    return list;
   }
 
   Json make_calls() {
@@ -291,7 +346,7 @@ class Recording {
     for (std::uint32_t k = first_call(); k < file_.calls().size(); ++k) {
       const Call& call = file_.calls()[k];
       if (call.events.begin >= range_.end) break;
-      if (is_in(call)) calls[fmt::format("{}", k)] = call_at(k);
+      if (is_in(call, range_)) calls[fmt::format("{}", k)] = call_at(k);
     }
     // The calls around the range: breadcrumbs name them.
     for (std::uint32_t k : call_stack(file_, range_.begin)) {
@@ -306,6 +361,7 @@ class Recording {
     const CallFacts& facts = facts_.facts(file_, replay_, k);
     Json parent;
     if (call.parent != kNoCall) parent = call.parent;
+    seen_.insert(outcome_of(call));
     return {{"name", short_name(file_, call)},
             {"operator", file_.name(call.operator_name)},
             {"target", numbers_of(call.target())},
@@ -316,7 +372,7 @@ class Recording {
             {"last", call.subtree_end},
             {"begin", call.events.begin},
             {"end", call.events.end},
-            {"verdict", call.verdict_text()},
+            {"verdict", call.verdict_in_words()},
             {"outcome", name_of(outcome_of(call))},
             {"degrees", degree_text(facts)},
             {"qualities", quality_text(call, facts)},
@@ -433,6 +489,7 @@ class Recording {
   bool takes_all_ = false;
   std::set<std::uint32_t> slots_;                // of tets that are shown
   std::map<std::uint32_t, std::uint32_t> live_;  // slot -> tet
+  std::set<Outcome> seen_ = {Outcome::unfinished};
   std::map<std::string, std::size_t> shell_numbers_;
   Json shells_ = Json::array();
   std::vector<const Pseudocode*> codes_;  // first those of the tables and of Algorithm 5
@@ -442,23 +499,21 @@ class Recording {
 
 RecordingRange range_of_call(const TraceFile& file, std::uint32_t call) {
   const Call& c = file.calls()[call];
-  return {c.events.begin, c.events.end};
+  return {c.events.begin + 1, c.events.end};
 }
 
 unsigned depth_of(const TraceFile& file, const RecordingRange& range) {
   unsigned deepest = 0;
   for (const Call& call : file.calls()) {
-    const bool is_in = call.events.begin >= range.begin && call.events.end <= range.end;
-    if (is_in) deepest = std::max<unsigned>(deepest, call.depth);
+    if (is_in(call, range)) deepest = std::max<unsigned>(deepest, call.depth);
   }
   return deepest;
 }
 
 std::size_t count_calls(const TraceFile& file, const RecordingRange& range) {
   const auto calls = file.calls();
-  return static_cast<std::size_t>(std::count_if(calls.begin(), calls.end(), [&](const Call& call) {
-    return call.events.begin >= range.begin && call.events.end <= range.end;
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      calls.begin(), calls.end(), [&](const Call& call) { return is_in(call, range); }));
 }
 
 Json record(const TraceFile& file, Replay& replay, const RecordingRange& range) {

@@ -20,7 +20,7 @@ struct RecordingRange {
   unsigned deepest = std::numeric_limits<unsigned>::max();
 };
 
-/// The events of an outermost call, or of the one asked for. Precondition: there is such a call.
+/// From where the call has begun to where it has ended. Precondition: there is such a call.
 RecordingRange range_of_call(const TraceFile& file, std::uint32_t call);
 
 /// Number of calls around the deepest call of a range.

@@ -80,6 +80,16 @@ std::uint64_t step_from(const TraceFile& file, std::uint64_t position, Step step
   return forward ? position + 1 : position - 1;
 }
 
+std::optional<std::uint32_t> visit_at(const TraceFile& file, std::uint64_t position) {
+  const EventRange* range = last_before(file.visits(), position);
+  if (range == nullptr || range->end < position) return std::nullopt;
+  const auto visits = file.visits();
+  const auto after = std::lower_bound(
+      visits.begin(), visits.end(), position,
+      [](const Visit& visit, std::uint64_t number) { return visit.events.begin < number; });
+  return static_cast<std::uint32_t>(after - visits.begin() - 1);
+}
+
 std::vector<std::uint32_t> call_stack(const TraceFile& file, std::uint64_t position) {
   std::vector<std::uint32_t> stack;
   for (std::uint32_t call = call_of_last_event(file, position); call != kNoCall;

@@ -29,6 +29,9 @@ std::uint64_t step_from(const TraceFile& file, std::uint64_t position, Step step
 /// The innermost frame that is open; nothing outside of all.
 std::optional<EventRange> open_frame(const TraceFile& file, std::uint64_t position);
 
+/// Number of the visit of a tet that the last event belongs to, its first and last included.
+std::optional<std::uint32_t> visit_at(const TraceFile& file, std::uint64_t position);
+
 /// The call that the last event belongs to, and those around it, outermost first.
 std::vector<std::uint32_t> call_stack(const TraceFile& file, std::uint64_t position);
 

@@ -8,7 +8,10 @@
 
 #include "face/mesh_access.h"
 #include "trace/call_tree.h"
+#include "trace/history.h"
+#include "trace/ledger.h"
 #include "trace/replay.h"
+#include "trace/run_comparison.h"
 #include "trace/trace_file.h"
 #include "trace/trace_summary.h"
 
@@ -128,6 +131,8 @@ Trace::Call Trace::call(std::uint32_t number) const {
   made.verdict = from.verdict_text();
   made.reason = file.reason(from);
   made.accepted = from.accepted();
+  made.for_good = from.accepted_for_good();
+  if (from.undone_with != kNoCall) made.undone_with = from.undone_with;
   made.worst_before = from.worst_before;
   made.worst_after = from.worst_after;
   return made;
@@ -172,6 +177,51 @@ Mesh Trace::mesh_at(std::uint64_t n) const {
   Replay replay(content_->file, 0);
   replay.seek(n);
   return MeshAccess::make(replay.mesh().to_data());
+}
+
+std::vector<Trace::Entry> Trace::ledger() const {
+  std::vector<Entry> entries;
+  for (const LedgerRow& row : make_ledger(content_->file).rows) {
+    const auto all = static_cast<double>(row.total().calls);
+    for (std::size_t i = 0; i < kEndingCount; ++i) {
+      const LedgerCell& cell = row.cells[i];
+      if (cell.calls == 0) continue;
+      const auto ending = static_cast<CallEnding>(i);
+      entries.push_back({row.operator_name, row.level, name_of(ending), kEndingWords[i].reason,
+                         is_refusal(ending), cell.calls, static_cast<double>(cell.calls) / all,
+                         cell.seconds});
+    }
+  }
+  return entries;
+}
+
+std::vector<std::uint32_t> Trace::calls_of(const Entry& entry) const {
+  for (std::size_t i = 0; i < kEndingCount; ++i) {
+    if (kEndingWords[i].name != entry.ending) continue;
+    return calls_in(content_->file, {std::string(entry.operator_name), entry.level,
+                                     static_cast<CallEnding>(i), false});
+  }
+  throw Error(fmt::format("no call ends with '{}'", entry.ending));
+}
+
+std::vector<Trace::TetPair> Trace::worse_than(const Trace& other) const {
+  std::vector<TetPair> pairs;
+  for (const auto& pair : compare_runs(content_->file, other.content_->file).worse_in_a) {
+    pairs.push_back(
+        {numbers_of(pair.bad), pair.bad_quality, numbers_of(pair.good), pair.good_quality});
+  }
+  return pairs;
+}
+
+std::string Trace::against(const Trace& other) const {
+  const TraceFile& b = other.content_->file;
+  return format_comparison(content_->file, b, compare_runs(content_->file, b));
+}
+
+std::string Trace::history(std::string_view what) const {
+  const TraceFile& file = content_->file;
+  Replay replay(file, 0);
+  return history_text(file, history_of(file, replay, find_subject(file, replay, what)));
 }
 
 std::string Trace::summary() const {

@@ -20,8 +20,10 @@ std::string format_target(const Call& call) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-bool has_vectors(const Call& call) {
-  return call.worst_before != 0 || call.worst_after != 0;
+/// Of a box. A border tells calls that were undone apart without colours.
+std::string_view look_of(const Call& call) {
+  if (call.undone) return R"(fillcolor="#e8f5e9", style="filled,dashed")";
+  return call.accepted() ? R"(fillcolor="#c8e6c9")" : R"(fillcolor="#ffcdd2")";
 }
 
 /// Text in JSON or DOT: names may come from plugins.
@@ -68,8 +70,8 @@ std::string call_tree_text(const TraceFile& file, std::uint32_t call) {
   for (std::uint32_t k = call; k < root.subtree_end; ++k) {
     const Call& c = file.calls()[k];
     fmt::format_to(out, "{:>9}  {:{}}{} -> {}", k, "", 2 * (c.depth - root.depth),
-                   describe_call(file, k), c.verdict_text());
-    if (has_vectors(c)) {
+                   describe_call(file, k), c.verdict_in_words());
+    if (c.has_qualities()) {
       fmt::format_to(out, ", {}worst {:.4f} -> {:.4f}",
                      c.accepted() ? "" : "tried: ", c.worst_before, c.worst_after);
     }
@@ -87,14 +89,14 @@ std::string call_tree_dot(const TraceFile& file, std::uint32_t call) {
   for (std::uint32_t k = call; k < file.calls()[call].subtree_end; ++k) {
     const Call& c = file.calls()[k];
     std::string quality;
-    if (has_vectors(c)) {
+    if (c.has_qualities()) {
       quality = fmt::format("\\n{}{:.4f} to {:.4f}", c.accepted() ? "" : "tried: ", c.worst_before,
                             c.worst_after);
     }
     std::string label = in_quotes(fmt::format("{}: {}", k, describe_call(file, k)));
     label.pop_back();
-    fmt::format_to(out, "  c{} [label={}\\n{}{}\", fillcolor=\"{}\"];\n", k, label,
-                   c.verdict_text(), quality, c.accepted() ? "#c8e6c9" : "#ffcdd2");
+    fmt::format_to(out, "  c{} [label={}\\n{}{}\", {}];\n", k, label, c.verdict_in_words(), quality,
+                   look_of(c));
     if (k != call) fmt::format_to(out, "  c{} -> c{};\n", c.parent, k);
   }
   return text + "}\n";
@@ -114,8 +116,9 @@ void write_slices(const TraceFile& file, const std::function<void(std::string_vi
     const Call& call = file.calls()[k];
     writer.slice(
         file.name(call.operator_name), "call", call.events,
-        fmt::format(R"("call":{},"target":{},"level":{},"verdict":{})", k,
-                    in_quotes(format_target(call)), call.level, in_quotes(call.verdict_text())));
+        fmt::format(R"("call":{},"target":{},"level":{},"verdict":{},"undone_with":{})", k,
+                    in_quotes(format_target(call)), call.level, in_quotes(call.verdict_text()),
+                    call.undone_with == kNoCall ? "null" : std::to_string(call.undone_with)));
   }
   write("\n]}\n");
 }

@@ -18,7 +18,8 @@ std::string describe_call(const TraceFile& file, std::uint32_t call);
 /// worst qualities, edits, reason. Precondition: there is such a call.
 std::string call_tree_text(const TraceFile& file, std::uint32_t call);
 
-/// The same as a graph for `dot`: accepted calls green, refused ones red.
+/// The same as a graph for `dot`: accepted calls green, those undone with a caller pale with a
+/// dashed border, refused ones red.
 std::string call_tree_dot(const TraceFile& file, std::uint32_t call);
 
 /// The whole trace in the JSON format of trace viewers (Perfetto, chrome://tracing): passes,

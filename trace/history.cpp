@@ -2,8 +2,6 @@
 #include "trace/history.h"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -26,7 +24,7 @@ int count(std::span<const CavityTet> tets, const HistorySubject& subject) {
   }));
 }
 
-/// Goes through a trace and finds the edits of the subject that lasted, and when mesh was on trial.
+/// Goes through a trace and finds the edits of the subject that lasted.
 class Follower {
  public:
   Follower(const TraceFile& file, Replay& replay, const HistorySubject& subject)
@@ -41,20 +39,14 @@ class Follower {
     }
     EventCursor cursor(file_);
     for (std::uint64_t k = 0; k < file_.event_count(); ++k) {
-      // Nothing is undone across the border of a chunk.
-      const auto begins = file_.chunk_begins();
-      if (std::binary_search(begins.begin(), begins.end(), k)) keep_lasting();
       const EventKind kind = cursor.next().kind;
-      if (kind == EventKind::undo) {
-        undo(k);
-      } else if (changes_mesh(kind)) {
-        replay_.seek(k + 1);
-        const Cavity cavity = replay_.cavity();
-        open_.push_back({k, count(cavity.created, subject_) - count(cavity.removed, subject_),
-                         kind == EventKind::move_vertex && moves(cavity)});
-      }
+      if (!changes_mesh(kind) || kind == EventKind::undo || file_.is_undone(k)) continue;
+      replay_.seek(k + 1);
+      const Cavity cavity = replay_.cavity();
+      const Edit edit{k, count(cavity.created, subject_) - count(cavity.removed, subject_),
+                      kind == EventKind::move_vertex && moves(cavity)};
+      if (edit.change != 0 || edit.moves) lasting_.push_back(edit);
     }
-    keep_lasting();
   }
 
   struct Edit {
@@ -65,29 +57,7 @@ class Follower {
   int at_beginning() const { return at_beginning_; }
   const std::vector<Edit>& lasting() const { return lasting_; }
 
-  /// The mesh before the event was undone later.
-  bool is_in_trial(std::uint64_t event) const {
-    const auto after =
-        std::upper_bound(trials_.begin(), trials_.end(), event,
-                         [](std::uint64_t e, const std::pair<std::uint64_t, std::uint64_t>& trial) {
-                           return e < trial.first;
-                         });
-    return after != trials_.begin() && event < (after - 1)->second;
-  }
-
  private:
-  /// What lies inside is part of this trial.
-  void undo(std::uint64_t event) {
-    const std::uint64_t begin = open_.back().event;
-    open_.pop_back();
-    while (!trials_.empty() && trials_.back().first > begin) trials_.pop_back();
-    trials_.emplace_back(begin, event);
-  }
-  void keep_lasting() {
-    std::copy_if(open_.begin(), open_.end(), std::back_inserter(lasting_),
-                 [](const Edit& edit) { return edit.change != 0 || edit.moves; });
-    open_.clear();
-  }
   bool moves(const Cavity& cavity) const {
     return std::any_of(cavity.vertices.begin(), cavity.vertices.end(), [&](const auto& change) {
       return std::find(subject_.begin(), subject_.end(), change.vertex) != subject_.end();
@@ -98,8 +68,7 @@ class Follower {
   Replay& replay_;
   const HistorySubject& subject_;
   int at_beginning_ = 0;
-  std::vector<Edit> open_, lasting_;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> trials_;  // from an edit to its undo
+  std::vector<Edit> lasting_;
 };
 
 /// The last time that the subject was there for good.
@@ -175,13 +144,6 @@ HistorySubject sorted_target(const Call& call) {
   return target;
 }
 
-/// How much was missing; infinite where nothing was tried.
-double missing(const Call& call) {
-  const bool is_known = call.verdict && (call.worst_before != 0 || call.worst_after != 0);
-  return is_known ? double{call.worst_before} - double{call.worst_after}
-                  : std::numeric_limits<double>::infinity();
-}
-
 void add_call(const TraceFile& file, const HistoryCall& each, PartHistory& part) {
   if (each.in_trial) {
     ++part.in_trials;
@@ -189,17 +151,18 @@ void add_call(const TraceFile& file, const HistoryCall& each, PartHistory& part)
   }
   const Call& call = file.calls()[each.call];
   ++part.calls;
-  part.accepted += call.accepted() ? 1 : 0;
+  part.accepted += call.accepted_for_good() ? 1 : 0;
+  part.undone += call.undone ? 1 : 0;
   if (part.nearest == kNoCall) {
     part.nearest = each.call;
     return;
   }
   const Call& best = file.calls()[part.nearest];
   const bool is_refused = !call.accepted();
-  if (is_refused && (best.accepted() || missing(call) <= missing(best))) part.nearest = each.call;
+  if (is_refused && (best.accepted() || call.missing() <= best.missing())) part.nearest = each.call;
 }
 
-void find_calls(const TraceFile& file, const Follower& follower, History& history) {
+void find_calls(const TraceFile& file, History& history) {
   const std::uint64_t end = history.removed ? *history.removed + 1 : file.event_count();
   std::map<HistorySubject, PartHistory*> by_part;
   for (PartHistory& part : history.parts) by_part[part.part] = &part;
@@ -208,7 +171,7 @@ void find_calls(const TraceFile& file, const Follower& follower, History& histor
     if (call.events.begin < history.made || call.events.begin >= end) continue;
     const auto part = by_part.find(sorted_target(call));
     if (part == by_part.end()) continue;
-    history.calls.push_back({c, follower.is_in_trial(call.events.begin)});
+    history.calls.push_back({c, file.is_undone(call.events.begin)});
     add_call(file, history.calls.back(), *part->second);
   }
   if (history.subject.size() < 4) return;
@@ -244,7 +207,7 @@ History history_of(const TraceFile& file, Replay& replay, const HistorySubject& 
   history.parts = parts_of(subject);
   find_surface(replay.mesh(), history.parts);
   if (subject.size() == 4) measure_tet(replay.mesh(), history);
-  find_calls(file, follower, history);
+  find_calls(file, history);
   return history;
 }
 

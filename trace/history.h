@@ -37,7 +37,8 @@ struct PartHistory {
   HistorySubject part;
   bool on_surface = false;
   std::uint32_t calls = 0;     ///< that aimed at it, those in trials left out
-  std::uint32_t accepted = 0;  ///< of these
+  std::uint32_t accepted = 0;  ///< of these, for good
+  std::uint32_t undone = 0;    ///< of these, accepted and undone with a caller
   std::uint32_t in_trials = 0;
   /// Of `calls`, the refused one that came nearest to what was needed; else the last one.
   std::uint32_t nearest = kNoCall;

@@ -148,7 +148,8 @@ class Teller {
     say("{} call{} aimed at it or its parts", lasting, lasting == 1 ? "" : "s");
     std::vector<std::string> words;
     for (const auto& [verdict, number] : verdicts) {
-      words.push_back(fmt::format("{} {}", number, verdict));
+      words.push_back(fmt::format("{} {}{}", number, verdict,
+                                  verdict == to_string(Verdict::accepted) ? " for good" : ""));
     }
     if (!words.empty()) text_ += fmt::format(" ({})", fmt::join(words, ", "));
     if (trials > 0) text_ += fmt::format(", {} more in trials that were undone", trials);
@@ -165,7 +166,7 @@ class Teller {
       if (part.nearest == kNoCall || call(part.nearest).accepted()) continue;
       if (nearest == nullptr || missing(part) < missing(*nearest)) nearest = &part;
     }
-    if (nearest != nullptr && has_figures(call(nearest->nearest))) {
+    if (nearest != nullptr && call(nearest->nearest).has_qualities()) {
       const Call& best = call(nearest->nearest);
       say("Nearest came {}: {}: {}.", call_in_words(nearest->nearest), figures_of(best),
           file_.reason(best));
@@ -205,28 +206,25 @@ class Teller {
     return text;
   }
 
-  static bool has_figures(const Call& call) {
-    return call.worst_before != 0 || call.worst_after != 0;
-  }
   double missing(const PartHistory& part) const {
     const Call& best = call(part.nearest);
-    return has_figures(best) ? double{best.worst_before} - double{best.worst_after} : 1e30;
+    return best.has_qualities() ? best.missing() : 1e30;
   }
 
   void table() {
-    text_ +=
-        fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}  {}\n", "part", "where", "calls", "accepted",
-                    "trials", "nearest refused call, worst tet before and with it");
+    text_ += fmt::format("{:<34} {:>7} {:>6} {:>8} {:>6} {:>7}  {}\n", "part", "where", "calls",
+                         "for good", "undone", "trials",
+                         "nearest refused call, worst tet before and with it");
     for (const PartHistory& part : history_.parts) {
       const bool is_interesting = part.calls + part.in_trials > 0 || part.part.size() == 2;
       if (!is_interesting && &part != &whole()) continue;
-      text_ += fmt::format("{:<34} {:>7} {:>6} {:>9} {:>7}", in_words(part.part),
+      text_ += fmt::format("{:<34} {:>7} {:>6} {:>8} {:>6} {:>7}", in_words(part.part),
                            part.on_surface ? "surface" : "inside", part.calls, part.accepted,
-                           part.in_trials);
+                           part.undone, part.in_trials);
       if (part.nearest != kNoCall && !call(part.nearest).accepted()) {
         const Call& best = call(part.nearest);
         text_ += fmt::format("  {}: {}", part.nearest, best.verdict_text());
-        if (has_figures(best)) {
+        if (best.has_qualities()) {
           text_ += fmt::format(", {:.4f} -> {:.4f}", best.worst_before, best.worst_after);
         }
       }
@@ -243,7 +241,7 @@ class Teller {
       const Call& c = call(each.call);
       if (each.in_trial) return std::numeric_limits<double>::infinity();
       if (c.accepted()) return 1e20;
-      return has_figures(c) ? double{c.worst_before} - double{c.worst_after} : 1e30;
+      return c.has_qualities() ? c.missing() : 1e30;
     };
     std::sort(chosen.begin(), chosen.end(), [&](const auto& one, const auto& other) {
       const double near = distance(one), far = distance(other);
@@ -259,13 +257,14 @@ class Teller {
     if (history_.calls.empty()) return;
     const std::vector<HistoryCall> chosen = nearest_calls(most);
     text_ +=
-        fmt::format("\n{:>9}  {:<32} {:<28} {:<16}\n", "call", "operator", "target", "verdict");
+        fmt::format("\n{:>9}  {:<32} {:<28} {:<24}\n", "call", "operator", "target", "verdict");
     for (const HistoryCall& each : chosen) {
       const Call& c = call(each.call);
       const auto target = c.target();
-      text_ += fmt::format("{:>9}  {:<32} {:<28} {:<16}", each.call, file_.name(c.operator_name),
-                           in_words(target), c.verdict_text());
-      if (has_figures(c)) text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
+      text_ += fmt::format("{:>9}  {:<32} {:<28} {:<24}", each.call, file_.name(c.operator_name),
+                           in_words(target), c.verdict_in_words());
+      if (c.has_qualities())
+        text_ += fmt::format(" {:.4f} -> {:.4f}", c.worst_before, c.worst_after);
       if (each.in_trial) text_ += "  in a trial that was undone";
       text_ += '\n';
     }

@@ -123,6 +123,8 @@ void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit& aud
   chunk_begins_.push_back(events_);
   chunk_offsets_.push_back(frames_.offset());
   audit.begin_chunk();
+  trials_.begin_chunk();
+  accepted_.clear();
   TraceEvent event;
   for (std::size_t k = 0; k < count; ++k) {
     decoder.next(event);
@@ -177,7 +179,8 @@ void TraceFile::begin_call(const TraceEvent& event) {
 
 void TraceFile::end_call(const TraceEvent& event) {
   if (open_.empty()) throw ByteReader::Damage("an attempt ends that never began");
-  Call& call = calls_[open_.back()];
+  const std::uint32_t number = open_.back();
+  Call& call = calls_[number];
   open_.pop_back();
   close(call.events, event.seconds);
   call.subtree_end = static_cast<std::uint32_t>(calls_.size());
@@ -187,6 +190,18 @@ void TraceFile::end_call(const TraceEvent& event) {
   call.vector_improved = improves(event.after, event.before);
   call.bad_before = count_bad(event.before);
   call.bad_after = count_bad(event.after);
+  if (call.accepted()) accepted_.push_back({number, trials_.standing()});
+}
+
+/// Of the last edit that stands: the audit has seen that there is one. Whoever was accepted while
+/// it stood goes with it.
+void TraceFile::undo() {
+  trials_.undo(events_);
+  for (; !accepted_.empty() && accepted_.back().edits > trials_.standing(); accepted_.pop_back()) {
+    Call& call = calls_[accepted_.back().call];
+    call.undone = true;
+    if (!open_.empty()) call.undone_with = open_.back();
+  }
 }
 
 void TraceFile::index_event(const TraceEvent& event) {
@@ -228,8 +243,10 @@ void TraceFile::index_event(const TraceEvent& event) {
     case EventKind::add_vertex:
     case EventKind::remove_vertex:
       if (!open_.empty()) ++calls_[open_.back()].edits;
+      trials_.edit(events_);
       return;
     case EventKind::undo:
+      undo();
       return;
     case EventKind::standard_changes:
       standard_ = event.standard;
@@ -260,6 +277,21 @@ void TraceFile::close_all() {
   }
 }
 
+std::string_view Call::verdict_text() const {
+  if (!verdict) return "cut off";
+  return undone ? "undone with a caller" : to_string(*verdict);
+}
+
+std::string Call::verdict_in_words() const {
+  if (!undone || undone_with == kNoCall) return std::string(verdict_text());
+  return fmt::format("undone with call {}", undone_with);
+}
+
+double Call::missing() const {
+  if (!verdict || !has_qualities()) return std::numeric_limits<double>::infinity();
+  return double{worst_before} - double{worst_after};
+}
+
 std::uint32_t TraceFile::call_at(std::uint64_t event) const {
   const auto after = std::upper_bound(
       calls_.begin(), calls_.end(), event,
@@ -270,40 +302,42 @@ std::uint32_t TraceFile::call_at(std::uint64_t event) const {
   return call;
 }
 
-std::string_view TraceFile::reason(const Call& call) const {
-  if (!call.verdict) return "the trace ends before the call does";
+CallEnding TraceFile::ending(const Call& call) const {
+  if (!call.verdict) return CallEnding::cut_off;
   const bool tried = call.candidate_found;
   const auto number = static_cast<std::uint32_t>(&call - calls_.data());
   const bool calls_others = call.subtree_end > number + 1;
   switch (*call.verdict) {
     case Verdict::accepted:
-      return call.worst_after > 0 || call.worst_before != 0
-                 ? "the quality vector of all that changed is better"
-                 : "what the call was for is done";
+      return call.undone ? CallEnding::undone : CallEnding::for_good;
     case Verdict::not_applicable:
-      return tried ? "the candidate does not fit into its cavity"
-                   : "the target is gone or is not of the kind that the operator works on";
+      return tried ? CallEnding::does_not_fit : CallEnding::not_applicable;
     case Verdict::constrained:
-      if (calls_others) return "what is left to transform lies on the boundary or on a constraint";
-      return tried ? "the candidate would remove a constrained face, edge or vertex"
-                   : "the target lies on the boundary or on a constraint";
+      if (calls_others) return CallEnding::rest_constrained;
+      return tried ? CallEnding::candidate_constrained : CallEnding::target_constrained;
     case Verdict::no_improvement:
-      if (calls_others) return "what the calls in it reached is not enough";
-      if (!tried) return "no candidate is better than what is there";
-      if (!call.vector_improved) return "the quality vector with the candidate is not better";
-      return call.bad_after > call.bad_before
-                 ? "the quality vector is better, but the gain does not pay for more bad tets"
-                 : "the quality vector is better, but not all that its judge asks for is";
+      if (calls_others) return CallEnding::calls_not_enough;
+      if (!tried) return CallEnding::nothing_better;
+      if (!call.vector_improved) return CallEnding::vector_not_better;
+      return call.bad_after > call.bad_before ? CallEnding::more_bad_tets
+                                              : CallEnding::judge_not_content;
     case Verdict::inverted:
-      return "a tet of the candidate is not certified positive";
+      return CallEnding::inverted;
     case Verdict::depth_spent:
-      return "nothing helped up to the deepest level allowed";
+      return CallEnding::depth_spent;
     case Verdict::budget_spent:
-      return "the call used up its transformations";
+      return CallEnding::budget_spent;
     case Verdict::deferred:
-      return "another worker's part of the mesh is in the way; to be tried again";
+      return CallEnding::deferred;
   }
-  return "";
+  return CallEnding::cut_off;
+}
+
+std::string_view TraceFile::reason(const Call& call) const {
+  const CallEnding end = ending(call);
+  const bool compared = call.worst_after > 0 || call.worst_before != 0;
+  if (end == CallEnding::for_good && !compared) return "what the call was for is done";
+  return kEndingWords[static_cast<std::size_t>(end)].reason;
 }
 
 // --- one event after the other -------------------------------------------------------------------

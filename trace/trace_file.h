@@ -11,10 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include "trace/call_ending.h"
 #include "trace/recorder.h"
 #include "trace/slot_mesh.h"
 #include "trace/trace_event.h"
 #include "trace/trace_frame.h"
+#include "trace/trials.h"
 
 namespace tetmend {
 
@@ -44,15 +46,29 @@ struct Call {
   std::uint8_t target_size = 0;  ///< 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
   bool candidate_found = false;  ///< it knew what to do
   bool vector_improved = false;  ///< the vector of what was tried is the better one
+  bool undone = false;           ///< it was accepted, and what it found or made was undone later
   Algorithm algorithm = Algorithm::other;
-  std::optional<Verdict> verdict;  ///< nothing if the trace ends before
+  std::optional<Verdict> verdict;  ///< its own; nothing if the trace ends before
+  /// Of one that was undone, the call that undid it, which is around it; see `undone`.
+  std::uint32_t undone_with = kNoCall;
   std::array<VertexHandle, 4> target_vertices;
   Quality worst_before = 0, worst_after = 0;    ///< of the vectors; refused: of what was tried
   std::uint32_t bad_before = 0, bad_after = 0;  ///< tets, likewise
 
+  /// By its own verdict; of all edits that are made in a run, most are undone with a caller later.
   bool accepted() const { return verdict == Verdict::accepted; }
-  /// "no improvement", ...; "cut off" if the trace ends before.
-  std::string_view verdict_text() const { return verdict ? to_string(*verdict) : "cut off"; }
+  /// What it did has lasted.
+  bool accepted_for_good() const { return accepted() && !undone; }
+  /// "accepted" for good, "undone with a caller", "no improvement", ...; "cut off" if the trace
+  /// ends before: calls with one text ended alike.
+  std::string_view verdict_text() const;
+  /// The same, and with which call: "undone with call 17".
+  std::string verdict_in_words() const;
+  /// Something was compared: worst_before and worst_after are known.
+  bool has_qualities() const { return worst_before != 0 || worst_after != 0; }
+  /// How much quality the worst tet of a refused call lacked; negative where that was good enough
+  /// and others were not, infinite where nothing was compared.
+  double missing() const;
   std::span<const VertexHandle> target() const { return {target_vertices.data(), target_size}; }
 };
 
@@ -103,8 +119,15 @@ class TraceFile {
   std::string_view name(std::uint32_t name) const { return names_[name]; }
   /// The innermost call that `event` belongs to, its first and last event included; kNoCall.
   std::uint32_t call_at(std::uint64_t event) const;
+  /// How a call ended. Precondition: `call` is one of calls().
+  CallEnding ending(const Call& call) const;
   /// Why a call ended as it did, in a sentence. Precondition: `call` is one of calls().
   std::string_view reason(const Call& call) const;
+  /// What was edited, and how many of these edits were undone.
+  std::size_t edit_count() const { return trials_.edits(); }
+  std::size_t undo_count() const { return trials_.undos(); }
+  /// The event changed a mesh, or looked at one, that an undo took back later. Cost: logarithmic.
+  bool is_undone(std::uint64_t event) const { return trials_.is_undone(event); }
 
   /// First events of the chunks that the file is made of; see EventCursor.
   std::span<const std::uint64_t> chunk_begins() const { return chunk_begins_; }
@@ -120,6 +143,7 @@ class TraceFile {
   void begin_visit(const TraceEvent& event);
   void begin_call(const TraceEvent& event);
   void end_call(const TraceEvent& event);
+  void undo();
   EventRange begin_of(const TraceEvent& event) const;
   void close(EventRange& range, double seconds) const;
   void close_all();
@@ -138,7 +162,13 @@ class TraceFile {
   std::vector<TracedPass> passes_;
   std::vector<Visit> visits_;
   std::vector<Call> calls_;
+  Trials trials_;
   std::vector<std::uint32_t> open_;  // calls, while events are read
+  struct Standing {
+    std::uint32_t call;
+    std::size_t edits;  // that stood when it ended
+  };
+  std::vector<Standing> accepted_;  // and not undone so far in this chunk; `edits` never falls
   bool visit_open_ = false;
   bool pass_open_ = false;
   Standard standard_;   // at the event read last

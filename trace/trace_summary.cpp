@@ -15,18 +15,6 @@ namespace {
 
 constexpr std::size_t kLargest = 10;
 
-void count_edits(const TraceFile& file, TraceSummary& summary) {
-  EventCursor cursor(file);
-  for (std::uint64_t k = 0; k < file.event_count(); ++k) {
-    const EventKind kind = cursor.next().kind;
-    if (kind == EventKind::undo) {
-      ++summary.undos;
-    } else if (changes_mesh(kind)) {
-      ++summary.edits;
-    }
-  }
-}
-
 std::vector<std::uint32_t> largest_calls(const TraceFile& file) {
   std::vector<std::uint32_t> calls;
   for (std::uint32_t c = 0; c < file.calls().size(); c = file.calls()[c].subtree_end) {
@@ -42,7 +30,7 @@ std::vector<std::uint32_t> largest_calls(const TraceFile& file) {
 double percent(const TraceSummary::Tally& tally) {
   return tally.calls == 0
              ? 0
-             : 100 * static_cast<double>(tally.accepted) / static_cast<double>(tally.calls);
+             : 100 * static_cast<double>(tally.for_good) / static_cast<double>(tally.calls);
 }
 
 }  // namespace
@@ -61,7 +49,8 @@ TraceSummary summarize(const TraceFile& file) {
     TraceSummary::Operator& op = summary.operators[std::string(file.name(call.operator_name))];
     for (TraceSummary::Tally* tally : {&op.all, &op.levels[call.level]}) {
       ++tally->calls;
-      tally->accepted += call.accepted() ? 1 : 0;
+      tally->for_good += call.accepted_for_good() ? 1 : 0;
+      tally->undone += call.undone ? 1 : 0;
     }
     ++op.verdicts[call.verdict_text()];
     op.own_seconds += call.events.seconds() - inner[c];
@@ -73,7 +62,8 @@ TraceSummary summarize(const TraceFile& file) {
     if (call.depth == 0) ++summary.outermost_calls;
     summary.deepest = std::max<unsigned>(summary.deepest, call.depth);
   }
-  count_edits(file, summary);
+  summary.edits = file.edit_count();
+  summary.undos = file.undo_count();
   summary.largest = largest_calls(file);
   return summary;
 }
@@ -97,15 +87,15 @@ std::string format_summary(const TraceFile& file, const TraceSummary& summary) {
                  summary.calls, summary.outermost_calls, summary.deepest, summary.visits);
   fmt::format_to(out, "{} edits, {} of them undone\n\n", summary.edits, summary.undos);
 
-  fmt::format_to(out, "{:<32} {:>9} {:>9} {:>7} {:>9} {:>9}\n", "operator, level", "calls",
-                 "accepted", "%", "seconds", "own");
+  fmt::format_to(out, "{:<32} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9}\n", "operator, level", "calls",
+                 "for good", "%", "undone", "seconds", "own");
   for (const auto& [name, op] : summary.operators) {
-    fmt::format_to(out, "{:<32} {:>9} {:>9} {:>7.1f} {:>9.3f} {:>9.3f}\n", name, op.all.calls,
-                   op.all.accepted, percent(op.all), op.seconds, op.own_seconds);
+    fmt::format_to(out, "{:<32} {:>9} {:>9} {:>7.1f} {:>9} {:>9.3f} {:>9.3f}\n", name, op.all.calls,
+                   op.all.for_good, percent(op.all), op.all.undone, op.seconds, op.own_seconds);
     if (op.levels.rbegin()->first == 0) continue;
     for (const auto& [level, tally] : op.levels) {
-      fmt::format_to(out, "  {:<30} {:>9} {:>9} {:>7.1f}\n", level, tally.calls, tally.accepted,
-                     percent(tally));
+      fmt::format_to(out, "  {:<30} {:>9} {:>9} {:>7.1f} {:>9}\n", level, tally.calls,
+                     tally.for_good, percent(tally), tally.undone);
     }
   }
   fmt::format_to(out, "\n{:<32} {:<20} {:>9}\n", "operator", "verdict", "calls");

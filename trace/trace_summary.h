@@ -16,7 +16,8 @@ namespace tetmend {
 struct TraceSummary {
   struct Tally {
     std::size_t calls = 0;
-    std::size_t accepted = 0;
+    std::size_t for_good = 0;  ///< accepted, and it lasted
+    std::size_t undone = 0;    ///< accepted, and undone with a caller
   };
   struct Operator {
     Tally all;

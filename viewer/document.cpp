@@ -259,10 +259,18 @@ void Document::show_trace() {
   }
   pointed_ = {};
   hovered = {};
-  target_ = call == kNoCall ? Selection() : target_of(call);
+  target_ = call == kNoCall ? tet_visited() : target_of(call);
   mark_call();
   select(target_);
   follow_call();
+}
+
+/// The tet that a pass has turned to, if it is there.
+Selection Document::tet_visited() {
+  const auto visit = debugger_->visit();
+  if (!visit) return {};
+  const auto found = debugger_->tets_around(debugger_->file().visits()[*visit].tet);
+  return found.empty() ? Selection() : Selection(found.front());
 }
 
 /// What a call aims at, in the mesh as it is.

@@ -216,7 +216,9 @@ class Document {
   std::optional<Ball> call_in_view();
   void mark_live_call(const LiveProgress& run);
   Selection target_of(std::uint32_t call);
+  Selection tet_visited();
   void mark_call();
+  void mark_visit();
   void mark_caller(const CallStudy& study);
   void mark(const Highlight& highlight, const Colour& colour, std::string text);
   void name_call(const CallStudy& study);
@@ -261,7 +263,7 @@ class Document {
   Highlight marks_;                     // of the call at hand
   std::vector<LegendEntry> call_legend_;
   std::vector<NamedVertex> call_names_;
-  std::vector<TetHandle> near_;  // tets of that call, ascending; empty: no call
+  std::vector<TetHandle> near_;  // tets of that call or at the tet visited, ascending; may be empty
 
   mutable StatisticsCache trace_statistics_;  // of the mesh, while a trace is open
   TetLists lists_;

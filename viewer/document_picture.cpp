@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What stands out in the picture of a document, and where its camera goes.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <fmt/format.h>
@@ -77,11 +78,12 @@ void Document::fit_first() {
 
 /// Around the call at hand and the shell of its caller, unless something else is selected.
 std::optional<Ball> Document::call_in_view() {
-  const CallStudy* study = debugger_ ? debugger_->study() : nullptr;
-  if (study == nullptr) return std::nullopt;
+  if (debugger_ == nullptr) return std::nullopt;
   if (selection_ != target_ && !std::holds_alternative<std::monostate>(selection_)) {
     return std::nullopt;
   }
+  const CallStudy* study = debugger_->study();
+  if (study == nullptr) return ball_of(mesh_, near_);  // of the tet visited
   auto ball = ball_around(*study);
   if (!ball) ball = ball_of(mesh_, near_);
   if (!ball || !caller_edge_) return ball;
@@ -154,8 +156,12 @@ void Document::follow_call() {
   const bool is_elsewhere = root != shown_root_;
   shown_call_ = call;
   shown_root_ = root;
-  if (!follow_trace || call == kNoCall) return;
+  if (!follow_trace) return;
   const auto ball = call_in_view();
+  if (call == kNoCall) {
+    if (view.scene.isolate && ball && !is_seen(*ball)) fit();
+    return;
+  }
   if (is_elsewhere || (is_new && view.scene.isolate && ball && !is_seen(*ball))) fit();
 }
 
@@ -200,7 +206,7 @@ void Document::mark_call() {
   caller_edge_.reset();
   isolated_.settings.reset();
   const CallStudy* study = debugger_->study();
-  if (study == nullptr) return;
+  if (study == nullptr) return mark_visit();
   near_ = tets_of(mesh_, *study);
   mark_caller(*study);
   name_call(*study);
@@ -216,6 +222,23 @@ void Document::mark_call() {
   if (!polygon.covering->core.empty()) {
     call_legend_.push_back({kCoreColour, "core: there the edge stays"});
   }
+}
+
+/// The tet that the pass has turned to, with its neighbours.
+void Document::mark_visit() {
+  const auto* visited = std::get_if<TetHandle>(&target_);
+  if (visited == nullptr) return;
+  const TetVertices tet = mesh_.vertices(*visited);
+  for (unsigned f = 0; f < 4; ++f) {
+    std::array<VertexHandle, 3> face;
+    for (unsigned k = 0; k < 3; ++k) face[k] = tet[(f + 1 + k) % 4];
+    const auto around = debugger_->tets_around(face);
+    near_.insert(near_.end(), around.begin(), around.end());
+  }
+  std::sort(near_.begin(), near_.end());
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  for (const VertexHandle v : tet) add_name(call_names_, v, {});
+  call_legend_.push_back({kSelectionColour, fmt::format("t of visit {}", *debugger_->visit())});
 }
 
 /// The shell that a recursive call is to make smaller, and the face that it is to remove.

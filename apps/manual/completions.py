@@ -23,7 +23,7 @@ LESSONS = Path(__file__).resolve().parent.parent.parent / "assets" / "lessons"
 # tetmend reads; ".x": a file of that ending; "file": any; "<word>": a list that the program names; "": nothing to offer.
 TAKES = {
     "IN": "mesh", "OUT": "mesh", "FILE": "mesh", "--output": "mesh", "--cells": "mesh", "--mesh": "mesh",
-    "--before": "mesh", "--reference": "mesh", "--tolerance": "", "surface OUT": ".off .obj .ply .stl", "trace FILE": ".trace", "trace --output": "file", "lesson --output": "file",
+    "--before": "mesh", "--against": ".trace", "--reference": "mesh", "--tolerance": "", "surface OUT": ".off .obj .ply .stl", "trace FILE": ".trace", "trace --output": "file", "lesson --output": "file",
     "lesson NAME": "<lesson>", "trace --html": "",
     "check-plugin FILE": ".so", "tetmend-view FILE": "mesh .trace", "operators NAME": "<operator>",
     "schedules NAME": "<schedule> .lua", "--schedule": "<schedule> .lua", "--set": "<setting>=",

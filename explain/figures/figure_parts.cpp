@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "explain/outcome_look.h"
 #include "explain/page.h"
 
 namespace tetmend::explain {
@@ -46,6 +47,9 @@ double add_legend(Drawing& drawing, Place corner, double width,
     const double middle = at.y + line / 2;
     if (const Pen* pen = std::get_if<Pen>(&entry.look)) {
       drawing.line({at.x, middle}, {at.x + kSwatch, middle}, *pen);
+    } else if (const Outcome* outcome = std::get_if<Outcome>(&entry.look)) {
+      add_mark(drawing, *outcome, {at.x + (kSwatch - kTextSize) / 2, middle - kTextSize / 2},
+               kTextSize);
     } else {
       drawing.rectangle({at.x + (kSwatch - kTextSize) / 2, middle - kTextSize / 2}, kTextSize,
                         kTextSize, std::get<Colour>(entry.look));
@@ -124,7 +128,7 @@ double figure_width(const std::string& title, std::size_t panels, double side, d
 }
 
 std::string figure_title(const TraceFile& file, std::uint32_t call) {
-  return fmt::format("{}, {}", title_of_call(file, call), file.calls()[call].verdict_text());
+  return fmt::format("{}, {}", title_of_call(file, call), file.calls()[call].verdict_in_words());
 }
 
 }  // namespace tetmend::explain

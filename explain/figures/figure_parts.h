@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "explain/call_facts.h"
 #include "figure/drawing.h"
 #include "kernel/quality.h"
 #include "trace/trace_file.h"
@@ -29,7 +30,7 @@ std::string quality_number(double quality);
 
 /// One entry of a legend: how it looks, and what it is.
 struct LegendEntry {
-  std::variant<figure::Pen, figure::Colour> look;  ///< a line, or a square
+  std::variant<figure::Pen, figure::Colour, Outcome> look;  ///< a line, a square, or a mark
   std::string text;
 };
 /// Entries side by side, in as many rows as they need. Gives the y below them.

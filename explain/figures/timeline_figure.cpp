@@ -9,7 +9,7 @@
 #include "explain/figures/figure_parts.h"
 #include "explain/figures/figures.h"
 #include "explain/icicle.h"
-#include "explain/outcome_colour.h"
+#include "explain/outcome_look.h"
 
 namespace tetmend::explain {
 
@@ -25,6 +25,7 @@ namespace {
 constexpr double kPlotWidth = 400;
 constexpr double kPlotHeight = 120;
 constexpr double kBarHeight = 11;
+constexpr double kMarkRoom = 10.6;  // at the left end of a bar
 constexpr double kAxisRoom = 40;
 constexpr Pen kFrame{figure::kBlack, 0.5};
 constexpr Pen kBadPen{figure::kBadColour, 1.2};
@@ -133,7 +134,6 @@ void add_passes(Drawing& drawing, const Plot& plot, const TraceFile& file) {
 
 std::string bar_text(const TraceFile& file, const IcicleBar& bar, double room) {
   const Call& call = file.calls()[bar.call];
-  if (bar.count > 1) return {};
   for (const std::string& text :
        {fmt::format("{} {}", short_name(file, call), format_target(call)), format_target(call)}) {
     if (figure::text_width(text, kNumberSize) + 4 <= room) return text;
@@ -147,18 +147,25 @@ std::set<Outcome> add_bars(Drawing& drawing, const Plot& plot, const TraceFile& 
   std::set<Outcome> seen;
   for (const IcicleBar& bar : bars) {
     const Outcome outcome = outcome_of(file.calls()[bar.call]);
-    seen.insert(outcome);
+    for (std::size_t i = 0; i < kOutcomeCount; ++i) {
+      if (bar.ended[i] > 0) seen.insert(static_cast<Outcome>(i));
+    }
     const double left = plot.corner.x + plot.width * bar.left;
     const double right = plot.corner.x + plot.width * bar.right;
     const double top = plot.corner.y + kBarHeight * bar.row;
     const double wide = std::max(right - left - 0.3, 0.3);
-    drawing.rectangle({left, top + 0.4}, wide, kBarHeight - 0.8,
-                      figure::faint(outcome_colour(outcome), bar.count > 1 ? 0.5 : 1));
-    const std::string name = bar_text(file, bar, wide);
+    add_shares(drawing, bar.ended, {left, top + 0.4}, wide, kBarHeight - 0.8);
+    if (bar.count > 1) continue;
+    if (outcome == Outcome::undone)
+      add_hatching(drawing, {left, top + 0.4}, wide, kBarHeight - 0.8);
+    if (wide < kMarkRoom) continue;
+    drawing.rectangle({left + 1, top + 1.4}, kMarkRoom - 2, kBarHeight - 2.8, figure::kWhite);
+    add_mark(drawing, outcome, {left + 2, top + 2.2}, kMarkRoom - 4);
+    const std::string name = bar_text(file, bar, wide - kMarkRoom);
     if (name.empty()) continue;
-    Text text = figure::centred({left + 2, top + kBarHeight / 2}, name, kNumberSize);
+    Text text = figure::centred({left + kMarkRoom + 1, top + kBarHeight / 2}, name, kNumberSize);
     text.anchor = Anchor::start;
-    text.colour = figure::kWhite;
+    text.colour = outcome == Outcome::undone ? figure::kBlack : figure::kWhite;
     drawing.add(std::move(text));
   }
   return seen;
@@ -179,7 +186,7 @@ double add_icicles(Drawing& drawing, const TraceFile& file, Place corner, const 
   const double y = add_event_axis(drawing, plot);
   std::vector<LegendEntry> legend;
   for (const Outcome outcome : seen) {
-    legend.push_back({outcome_colour(outcome), std::string(outcome_name(outcome))});
+    legend.push_back({outcome, std::string(outcome_name(outcome))});
   }
   return add_legend(drawing, {kMargin, y + 4}, inside, legend);
 }

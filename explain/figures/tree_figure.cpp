@@ -9,7 +9,7 @@
 #include "explain/call_facts.h"
 #include "explain/figures/figure_parts.h"
 #include "explain/figures/figures.h"
-#include "explain/outcome_colour.h"
+#include "explain/outcome_look.h"
 #include "kernel/error.h"
 
 namespace tetmend::explain {
@@ -26,7 +26,7 @@ namespace {
 constexpr double kRow = 12.5;
 constexpr double kIndent = 12;
 constexpr double kGap = 16;
-constexpr double kDotRadius = 2.8;
+constexpr double kMark = 7.5;
 
 struct TreeRow {
   std::uint32_t call = 0;
@@ -54,7 +54,7 @@ std::vector<TreeRow> rows_of(const TraceFile& file, Replay& replay, std::uint32_
          outcome_of(call),
          {fmt::format("{}", k), fmt::format("{} {}", short_name(file, call), format_target(call)),
           fmt::format("{}", call.level), degree_text(fact), quality_text(call, fact),
-          std::string(call.verdict_text())}});
+          call.verdict_in_words()}});
   }
   return rows;
 }
@@ -101,7 +101,7 @@ class TreeDrawer {
  private:
   double y(std::size_t i) const { return top_ + kRow + 4 + kRow * static_cast<double>(i); }
   Place dot(std::size_t i) const {
-    return {columns_.left[1] + kIndent * rows_[i].indent + kDotRadius, y(i) + kRow / 2};
+    return {columns_.left[1] + kIndent * rows_[i].indent + kMark / 2, y(i) + kRow / 2};
   }
 
   void cell(std::size_t column, double indent, const std::string& text, double top, Font font) {
@@ -124,7 +124,11 @@ class TreeDrawer {
 
   void row(std::size_t i) {
     const TreeRow& row = rows_[i];
-    drawing_.add(figure::Dot{dot(i), kDotRadius, outcome_colour(row.outcome)});
+    // Paper behind the mark, where branches begin and end.
+    const Place at = dot(i);
+    const double half = kMark / 2;
+    drawing_.rectangle({at.x - half, at.y - half}, kMark, kMark, figure::kWhite);
+    add_mark(drawing_, row.outcome, {at.x - half, at.y - half}, kMark);
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
       cell(c, c == 1 ? kIndent * (row.indent + 1) : 0, row.cells[c], y(i), Font::regular);
     }
@@ -159,7 +163,7 @@ Drawing draw_tree(const TraceFile& file, Replay& replay, std::uint32_t call) {
   for (const TreeRow& row : rows) seen.insert(row.outcome);
   std::vector<LegendEntry> legend;
   for (const Outcome outcome : seen) {
-    legend.push_back({outcome_colour(outcome), std::string(outcome_name(outcome))});
+    legend.push_back({outcome, std::string(outcome_name(outcome))});
   }
   y = add_legend(drawing, {kMargin, tree.bottom() + 8}, drawing.width - 2 * kMargin, legend);
   drawing.height = y + kMargin;

@@ -67,12 +67,38 @@ class TETMEND_API Trace {
     unsigned depth = 0;                   ///< number of calls around it
     unsigned edits = 0;                   ///< made by itself; also those undone
     std::vector<std::uint32_t>
-        target;                ///< a vertex, two of an edge, three of a face, four of a tet
-    std::string_view verdict;  ///< "accepted", ...; "cut off" if the trace ends before
-    std::string_view reason;   ///< in a sentence
-    bool accepted = false;     ///< by its own verdict
-    double worst_before = 0;   ///< quality of the worst tet that it changed
-    double worst_after = 0;    ///< likewise; refused: of what was tried
+        target;  ///< a vertex, two of an edge, three of a face, four of a tet
+    /// "accepted" for good, "undone with a caller", "no improvement", ...; "cut off" if the trace
+    /// ends before
+    std::string_view verdict;
+    std::string_view reason;  ///< in a sentence
+    bool accepted = false;    ///< by its own verdict; whether that lasted, for_good says
+    bool for_good = false;    ///< accepted, and what it did was not undone later
+    std::optional<std::uint32_t> undone_with;  ///< the call around it that undid what it did
+    double worst_before = 0;                   ///< quality of the worst tet that it changed
+    double worst_after = 0;                    ///< likewise; refused: of what was tried
+  };
+
+  /// Calls of one operator on one level of recursion that ended alike.
+  struct Entry {
+    std::string_view operator_name;  ///< "smoothing"
+    unsigned level = 0;              ///< of recursion
+    /// "accepted for good", "undone with a caller", "nothing better", "vector not better", ...
+    std::string_view ending;
+    std::string_view reason;  ///< of it, in a sentence
+    bool is_refusal = false;  ///< neither accepted nor cut off
+    std::size_t calls = 0;    ///< their number
+    double share = 0;         ///< of all calls of the operator on the level
+    double seconds = 0;       ///< of these calls, without calls in them
+  };
+
+  /// A place where one run left a bad tet and another a good one.
+  struct TetPair {
+    std::vector<std::uint32_t> bad;  ///< its four vertices, as the one run numbered them
+    double bad_quality = 0;          ///< below 1
+    std::vector<std::uint32_t>
+        good;                 ///< of the tet that has the centroid of the bad one, in the other
+    double good_quality = 0;  ///< at least 1
   };
 
   /// One event.
@@ -119,9 +145,26 @@ class TETMEND_API Trace {
   /// many. Cost: a microsecond for each of them.
   Mesh mesh_at(std::uint64_t n) const;
 
+  /// The whole of the run, by operator, level and ending: each call is in one entry, and none is
+  /// empty. Cost: a tenth of a microsecond a call.
+  std::vector<Entry> ledger() const;
+  /// Numbers of the calls of an entry, those nearest to being accepted first: by how much quality
+  /// their worst tet lacked. Cost: likewise.
+  std::vector<std::uint32_t> calls_of(const Entry& entry) const;
+
+  /// Where this run left a bad tet and the other a good one at its end, the worst first. Cost: replay
+  /// of both, and a pass over their tets.
+  std::vector<TetPair> worse_than(const Trace& other) const;
+
   // What `tetmend trace` prints.
 
-  std::string summary() const;                 ///< in numbers
+  std::string summary() const;  ///< in numbers
+  /// Two runs side by side, as --against: this one is a. Cost: that of worse_than(), and histories.
+  std::string against(const Trace& other) const;
+  /// Why a tet, face, edge or vertex is there or gone: "tet:worst", "tet:3,5,8,9", "edge:3,5", in
+  /// the numbers of the trace. @throws Error when it is written in another way or was never there.
+  /// Cost: replay of the trace.
+  std::string history(std::string_view what) const;
   std::string tree(std::uint32_t call) const;  ///< a call and all in it
   std::string dot(std::uint32_t call) const;   ///< the same for Graphviz
   /// All of it as JSON for Perfetto and chrome://tracing, handed over piece by piece.

@@ -123,6 +123,45 @@ TEST_CASE("a call is shown as a tree, as a graph and as slices") {
   CHECK(contains(none.err, "there is no call 99999999"));
 }
 
+TEST_CASE("a ledger counts each call once, as text and as JSON") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const TraceFile file(bench.trace);
+  const Outcome text = bench.look({"--ledger"});
+  REQUIRE(text.status == 0);
+  CHECK(contains(text.out, fmt::format("{} calls: ", file.calls().size())));
+  CHECK(contains(text.out, "undone with a caller"));
+  const Outcome outcome = bench.look({"--ledger", "--json"});
+  REQUIRE(outcome.status == 0);
+  const auto json = nlohmann::json::parse(outcome.out);
+  std::size_t calls = 0;
+  for (const auto& row : json["rows"]) {
+    for (const auto& [name, cell] : row["endings"].items()) {
+      calls += cell["calls"].get<std::size_t>();
+    }
+  }
+  CHECK(calls == file.calls().size());
+  const Outcome wrong = bench.look({"--json"});
+  CHECK(wrong.status == 2);
+  CHECK(contains(wrong.err, "--json is for --ledger and --against"));
+}
+
+TEST_CASE("two traces are set side by side, and neither is written over") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const std::string other = (bench.folder / "other.trace").string();
+  REQUIRE(bench.improve({"--trace", other, "--schedule", "conservative"}).status == 0);
+  const Outcome outcome = bench.look({"--against", other});
+  REQUIRE(outcome.status == 0);
+  CHECK(contains(outcome.out, "bad in a where b has a good tet: "));
+  const auto json = nlohmann::json::parse(bench.look({"--against", other, "--json"}).out);
+  CHECK(json["b"]["all"]["calls"] == TraceFile(other).calls().size());
+  CHECK(bench.look({"--against", other, "-o", other}).status == 2);
+  const Outcome none = bench.look({"--against", (bench.folder / "none").string()});
+  CHECK(none.status == 1);
+  CHECK(contains(none.err, "none"));
+}
+
 TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not") {
   Bench bench;
   bench.trace = std::string(TETMEND_SOURCE_DIR) + "/assets/lessons/2-two-shells.trace";

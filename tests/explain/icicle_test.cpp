@@ -53,3 +53,59 @@ TEST_CASE("thin bars are joined, none is lost and none overlaps another") {
   CHECK(outermost == truth);
   CHECK(bars.size() < truth);
 }
+
+TEST_CASE("a bar of many calls says how many of them ended in which way") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  unsigned joined = 0;
+  for (const IcicleBar& bar : lay_out_icicle(file, whole_trace(file), 0.01)) {
+    std::uint32_t sum = 0;
+    for (const std::uint32_t count : bar.ended) sum += count;
+    CHECK(sum == bar.count);
+    joined += bar.count > 1 ? 1 : 0;
+    if (bar.count > 1) continue;
+    CHECK(bar.ended[static_cast<std::size_t>(outcome_of(file.calls()[bar.call]))] == 1);
+  }
+  CHECK(joined > 5);
+}
+
+TEST_CASE("a part of a window shows the calls in it, wider, and no others") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  const CallWindow whole = whole_trace(file);
+  const CallWindow part = zoomed(whole, whole, 0.3, 0.05);
+  CHECK(part.end - part.begin ==
+        doctest::Approx(0.05 * static_cast<double>(whole.end)).epsilon(0.01));
+  const auto middle =
+      static_cast<double>(part.begin) + 0.3 * static_cast<double>(part.end - part.begin);
+  CHECK(middle == doctest::Approx(0.3 * static_cast<double>(whole.end)).epsilon(0.01));
+  std::size_t shown = 0;
+  for (const IcicleBar& bar : lay_out_icicle(file, part, 0)) {
+    const Call& call = file.calls()[bar.call];
+    CHECK(call.events.begin < part.end);
+    CHECK(call.events.end > part.begin);
+    CHECK(bar.left >= 0);
+    CHECK(bar.right <= 1);
+    ++shown;
+  }
+  std::size_t truth = 0;
+  for (const Call& call : file.calls()) {
+    truth += call.events.begin < part.end && call.events.end > part.begin ? 1 : 0;
+  }
+  CHECK(shown == truth);
+  CHECK(shown > 10);
+}
+
+TEST_CASE("zooming and moving never lead out of the window, and back to the whole of it") {
+  const CallWindow whole{100, 1100, 3, 40};
+  CallWindow shown = whole;
+  for (int i = 0; i < 60; ++i) shown = zoomed(whole, shown, 0.9, 0.8);
+  CHECK(shown.end - shown.begin == 8);
+  CHECK(panned(whole, shown, 5000).end == whole.end);
+  CHECK(panned(whole, shown, -5000).begin == whole.begin);
+  CHECK(panned(whole, shown, -3).begin == shown.begin - 3);
+  for (int i = 0; i < 60; ++i) shown = zoomed(whole, shown, 0.1, 1.25);
+  CHECK(shown.begin == whole.begin);
+  CHECK(shown.end == whole.end);
+  CHECK(shown.first_call == whole.first_call);
+}

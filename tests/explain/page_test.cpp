@@ -64,8 +64,9 @@ TEST_CASE("each step of a page says what happened, where the algorithm is and wh
   CHECK(largest.replay.position() == 0);
   const json recording = recording_of(page.html);
   const EventRange range = file.calls()[largest.call].events;
-  REQUIRE(recording["steps"].size() == range.end - range.begin + 1);
-  std::uint64_t position = range.begin;
+  REQUIRE(recording["steps"].size() == range.end - range.begin);
+  CHECK(recording["steps"][0][1] == fmt::format("call {} begins", largest.call));
+  std::uint64_t position = range.begin + 1;
   for (const json& step : recording["steps"]) {
     CHECK(step[0] == position);
     CHECK(step[1] == event_text(file, position));

@@ -36,13 +36,39 @@ TEST_CASE("a recursion goes through the lines of Algorithm 4, its transformation
   CHECK(line.at(3) == Lines{1});
   CHECK(line.at(4) == Lines{3, 1});
   CHECK(line.at(5) == Lines{3, 6});
-  CHECK(line.at(6) == Lines{4, 7});
+  CHECK(line.at(6) == Lines{3, 7});
   CHECK(line.at(7) == Lines{12, 1});
-  CHECK(line.at(8) == Lines{13, 7});
+  CHECK(line.at(8) == Lines{12, 7});
   CHECK(line.at(9) == Lines{15});
   const auto stack = call_stack(line.file, 5);
   CHECK(code_place(line.file, stack, 0, 5).code == &recursion_code());
   CHECK(code_place(line.file, stack, 1, 5).code == &shell_transformation_code());
+}
+
+TEST_CASE("while a call is at hand, its caller is at the line of the algorithm that calls it") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  const auto words_of = [](const Call& call) -> std::string_view {
+    if (call.algorithm == Algorithm::recursion) return "recursion";
+    return call.algorithm == Algorithm::shell_transformation ? "transform the shell" : "removal of";
+  };
+  std::map<unsigned, unsigned> seen;
+  for (const Call& call : file.calls()) {
+    for (const std::uint64_t position : {call.events.begin + 1, call.events.end}) {
+      const auto stack = call_stack(file, position);
+      const bool is_outermost = stack.size() == 1;
+      const CodePlace caller = is_outermost ? pass_place(file, stack, position)
+                                            : code_place(file, stack, stack.size() - 2, position);
+      const bool is_paper = caller.code == &recursion_code() || caller.code == &reconnection_code();
+      if (!is_paper) continue;
+      ++seen[caller.line];
+      const std::string_view line = caller.code->lines[caller.line - 1];
+      CAPTURE(line);
+      CHECK(line.find(words_of(call)) != std::string_view::npos);
+      CHECK(caller.goes_on == (position == call.events.end ? caller.line + 1 : 0));
+    }
+  }
+  for (const unsigned line : {3U, 8U, 12U, 13U}) CHECK(seen[line] > 0);
 }
 
 TEST_CASE("an accepted transformation ends on the line that replaces the tets") {

@@ -569,6 +569,39 @@ def test_a_trace_tells_what_the_command_line_tells(tmp_path, materials, command_
         tetmend.Trace(MATERIALS)
 
 
+def test_a_trace_has_a_ledger_in_which_each_call_is_once(tmp_path, materials, command_line):
+    file = tmp_path / "run.trace"
+    tetmend.improve(materials, trace=file, set={"max_rounds": 1})
+    trace = tetmend.Trace(file)
+    ledger = trace.ledger()
+    assert sum(entry["calls"] for entry in ledger) == trace.call_count
+    calls = list(trace.calls())
+    lasting = [call["number"] for call in calls if call["for_good"]]
+    assert lasting and all(call["accepted"] for call in calls if call["for_good"])
+    assert sum(entry["calls"] for entry in ledger if entry["ending"] == "accepted for good") == len(lasting)
+    undone = [call for call in calls if call["undone_with"] is not None]
+    assert undone and all(call["accepted"] and not call["for_good"] and call["verdict"] == "undone with a caller" for call in undone)
+    assert all(call["undone_with"] < call["number"] < calls[call["undone_with"]]["subtree_end"] for call in undone)
+    entry = max((entry for entry in ledger if entry["refused"]), key=lambda entry: entry["calls"])
+    found = trace.calls_of(entry)
+    assert len(found) == entry["calls"] and all(calls[n]["operator"] == entry["operator"] and calls[n]["level"] == entry["level"] for n in found)
+    assert json.loads(command_line("trace", file, "--ledger", "--json"))["all"]["calls"] == trace.call_count
+
+
+def test_two_traces_are_set_side_by_side(tmp_path, materials, command_line):
+    files = [tmp_path / "a.trace", tmp_path / "b.trace"]
+    tetmend.improve(materials, trace=files[0], script="smooth{}")
+    tetmend.improve(materials, trace=files[1])
+    a, b = (tetmend.Trace(file) for file in files)
+    pairs = a.worse_than(b)
+    assert pairs and all(pair["bad_quality"] < 1 <= pair["good_quality"] for pair in pairs)
+    assert [pair["bad_quality"] for pair in pairs] == sorted(pair["bad_quality"] for pair in pairs)
+    worst = "tet:" + ",".join(str(v) for v in pairs[0]["bad"])
+    assert worst in a.against(b) and "has quality" in a.history(worst)
+    assert a.history("tet:worst") == command_line("trace", files[0], "--history", "tet:worst", "--all")
+    assert a.worse_than(a) == []
+
+
 # --- what is shown
 
 

@@ -97,6 +97,7 @@ std::span<const Command> show_commands();
 std::span<const Command> select_commands();
 std::span<const Command> trace_commands();
 std::span<const Command> history_commands();
+std::span<const Command> ledger_commands();
 std::span<const Command> live_commands();
 std::span<const Command> script_commands();
 

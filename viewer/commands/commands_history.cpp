@@ -77,7 +77,7 @@ json to_json(const TraceFile& file, const History& history) {
         .push_back({{"call", each.call},
                     {"operator", file.name(call.operator_name)},
                     {"target", numbers_of({call.target().begin(), call.target().end()})},
-                    {"verdict", call.verdict_text()},
+                    {"verdict", call.verdict_in_words()},
                     {"before", call.worst_before},
                     {"after", call.worst_after},
                     {"reason", file.reason(call)}});
@@ -88,6 +88,7 @@ json to_json(const TraceFile& file, const History& history) {
                      {"on_surface", part.on_surface},
                      {"calls", part.calls},
                      {"accepted", part.accepted},
+                     {"undone", part.undone},
                      {"in_trials", part.in_trials},
                      {"nearest", part.nearest == kNoCall ? json() : json(part.nearest)}});
   }

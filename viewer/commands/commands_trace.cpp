@@ -100,6 +100,17 @@ json run_to_next(Session& s, const json&) {
   return run_to_condition(s, {{{What, {}, {}, {}}}, false}, Where);
 }
 
+/// "all": also those that a caller undid.
+template <Direction Where>
+json run_to_accepted(Session& s, const json& a) {
+  const Arguments arguments("next_accepted", a);
+  if (arguments.has(0) && arguments.text(0) != "all") {
+    throw Error(fmt::format("'{}' is no kind of accepted calls: expected all, or nothing",
+                            arguments.text(0)));
+  }
+  return run_to_condition(s, {{{Condition::Kind::accepted, {}, {}, {}}}, !arguments.has(0)}, Where);
+}
+
 template <Direction Where>
 json run(Session& s, const json&) {
   const auto stop = need_trace(s.document).run(Where);
@@ -129,6 +140,12 @@ std::vector<Breakpoint>& breakpoints_of(Document& document) {
 
 json breakpoint(Session& s, const json& a) {
   const Condition condition = parse_condition(Arguments("breakpoint", a).text(0));
+  const auto& terms = condition.terms;
+  if (s.document.debugger() == nullptr &&
+      std::any_of(terms.begin(), terms.end(), is_about_record)) {
+    throw Error(fmt::format("'{}' asks what became of a call: only recorded runs know",
+                            to_text(condition)));
+  }
   std::vector<Breakpoint>& all = breakpoints_of(s.document);
   const auto same = [&](const Breakpoint& b) { return b.condition == condition; };
   if (std::erase_if(all, same) == 0) all.push_back({condition});
@@ -300,10 +317,12 @@ constexpr std::array kTraceCommands = {
             "Back to the last breakpoint, or to the beginning", &run<kBack>},
     Command{"run_to", "", "", "run_to(\"edge 3 17\", \"back\")",
             "To the next place of a condition, see Conditions; false if there is none", &run_to},
-    Command{"next_accepted", "J", kTrace, "next_accepted()", "To the next accepted call",
-            &run_to_next<Kind::accepted, kForward>},
-    Command{"last_accepted", "Shift+J", kTrace, "last_accepted()", "To the accepted call before",
-            &run_to_next<Kind::accepted, kBack>},
+    Command{"next_accepted", "J", kTrace, "next_accepted()",
+            "To the next call that was accepted for good; \"all\": or undone with a caller",
+            &run_to_accepted<kForward>},
+    Command{"last_accepted", "Shift+J", kTrace, "last_accepted()",
+            "To the call before that was accepted for good; \"all\": or undone with a caller",
+            &run_to_accepted<kBack>},
     Command{"next_refused", "U", kTrace, "next_refused()", "To the next refused call",
             &run_to_next<Kind::refused, kForward>},
     Command{"last_refused", "Shift+U", kTrace, "last_refused()", "To the refused call before",

@@ -89,9 +89,11 @@ json call_state(Document& document, std::uint32_t number) {
           {"target", target},
           {"level", call.level},
           {"verdict", outcome_text(call, debugger.position())},
+          {"undone_with", call.undone_with == kNoCall ? json() : json(call.undone_with)},
           {"degree_before", facts.degree_before},
           {"degree_after", facts.degree_after},
-          {"line", code.line}};
+          {"line", code.line},
+          {"goes_on", code.goes_on}};
 }
 
 }  // namespace
@@ -117,6 +119,12 @@ json trace_state_of(Document& document) {
       {"bookmarks", bookmarks},
       {"bad", sample.n_bad},
       {"q_worst", sample.q_worst}};
+  if (const auto visit = debugger.visit()) {
+    const Visit& made = debugger.file().visits()[*visit];
+    json tet = json::array();
+    for (const VertexHandle v : made.tet) tet.push_back(v.index());
+    result["visit"] = {{"number", *visit}, {"tet", tet}, {"quality", made.quality}};
+  }
   const CallStudy* study = debugger.study();
   if (study == nullptr) return result;
   result["tets_before"] = study->before.size();

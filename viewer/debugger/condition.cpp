@@ -27,12 +27,15 @@ struct Form {
   std::size_t values;
   std::string_view usage;
 };
-constexpr std::array<Form, 13> kForms = {
+constexpr std::array<Form, 16> kForms = {
     {{Kind::accepted, "accepted", false, 0, 0, "accepted"},
+     {Kind::undone, "undone", false, 0, 0, "undone"},
      {Kind::refused, "refused", false, 0, 0, "refused"},
      {Kind::verdict, "verdict", true, 0, 0, "verdict NAME"},
+     {Kind::ending, "ending", true, 0, 0, "ending NAME"},
      {Kind::deeper, "deeper", false, 1, 0, "deeper LEVEL"},
      {Kind::level, "level", false, 1, 0, "level LEVEL"},
+     {Kind::visit, "visit", false, 1, 0, "visit NUMBER"},
      {Kind::operator_name, "operator", true, 0, 0, "operator NAME"},
      {Kind::edge, "edge", false, 2, 0, "edge A B"},
      {Kind::face, "face", false, 3, 0, "face A B C"},
@@ -46,11 +49,15 @@ constexpr std::array<Form, 13> kForms = {
   throw Error(fmt::format("'{}' is no place to stop at: expected {}", part, condition_usage()));
 }
 
-/// "no_improvement": a verdict as one word.
-std::string word_of(Verdict verdict) {
-  std::string word(to_string(verdict));
+/// As one word: "no_improvement".
+std::string joined(std::string_view words) {
+  std::string word(words);
   std::replace(word.begin(), word.end(), ' ', '_');
   return word;
+}
+
+std::string word_of(Verdict verdict) {
+  return joined(to_string(verdict));
 }
 
 void check_verdict(const std::string& name) {
@@ -60,6 +67,13 @@ void check_verdict(const std::string& name) {
   }
   if (std::find(words.begin(), words.end(), name) != words.end()) return;
   throw Error(fmt::format("'{}' is no verdict: expected {}", name, fmt::join(words, ", ")));
+}
+
+void check_ending(const std::string& name) {
+  std::vector<std::string> words;
+  for (const EndingWords& ending : kEndingWords) words.push_back(joined(ending.name));
+  if (std::find(words.begin(), words.end(), name) != words.end()) return;
+  throw Error(fmt::format("'{}' is no way to end: expected {}", name, fmt::join(words, ", ")));
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -102,6 +116,7 @@ Term read_term(std::span<const std::string> words) {
       rest = rest.subspan(1);
     }
     if (form.kind == Kind::verdict) check_verdict(term.name);
+    if (form.kind == Kind::ending) check_ending(term.name);
     for (std::size_t i = 0; i < form.numbers; ++i) {
       term.numbers.push_back(read_number(rest[i], part));
     }
@@ -146,17 +161,32 @@ bool touches(const TraceEvent& event, const Term& term) {
 class Search {
  public:
   Search(const ConditionSource& source, const Condition& condition)
-      : file_(source.file), replay_(source.replay), trials_(source.trials), condition_(condition) {
+      : file_(source.file), replay_(source.replay), condition_(condition) {
     for (const Term& term : condition.terms) at_end_ = at_end_ || is_about_end(term);
   }
 
   std::optional<std::uint64_t> find(std::uint64_t from, Direction direction) {
     const bool forward = direction == Direction::forward;
     auto nearest = forward ? call_after(from) : call_before(from);
+    if (const auto begin = begin_of_visit(from, forward)) {
+      if (forward || !nearest) nearest = begin;
+    }
     const auto& terms = condition_.terms;
     if (std::none_of(terms.begin(), terms.end(), is_about_edit)) return nearest;
     const auto edit = forward ? edit_after(from, nearest) : edit_before(from, nearest);
     return edit ? edit : nearest;
+  }
+
+  std::vector<std::uint32_t> all() {
+    std::vector<std::uint32_t> found;
+    const auto calls = file_.calls();
+    for (std::uint32_t k = 0; k < calls.size(); ++k) {
+      if (stop_of(k)) found.push_back(k);
+    }
+    std::stable_sort(found.begin(), found.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return calls[a].missing() < calls[b].missing();
+    });
+    return found;
   }
 
  private:
@@ -171,8 +201,9 @@ class Search {
   /// `with_edit`: the terms about edits hold otherwise.
   bool holds_of(std::uint32_t number, bool with_edit) {
     const Call& call = file_.calls()[number];
-    ConditionCall asked{file_.name(call.operator_name), call.level, call.target(), call.verdict,
-                        worst_before(number)};
+    ConditionCall asked{
+        file_.name(call.operator_name), call.level,         call.target(),   call.verdict,
+        worst_before(number),           file_.ending(call), visit_of(number)};
     const PlaceOf place_of = [&](VertexHandle v) -> std::optional<Point> {
       replay_.seek(call.events.begin);
       if (replay_.mesh().is_deleted(v)) return std::nullopt;
@@ -182,19 +213,35 @@ class Search {
       if (with_edit && is_about_edit(term)) continue;
       if (!holds(term, asked, place_of)) return false;
     }
-    return !condition_.for_good || with_edit || !trials_.is_undone(call.events.begin);
+    if (!condition_.for_good || with_edit) return true;
+    return !file_.is_undone(at_end_ ? call.events.end - 1 : call.events.begin);
+  }
+
+  std::optional<std::uint32_t> visit_of(std::uint32_t number) const {
+    const auto visits = file_.visits();
+    const auto after =
+        std::upper_bound(visits.begin(), visits.end(), number,
+                         [](std::uint32_t n, const Visit& visit) { return n < visit.first_call; });
+    if (after == visits.begin() || number >= (after - 1)->last_call) return std::nullopt;
+    return static_cast<std::uint32_t>(after - visits.begin() - 1);
   }
 
   /// Of the tets that it compared, or else the tet that the pass turned to.
   double worst_before(std::uint32_t number) const {
     const Call& call = file_.calls()[number];
-    if (call.worst_before != 0 || call.worst_after != 0) return call.worst_before;
-    const auto visits = file_.visits();
-    const auto after =
-        std::upper_bound(visits.begin(), visits.end(), number,
-                         [](std::uint32_t n, const Visit& visit) { return n < visit.first_call; });
-    if (after == visits.begin() || number >= (after - 1)->last_call) return 1e30;
-    return (after - 1)->quality;
+    if (call.has_qualities()) return call.worst_before;
+    const auto visit = visit_of(number);
+    return visit ? file_.visits()[*visit].quality : 1e30;
+  }
+
+  /// The beginning of the visit, which is before its calls.
+  std::optional<std::uint64_t> begin_of_visit(std::uint64_t from, bool forward) const {
+    if (condition_.terms.size() != 1 || condition_.terms[0].kind != Kind::visit) return {};
+    const std::uint32_t number = condition_.terms[0].numbers[0];
+    if (number >= file_.visits().size()) return {};
+    const std::uint64_t stop = file_.visits()[number].events.begin + 1;
+    if (forward ? stop <= from : stop >= from) return {};
+    return stop;
   }
 
   /// The first call that begins at `event` or later.
@@ -238,7 +285,7 @@ class Search {
     for (const Term& term : condition_.terms) {
       if (is_about_edit(term) && !touches(event, term)) return false;
     }
-    if (condition_.for_good && trials_.is_undone(number)) return false;
+    if (condition_.for_good && file_.is_undone(number)) return false;
     const auto& terms = condition_.terms;
     if (std::all_of(terms.begin(), terms.end(), is_about_edit)) return true;
     const std::uint32_t call = file_.call_at(number);
@@ -278,12 +325,15 @@ class Search {
 
   const TraceFile& file_;
   Replay& replay_;
-  Trials& trials_;
   const Condition& condition_;
   bool at_end_ = false;
 };
 
 }  // namespace
+
+std::string word_of(CallEnding ending) {
+  return joined(name_of(ending));
+}
 
 std::string condition_usage() {
   std::vector<std::string_view> usages;
@@ -326,7 +376,12 @@ std::string to_text(const Condition& condition) {
 }
 
 bool is_about_end(const Term& term) {
-  return term.kind == Kind::accepted || term.kind == Kind::refused || term.kind == Kind::verdict;
+  return term.kind == Kind::accepted || term.kind == Kind::refused || term.kind == Kind::verdict ||
+         term.kind == Kind::undone || term.kind == Kind::ending;
+}
+
+bool is_about_record(const Term& term) {
+  return term.kind == Kind::undone || term.kind == Kind::ending || term.kind == Kind::visit;
 }
 
 bool is_about_edit(const Term& term) {
@@ -337,6 +392,10 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
   switch (term.kind) {
     case Kind::accepted:
       return call.verdict == Verdict::accepted;
+    case Kind::undone:
+      return call.ending == CallEnding::undone;
+    case Kind::ending:
+      return call.ending && word_of(*call.ending) == term.name;
     case Kind::refused:
       return call.verdict && call.verdict != Verdict::accepted;
     case Kind::verdict:
@@ -345,6 +404,8 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
       return call.level > term.numbers[0];
     case Kind::level:
       return call.level == term.numbers[0];
+    case Kind::visit:
+      return call.visit == term.numbers[0];
     case Kind::operator_name:
       return call.operator_name == term.name;
     case Kind::edge:
@@ -368,6 +429,14 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
 std::optional<std::uint64_t> find_stop(const ConditionSource& source, const Condition& condition,
                                        std::uint64_t from, Direction direction) {
   return Search(source, condition).find(from, direction);
+}
+
+std::vector<std::uint32_t> find_all(const ConditionSource& source, const Condition& condition) {
+  for (const Term& term : condition.terms) {
+    if (term.kind != Kind::tet) continue;
+    throw Error(fmt::format("'{}' is about edits, and no list of calls", to_text(condition)));
+  }
+  return Search(source, condition).all();
 }
 
 }  // namespace tetmend::viewer

@@ -12,7 +12,6 @@
 
 #include "explain/stepper.h"
 #include "trace/replay.h"
-#include "trace/trials.h"
 #include "viewer/debugger/explained.h"
 
 namespace tetmend::viewer {
@@ -20,11 +19,14 @@ namespace tetmend::viewer {
 /// Terms that hold together: "edge 3 17 and refused", "level 3 and worse than 0.2", "tet 4 for good".
 struct Condition {
   enum class Kind : std::uint8_t {
-    accepted,       ///< a call ended so
+    accepted,       ///< a call ended so; whether it lasted, `for_good` asks
+    undone,         ///< a call was accepted, and undone with a caller
     refused,        ///< a call ended with any other verdict
     verdict,        ///< a call ended with the verdict `name`
+    ending,         ///< a call ended in the way `name`, see CallEnding
     deeper,         ///< a call on a deeper level of recursion than numbers[0]
     level,          ///< a call on this level
+    visit,          ///< a call in this visit of a tet, and the beginning of the visit
     operator_name,  ///< a call of `name`
     edge,           ///< a call whose target is the edge of two vertices
     face,           ///< likewise of three
@@ -42,7 +44,7 @@ struct Condition {
     friend bool operator==(const Term&, const Term&) = default;
   };
   std::vector<Term> terms;
-  bool for_good = false;  ///< not in a trial that was undone
+  bool for_good = false;  ///< no undo took back later what was there at that place
 
   friend bool operator==(const Condition&, const Condition&) = default;
 };
@@ -55,6 +57,8 @@ struct Breakpoint {
 /// @throws Error for anything else, with the part that is wrong and what is valid.
 Condition parse_condition(std::string_view text);
 std::string to_text(const Condition& condition);
+/// "nothing_better": a way to end as conditions have it.
+std::string word_of(CallEnding ending);
 /// "accepted, refused, deeper LEVEL, ...": for help.
 std::string condition_usage();
 
@@ -63,8 +67,10 @@ struct ConditionCall {
   std::string_view operator_name;
   unsigned level = 0;
   std::span<const VertexHandle> target;
-  std::optional<Verdict> verdict;  ///< nothing: it has not ended
-  double worst = 0;                ///< quality of the worst tet that it has before it
+  std::optional<Verdict> verdict;      ///< nothing: it has not ended
+  double worst = 0;                    ///< quality of the worst tet that it has before it
+  std::optional<CallEnding> ending;    ///< what became of it; of live runs nobody knows yet
+  std::optional<std::uint32_t> visit;  ///< number of the visit that it is in; of a recorded run
 };
 /// Where a vertex is, in lengths of the file; nothing for one that is not there.
 using PlaceOf = std::function<std::optional<Point>(VertexHandle)>;
@@ -73,6 +79,8 @@ using PlaceOf = std::function<std::optional<Point>(VertexHandle)>;
 bool holds(const Condition::Term& term, const ConditionCall& call, const PlaceOf& place_of);
 /// A term that asks how the call ended.
 bool is_about_end(const Condition::Term& term);
+/// A term that asks what became of a call later, for its reason, or for a number of the record.
+bool is_about_record(const Condition::Term& term);
 /// A term that edits make hold, too.
 bool is_about_edit(const Condition::Term& term);
 
@@ -80,14 +88,16 @@ bool is_about_edit(const Condition::Term& term);
 struct ConditionSource {
   const TraceFile& file;
   Replay& replay;  ///< left anywhere by conditions on places
-  Trials& trials;
 };
 
 /// The nearest position after (back: before) `from` at which the condition holds: just after the
 /// event that makes it hold. Nothing if there is none.
-/// Cost: linear in the calls on the way; of a vertex or tet, reads the events on the way; "for good"
-/// reads all events once.
+/// Cost: linear in the calls on the way; of a vertex or tet, reads the events on the way.
 std::optional<std::uint64_t> find_stop(const ConditionSource& source, const Condition& condition,
                                        std::uint64_t from, Direction direction);
+
+/// All calls of which the condition holds, the nearest to being accepted first: see Call::missing().
+/// @throws Error when it is about edits. Cost: linear in the calls; of a place, replays them.
+std::vector<std::uint32_t> find_all(const ConditionSource& source, const Condition& condition);
 
 }  // namespace tetmend::viewer

@@ -13,7 +13,6 @@ namespace tetmend::viewer {
 Debugger::Debugger(const std::filesystem::path& file)
     : file_(file),
       replay_(file_),
-      trials_(file_),
       timeline_(make_timeline(file_, replay_)),
       lesson_(lesson_of(file, file_.event_count())) {}
 
@@ -125,6 +124,22 @@ void Debugger::ask_history(const HistorySubject& subject) {
     throw;
   }
   replay_.seek(home);
+}
+
+const Ledger& Debugger::ledger() {
+  if (!ledger_) ledger_ = make_ledger(file_);
+  return *ledger_;
+}
+
+void Debugger::list_calls(const Condition& condition) {
+  const std::uint64_t home = position();
+  std::vector<std::uint32_t> calls = find_all(source(), condition);
+  replay_.seek(home);
+  found_ = {condition, std::move(calls)};
+}
+
+void Debugger::compare_with(const std::filesystem::path& file) {
+  other_ = {file, compare_runs(file_, TraceFile(file))};
 }
 
 bool is_trace(const std::filesystem::path& file) {

@@ -18,13 +18,25 @@
 #include "kernel/tet_mesh.h"
 #include "trace/history.h"
 #include "trace/replay.h"
-#include "trace/trials.h"
+#include "trace/run_comparison.h"
 #include "viewer/debugger/call_list.h"
 #include "viewer/debugger/condition.h"
 #include "viewer/debugger/explained.h"
 #include "viewer/debugger/trace_mesh.h"
 
 namespace tetmend::viewer {
+
+/// Calls of which a condition holds, as a list to go through.
+struct FoundCalls {
+  Condition condition;
+  std::vector<std::uint32_t> calls;  ///< see find_all()
+};
+
+/// Another recorded run beside the one that is looked at.
+struct OtherRun {
+  std::filesystem::path file;
+  RunComparison comparison;  ///< `a` is the run that is looked at
+};
 
 /// Moves that lead nowhere leave the position as it is.
 class Debugger {
@@ -41,6 +53,8 @@ class Debugger {
   const std::vector<std::uint32_t>& stack() const { return stack_; }
   /// The innermost of them, or kNoCall.
   std::uint32_t call() const { return stack_.empty() ? kNoCall : stack_.back(); }
+  /// The visit of a tet that the last event belongs to.
+  std::optional<std::uint32_t> visit() const { return visit_at(file_, position()); }
 
   /// Precondition: at most end(). Cost: see Replay.
   void seek(std::uint64_t position);
@@ -57,7 +71,8 @@ class Debugger {
 
   std::vector<Breakpoint> breakpoints;
   std::map<std::uint64_t, std::string> bookmarks;  ///< by position
-  std::string typed_condition = "accepted";        ///< what the user is about to run to
+  CallWindow zoom;  ///< what the strip shows of its window; of no events: all of it
+  std::string typed_condition = "accepted for good";  ///< what the user is about to run to
 
   // Play: as many events a second as `speed` says.
   bool playing = false;
@@ -91,6 +106,16 @@ class Debugger {
   /// The last answer.
   const std::optional<History>& history() const { return history_; }
   std::string asked;  ///< what the user is about to ask
+  /// The whole of the run. Made once, see make_ledger().
+  const Ledger& ledger();
+  /// Lists the calls of a condition, and keeps the list. Stays where it is.
+  /// @throws Error as find_all()
+  void list_calls(const Condition& condition);
+  const std::optional<FoundCalls>& found() const { return found_; }
+  void forget_found() { found_.reset(); }
+  /// @throws Error as TraceFile does. Cost: see compare_runs().
+  void compare_with(const std::filesystem::path& file);
+  const std::optional<OtherRun>& other() const { return other_; }
   const std::optional<Lesson>& lesson() const { return lesson_; }
   /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
   /// call.
@@ -101,11 +126,10 @@ class Debugger {
 
  private:
   std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
-  ConditionSource source() { return {file_, replay_, trials_}; }
+  ConditionSource source() { return {file_, replay_}; }
 
   TraceFile file_;
   Replay replay_;
-  Trials trials_;
   Timeline timeline_;
   TraceMesh trace_mesh_;
   FactTable facts_;
@@ -113,6 +137,9 @@ class Debugger {
   std::vector<std::uint32_t> stack_;
   std::optional<CallStudy> study_;
   std::optional<History> history_;
+  std::optional<Ledger> ledger_;
+  std::optional<FoundCalls> found_;
+  std::optional<OtherRun> other_;
   std::optional<Lesson> lesson_;
   double unplayed_ = 0;  // share of an event
 };

@@ -118,6 +118,17 @@ void paint(const figure::Drawing& drawing, ImDrawList& list) {
   for (const figure::Shape& shape : drawing.shapes) std::visit(painter, shape);
 }
 
+void show_mark(Outcome outcome) {
+  constexpr double kMark = 0.8;  // of the size of the text
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const double size = ImGui::GetFontSize();
+  const double margin = (1 - kMark) / 2 * size;
+  figure::Drawing drawing;
+  add_mark(drawing, outcome, {at.x + margin, at.y + margin}, kMark * size);
+  paint(drawing, *ImGui::GetWindowDrawList());
+  ImGui::Dummy({ImGui::GetFontSize(), ImGui::GetFontSize()});
+}
+
 Square square_at_cursor(float side) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   return {{corner.x + side / 2.0, corner.y + side / 2.0}, side / 2.0};

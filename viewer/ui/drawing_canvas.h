@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "explain/figures/linked_drawing.h"
+#include "explain/outcome_look.h"
 #include "figure/drawing.h"
 #include "viewer/debugger/tets_drawing.h"
 #include "viewer/document.h"
@@ -21,6 +22,9 @@ Colour colour_of(ImGuiCol part);
 
 /// In pixels of the window.
 void paint(const figure::Drawing& drawing, ImDrawList& list);
+
+/// Takes a square of the size of the text for the mark of a call that ended so.
+void show_mark(Outcome outcome);
 
 /// The square of that side, in pixels, at the cursor of the panel.
 Square square_at_cursor(float side);

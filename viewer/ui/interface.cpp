@@ -42,7 +42,7 @@ ImFont* load_font(float scale) {
   return fonts->AddFontDefault(&config);
 }
 
-bool is_shown(const Panel& panel, const Document& document) {
+bool has_subject(const Panel& panel, const Document& document) {
   switch (panel.subject) {
     case Subject::mesh:
       return document.has_mesh();
@@ -52,6 +52,11 @@ bool is_shown(const Panel& panel, const Document& document) {
       return document.debugger() != nullptr && document.debugger()->lesson().has_value();
   }
   return false;
+}
+
+bool is_shown(const Panel& panel, const Document& document) {
+  if (!has_subject(panel, document)) return false;
+  return panel.is_there == nullptr || panel.is_there(document);
 }
 
 /// Text for the name of a key, as menus print it.

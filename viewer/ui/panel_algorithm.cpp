@@ -4,8 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
+#include "explain/event_text.h"
 #include "explain/paper_lines.h"
 #include "viewer/ui/panels.h"
 
@@ -13,7 +15,7 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-constexpr float kCallerLines = 3.5F;  // below the code
+constexpr float kCallerLines = 4.5F;  // below the code, with t
 constexpr float kNumbers = 2.2F;      // width of their column, in units of the text
 constexpr float kGap = 1;             // between its lines, in pixels
 
@@ -82,9 +84,7 @@ float algorithm_height(const Session& session) {
   const auto& stack = debugger.stack();
   const bool has_code =
       !stack.empty() || pass_place(debugger.file(), stack, debugger.position()).code != nullptr;
-  if (!has_code) {
-    return ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
-  }
+  if (!has_code) return 0;
   return kMostLines * (ImGui::GetTextLineHeight() + kGap) +
          (kCallerLines + 1) * ImGui::GetTextLineHeightWithSpacing() +
          2 * ImGui::GetStyle().WindowPadding.y;
@@ -99,17 +99,26 @@ void draw_algorithm_panel(Session& session) {
   const CodePlace pass = pass_place(debugger.file(), stack, debugger.position());
   const CodePlace here = stack.empty() ? pass : place_of(stack.size() - 1);
   if (here.code == nullptr) {
-    ImGui::TextDisabled(stack.empty() ? "no call here" : "an operator that is not described");
+    if (!stack.empty()) ImGui::TextDisabled("an operator that is not described");
     return;
   }
   show_code(*here.code, here.line, is_new_place(debugger.position()));
+  const auto visit = debugger.visit();
+  if (visit && pass.code != nullptr) {
+    const Visit& made = debugger.file().visits()[*visit];
+    ImGui::TextWrapped("t = %s, quality %.4f", format_visit(made).c_str(),
+                       static_cast<double>(made.quality));
+  }
   if (stack.empty()) return;
   const CodePlace caller = stack.size() > 1 ? place_of(stack.size() - 2) : pass;
   if (caller.code == nullptr) return;
   const std::string_view title = caller.code->title;
   const std::string name(title.substr(0, title.find(':')));
   ImGui::TextDisabled("called from line %u of %s:", caller.line, name.c_str());
-  ImGui::TextWrapped("%s", caller.code->lines[caller.line - 1].data());
+  const std::string_view line = caller.code->lines[caller.line - 1];
+  const std::string on =
+      caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
+  ImGui::TextWrapped("%s%s", line.data(), on.c_str());
 }
 
 }  // namespace tetmend::viewer::ui

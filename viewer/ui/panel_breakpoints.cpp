@@ -13,7 +13,10 @@ namespace tetmend::viewer::ui {
 namespace {
 
 /// What may be typed, as a list to choose from.
-constexpr std::array<const char*, 12> kExamples = {"accepted",
+constexpr std::array<const char*, 15> kExamples = {"accepted for good",
+                                                   "accepted",
+                                                   "undone",
+                                                   "operator smoothing and refused",
                                                    "refused",
                                                    "deeper 2",
                                                    "level 3 and accepted",
@@ -29,7 +32,12 @@ constexpr std::array<const char*, 12> kExamples = {"accepted",
 void show_run_to(Session& session) {
   std::string& text = session.document.debugger()->typed_condition;
   ImGui::SetNextItemWidth(-2 * ImGui::GetFontSize());
-  ImGui::InputTextWithHint("##place", "edge 3 17", &text);
+  if (ImGui::InputTextWithHint("##place", "edge 3 17", &text,
+                               ImGuiInputTextFlags_EnterReturnsTrue)) {
+    const char* command = ImGui::GetIO().KeyShift ? "run_to" : "list_calls";
+    run_from_window(find_command(command), session, {text});
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Enter lists, Shift+Enter runs to the next");
   ImGui::SameLine();
   if (ImGui::ArrowButton("##examples", ImGuiDir_Down)) ImGui::OpenPopup("examples");
   if (ImGui::BeginPopup("examples")) {
@@ -38,6 +46,8 @@ void show_run_to(Session& session) {
     }
     ImGui::EndPopup();
   }
+  if (ImGui::Button("list")) run_from_window(find_command("list_calls"), session, {text});
+  ImGui::SameLine();
   if (ImGui::Button("run to next")) run_from_window(find_command("run_to"), session, {text});
   ImGui::SameLine();
   if (ImGui::Button("before")) run_from_window(find_command("run_to"), session, {text, "back"});

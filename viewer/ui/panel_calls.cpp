@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The tree of calls: level, target, degree, quality, and how each ended, as a colour.
+// The tree of calls: level, target, degree, quality, and how each ended, as a mark.
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "explain/outcome_colour.h"
+#include "explain/outcome_look.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 
@@ -23,20 +23,14 @@ std::string numbers_of(const Call& call) {
   return text;
 }
 
-/// A dot in the colour of the outcome; hollow while the call is under way.
-void outcome_dot(const Debugger& debugger, const Call& call) {
-  const bool is_done = debugger.position() >= call.events.end;
-  const ImU32 colour = to_imgui(outcome_colour(outcome_of(call)));
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float size = ImGui::GetFontSize();
-  const ImVec2 middle = {at.x + size / 2, at.y + size / 2};
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  if (is_done) {
-    list->AddCircleFilled(middle, 0.32F * size, colour);
-  } else {
-    list->AddCircle(middle, 0.32F * size, colour, 0, 0.12F * size);
-  }
-  ImGui::Dummy({size, size});
+/// How the call has ended here: what is to come is not told.
+Outcome outcome_here(const Debugger& debugger, const Call& call) {
+  return debugger.position() >= call.events.end ? outcome_of(call) : Outcome::unfinished;
+}
+
+/// Of "5 -> 4" what is so now, while the call is under way.
+std::string until_now(const std::string& text, bool is_done) {
+  return is_done ? text : text.substr(0, text.find(" -> "));
 }
 
 /// The text as far as the column has room for it.
@@ -53,31 +47,23 @@ bool is_lit(const Pointed& pointed, std::uint32_t number, const Call& call) {
   return pointed.vertices.size() == call.target_size && pointed.contains(call.target());
 }
 
-/// The colours of the dots, in two rows.
-void explain_dots() {
-  constexpr std::array<std::pair<Outcome, const char*>, 6> kMeanings = {
-      {{Outcome::accepted, "accepted"},
-       {Outcome::no_improvement, "nothing better"},
+/// The marks, in rows of three.
+void explain_marks() {
+  constexpr std::array<std::pair<Outcome, const char*>, kOutcomeCount> kMeanings = {
+      {{Outcome::accepted, "accepted for good"},
+       {Outcome::undone, "undone with a caller"},
        {Outcome::rejected, "tried, undone"},
+       {Outcome::no_improvement, "nothing better"},
        {Outcome::limit, "limit reached"},
        {Outcome::constrained, "constrained"},
-       {Outcome::unfinished, "hollow: under way"}}};
-  const float size = ImGui::GetFontSize();
+       {Outcome::other, "not applicable"},
+       {Outcome::unfinished, "under way"}}};
   const float width = ImGui::GetContentRegionAvail().x / 3;
   for (std::size_t i = 0; i < kMeanings.size(); ++i) {
     if (i % 3 != 0)
       ImGui::SameLine(width * static_cast<float>(i % 3) + ImGui::GetCursorStartPos().x);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImVec2 middle = {at.x + size / 2, at.y + size / 2};
-    const ImU32 colour = to_imgui(outcome_colour(kMeanings[i].first));
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    if (kMeanings[i].first == Outcome::unfinished) {
-      list->AddCircle(middle, 0.3F * size, colour, 0, 0.12F * size);
-    } else {
-      list->AddCircleFilled(middle, 0.3F * size, colour);
-    }
-    ImGui::Dummy({size, size});
-    ImGui::SameLine(0, 0.2F * size);
+    show_mark(kMeanings[i].first);
+    ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
     ImGui::TextUnformatted(kMeanings[i].second);
   }
 }
@@ -99,7 +85,7 @@ void draw_row(Session& session, const CallRow& row) {
     if (ImGui::SmallButton(row.is_open ? "-" : "+")) debugger.fold(row.call);
     ImGui::SameLine(0, 0.3F * ImGui::GetFontSize());
   }
-  outcome_dot(debugger, call);
+  show_mark(outcome_here(debugger, call));
   ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
   const std::string name =
       fmt::format("{} {} {}", call.level, short_name(debugger.file(), call), numbers_of(call));
@@ -111,17 +97,18 @@ void draw_row(Session& session, const CallRow& row) {
   if (ImGui::IsItemHovered()) {
     session.document.hovering = session.document.pointed_call(row.call);
     const std::string tried =
-        call.accepted() || call.worst_before == 0
+        call.accepted() || call.worst_before == 0 || debugger.position() < call.events.end
             ? ""
             : fmt::format("\ntried: {:.4f} -> {:.4f}", call.worst_before, call.worst_after);
     ImGui::SetTooltip("%s\ncall %u, %s%s", name.c_str(), row.call,
-                      outcome_text(call, debugger.end()).c_str(), tried.c_str());
+                      outcome_text(call, debugger.position()).c_str(), tried.c_str());
   }
   const CallFacts& facts = debugger.facts(row.call);
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(degree_text(facts).c_str());
+  const bool is_done = debugger.position() >= call.events.end;
+  ImGui::TextUnformatted(until_now(degree_text(facts), is_done).c_str());
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(quality_text(call, facts).c_str());
+  ImGui::TextUnformatted(until_now(quality_text(call, facts), is_done).c_str());
   ImGui::PopID();
 }
 
@@ -150,7 +137,7 @@ float table_height() {
   const float frame = ImGui::GetFrameHeightWithSpacing();
   constexpr float kHeadings = 5;     // of panels
   constexpr float kRunToFrames = 4;  // place, two rows of buttons, checkboxes
-  const float below = 2 * row + (kHeadings + kRunToFrames) * frame + row +
+  const float below = 3 * row + (kHeadings + kRunToFrames) * frame + row +
                       kRingShare * ImGui::GetContentRegionAvail().x + frame +
                       (kChordRows + 1) * row;
   const float room = ImGui::GetWindowHeight() - ImGui::GetCursorPosY() - below;
@@ -180,7 +167,7 @@ void draw_calls_panel(Session& session) {
     }
   }
   ImGui::EndTable();
-  explain_dots();
+  explain_marks();
 }
 
 }  // namespace tetmend::viewer::ui

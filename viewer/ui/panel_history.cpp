@@ -4,7 +4,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "explain/outcome_colour.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
@@ -32,9 +31,9 @@ void list_parts(Session& session, const History& history) {
   for (const PartHistory& part : history.parts) {
     if (part.part.size() == history.subject.size()) continue;
     if (part.calls + part.in_trials == 0 && part.part.size() != 2) continue;
-    std::string text =
-        fmt::format("{}{}: {} calls, {} accepted", in_words(part.part),
-                    part.on_surface ? ", on the surface" : "", part.calls, part.accepted);
+    std::string text = fmt::format("{}{}: {} calls, {} accepted for good, {} undone",
+                                   in_words(part.part), part.on_surface ? ", on the surface" : "",
+                                   part.calls, part.accepted, part.undone);
     if (part.nearest != kNoCall) {
       const Call& call = file.calls()[part.nearest];
       if (!call.accepted()) text += fmt::format("; nearest {}", part.nearest);
@@ -53,14 +52,11 @@ void list_calls(Session& session, const History& history, bool in_trials) {
     if (each.in_trial != in_trials) continue;
     const Call& call = debugger.file().calls()[each.call];
     std::string text = fmt::format("{} {} {}: {}", each.call, short_name(debugger.file(), call),
-                                   format_target(call), call.verdict_text());
+                                   format_target(call), call.verdict_in_words());
     if (call.worst_before != 0 || call.worst_after != 0) {
       text += fmt::format(", {:.4f} -> {:.4f}", call.worst_before, call.worst_after);
     }
-    const Colour colour = outcome_colour(outcome_of(call));
-    ImGui::ColorButton("##outcome", ImGui::ColorConvertU32ToFloat4(to_imgui(colour)),
-                       ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
-                       {0.6F * ImGui::GetFontSize(), 0.6F * ImGui::GetFontSize()});
+    show_mark(outcome_of(call));
     ImGui::SameLine();
     ImGui::PushID(static_cast<int>(each.call));
     if (ImGui::Selectable(text.c_str(), debugger.call() == each.call)) chosen = each.call;

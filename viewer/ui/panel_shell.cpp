@@ -166,10 +166,7 @@ void show_tets(Document& document, const CallStudy& study, float side) {
 void draw_shell_panel(Session& session) {
   Document& document = session.document;
   const CallStudy* study = document.debugger()->study();
-  if (study == nullptr) {
-    ImGui::TextDisabled("no call here");
-    return;
-  }
+  if (study == nullptr) return;
   const float width = ImGui::GetContentRegionAvail().x;
   std::optional<PolygonView> polygon;
   if (study->picture) polygon = document.debugger()->polygon();
@@ -193,7 +190,7 @@ void draw_shell_panel(Session& session) {
 void draw_ring(Session& session) {
   Document& document = session.document;
   const CallStudy* study = document.debugger()->study();
-  if (study == nullptr) return ImGui::TextDisabled("no call here");
+  if (study == nullptr) return;
   if (!study->picture || study->picture->ring.size() < 3) {
     return show_tets(document, *study, 0.45F * ImGui::GetContentRegionAvail().y);
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "explain/outcome_colour.h"
 #include "explain/removal.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
@@ -84,11 +83,7 @@ void show_end(Debugger& debugger) {
   if (study == nullptr) return;
   const Call& call = debugger.file().calls()[study->call];
   const std::string verdict = outcome_text(call, debugger.position());
-  const Colour colour = outcome_colour(debugger.position() < call.events.end ? Outcome::unfinished
-                                                                             : outcome_of(call));
-  ImGui::ColorButton("##verdict", ImGui::ColorConvertU32ToFloat4(to_imgui(colour)),
-                     ImGuiColorEditFlags_NoTooltip,
-                     {ImGui::GetFontSize(), 0.8F * ImGui::GetFontSize()});
+  show_mark(debugger.position() < call.events.end ? Outcome::unfinished : outcome_of(call));
   ImGui::SameLine();
   ImGui::TextUnformatted(verdict.c_str());
   if (debugger.position() < call.events.end) return;
@@ -111,7 +106,13 @@ void draw_stack(Session& session) {
 
 void draw_last_event(Session& session) {
   Debugger& debugger = *session.document.debugger();
-  ImGui::TextUnformatted(debugger.last_event().c_str());
+  std::string event = debugger.last_event();
+  if (debugger.call() != kNoCall) {  // how it has ended stands beside the mark
+    const Call& call = debugger.file().calls()[debugger.call()];
+    const std::string ending = ": " + outcome_text(call, debugger.position());
+    if (event.ends_with(ending)) event.resize(event.size() - ending.size());
+  }
+  ImGui::TextUnformatted(event.c_str());
   show_end(debugger);
 }
 

@@ -8,10 +8,18 @@ namespace tetmend::viewer::ui {
 std::span<const Panel> panels() {
   using enum Side;
   using enum Subject;
-  static constexpr std::array<Panel, 13> kPanels = {
-      {{"Calls", left, trace, &draw_calls_panel},
+  // Outside of all calls the whole of the run is what there is to see.
+  constexpr auto kIsOutside = [](const Document& d) { return d.debugger()->call() == kNoCall; };
+  constexpr auto kIsInside = [](const Document& d) { return d.debugger()->call() != kNoCall; };
+  constexpr auto kHasFound = [](const Document& d) { return d.debugger()->found().has_value(); };
+  static constexpr std::array<Panel, 16> kPanels = {
+      {{"Ledger", left, trace, &draw_ledger_panel, nullptr, kIsOutside},
+       {"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
-       {"Shell", left, trace, &draw_shell_panel},
+       {"Calls found", left, trace, &draw_found_panel, nullptr, kHasFound},
+       {"Shell", left, trace, &draw_shell_panel, nullptr, kIsInside},
+       {"Ledger of the run", left, trace, &draw_ledger_panel, [](const Document&) { return false; },
+        kIsInside},
        {"Histogram", left, mesh, &draw_histogram_panel},
        {"Display", left, mesh, &draw_display_panel},
        {"Cuts", left, mesh, &draw_cuts_panel},

@@ -19,6 +19,8 @@ struct Panel {
   void (*draw)(Session& session);
   /// Opens by itself once this is so; null: is open from the beginning.
   bool (*is_needed)(const Document& document) = nullptr;
+  /// Is there only while this is so; null: always.
+  bool (*is_there)(const Document& document) = nullptr;
 };
 
 /// All panels, from top to bottom. Drawn only when there is a mesh.
@@ -37,11 +39,14 @@ void draw_breakpoints_panel(Session& session);
 void draw_step_panel(Session& session);
 /// The algorithm that the call at hand follows, with its line in sight. Fills the current window.
 void draw_algorithm_panel(Session& session);
-/// What it would like to have, in pixels.
+/// What it would like to have, in pixels; 0: nothing is to be shown.
 float algorithm_height(const Session& session);
 void draw_shell_panel(Session& session);
 void draw_lesson_panel(Session& session);
 void draw_history_panel(Session& session);
+void draw_ledger_panel(Session& session);
+/// The calls of a condition.
+void draw_found_panel(Session& session);
 
 // What others leave room for: the ring, in widths of the panel, and rows of the table of chords.
 inline constexpr float kRingShare = 0.6F;

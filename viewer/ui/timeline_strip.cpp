@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "explain/icicle.h"
-#include "explain/outcome_colour.h"
+#include "explain/outcome_look.h"
 #include "kernel/grouped.h"
 #include "viewer/ui/drawing_canvas.h"
 
@@ -139,23 +139,22 @@ void draw_timeline(Session& session, const Band& band) {
   }
 }
 
-/// The window of the icicles: the outermost call at hand, or the pass.
-CallWindow window_of(const Debugger& debugger) {
-  if (debugger.stack().empty()) return pass_around(debugger.file(), debugger.position());
-  return call_window(debugger.file(), debugger.stack().front());
-}
-
 void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, float height,
               bool is_pointed) {
   const Call& call = debugger.file().calls()[bar.call];
   const float left = band.corner.x + band.size.x * static_cast<float>(bar.left);
   const float right = band.corner.x + band.size.x * static_cast<float>(bar.right);
   const float top = band.corner.y + height * static_cast<float>(bar.row);
-  Colour colour = outcome_colour(outcome_of(call));
-  if (bar.count > 1) colour.alpha = 120;
+  const Outcome outcome = outcome_of(call);
   ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddRectFilled({left, top}, {std::max(right - 1, left + 1), top + height - 1},
-                      to_imgui(colour), 2);
+  figure::Drawing shares;
+  add_shares(shares, bar.ended, {left, top}, std::max(right - 1 - left, 1.0F), height - 1);
+  paint(shares, *list);
+  if (bar.count == 1 && outcome == Outcome::undone) {
+    figure::Drawing hatching;
+    add_hatching(hatching, {left, top}, right - 1 - left, height - 1);
+    paint(hatching, *list);
+  }
   if (is_pointed && bar.count == 1) {
     list->AddRectFilled({left, top}, {right - 1, top + height - 1}, to_imgui(kPointedColour), 2);
   }
@@ -165,24 +164,56 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
   }
   if (bar.count > 1) return;
   if (height < ImGui::GetFontSize()) return;
-  write_inside(left, right, top,
+  const float mark = ImGui::GetFontSize();
+  if (right - left < 1.4F * mark) return;
+  list->AddRectFilled({left + 1, top + 1}, {left + mark + 1, top + height - 2}, IM_COL32_WHITE, 2);
+  figure::Drawing drawing;
+  add_mark(drawing, outcome, {left + 1 + 0.15 * mark, top + (height - 0.7 * mark) / 2}, 0.7 * mark);
+  paint(drawing, *list);
+  const bool is_pale = is_pointed || outcome == Outcome::undone;
+  write_inside(left + mark, right, top + (height - ImGui::GetFontSize()) / 2,
                fmt::format("{} {}", short_name(debugger.file(), call), format_target(call)),
-               is_pointed ? IM_COL32_BLACK : IM_COL32_WHITE);
+               is_pale ? IM_COL32_BLACK : IM_COL32_WHITE);
+}
+
+/// The window of the icicles: the outermost call at hand, or the pass.
+CallWindow window_of(const Debugger& debugger) {
+  if (debugger.stack().empty()) return pass_around(debugger.file(), debugger.position());
+  return call_window(debugger.file(), debugger.stack().front());
+}
+
+/// The last item has the icicles: the wheel zooms at the mouse, dragging moves. True while it drags.
+bool zoom_by_mouse(Session& session, const Band& band, const CallWindow& shown) {
+  Debugger& debugger = *session.document.debugger();
+  const CallWindow whole = window_of(debugger);
+  const ImGuiIO& io = ImGui::GetIO();
+  const double width = std::max(band.size.x, 1.0F);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
+    constexpr double kStep = 0.8;
+    const double at = (io.MousePos.x - band.corner.x) / width;
+    debugger.zoom = zoomed(whole, shown, at, std::pow(kStep, io.MouseWheel));
+  }
+  if (!ImGui::IsItemActive() && !ImGui::IsItemDeactivated()) return false;
+  const bool drags = ImGui::GetMouseDragDelta(0).x != 0;
+  if (drags && ImGui::IsItemActive()) {
+    const double events = static_cast<double>(shown.end - shown.begin) / width;
+    debugger.zoom = panned(whole, shown, std::llround(-io.MouseDelta.x * events));
+  }
+  return drags;
 }
 
 void draw_icicles(Session& session, const Band& band, const CallWindow& window) {
   const Debugger& debugger = *session.document.debugger();
   frame(band);
-  // All rows are whole.
-  unsigned deepest = 0;
-  for (std::uint32_t k = window.first_call; k < window.last_call; ++k) {
-    const auto& calls = debugger.file().calls();
-    deepest = std::max<unsigned>(deepest, calls[k].depth - calls[window.first_call].depth);
-  }
-  const float height =
-      std::min(1.15F * ImGui::GetFontSize(), band.size.y / static_cast<float>(deepest + 1));
+  constexpr double kThinnest = 3;   // pixels
+  constexpr float kHighest = 1.8F;  // of the text
   const auto bars = lay_out_icicle(debugger.file(), window,
-                                   2.0 / static_cast<double>(std::max(band.size.x, 1.0F)));
+                                   kThinnest / static_cast<double>(std::max(band.size.x, 1.0F)));
+  // All rows that are seen are whole, and fill the band as far as that helps.
+  unsigned deepest = 0;
+  for (const IcicleBar& bar : bars) deepest = std::max(deepest, bar.row);
+  const float height =
+      std::min(kHighest * ImGui::GetFontSize(), band.size.y / static_cast<float>(deepest + 1));
   ImGui::GetWindowDrawList()->PushClipRect(
       band.corner, {band.corner.x + band.size.x, band.corner.y + band.size.y}, true);
   const std::uint32_t pointed = session.document.pointed().call;
@@ -191,7 +222,8 @@ void draw_icicles(Session& session, const Band& band, const CallWindow& window) 
   ImGui::GetWindowDrawList()->PopClipRect();
   ImGui::SetCursorScreenPos(band.corner);
   ImGui::InvisibleButton("##icicles", band.size);
-  if (!ImGui::IsItemHovered()) return;
+  const bool is_moved = zoom_by_mouse(session, band, window);
+  if (!ImGui::IsItemHovered() || is_moved) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const IcicleBar* bar =
       bar_at(bars, (mouse.x - band.corner.x) / band.size.x,
@@ -203,7 +235,7 @@ void draw_icicles(Session& session, const Band& band, const CallWindow& window) 
                     short_name(debugger.file(), call).c_str(), format_target(call).c_str(),
                     call.level, outcome_text(call, debugger.end()).c_str(),
                     bar->count > 1 ? fmt::format(", and {} more", bar->count - 1).c_str() : "");
-  if (ImGui::IsItemClicked()) run_from_window(find_command("enter"), session, {bar->call});
+  if (ImGui::IsMouseReleased(0)) run_from_window(find_command("enter"), session, {bar->call});
 }
 
 /// While the mouse drags, the window stays: else what is under the mouse would be another place.
@@ -276,7 +308,11 @@ void draw_legend(const Debugger& debugger, const CallWindow& window) {
 /// Curves and icicles have one range and one cursor; where it lies in the trace is above.
 void draw_timeline_strip(Session& session) {
   const Debugger& debugger = *session.document.debugger();
-  const CallWindow window = held_window(debugger);
+  const CallWindow whole = held_window(debugger);
+  const CallWindow& zoom = debugger.zoom;
+  const bool is_zoomed = zoom.begin < zoom.end && zoom.first_call == whole.first_call &&
+                         zoom.last_call == whole.last_call;
+  const CallWindow window = is_zoomed ? zoom : whole;
   draw_legend(debugger, window);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();

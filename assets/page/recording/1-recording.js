@@ -5,11 +5,12 @@ const recording = JSON.parse(document.getElementById("recording").textContent);
 const points = recording.points.map(([vertex, ...place]) => ({vertex, place}));
 const tets = recording.tets.map(([a, b, c, d, quality]) => ({corners: [a, b, c, d], quality}));
 const calls = new Map(Object.entries(recording.calls).map(([number, call]) => [Number(number), {number: Number(number), ...call}]));
-const steps = recording.steps.map(([position, event, call, lines, passLine, ways, gone, come]) =>
-  ({position, event, call, lines, passLine, ways, gone, come}));
+const steps = recording.steps.map(([position, event, call, lines, passLine, ways, gone, come, goesOn]) =>
+  ({position, event, call, lines, passLine, ways, gone, come, goesOn}));
 for (const call of calls.values()) {
   if (call.shell !== undefined) call.shell = {...recording.shells[call.shell], ...call.made};
 }
+const visits = recording.visits.map(([begin, end, tet]) => ({begin, end, tet}));
 const TABLE_CODE = 0;  // places in recording.codes
 const PASS_CODE = 1;
 
@@ -31,6 +32,12 @@ function stepAfter(position) {
 }
 
 function callOf(step) { return step.call === null ? null : calls.get(step.call) ?? null; }
+
+/** The tet that a pass has turned to, outside of all calls; null where there is none. */
+function tetVisited(step) {
+  if (step.call !== null) return null;
+  return visits.find((visit) => visit.begin <= step.position && step.position <= visit.end)?.tet ?? null;
+}
 
 /** The calls around a step, outermost first. */
 function stackOf(step) {

@@ -20,6 +20,12 @@ function placesIn(...sets) {
 /** The tets in full and those around them. */
 function tetsShown(step, when) {
   const call = callOf(step);
+  const visited = tetVisited(step);
+  if (visited) {
+    const shared = (tet) => tets[tet].corners.filter((corner) => visited.includes(points[corner].vertex)).length;
+    const isThere = [...present.tets].some((tet) => shared(tet) === 4);
+    if (isThere) return {full: [...present.tets].filter((tet) => shared(tet) >= 3), around: [...present.tets].filter((tet) => shared(tet) < 3)};
+  }
   if (!call || !call.before) return {full: [...present.tets], around: []};
   if (when === "before") return {full: call.before, around: []};
   if (when === "after") return {full: call.after, around: []};
@@ -117,6 +123,11 @@ function makeScene(step, cell, when, apart, showAround) {
       named.set(b, {text: `${b} = b`, end: true});
       call.shell.ring.forEach((vertex) => { if (!named.has(vertex)) named.set(vertex, {text: `${vertex}`}); });
     }
+  }
+  const visited = tetVisited(step);
+  if (visited && full.some((tet) => tets[tet].corners.every((corner) => visited.includes(points[corner].vertex)))) {
+    visited.forEach((v, i) => visited.slice(i + 1).forEach((w) => line(v, w, "visited", 3.5)));
+    visited.forEach((vertex) => named.set(vertex, {text: `${vertex}`, end: true}));
   }
   const nameAll = full.length <= 60 ? [...full, ...scene.shellOfCaller] : scene.shellOfCaller;
   for (const tet of nameAll) {

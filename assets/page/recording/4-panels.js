@@ -217,10 +217,21 @@ function showCode(step) {
   listLines(byId("code"), here ? here.lines : [], here ? [here.line] : []);
   byId("caller").replaceChildren();
   if (!caller || caller.line === 0) return;
-  byId("caller").append(`called from line ${caller.line} of ${caller.title.split(":")[0]}: `, make("b", {}, caller.lines[caller.line - 1].trim()));
+  byId("caller").append(`called from line ${caller.line} of ${caller.title.split(":")[0]}: `, make("b", {}, caller.lines[caller.line - 1].trim()),
+    step.goesOn > 0 ? `; goes on at line ${step.goesOn}` : "");
 }
 
 // --- the calls ---
+
+const nameOf = (outcome) => outcome === "unfinished" ? "under way" : recording.outcomes[outcome].name;
+
+/** The mark of a way to end, which tells it apart without its colour; for the ear, too, where nothing beside it says the same. */
+function markOf(outcome, isNamed = false) {
+  const heard = isNamed ? {role: "img", "aria-label": nameOf(outcome)} : {"aria-hidden": "true"};
+  const svg = svgElement("svg", {viewBox: "0 0 1 1", class: "mark", style: `color: var(--${outcome})`, ...heard});
+  for (const line of recording.outcomes[outcome].mark) svg.append(svgElement("polyline", {points: line.join(" ")}));
+  return svg;
+}
 
 const folds = new Map();  // by number: open or not, as the reader wants it
 
@@ -244,17 +255,19 @@ function showTree(step, enter, redraw) {
   const here = step.call;
   const rows = rowsOfTree(step).map(({call, hasCalls, isOpen}) => {
     const outcome = outcomeOf(call, step.position);
-    const dot = make("span", {class: "dot", style: isDone(call, step.position) ? `background: var(--${outcome})` : `box-shadow: inset 0 0 0 0.16em var(--${call.outcome})`});
     const fold = hasCalls ? make("button", {type: "button", class: "fold", "aria-expanded": String(isOpen), "aria-label": `calls in call ${call.number}`,
       onclick: () => { folds.set(call.number, !isOpen); redraw(); }}, isOpen ? "\u25be" : "\u25b8") : make("span", {class: "fold", style: "display: inline-block; min-width: 1.5rem"});
-    const row = make("button", {type: "button", class: "row", title: `call ${call.number}, ${call.operator}${call.settings ? ` {${call.settings}}` : ""}: ${call.verdict}`,
-      onclick: () => enter(call)}, dot, `${call.level} ${call.name} ${call.target.join("-")}`);
+    const row = make("button", {type: "button", class: "row", title: `call ${call.number}, ${call.operator}${call.settings ? ` {${call.settings}}` : ""}: ${verdictOf(call, step.position)}`,
+      onclick: () => enter(call)}, markOf(outcome, true), `${call.level} ${call.name} ${call.target.join("-")}`);
     const first = make("td", {}, fold, row);
     first.style.paddingLeft = `${0.8 * (call.depth - least)}rem`;
     return make("tr", {class: call.number === here ? "here" : "", "data-call": call.number, ...(call.number === here ? {"aria-current": "true"} : {})},
-      first, make("td", {}, call.degrees), make("td", {}, call.qualities));
+      first, ...[call.degrees, call.qualities].map((text) => make("td", {}, isDone(call, step.position) ? text : text.split(" -> ")[0])));
   });
   byId("tree").replaceChildren(make("thead", {}, make("tr", {}, make("th", {}, "level, operator, target"), make("th", {}, "degree"), make("th", {}, "worst q"))), make("tbody", {}, ...rows));
+  const seen = new Set(rowsOfTree(step).map(({call}) => outcomeOf(call, step.position)));
+  byId("marks").replaceChildren(...Object.keys(recording.outcomes).filter((outcome) => seen.has(outcome)).map((outcome) =>
+    make("li", {}, markOf(outcome), nameOf(outcome))));
   const box = byId("tree-scroll");
   const row = byId("tree").querySelector("tr.here");
   if (row && (row.offsetTop < box.scrollTop + row.offsetHeight || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)) {
@@ -272,13 +285,15 @@ function showTold(step, enter) {
   }));
   if (stack.length === 0) byId("crumbs").textContent = "outside of all calls";
   byId("removal").textContent = call?.removal ?? "";
-  byId("event").textContent = step.event;
-  byId("verdict").textContent = call ? verdictOf(call, step.position) : "";
+  const verdict = call ? verdictOf(call, step.position) : "";
+  const ending = `: ${verdict}`;  // which stands beside it
+  byId("event").textContent = call && step.event.endsWith(ending) ? step.event.slice(0, -ending.length) : step.event;
+  byId("verdict").replaceChildren(...(call ? [markOf(outcomeOf(call, step.position)), verdict] : []));
   byId("verdict").style.color = call ? `var(--${outcomeOf(call, step.position)})` : "";
   byId("reason").textContent = call && isDone(call, step.position) ? call.reason ?? "" : "";
 }
 
-const LEGEND = [["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
+const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
   ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
 
 function showLegend(scene) {

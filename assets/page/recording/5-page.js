@@ -238,6 +238,8 @@ function goToCall(holds, by) {
   if (found !== undefined) goTo(stepBefore(found));
 }
 
+function isRefused(call) { return call.outcome !== "accepted" && call.outcome !== "undone"; }
+
 function goToDeepest() {
   const all = [...calls.values()].filter((call) => call.reason !== undefined);
   if (all.length > 0) enter(all.reduce((x, y) => (y.depth > x.depth ? y : x)));
@@ -294,10 +296,10 @@ const KEYS = [
   [["n", "L"], "Next step of the lesson", () => moveInLesson(1)],
   [["b", "K"], "Step of the lesson before", () => moveInLesson(-1)],
   [[" "], "Play, or stop playing", play],
-  [["j"], "To the next accepted call", () => goToCall((call) => call.outcome === "accepted", 1)],
-  [["J"], "To the accepted call before", () => goToCall((call) => call.outcome === "accepted", -1)],
-  [["u"], "To the next refused call", () => goToCall((call) => call.outcome !== "accepted", 1)],
-  [["U"], "To the refused call before", () => goToCall((call) => call.outcome !== "accepted", -1)],
+  [["j"], "To the next call that was accepted for good", () => goToCall((call) => call.outcome === "accepted", 1)],
+  [["J"], "To the call before that was accepted for good", () => goToCall((call) => call.outcome === "accepted", -1)],
+  [["u"], "To the next refused call", () => goToCall(isRefused, 1)],
+  [["U"], "To the refused call before", () => goToCall(isRefused, -1)],
   [["d"], "To the deepest call", goToDeepest],
   [["1"], "The tets now", () => showWhen("now")],
   [["2"], "The tets as the call found them", () => showWhen("before")],

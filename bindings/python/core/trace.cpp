@@ -2,6 +2,7 @@
 // A recorded run.
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -29,6 +30,7 @@ py::dict to_dict(const Trace::Call& call) {
                 "level"_a = call.level, "depth"_a = call.depth, "edits"_a = call.edits,
                 "target"_a = py::tuple(py::cast(call.target)), "verdict"_a = call.verdict,
                 "reason"_a = call.reason, "accepted"_a = call.accepted,
+                "for_good"_a = call.for_good, "undone_with"_a = call.undone_with,
                 "worst_before"_a = call.worst_before, "worst_after"_a = call.worst_after);
   add_range(made, call.events);
   return made;
@@ -47,6 +49,40 @@ py::dict to_dict(const Trace::Pass& pass) {
                 "n_bad"_a = pass.after.n_bad, "q_worst"_a = pass.after.q_worst,
                 "q_aver"_a = pass.after.q_aver);
   add_range(made, pass.events);
+  return made;
+}
+
+py::dict to_dict(const Trace::Entry& entry) {
+  return py::dict("operator"_a = entry.operator_name, "level"_a = entry.level,
+                  "ending"_a = entry.ending, "reason"_a = entry.reason,
+                  "refused"_a = entry.is_refusal, "calls"_a = entry.calls, "share"_a = entry.share,
+                  "seconds"_a = entry.seconds);
+}
+
+py::list ledger_of(const Trace& trace) {
+  py::list made;
+  for (const Trace::Entry& entry : trace.ledger()) made.append(to_dict(entry));
+  return made;
+}
+
+std::vector<std::uint32_t> calls_of(const Trace& trace, const std::string& operator_name,
+                                    unsigned level, const std::string& ending) {
+  Trace::Entry entry;
+  entry.operator_name = operator_name;
+  entry.level = level;
+  entry.ending = ending;
+  return trace.calls_of(entry);
+}
+
+py::list worse_than(const Trace& trace, const Trace& other) {
+  std::vector<Trace::TetPair> pairs;
+  run_detached([&] { pairs = trace.worse_than(other); });
+  py::list made;
+  for (const Trace::TetPair& pair : pairs) {
+    made.append(
+        py::dict("bad"_a = py::tuple(py::cast(pair.bad)), "bad_quality"_a = pair.bad_quality,
+                 "good"_a = py::tuple(py::cast(pair.good)), "good_quality"_a = pair.good_quality));
+  }
   return made;
 }
 
@@ -92,6 +128,21 @@ void add_trace(py::module_& module) {
              std::shared_ptr<Mesh> mesh;
              run_detached([&] { mesh = std::make_shared<Mesh>(trace.mesh_at(n)); });
              return mesh;
+           })
+      .def("ledger", &ledger_of)
+      .def("calls_of", &calls_of)
+      .def("worse_than", &worse_than)
+      .def("against",
+           [](const Trace& trace, const Trace& other) {
+             std::string text;
+             run_detached([&] { text = trace.against(other); });
+             return text;
+           })
+      .def("history",
+           [](const Trace& trace, const std::string& what) {
+             std::string text;
+             run_detached([&] { text = trace.history(what); });
+             return text;
            })
       .def("summary", &Trace::summary)
       .def("tree", &Trace::tree)

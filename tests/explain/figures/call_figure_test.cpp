@@ -2,6 +2,7 @@
 #include "explain/figures/call_figure.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 
 #include "explain/call_facts.h"
 #include "explain/call_study.h"
+#include "explain/outcome_look.h"
 #include "figure/drawing_file.h"
 #include "kernel/error.h"
 #include "tests/support/example_traces.h"
@@ -113,10 +115,22 @@ TEST_CASE("a tree has a row for each call, with its facts") {
     CHECK(has_text(drawing, quality_text(calls[k], fact)));
     CHECK(has_text(drawing, degree_text(fact)));
   }
-  const auto dots = std::count_if(
-      drawing.shapes.begin(), drawing.shapes.end(),
-      [](const figure::Shape& shape) { return std::holds_alternative<figure::Dot>(shape); });
-  CHECK(dots == static_cast<std::ptrdiff_t>(count(largest)));
+  // A mark for each, as many as there are calls that ended in its way, and one in the legend.
+  std::map<Outcome, std::size_t> wanted;
+  for (std::uint32_t k = largest; k < calls[largest].subtree_end; ++k) {
+    ++wanted[outcome_of(calls[k])];
+  }
+  REQUIRE(wanted.size() > 1);
+  for (const auto& [outcome, ended] : wanted) {
+    const figure::Colour colour = outcome_colour(outcome);
+    const auto strokes = std::count_if(drawing.shapes.begin(), drawing.shapes.end(),
+                                       [&](const figure::Shape& shape) {
+                                         const auto* stroke = std::get_if<figure::Stroke>(&shape);
+                                         return stroke != nullptr && stroke->pen.colour == colour;
+                                       });
+    CHECK(strokes == static_cast<std::ptrdiff_t>((ended + 1) * outcome_mark(outcome).size()));
+    CHECK(has_text(drawing, std::string(outcome_name(outcome))));
+  }
 }
 
 TEST_CASE("a timeline has the curves of the run, and leaves the replay where it was") {

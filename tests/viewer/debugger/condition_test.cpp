@@ -21,18 +21,17 @@ constexpr auto kBack = Direction::back;
 std::optional<std::uint64_t> stop(const TraceFile& file, const std::string& text,
                                   std::uint64_t from, Direction direction = kForward) {
   Replay replay(file);
-  Trials trials(file);
-  return find_stop({file, replay, trials}, parse_condition(text), from, direction);
+  return find_stop({file, replay}, parse_condition(text), from, direction);
 }
 
 }  // namespace
 
 TEST_CASE("a condition is written as it is read") {
   for (const char* text :
-       {"accepted", "refused", "deeper 2", "operator edge_removal", "edge 3 17", "face 1 2 3",
-        "vertex 5", "tet 4711", "level 3", "worse than 0.2", "better than 0.5",
-        "near 1 -2.5 0 0.25", "verdict depth_spent", "edge 3 17 and refused", "tet 10391 for good",
-        "level 2 and operator smoothing and worse than 0.3 for good"}) {
+       {"accepted", "accepted for good", "undone", "refused", "deeper 2", "operator edge_removal",
+        "edge 3 17", "face 1 2 3", "vertex 5", "tet 4711", "level 3", "worse than 0.2",
+        "better than 0.5", "near 1 -2.5 0 0.25", "verdict depth_spent", "edge 3 17 and refused",
+        "tet 10391 for good", "level 2 and operator smoothing and worse than 0.3 for good"}) {
     CHECK(to_text(parse_condition(text)) == text);
   }
 }
@@ -168,10 +167,9 @@ namespace {
 std::vector<std::uint64_t> places(const TraceFile& file, const std::string& text) {
   std::vector<std::uint64_t> all;
   Replay replay(file);
-  Trials trials(file);
   const Condition condition = parse_condition(text);
-  for (auto at = find_stop({file, replay, trials}, condition, 0, kForward); at;
-       at = find_stop({file, replay, trials}, condition, *at, kForward)) {
+  for (auto at = find_stop({file, replay}, condition, 0, kForward); at;
+       at = find_stop({file, replay}, condition, *at, kForward)) {
     all.push_back(*at);
   }
   return all;
@@ -183,7 +181,6 @@ TEST_CASE("a search back finds the same places as one forwards") {
   const test::TracedBall trace;
   const TraceFile file(trace.path());
   Replay replay(file);
-  Trials trials(file);
   for (const char* text : {"accepted", "refused and level 1", "worse than 0.3 and accepted",
                            "near 0 0 0 0.4 and accepted", "vertex 30 for good", "tet 12"}) {
     CAPTURE(text);
@@ -191,8 +188,8 @@ TEST_CASE("a search back finds the same places as one forwards") {
     CHECK_FALSE(forwards.empty());
     std::vector<std::uint64_t> back;
     const Condition condition = parse_condition(text);
-    for (auto at = find_stop({file, replay, trials}, condition, file.event_count() + 1, kBack); at;
-         at = find_stop({file, replay, trials}, condition, *at, kBack)) {
+    for (auto at = find_stop({file, replay}, condition, file.event_count() + 1, kBack); at;
+         at = find_stop({file, replay}, condition, *at, kBack)) {
       back.insert(back.begin(), *at);
     }
     CHECK(forwards == back);
@@ -216,6 +213,44 @@ TEST_CASE("every accepted call near a place is found") {
   std::sort(truth.begin(), truth.end());
   truth.erase(std::unique(truth.begin(), truth.end()), truth.end());
   CHECK(places(file, "near 0 0 0 0.4 and accepted") == truth);
+}
+
+TEST_CASE("accepted for good are the calls that no caller undid, and undone are the others") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  std::vector<std::uint64_t> lasting;
+  std::vector<std::uint64_t> undone;
+  for (const Call& call : file.calls()) {
+    if (call.accepted()) (call.undone ? undone : lasting).push_back(call.events.end);
+  }
+  REQUIRE(!lasting.empty());
+  REQUIRE(!undone.empty());
+  std::sort(lasting.begin(), lasting.end());
+  std::sort(undone.begin(), undone.end());
+  CHECK(places(file, "accepted for good") == lasting);
+  CHECK(places(file, "undone") == undone);
+  CHECK(places(file, "accepted").size() == lasting.size() + undone.size());
+  CHECK(places(file, "undone for good").empty());
+}
+
+TEST_CASE("all calls of a condition are listed, the nearest to being accepted first") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  Replay replay(file);
+  const Condition condition = parse_condition("operator smoothing and refused");
+  const auto found = find_all({file, replay}, condition);
+  std::size_t truth = 0;
+  for (const Call& call : file.calls()) {
+    const bool is_refused = call.verdict && !call.accepted();
+    truth += is_refused && call.algorithm == Algorithm::smoothing ? 1 : 0;
+  }
+  REQUIRE(truth > 10);
+  CHECK(found.size() == truth);
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    CHECK(file.calls()[found[i - 1]].missing() <= file.calls()[found[i]].missing());
+  }
+  CHECK_THROWS_WITH_AS(find_all({file, replay}, parse_condition("tet 12")),
+                       doctest::Contains("about edits"), Error);
 }
 
 TEST_CASE("for good leaves out what was undone") {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "tests/support/example_traces.h"
+#include "tests/viewer/session.h"
+#include "viewer/commands/script.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+
+namespace {
+
+struct LedgerSession {
+  explicit LedgerSession(const std::filesystem::path& file) {
+    document.resize({400, 300});
+    document.open(file);
+  }
+  nlohmann::json run(std::string_view command, const nlohmann::json& arguments = {}) {
+    return find_command(command).run(session, arguments);
+  }
+  const TraceFile& file() { return document.debugger()->file(); }
+
+  Document document;
+  test::BlankHost host;
+  Session session{document, host};
+};
+
+std::size_t count(const TraceFile& file, bool (*holds)(const Call&)) {
+  return static_cast<std::size_t>(std::count_if(file.calls().begin(), file.calls().end(), holds));
+}
+
+}  // namespace
+
+TEST_CASE("the keys for accepted calls pass over those that a caller undid, unless asked") {
+  const test::TracedBall trace;
+  LedgerSession s(trace.path());
+  std::size_t lasting = 0;
+  while (s.run("next_accepted").get<bool>()) ++lasting;
+  CHECK(lasting == count(s.file(), [](const Call& c) { return c.accepted_for_good(); }));
+  s.run("to_begin");
+  std::size_t all = 0;
+  while (s.run("next_accepted", {"all"}).get<bool>()) ++all;
+  CHECK(all == count(s.file(), [](const Call& c) { return c.accepted(); }));
+  CHECK(all > lasting);
+  CHECK_THROWS_WITH_AS(s.run("next_accepted", {"some"}), doctest::Contains("expected all"), Error);
+}
+
+TEST_CASE("a call that was undone says so where it ends, and not before") {
+  const test::TracedBall trace;
+  LedgerSession s(trace.path());
+  REQUIRE(s.run("run_to", {"undone"}).get<bool>());
+  run_script(s.session, R"lua(
+    local call = state().trace.call
+    expect(call.undone_with ~= nil, "a number")
+    expect(call.verdict == "undone with call " .. string.format("%d", call.undone_with), "verdict")
+    expect(string.find(state().trace.event, call.verdict, 1, true), "the event")
+    expect(string.find(state().trace.reason, "undid it", 1, true), "the reason")
+    back_into()
+    expect(state().trace.stack[#state().trace.stack].verdict ~= call.verdict, "under way")
+  )lua",
+             "t.lua");
+}
+
+TEST_CASE("a script lists the calls of a condition and has the ledger of the run") {
+  const test::TracedBall trace;
+  LedgerSession s(trace.path());
+  s.run("seek", {50});
+  const auto found = s.run("list_calls", {"operator smoothing and refused"});
+  REQUIRE(found.size() > 10);
+  CHECK(s.document.debugger()->position() == 50);
+  REQUIRE(s.document.debugger()->found());
+  CHECK(s.document.debugger()->found()->calls.size() == found.size());
+  const auto ledger = s.run("ledger");
+  CHECK(ledger["all"]["calls"] == s.file().calls().size());
+  std::size_t refused = 0;
+  for (const auto& row : ledger["rows"]) {
+    if (row["operator"] != "smoothing") continue;
+    for (const auto& [name, cell] : row["endings"].items()) {
+      const bool lasted = name == "accepted for good" || name == "undone with a caller";
+      refused += lasted ? 0 : cell["calls"].get<std::size_t>();
+    }
+  }
+  CHECK(found.size() == refused);
+  // Each way to end is a condition, too.
+  const auto undone = s.run("list_calls", {"ending undone_with_a_caller"});
+  CHECK(undone.size() == s.run("list_calls", {"undone"}).size());
+  CHECK_THROWS_WITH_AS(s.run("list_calls", {"ending badly"}), doctest::Contains("nothing_better"),
+                       Error);
+  CHECK_THROWS_WITH_AS(s.run("list_calls", {"tet 3"}), doctest::Contains("about edits"), Error);
+}
+
+TEST_CASE("another run stands beside the one that is looked at") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  TetMesh again = mesh;
+  test::record(mesh, folder / "a.trace", {}, {}, Schedule("smooth.lua", "smooth{}"));
+  test::record(again, folder / "b.trace");
+  LedgerSession s(folder / "a.trace");
+  const auto made = s.run("against", {(folder / "b.trace").string()});
+  CHECK(made["bad_here"] > made["bad_there"]);
+  CHECK(made["bad_here_good_there"].size() > 5);
+  REQUIRE(s.document.debugger()->other());
+  CHECK(s.document.debugger()->other()->comparison.a.all.total().calls == s.file().calls().size());
+  CHECK_THROWS_AS(s.run("against", {(folder / "none.trace").string()}), Error);
+}
+
+TEST_CASE("no breakpoint of a live run asks what only a record knows") {
+  test::TestSession s(test::shell_mesh({.degree = 5}));
+  CHECK_THROWS_WITH_AS(s.run("breakpoint", {"undone"}), doctest::Contains("only recorded runs"),
+                       Error);
+  CHECK_THROWS_AS(s.run("breakpoint", {"ending depth_spent"}), Error);
+  CHECK(s.run("breakpoint", {"accepted"}) == 1);
+}

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// The whole of a run: who was asked how often and how that ended; and the calls of a condition.
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "explain/call_facts.h"
+#include "kernel/grouped.h"
+#include "viewer/ui/drawing_canvas.h"
+#include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+void right_aligned(const std::string& text) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::TextUnformatted(text.c_str());
+}
+
+/// A click lists the calls.
+void count_cell(std::size_t count, const std::string& condition, std::string& chosen) {
+  ImGui::TableNextColumn();
+  if (count == 0) return ImGui::TextDisabled(" ");
+  const std::string text = grouped(count);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::PushID(condition.c_str());
+  if (ImGui::Selectable(text.c_str())) chosen = condition;
+  ImGui::PopID();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("lists: %s", condition.c_str());
+}
+
+void number_cell(const std::string& text) {
+  ImGui::TableNextColumn();
+  right_aligned(text);
+}
+
+/// The same row of the other run.
+const LedgerRow* row_there(const Debugger& debugger, std::string_view name,
+                           std::vector<LedgerRow>& rows) {
+  if (!debugger.other()) return nullptr;
+  if (rows.empty()) rows = debugger.other()->comparison.b.by_operator();
+  const auto found = std::find_if(rows.begin(), rows.end(),
+                                  [&](const LedgerRow& row) { return row.operator_name == name; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+/// "1,024 (+12)": what the other run had, and how much more that is.
+std::string there_text(std::size_t here, std::size_t there) {
+  const auto more = static_cast<std::int64_t>(there) - static_cast<std::int64_t>(here);
+  return fmt::format("{} ({:+})", grouped(there), more);
+}
+
+void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& chosen) {
+  const auto all = static_cast<double>(std::max<std::size_t>(1, row.total().calls));
+  for (std::size_t i = 0; i < kEndingCount; ++i) {
+    const LedgerCell& cell = row.cells[i];
+    if (cell.calls == 0 && (there == nullptr || there->cells[i].calls == 0)) continue;
+    const auto ending = static_cast<CallEnding>(i);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::Indent();
+    ImGui::TextUnformatted(name_of(ending).data());  // literals
+    ImGui::Unindent();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kEndingWords[i].reason.data());
+    count_cell(cell.calls,
+               fmt::format("operator {} and ending {}", row.operator_name, word_of(ending)),
+               chosen);
+    number_cell(fmt::format("{:.1f} %", 100 * static_cast<double>(cell.calls) / all));
+    number_cell(fmt::format("{:.3f} s", cell.seconds));
+    number_cell(there == nullptr ? "" : there_text(cell.calls, there->cells[i].calls));
+  }
+}
+
+/// Rows of operators, who refused most first; unfolded, a row for each way to end.
+void show_rows(Debugger& debugger, std::string& chosen) {
+  constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg;
+  if (!ImGui::BeginTable("##ledger", 5, kLooks)) return;
+  const float font = ImGui::GetFontSize();
+  ImGui::TableSetupColumn("operator", ImGuiTableColumnFlags_WidthStretch);
+  for (const char* title : {"calls", "for good", "undone", "refused"}) {
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, 4.4F * font);
+  }
+  ImGui::TableHeadersRow();
+  std::vector<LedgerRow> rows = debugger.ledger().by_operator();
+  std::stable_sort(rows.begin(), rows.end(), [](const LedgerRow& a, const LedgerRow& b) {
+    return a.refused().calls > b.refused().calls;
+  });
+  std::vector<LedgerRow> other;
+  for (const LedgerRow& row : rows) {
+    const std::string name(row.operator_name);
+    const LedgerRow* there = row_there(debugger, name, other);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const bool is_open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
+    const std::string of = fmt::format("operator {}", name);
+    count_cell(row.total().calls, of, chosen);
+    count_cell(row.cell(CallEnding::for_good).calls, of + " and accepted for good", chosen);
+    count_cell(row.cell(CallEnding::undone).calls, of + " and undone", chosen);
+    count_cell(row.refused().calls, of + " and refused", chosen);
+    if (there != nullptr) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("   in the other run");
+      number_cell(grouped(there->total().calls));
+      number_cell(grouped(there->cell(CallEnding::for_good).calls));
+      number_cell(grouped(there->cell(CallEnding::undone).calls));
+      number_cell(grouped(there->refused().calls));
+    }
+    if (is_open) show_endings(row, there, chosen);
+  }
+  ImGui::EndTable();
+}
+
+void show_nearness(const LedgerRow& all) {
+  std::size_t near = all.nearness[0] + all.nearness[1] + all.nearness[2];
+  wrapped_text(fmt::format("{} refusals missed by less than {} in the quality of their worst tet",
+                           grouped(near), kNearness[1]));
+}
+
+/// A click asks for the history of the bad tet.
+void show_pairs(Session& session, const OtherRun& other) {
+  const auto& pairs = other.comparison.worse_in_a;
+  wrapped_text(
+      fmt::format("Beside {}: {} tets are bad here, {} there. {} are bad here and good "
+                  "there, {} the other way round.",
+                  other.file.filename().string(), grouped(other.comparison.bad_in_a),
+                  grouped(other.comparison.bad_in_b), grouped(pairs.size()),
+                  grouped(other.comparison.worse_in_b.size())));
+  if (pairs.empty() || !ImGui::TreeNode("bad here and good there")) return;
+  std::string asked;
+  constexpr float kRows = 8;
+  if (ImGui::BeginChild("##pairs", {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(pairs.size()));
+    while (clipper.Step()) {
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+        const TetPair& pair = pairs[static_cast<std::size_t>(i)];
+        const std::string text = fmt::format("{}: {:.4f} here, {:.4f} there", in_words(pair.bad),
+                                             pair.bad_quality, pair.good_quality);
+        if (ImGui::Selectable(text.c_str())) asked = as_question(pair.bad);
+      }
+    }
+  }
+  ImGui::EndChild();
+  ImGui::TreePop();
+  if (!asked.empty()) run_from_window(find_command("history"), session, {asked});
+}
+
+std::string missing_text(const Call& call) {
+  if (call.accepted()) return {};
+  if (!call.has_qualities()) return "nothing compared";
+  return call.missing() <= 0 ? "others lacked" : fmt::format("lacked {:.4f}", call.missing());
+}
+
+void show_found_row(Session& session, std::uint32_t number) {
+  const Debugger& debugger = *session.document.debugger();
+  const Call& call = debugger.file().calls()[number];
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  show_mark(outcome_of(call));
+  ImGui::SameLine();
+  ImGui::PushID(static_cast<int>(number));
+  const std::string text =
+      fmt::format("{} {} {}", number, short_name(debugger.file(), call), format_target(call));
+  if (ImGui::Selectable(text.c_str(), debugger.call() == number,
+                        ImGuiSelectableFlags_SpanAllColumns)) {
+    run_from_window(find_command("enter"), session, {number});
+  }
+  if (ImGui::IsItemHovered()) {
+    session.document.hovering = session.document.pointed_call(number);
+    const std::string reason(debugger.file().reason(call));
+    ImGui::SetTooltip("%s: %s\n%s", text.c_str(), call.verdict_in_words().c_str(), reason.c_str());
+  }
+  ImGui::PopID();
+  number_cell(missing_text(call));
+}
+
+}  // namespace
+
+void draw_ledger_panel(Session& session) {
+  Debugger& debugger = *session.document.debugger();
+  const LedgerRow& all = debugger.ledger().all;
+  wrapped_text(
+      fmt::format("{} calls: {} accepted for good, {} accepted and undone with a caller, "
+                  "{} refused. {} of {} edits lasted.",
+                  grouped(all.total().calls), grouped(all.cell(CallEnding::for_good).calls),
+                  grouped(all.cell(CallEnding::undone).calls), grouped(all.refused().calls),
+                  grouped(debugger.ledger().lasting), grouped(debugger.ledger().edits)));
+  std::string chosen;
+  show_rows(debugger, chosen);
+  show_nearness(all);
+  if (debugger.other()) show_pairs(session, *debugger.other());
+  if (chosen.empty()) return;
+  debugger.typed_condition = chosen;
+  run_from_window(find_command("list_calls"), session, {chosen});
+}
+
+void draw_found_panel(Session& session) {
+  Debugger& debugger = *session.document.debugger();
+  const FoundCalls& found = *debugger.found();
+  const bool is_over = ImGui::SmallButton("x");
+  ImGui::SameLine();
+  wrapped_text(fmt::format("{}: {} calls, the nearest to being accepted first",
+                           to_text(found.condition), grouped(found.calls.size())));
+  constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
+  constexpr float kRows = 8;
+  if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 9 * ImGui::GetFontSize());
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(found.calls.size()));
+    while (clipper.Step()) {
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+        show_found_row(session, found.calls[static_cast<std::size_t>(i)]);
+      }
+    }
+    ImGui::EndTable();
+  }
+  if (is_over) debugger.forget_found();
+}
+
+}  // namespace tetmend::viewer::ui
