@@ -14,6 +14,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
+#include "kernel/formats/included_path.h"
 
 namespace tetmend::formats {
 namespace {
@@ -79,13 +80,6 @@ void read_parameters(InpBlock& block) {
     if (!parameter.name.empty()) block.parameters.push_back(std::move(parameter));
     rest.remove_prefix(length);
   }
-}
-
-std::filesystem::path unquoted(std::string_view text) {
-  if (text.size() > 1 && text.front() == '"' && text.back() == '"') {
-    text = text.substr(1, text.size() - 2);
-  }
-  return text;
 }
 
 }  // namespace
@@ -321,7 +315,7 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   }
   const std::string_view name = block.value("INPUT");
   if (name.empty()) block.fail("*INCLUDE names no file: expected INPUT=FILE");
-  const std::filesystem::path target = path.parent_path() / unquoted(name);
+  const std::filesystem::path target = included_path(path.parent_path(), name);
   if (open_.contains(std::filesystem::weakly_canonical(target).native())) {
     block.fail(fmt::format("{} includes itself: expected another file", in_quotes(name)));
   }

@@ -9,6 +9,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "kernel/formats/included_path.h"
 #include "kernel/formats/inp.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_plan.h"
@@ -233,11 +234,8 @@ std::vector<std::string> not_in_inp(const std::filesystem::path& file, const Mes
                     rounded, kMostCharacters));
   }
   if (!has_deck) return notes;
-  const std::string folder = unpack_deck(mesh.deck).folder;
-  if (!folder.empty() &&
-      std::filesystem::absolute(file).parent_path().lexically_normal() != folder) {
-    notes.push_back(
-        fmt::format("the files of *INCLUDE stay in {}: the output lies elsewhere", folder));
+  for (std::string& note : included_files_stay(file, unpack_deck(mesh.deck).folder, "*INCLUDE")) {
+    notes.push_back(std::move(note));
   }
   return notes;
 }

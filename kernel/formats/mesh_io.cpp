@@ -136,8 +136,10 @@ constexpr std::array<Codec, 13> kCodecs = {
      {read_plain<formats::read_inp>, formats::write_inp, kInpRoom, false, formats::not_in_inp},
      {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},
      {read_plain<formats::read_netgen>, formats::write_netgen, kNetgenRoom},
-     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
-     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
+      formats::not_in_nastran},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
+      formats::not_in_nastran},
      {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true}}};
 
 /// Of "part.VTU.gz" that is ".vtu".
@@ -228,7 +230,9 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file)
 }
 
 std::vector<std::filesystem::path> source_files(const std::filesystem::path& file) {
-  if (format_extension(file) == ".inp") return formats::inp_files(file);
+  const std::string extension = format_extension(file);
+  if (extension == ".inp") return formats::inp_files(file);
+  if (extension == ".bdf" || extension == ".nas") return formats::nastran_files(file);
   return mesh_files(file);
 }
 
