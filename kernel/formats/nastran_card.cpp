@@ -77,12 +77,15 @@ void split_free(NastranCardText& card, std::string_view line, std::size_t most,
   card.fields.resize(begin + lines * most);
 }
 
-/// Fields of fixed width; a tab goes on to the next multiple of eight columns.
+/// Fields of fixed width; a tab goes on to the next multiple of eight columns, or ends a full field.
 void split_fixed(NastranCardText& card, std::string_view line, std::size_t width,
                  std::size_t most) {
   std::size_t at = 0;
   std::size_t column = 0;
   const auto go_to = [&](std::size_t end) {
+    const bool is_behind_full = at > 0 && at < line.size() && line[at] == '\t' &&
+                                line[at - 1] != ' ' && line[at - 1] != '\t';
+    if (is_behind_full) ++at;
     const std::size_t begin = at;
     for (; at < line.size() && column < end; ++at) {
       column = line[at] == '\t' ? (column / kSmall + 1) * kSmall : column + 1;

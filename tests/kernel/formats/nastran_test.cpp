@@ -379,6 +379,14 @@ TEST_CASE("a card of Nastran says the same in every form that people write it in
   }
 }
 
+TEST_CASE("a tab behind a full field of Nastran ends it, one behind blanks goes to the next") {
+  const TempFolder folder;
+  const MeshData mesh = read(folder,
+                             "BEGIN BULK\nGRID\t1\t\t1.234567\t-2.34567\t3.\n"
+                             "GRID    2       \t5.\t6.\nENDDATA\n");
+  CHECK(mesh.points == std::vector<Point>{{1.234567, -2.34567, 3}, {5, 6, 0}});
+}
+
 TEST_CASE("comments within a card of Nastran stay, whether it is written anew or as it is") {
   const TempFolder folder;
   const MeshData mesh =
