@@ -17,6 +17,7 @@
 #include "apps/standard_streams.h"
 #include "explain/json_text.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/formats/packed_file.h"
 #include "kernel/formats/pending_file.h"
 #include "kernel/formats/run_files.h"
 #include "kernel/formats/standard_stream.h"
@@ -29,7 +30,7 @@ namespace tetmend::apps {
 
 void check_mesh_extension(const std::filesystem::path& file) {
   std::vector<std::string_view> valid;
-  const bool is_packed = file.extension() == ".gz";
+  const bool is_packed = formats::has_packed_name(file);
   for (const FileFormat& format : file_formats()) {
     if (!is_packed || format.name != "TetGen") valid.push_back(format.extension);
   }
@@ -120,6 +121,7 @@ std::string replaceable(const NamedFile& named, const pieces::ArrayFiles* known)
 
 void check_writable(const NamedFile& output) {
   const std::filesystem::path& file = output.file;
+  if (output.kind == NamedFile::Kind::mesh) formats::check_packing_to_write(file);
   if (output.kind == NamedFile::Kind::run_folder || formats::is_standard_stream(file)) return;
   const bool is_mesh = output.kind == NamedFile::Kind::mesh;
   for (const auto& each : is_mesh ? mesh_files(file) : std::vector<std::filesystem::path>{file}) {

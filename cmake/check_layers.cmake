@@ -46,7 +46,7 @@ set(public_of_pieces distributed)
 set(public_of_bindings petsc tetmend)
 
 # <NAME.h> is a header of the system, unless it belongs to a library.
-set(headers_of_libraries hdf5.h imgui.h imgui_internal.h imgui_stdlib.h mpi.h petscdmplex.h petscsf.h petscsys.h stb_image_write.h zlib.h zstd.h)
+set(headers_of_libraries bzlib.h hdf5.h imgui.h imgui_internal.h imgui_stdlib.h lzma.h mpi.h petscdmplex.h petscsf.h petscsys.h stb_image_write.h zlib.h zstd.h)
 set(system_headers "^(csignal|(sys|mach|mach-o|linux|net|netinet|arpa|asm)/.*|[^/]+\\.h)$")
 set(system_names "(_WIN32|__APPLE__|__linux__|__GLIBC__)")
 

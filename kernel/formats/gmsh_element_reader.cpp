@@ -91,7 +91,7 @@ void GmshElementReader::read_4() {
   source_.begin_numbers();
   const std::size_t blocks = source_.count("blocks of elements", 8, 20);
   const std::size_t count =
-      source_.count("elements", std::string_view("1 1\n").size(), 2 * sizeof(std::int64_t));
+      source_.count("elements", std::string_view("1 1\n").size(), 2 * source_.wide_size());
   source_.wide("the least number of an element", 0, INT64_MAX);
   source_.wide("the greatest number of an element", 0, INT64_MAX);
   std::size_t read = 0;
@@ -145,13 +145,14 @@ void GmshElementReader::read_block(int type, std::size_t count, Label label, Lab
       if (!rows.places.empty()) rows.places[first + i] = place;
     });
   }
-  const std::size_t row_size = (1 + width) * sizeof(std::int64_t);
+  const std::size_t row_size = (1 + width) * source_.wide_size();
   const char* row = text.bytes(count * row_size, "the elements of a block");
   for (std::size_t i = first; i < first + count; ++i, row += row_size) {
-    rows.tags[i] = source_.checked<std::int64_t>(row, kNumber, 0, INT64_MAX);
+    rows.tags[i] = source_.wide_at(row, kNumber);
     std::uint32_t* v = rows.vertices.data() + i * width;
     for (std::size_t k = 0; k < width; ++k) {
-      v[k] = vertex_at<std::int64_t>(row + (k + 1) * sizeof(std::int64_t));
+      const char* at = row + (k + 1) * source_.wide_size();
+      v[k] = source_.wide_size() == 8 ? vertex_at<std::int64_t>(at) : vertex_at<std::uint32_t>(at);
     }
     if (!rows.places.empty()) rows.places[i] = row;
   }

@@ -28,7 +28,29 @@ std::size_t GmshNodes::begin(std::size_t count) {
   return count;
 }
 
-void GmshNodes::read_2() {
+/// Behind the coordinates: the dimension and the number of the entity, and what places the node on it.
+void GmshNodes::read_parametric_2() {
+  TextReader& text = source_.text();
+  parametric_ = true;
+  const std::size_t row_size = 3 * sizeof(std::int32_t) + 3 * sizeof(double);
+  const std::size_t count = begin(
+      text.count("nodes", source_.binary() ? row_size : std::string_view("1 0 0 0 0 1\n").size()));
+  source_.begin_numbers();
+  blocks_.push_back({0, text.position(), 0, 0});
+  for (std::size_t i = 0; i < count; ++i) {
+    numbers_.push_back(source_.integer(kNumber, 0, INT32_MAX));
+    Point& point = points.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) point[axis] = source_.real(kCoordinate);
+    const std::int64_t dimension = source_.integer("the dimension of an entity", 0, 3);
+    source_.tag("the number of an entity");
+    for (std::int64_t k = 0; k < dimension % 3; ++k) source_.real("a parameter of a node");
+  }
+  sort();
+}
+
+void GmshNodes::read_2(bool is_parametric) {
+  if (is_parametric) return read_parametric_2();
+
   constexpr std::size_t kRowSize = sizeof(std::int32_t) + 3 * sizeof(double);
   // The count is text also in a binary file.
   TextReader& text = source_.text();
@@ -61,7 +83,7 @@ void GmshNodes::read_4() {
   source_.begin_numbers();
   const std::size_t blocks = source_.count("blocks of nodes", 8, 20);
   const std::size_t count = begin(source_.count("nodes", std::string_view("1\n0 0 0\n").size(),
-                                                sizeof(std::int64_t) + 3 * sizeof(double)));
+                                                source_.wide_size() + 3 * sizeof(double)));
   entities.reserve(count);
   source_.wide("the least number of a node", 0, INT64_MAX);
   source_.wide("the greatest number of a node", 0, INT64_MAX);
@@ -93,15 +115,15 @@ void GmshNodes::read_block(std::size_t count, int dimension, Label tag, std::siz
 
 void GmshNodes::read_tags(std::size_t first, std::size_t count) {
   TextReader& text = source_.text();
-  blocks_.push_back({first, text.position(), sizeof(std::int64_t), 1});
+  blocks_.push_back({first, text.position(), source_.wide_size(), 1});
   if (!source_.binary()) {
     return source_.rows(count, [&](TextReader& part, std::size_t i) {
       numbers_[first + i] = part.integer(kNumber, 0, INT64_MAX);
     });
   }
-  const char* at = text.bytes(count * sizeof(std::int64_t), "the numbers of nodes");
-  for (std::size_t i = 0; i < count; ++i, at += sizeof(std::int64_t)) {
-    numbers_[first + i] = source_.checked<std::int64_t>(at, kNumber, 0, INT64_MAX);
+  const char* at = text.bytes(count * source_.wide_size(), "the numbers of nodes");
+  for (std::size_t i = 0; i < count; ++i, at += source_.wide_size()) {
+    numbers_[first + i] = source_.wide_at(at, kNumber);
   }
 }
 

@@ -20,7 +20,8 @@ class GmshNodes {
   explicit GmshNodes(GmshSource& source) : source_(source) {}
 
   /// The section of version 2.2 and of version 4.1. @throws Error
-  void read_2();
+  /// @param is_parametric  of the section $ParametricNodes
+  void read_2(bool is_parametric);
   void read_4();
 
   bool parametric() const { return parametric_; }
@@ -34,6 +35,7 @@ class GmshNodes {
   std::vector<std::array<Label, 2>> entities;  ///< empty in version 2.2
 
  private:
+  void read_parametric_2();
   /// Where the numbers of some nodes stand: `stride` bytes apart, or `words` words.
   struct Block {
     std::size_t first;

@@ -55,8 +55,10 @@ class Reader {
   void read_header() {
     const std::string_view first = text_.word();
     if (first != "$MeshFormat") {
-      text_.fail(first.empty()
-                     ? "the file is empty: expected $MeshFormat"
+      text_.fail(first.empty() ? "the file is empty: expected $MeshFormat"
+                 : first == "$NOD"
+                     ? "this is an MSH file of version 1: expected 4.1 or 2.2, as which 'gmsh FILE "
+                       "-save -format msh41' saves it"
                      : fmt::format("{} is not the beginning of an MSH file of version 2 or 4: "
                                    "expected $MeshFormat",
                                    in_quotes(first)));
@@ -64,9 +66,11 @@ class Reader {
     read_version(text_.expect_word("the version of the format"));
     const bool binary = text_.integer("0 for text or 1 for binary", 0, 1) == 1;
     const std::int64_t size = text_.integer("the size of numbers", 1, 64);
-    if (size != 8) {
-      text_.fail(fmt::format("'{}' is not a size of numbers that can be read: expected 8", size));
+    if (size != 8 && !(size == 4 && is_4_)) {
+      text_.fail(fmt::format("'{}' is not a size of numbers that can be read: expected 8{}", size,
+                             is_4_ ? " or 4" : ""));
     }
+    source_.set_wide_size(static_cast<std::size_t>(size));
     if (binary) {
       source_.set_binary();
       text_.skip_line();
@@ -116,17 +120,19 @@ class Reader {
     }
     const bool known = name == "$PhysicalNames" || name == "$Entities" ||
                        name == "$PartitionedEntities" || name == "$Nodes" || name == "$Elements" ||
-                       name == "$Periodic";
+                       name == "$Periodic" || name == "$ParametricNodes";
     if (!known) return pass_over(name);
+    const std::string_view section = name;
+    if (name == "$ParametricNodes") name = "$Nodes";
     if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));
     seen_.push_back(name);
     if (name == "$PhysicalNames") read_names();
     if (name == "$Entities") read_entities();
     if (name == "$PartitionedEntities") read_partitioned_entities();
-    if (name == "$Nodes") is_4_ ? nodes_.read_4() : nodes_.read_2();
+    if (name == "$Nodes") is_4_ ? nodes_.read_4() : nodes_.read_2(section != name);
     if (name == "$Elements") read_elements();
     if (name == "$Periodic") read_periodic();
-    expect_end(name);
+    expect_end(section);
   }
 
   void pass_over(std::string_view name) {
@@ -154,6 +160,12 @@ class Reader {
     text_.fail_at(text_.position(), fmt::format("the section {} is missing", name));
   }
 
+  static std::string_view trimmed_name(std::string_view line) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    const std::size_t first = std::min(line.find_first_not_of(kBlanks), line.size());
+    return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+  }
+
   // Text in both codings.
   void read_names() {
     const std::size_t count = text_.count("names of groups", std::string_view("1 1 \"\"\n").size());
@@ -165,12 +177,13 @@ class Reader {
       const std::string_view line = text_.skip_line();
       const std::size_t first = line.find('"');
       const std::size_t last = line.rfind('"');
-      if (first == last) {  // also when there is none
+      const std::string_view bare = trimmed_name(line);  // some writers have no quotes
+      if (first == last && (first != std::string_view::npos || bare.empty())) {
         text_.fail_at(line.data(), fmt::format("{} is not expected here: expected the name of a "
                                                "group in quotes",
                                                in_quotes(line)));
       }
-      group.name = line.substr(first + 1, last - first - 1);
+      group.name = first == last ? bare : line.substr(first + 1, last - first - 1);
       if (is_named(group.dimension, group.number)) {
         text_.fail_at(place, fmt::format("the group '{} {}' is named for the second time",
                                          group.dimension, group.number));

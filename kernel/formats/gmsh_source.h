@@ -30,6 +30,10 @@ class GmshSource {
     text_.locate_errors_by_byte();
   }
   void set_swap(bool swap) { swap_ = swap; }
+  /// Bytes of numbers of points and elements, and of counts, in a binary file of version 4: 8, or 4 as
+  /// 32-bit programs write them.
+  void set_wide_size(std::size_t size) { wide_size_ = size; }
+  std::size_t wide_size() const { return wide_size_; }
 
   /// To be called behind the name of a section whose numbers are binary in a binary file.
   void begin_numbers() {
@@ -43,13 +47,20 @@ class GmshSource {
   Label tag(std::string_view what) {
     return static_cast<Label>(integer(what, INT32_MIN, INT32_MAX));
   }
-  /// An integer of 8 bytes in a binary file.
+  /// An integer of wide_size() bytes in a binary file.
   std::int64_t wide(std::string_view what, std::int64_t low, std::int64_t high) {
-    return number<std::int64_t>(what, low, high);
+    return wide_size_ == 8 ? number<std::int64_t>(what, low, high)
+                           : number<std::uint32_t>(what, low, high);
   }
-  /// A count of 8 bytes, of things that take at least so many bytes each.
+  /// A count of wide_size() bytes, of things that take at least so many bytes each.
   std::size_t count(std::string_view what, std::size_t as_text, std::size_t as_bytes) {
-    return count_of<std::int64_t>(what, as_text, as_bytes);
+    return wide_size_ == 8 ? count_of<std::int64_t>(what, as_text, as_bytes)
+                           : count_of<std::uint32_t>(what, as_text, as_bytes);
+  }
+  /// The integer of wide_size() bytes at `at` of a binary file.
+  std::int64_t wide_at(const char* at, std::string_view what) const {
+    return wide_size_ == 8 ? checked<std::int64_t>(at, what, 0, INT64_MAX)
+                           : checked<std::uint32_t>(at, what, 0, INT64_MAX);
   }
   /// The same, of 4 bytes.
   std::size_t short_count(std::string_view what, std::size_t as_text, std::size_t as_bytes) {
@@ -71,7 +82,7 @@ class GmshSource {
   template <class Integer>
   std::int64_t checked(const char* at, std::string_view what, std::int64_t low,
                        std::int64_t high) const {
-    const auto value = load<Integer>(at, swap_);
+    const std::int64_t value = load<Integer>(at, swap_);
     if (value < low || value > high) {
       text_.fail_at(
           at, fmt::format("{} is out of range: expected {}, {} to {}", value, what, low, high));
@@ -116,6 +127,7 @@ class GmshSource {
   TextReader text_;
   bool binary_ = false;
   bool swap_ = false;
+  std::size_t wide_size_ = 8;
 };
 
 }  // namespace tetmend::formats

@@ -44,8 +44,13 @@ class Unpacker {
 
 std::vector<std::string> pack_deck(const InpDeck& deck) {
   std::string head(kInpDeckName);
-  put(head, deck.most_node);
-  put(head, deck.most_element);
+  put(head, static_cast<std::int64_t>(deck.numberings.size()));
+  for (const InpNumbering& numbering : deck.numberings) {
+    put(head, numbering.node_offset);
+    put(head, numbering.element_offset);
+    put(head, numbering.most_node);
+    put(head, numbering.most_element);
+  }
   put(head, deck.folder);
   put(head, static_cast<std::int64_t>(deck.block_of_part.size()));
   for (const auto& [part, block] : deck.block_of_part) {
@@ -60,7 +65,9 @@ std::vector<std::string> pack_deck(const InpDeck& deck) {
       continue;
     }
     put(text, piece.block);
-    for (const std::string* part : {&piece.type, &piece.suffix, &piece.text, &piece.more}) {
+    put(text, static_cast<std::int64_t>(piece.numbering));
+    for (const std::string* part :
+         {&piece.type, &piece.suffix, &piece.instance, &piece.text, &piece.more}) {
       put(text, *part);
     }
     put(text, static_cast<std::int64_t>(piece.groups.size()));
@@ -84,8 +91,14 @@ InpDeck unpack_deck(const std::vector<std::string>& packed) {
   InpDeck deck;
   const std::string_view first = packed[0];
   Unpacker head(first.substr(kInpDeckName.size()));
-  deck.most_node = head.number();
-  deck.most_element = head.number();
+  deck.numberings.clear();
+  for (std::int64_t left = head.number(); left > 0; --left) {
+    InpNumbering& numbering = deck.numberings.emplace_back();
+    numbering.node_offset = head.number();
+    numbering.element_offset = head.number();
+    numbering.most_node = head.number();
+    numbering.most_element = head.number();
+  }
   deck.folder = head.text();
   for (std::int64_t left = head.number(); left > 0; --left) {
     const auto part = static_cast<Label>(head.number());
@@ -104,7 +117,9 @@ InpDeck unpack_deck(const std::vector<std::string>& packed) {
     } else {
       Unpacker text(rest);
       piece.block = static_cast<Label>(text.number());
-      for (std::string* part : {&piece.type, &piece.suffix, &piece.text, &piece.more}) {
+      piece.numbering = static_cast<std::size_t>(text.number());
+      for (std::string* part :
+           {&piece.type, &piece.suffix, &piece.instance, &piece.text, &piece.more}) {
         *part = text.text();
       }
       for (std::int64_t left = text.number(); left > 0; --left) {

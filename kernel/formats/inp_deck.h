@@ -33,6 +33,14 @@ enum class InpPieceKind : char {
   remarks = 'R',  ///< the last, if there are any: not of the deck, but about it
 };
 
+/// Where numbers of a deck mean something, see InpScope: the numbers of the mesh less those before.
+struct InpNumbering {
+  std::int64_t node_offset = 0;
+  std::int64_t element_offset = 0;
+  std::int64_t most_node = 0;  ///< greatest numbers that the deck knew
+  std::int64_t most_element = 0;
+};
+
 struct InpPiece {
   InpPieceKind kind = InpPieceKind::verbatim;
   /// Of `verbatim` all there is; of a face load what follows the face: ", 5.0"; else the keyword
@@ -42,12 +50,13 @@ struct InpPiece {
   std::string more;                  ///< data lines or numbers that are no elements of the mesh
   std::string type;                  ///< of elements: "C3D10M"; of a face load: "P"
   std::string suffix;                ///< of a face load, behind the number of the face: "NU"
+  std::string instance;              ///< before the numbers of tets with faces: "Part-1-1."
   Label block = 0;                   ///< of elements: which parts refer to
+  std::size_t numbering = 0;         ///< that its numbers belong to
 };
 
 struct InpDeck {
-  std::int64_t most_node = 0;  ///< greatest numbers that the deck knew
-  std::int64_t most_element = 0;
+  std::vector<InpNumbering> numberings = {{}};  ///< in the order of their offsets
   std::string folder;   ///< that the deck lay in, if it names other files; else empty
   std::string remarks;  ///< see deck_remarks(), each with a line break
   std::vector<std::pair<Label, Label>> block_of_part;  ///< {part, block}

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -47,9 +48,11 @@ FaceLabel to_face(std::string_view text) {
 
 class Reader {
  public:
-  Reader(const InpMesh& mesh, InpSets& sets) : mesh_(mesh), sets_(sets) {}
+  Reader(const InpLines& lines, const InpMesh& mesh, InpSets& sets)
+      : lines_(lines), mesh_(mesh), sets_(sets) {}
 
   void read(const InpBlock& block) {
+    if (!block.is_of_mesh) return;
     if (block.keyword == "SURFACE") {
       const std::string type = inp_key(block.value("TYPE"));
       if (type.empty() || type == "ELEMENT") read_surface(block);
@@ -64,31 +67,69 @@ class Reader {
   InpFaces take() { return std::move(result_); }
 
  private:
-  /// The elements of the mesh that a field names; null if it names none.
-  const std::vector<std::uint32_t>* elements(std::string_view text, const InpBlock& block,
-                                             InpSet*& set) {
-    set = nullptr;
-    const std::size_t dot = text.rfind('.');
-    std::int64_t number = 0;
-    if (to_integer(dot == std::string_view::npos ? text : text.substr(dot + 1), number)) {
-      const std::uint32_t place = mesh_.elements.find(number);
-      if (place == InpNumbers::kNone) return nullptr;
-      one_.assign(1, place);
-      return &one_;
+  /// Elements of the mesh that a field names.
+  struct Named {
+    std::size_t scope = 0;
+    std::size_t instance = 0;  // from 1; 0: none is named
+    InpSet* set = nullptr;     // null: one element
+    std::vector<std::uint32_t> one;
+
+    const std::vector<std::uint32_t>& elements() const {
+      return set == nullptr ? one : set->members;
     }
-    set = sets_.find(false, text, block);
-    return set == nullptr ? nullptr : &set->members;
+  };
+
+  std::vector<Named> find_elements(std::string_view text, const InpBlock& block) {
+    const std::size_t dot = text.rfind('.');
+    const bool has_prefix = dot != std::string_view::npos;
+    std::int64_t number = 0;
+    if (to_integer(has_prefix ? text.substr(dot + 1) : text, number)) {
+      Named named{block.scope, block.instance, nullptr, {}};
+      if (has_prefix) named.instance = lines_.find_instance(text.substr(0, dot));
+      if (named.instance != 0) {
+        named.scope = lines_.instances[named.instance - 1].scope;
+      } else if (named.scope == 0 && lines_.mesh_scopes.size() == 1) {
+        named.scope = lines_.mesh_scopes[0];
+      }
+      if (!lines_.scopes[named.scope].is_mesh) return {};
+      const std::uint32_t place =
+          mesh_.elements.find(number + lines_.scopes[named.scope].element_offset);
+      if (place == InpNumbers::kNone) return {};
+      named.one = {place};
+      return {std::move(named)};
+    }
+    std::vector<Named> found;
+    for (InpSet* set : sets_.find_all(false, text, block)) {
+      found.push_back({set->scope, instance_of(*set, text, block), set, {}});
+    }
+    return found;
+  }
+
+  /// That lines of an assembly, or behind it, name a set by.
+  std::size_t instance_of(const InpSet& set, std::string_view text, const InpBlock& block) const {
+    if (set.instance != 0) return set.instance;
+    if (block.scope != 0 && !block.is_in_assembly) return 0;
+    const std::size_t dot = text.rfind('.');
+    return dot == std::string_view::npos ? 0 : lines_.find_instance(text.substr(0, dot));
+  }
+
+  /// Within a part, numbers are its own.
+  std::string prefix_of(std::size_t instance, const InpBlock& block) const {
+    const bool is_inside = block.scope != 0 && !block.is_in_assembly;
+    return instance == 0 || is_inside ? "" : lines_.instances[instance - 1].name + ".";
   }
 
   void read_surface(const InpBlock& block) {
-    InpFaceUse use{&block, true, {}, {}, {}, {}, {}, 0};
-    const auto number = static_cast<std::uint32_t>(result_.uses.size());
-    const std::string_view name = block.value("NAME");
-    use.name = name.size() > 1 && name.front() == '"' ? name.substr(1, name.size() - 2) : name;
-    if (!names_.insert(inp_key(use.name)).second) {
-      block.fail(fmt::format("there is a surface {} already", in_quotes(use.name)));
+    const std::size_t first_use = result_.uses.size();
+    const std::string_view given = block.value("NAME");
+    const std::string name(
+        given.size() > 1 && given.front() == '"' ? given.substr(1, given.size() - 2) : given);
+    const std::size_t owner = block.is_in_assembly ? 0 : block.scope;
+    if (!names_.emplace(owner, inp_key(name)).second) {
+      block.fail(fmt::format("there is a surface {} already", in_quotes(name)));
     }
-    const std::size_t before = result_.faces.size();
+    std::map<std::string, std::uint32_t> use_of;  // by the prefix of its instance
+    std::string more;
     InpFields fields(block);
     while (fields.next_line()) {
       const std::string_view first = fields.field();
@@ -96,18 +137,36 @@ class Reader {
       const FaceLabel label = to_face(face);
       const std::string_view rest = fields.rest();
       const bool is_face = label.face != 0 && inp_key(label.prefix) == "S" && label.suffix.empty();
-      if (!is_face || !add_faces(first, block, label.face, number)) {
-        note_element(block, fields, is_face ? std::string_view() : first);
-        use.more += fmt::format("{}\n", trimmed(fields.line()));
-      } else {
-        add_other_lines(first, block, face, rest, use.more);
+      bool any = false;
+      for (const Named& named : is_face ? find_elements(first, block) : std::vector<Named>()) {
+        const std::string prefix = prefix_of(named.instance, block);
+        const auto next = static_cast<std::uint32_t>(result_.uses.size());
+        const auto known = use_of.find(prefix);
+        const std::uint32_t use = known == use_of.end() ? next : known->second;
+        if (!add_faces(named, block, label.face, use)) continue;
+        any = true;
+        add_other_lines(named, block, face, rest, more);
+        if (known != use_of.end()) continue;
+        use_of[prefix] = next;
+        InpFaceUse made;
+        made.block = &block;
+        made.is_surface = true;
+        made.goes_on = next > first_use;
+        made.scope = named.scope;
+        made.instance = prefix;
+        made.prefix = "S";
+        made.name = made.goes_on ? name + "_" + prefix.substr(0, prefix.size() - 1) : name;
+        result_.uses.push_back(std::move(made));
       }
+      if (any) continue;
+      note_element(block, fields, is_face ? std::string_view() : first);
+      more += fmt::format("{}\n", trimmed(fields.line()));
     }
-    if (result_.faces.size() > before) result_.uses.push_back(std::move(use));
+    if (result_.uses.size() > first_use) result_.uses.back().more = std::move(more);
   }
 
   void read_load(const InpBlock& block) {
-    using Key = std::tuple<std::string, std::string, std::string>;
+    using Key = std::tuple<std::string, std::string, std::string, std::string>;
     std::map<Key, std::uint32_t> use_of;
     std::string rest_of_block;
     const std::size_t before = result_.faces.size();
@@ -117,64 +176,74 @@ class Reader {
       const std::string_view face = fields.field();
       const FaceLabel label = to_face(face);
       const std::string_view rest = fields.rest();
-      const auto next = static_cast<std::uint32_t>(result_.uses.size());
-      const Key key{label.prefix, label.suffix, rest};
-      const auto known = use_of.find(key);
-      if (label.face == 0 ||
-          !add_faces(first, block, label.face, known == use_of.end() ? next : known->second)) {
-        note_element(block, fields, first);
-        rest_of_block += fmt::format("{}\n", trimmed(fields.line()));
-        continue;
+      bool any = false;
+      for (const Named& named :
+           label.face != 0 ? find_elements(first, block) : std::vector<Named>()) {
+        const std::string prefix = prefix_of(named.instance, block);
+        const auto next = static_cast<std::uint32_t>(result_.uses.size());
+        const Key key{label.prefix, label.suffix, rest, prefix};
+        const auto known = use_of.find(key);
+        const std::uint32_t use = known == use_of.end() ? next : known->second;
+        if (!add_faces(named, block, label.face, use)) continue;
+        any = true;
+        add_other_lines(named, block, face, rest, rest_of_block);
+        if (known != use_of.end()) continue;
+        use_of[key] = next;
+        InpFaceUse made;
+        made.block = &block;
+        made.scope = named.scope;
+        made.instance = prefix;
+        made.name = fmt::format("{}_{}", block.keyword, next + 1);
+        made.prefix = label.prefix;
+        made.suffix = label.suffix;
+        made.rest = rest;
+        result_.uses.push_back(std::move(made));
       }
-      add_other_lines(first, block, face, rest, rest_of_block);
-      if (known != use_of.end()) continue;
-      use_of[key] = next;
-      InpFaceUse use{&block,           false, {}, std::get<0>(key), std::get<1>(key),
-                     std::get<2>(key), {},    0};
-      use.name = fmt::format("{}_{}", block.keyword, next + 1);
-      result_.uses.push_back(std::move(use));
+      if (any) continue;
+      note_element(block, fields, first);
+      rest_of_block += fmt::format("{}\n", trimmed(fields.line()));
     }
     if (result_.faces.size() > before) result_.rest_of_load[&block] = std::move(rest_of_block);
   }
 
   /// False if there is no tet among the elements.
-  bool add_faces(std::string_view text, const InpBlock& block, std::size_t face,
-                 std::uint32_t use) {
-    InpSet* set = nullptr;
-    const auto* found = elements(text, block, set);
+  bool add_faces(const Named& named, const InpBlock& block, std::size_t face, std::uint32_t use) {
+    if (named.set != nullptr) {
+      sets_.add_work(named.set->members.size() + named.set->others.size(), block);
+    }
     bool any = false;
-    if (found == nullptr) return any;
-    if (set != nullptr) sets_.add_work(found->size() + set->others.size(), block);
-    for (const std::uint32_t element : *found) {
+    for (const std::uint32_t element : named.elements()) {
       if (!is_tet(mesh_, element)) continue;
       const std::uint32_t* v = mesh_.vertices_of(element);
       const auto& corners = kInpTetFaces[face - 1];
       result_.faces.push_back({{v[corners[0]], v[corners[2]], v[corners[1]]}, use});
       any = true;
     }
-    if (any && set != nullptr) result_.sets.insert(set);
+    if (any && named.set != nullptr) result_.sets.insert(named.set);
     return any;
   }
 
   /// What a line says of elements that are no tets is said element by element.
-  void add_other_lines(std::string_view text, const InpBlock& block, std::string_view face,
+  void add_other_lines(const Named& named, const InpBlock& block, std::string_view face,
                        std::string_view rest, std::string& lines) {
-    InpSet* set = nullptr;
-    const auto* found = elements(text, block, set);
-    if (set == nullptr) return;
-    for (const std::uint32_t element : *found) {
-      if (is_tet(mesh_, element)) continue;
-      lines += fmt::format("{}, {}{}\n", mesh_.elements.numbers()[element], face, rest);
+    if (named.set == nullptr) return;
+    const std::string prefix = prefix_of(named.instance, block);
+    const std::int64_t offset = lines_.scopes[named.scope].element_offset;
+    const auto add = [&](std::int64_t number) {
+      lines += fmt::format("{}{}, {}{}\n", prefix, number - offset, face, rest);
+    };
+    for (const std::uint32_t element : named.set->members) {
+      if (!is_tet(mesh_, element)) add(mesh_.elements.numbers()[element]);
     }
-    for (const std::int64_t number : set->others) {
-      lines += fmt::format("{}, {}{}\n", number, face, rest);
-    }
+    for (const std::int64_t number : named.set->others) add(number);
   }
 
   void note_element(const InpBlock& block, const InpFields& fields, std::string_view text) {
     std::int64_t number = 0;
     if (!to_integer(text, number)) return;
-    const std::uint32_t place = mesh_.elements.find(number);
+    if (block.scope == 0 && lines_.mesh_scopes.size() > 1) return;
+    const std::uint32_t place =
+        mesh_.elements.find(number + lines_.scopes[block.scope].element_offset);
     if (place == InpNumbers::kNone || !is_tet(mesh_, place)) return;
     if (result_.notes.size() > kMostNotes) return;
     result_.notes.push_back(
@@ -183,17 +252,17 @@ class Reader {
   }
 
   static constexpr std::size_t kMostNotes = 20;
+  const InpLines& lines_;
   const InpMesh& mesh_;
   InpSets& sets_;
   InpFaces result_;
-  std::vector<std::uint32_t> one_;
-  std::set<std::string> names_;  // of surfaces
+  std::set<std::pair<std::size_t, std::string>> names_;  // of surfaces, by scope
 };
 
 }  // namespace
 
 InpFaces read_inp_faces(const InpLines& lines, const InpMesh& mesh, InpSets& sets) {
-  Reader reader(mesh, sets);
+  Reader reader(lines, mesh, sets);
   for (const InpBlock& block : lines.blocks) reader.read(block);
   return reader.take();
 }

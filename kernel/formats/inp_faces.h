@@ -19,6 +19,9 @@ namespace tetmend::formats {
 struct InpFaceUse {
   const InpBlock* block = nullptr;
   bool is_surface = false;
+  bool goes_on = false;   ///< with the surface of the use before, of another instance
+  std::size_t scope = 0;  ///< of the tets
+  std::string instance;   ///< before their numbers: "Part-1-1."
   std::string name;
   std::string prefix, suffix, rest;  ///< "P", "NU" and ", 5.0" of "17, P3NU, 5.0"
   std::string more;                  ///< lines of a surface about other elements, as they are

@@ -14,6 +14,8 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
+#include "kernel/formats/included_path.h"
+#include "kernel/formats/inp_types.h"
 
 namespace tetmend::formats {
 namespace {
@@ -79,13 +81,6 @@ void read_parameters(InpBlock& block) {
     if (!parameter.name.empty()) block.parameters.push_back(std::move(parameter));
     rest.remove_prefix(length);
   }
-}
-
-std::filesystem::path unquoted(std::string_view text) {
-  if (text.size() > 1 && text.front() == '"' && text.back() == '"') {
-    text = text.substr(1, text.size() - 2);
-  }
-  return text;
 }
 
 }  // namespace
@@ -239,6 +234,120 @@ InpLines::InpLines(const std::filesystem::path& file) {
   folder_ = file.parent_path();
   includes.push_back({});
   read(open(file, nullptr), file, 0);
+  choose_scopes();
+  place_blocks();
+  set_offsets();
+}
+
+std::size_t InpLines::find_instance(std::string_view name) const {
+  const auto found = number_of_instance_.find(inp_key(name));
+  return found == number_of_instance_.end() ? 0 : found->second;
+}
+
+/// A part or an instance begins or ends.
+void InpLines::enter(InpBlock& block) {
+  const bool is_part = block.keyword == "PART";
+  if (block.keyword == "ASSEMBLY") in_assembly_ = true;
+  if (block.keyword == "END ASSEMBLY") in_assembly_ = false;
+  if (is_part || block.keyword == "INSTANCE") {
+    scope_ = scopes.size();
+    const std::string_view name = block.value("NAME");
+    scopes.push_back({inp_key(name), false, 0, 0, 0, 0});
+    if (!is_part) {
+      instances.push_back({std::string(name), inp_key(block.value("PART")), scope_});
+      if (!number_of_instance_.try_emplace(inp_key(name), instances.size()).second) {
+        block.fail(fmt::format("there is an instance {} already", in_quotes(name)));
+      }
+    }
+  }
+  block.scope = scope_;
+  block.is_in_assembly = in_assembly_ && scope_ == 0;
+  if (block.keyword == "END PART" || block.keyword == "END INSTANCE") scope_ = 0;
+}
+
+/// The mesh is in the scopes with tets; where none has any, in those with other elements, or with
+/// nodes at least. An instance without nodes stands for its part.
+void InpLines::choose_scopes() {
+  enum : int { nothing, nodes, elements, tets };
+  std::vector<int> has(scopes.size(), nothing);
+  for (const InpBlock& block : blocks) {
+    int found = block.keyword == "NODE" ? nodes : nothing;
+    if (block.keyword == "ELEMENT") {
+      const InpType type = inp_type(block.value("TYPE"));
+      const bool is_tet = type.vtk_type == kVtkTet || type.vtk_type == kVtkTet10;
+      if (type.kind != InpType::Kind::other) found = is_tet ? tets : elements;
+    }
+    if (!block.is_in_assembly) has[block.scope] = std::max(has[block.scope], found);
+  }
+  const int most = *std::max_element(has.begin(), has.end());
+  for (std::size_t s = 1; s < scopes.size(); ++s) {
+    scopes[s].is_mesh = most != nothing && has[s] == most;
+  }
+  scopes[0].is_mesh = scopes.size() == 1 || has[0] != nothing;
+  for (std::size_t s = 0; s < scopes.size(); ++s) {
+    if (scopes[s].is_mesh) mesh_scopes.push_back(s);
+  }
+  std::map<std::string_view, std::size_t> parts;
+  std::set<std::size_t> of_instances;
+  for (const InpInstance& instance : instances) of_instances.insert(instance.scope);
+  for (std::size_t s = 1; s < scopes.size(); ++s) {
+    if (of_instances.contains(s)) continue;
+    if (!parts.try_emplace(scopes[s].name, s).second) {
+      throw Error(fmt::format("{}: there is a part {} already", opened_.front().string(),
+                              in_quotes(scopes[s].name)));
+    }
+  }
+  for (InpInstance& instance : instances) {
+    const auto part = parts.find(instance.part);
+    if (has[instance.scope] == nothing && part != parts.end()) instance.scope = part->second;
+  }
+}
+
+/// Lines of an assembly that name an instance mean its numbers.
+void InpLines::place_blocks() {
+  for (InpBlock& block : blocks) {
+    if (block.is_in_assembly && block.find("INSTANCE") != nullptr) {
+      block.instance = find_instance(block.value("INSTANCE"));
+      if (block.instance != 0) {
+        block.scope = instances[block.instance - 1].scope;
+      } else if (mesh_scopes.size() == 1) {
+        block.scope = mesh_scopes[0];
+      } else {
+        block.fail(
+            fmt::format("{} is not the name of an instance", in_quotes(block.value("INSTANCE"))));
+      }
+    }
+    block.is_of_mesh = block.scope == 0 || scopes[block.scope].is_mesh;
+  }
+}
+
+void InpLines::set_offsets() {
+  if (mesh_scopes.size() < 2) return;
+  for (const InpBlock& block : blocks) {
+    const bool is_node = block.keyword == "NODE";
+    if ((!is_node && block.keyword != "ELEMENT") || block.is_in_assembly) continue;
+    InpScope& scope = scopes[block.scope];
+    std::int64_t& most = is_node ? scope.most_node : scope.most_element;
+    InpFields fields(block);
+    std::int64_t number = 0;
+    while (fields.next_line()) {
+      if (to_integer(fields.field(), number) && number <= kInpGreatestNumber) {
+        most = std::max(most, number);
+      }
+    }
+  }
+  constexpr std::int64_t kMost = std::int64_t{1} << 61;
+  std::int64_t nodes = 0;
+  std::int64_t elements = 0;
+  for (const std::size_t s : mesh_scopes) {
+    scopes[s].node_offset = nodes;
+    scopes[s].element_offset = elements;
+    nodes += scopes[s].most_node;
+    elements += scopes[s].most_element;
+    if (std::max(nodes, elements) < kMost) continue;
+    throw Error(
+        fmt::format("{}: the numbers of the parts are too great", opened_.front().string()));
+  }
 }
 
 /// A file that is included again is not read again.
@@ -270,8 +379,10 @@ void InpLines::read(const InputFile& file, const std::filesystem::path& path, in
   InpBlock block;
   block.file = &file;
   block.file_number = number;
-  block.begin = block.data = file.begin();
-  for (const char* next = file.begin(); next != end;) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // of UTF-8
+  const bool is_marked = std::string_view(file.begin(), file.size()).starts_with(kMark);
+  block.begin = block.data = file.begin() + (is_marked ? kMark.size() : 0);
+  for (const char* next = block.begin; next != end;) {
     if (!is_keyword(next, line_end(next, end))) {
       next = after_line(next, end);
       continue;
@@ -302,15 +413,7 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
     block.fail("the deck has more keywords than so small a file can hold of a mesh");
   }
   if (block.data != block.begin) read_parameters(block);
-  if (block.keyword == "ASSEMBLY") in_assembly_ = true;
-  if (block.keyword == "END ASSEMBLY") in_assembly_ = false;
-  block.is_in_assembly = in_assembly_;
-  if (block.keyword == "PART" && ++parts_ > 1) {
-    block.fail("a second *PART cannot be read: expected a deck of one part");
-  }
-  if (block.keyword == "INSTANCE" && ++instances_ > 1) {
-    block.fail("a second *INSTANCE cannot be read: expected one instance of one part");
-  }
+  enter(block);
   const bool is_include = block.keyword == "INCLUDE";
   const bool has_input = !is_include && block.find("INPUT") != nullptr &&
                          (block.keyword == "NODE" || block.keyword == "ELEMENT" ||
@@ -321,7 +424,7 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   }
   const std::string_view name = block.value("INPUT");
   if (name.empty()) block.fail("*INCLUDE names no file: expected INPUT=FILE");
-  const std::filesystem::path target = path.parent_path() / unquoted(name);
+  const std::filesystem::path target = included_path(path.parent_path(), name);
   if (open_.contains(std::filesystem::weakly_canonical(target).native())) {
     block.fail(fmt::format("{} includes itself: expected another file", in_quotes(name)));
   }

@@ -23,6 +23,24 @@ std::string_view trimmed(std::string_view text);
 /// Of nodes and elements, that is read.
 inline constexpr std::int64_t kInpGreatestNumber = std::int64_t{1} << 53;
 
+/// Where numbers and names of a deck mean something: the deck itself, a part, or an instance that has
+/// nodes of its own.
+struct InpScope {
+  std::string name;      ///< of the part or instance, as inp_key() has it
+  bool is_mesh = false;  ///< else its lines stay as they are
+  /// From its numbers to those of the mesh, where the scopes of the mesh follow each other.
+  std::int64_t node_offset = 0;
+  std::int64_t element_offset = 0;
+  std::int64_t most_node = 0;  ///< greatest numbers; known only where there are several scopes
+  std::int64_t most_element = 0;
+};
+
+struct InpInstance {
+  std::string name;       ///< as it stands there
+  std::string part;       ///< as inp_key() has it
+  std::size_t scope = 0;  ///< of its part, or its own
+};
+
 /// Lines of a file from a keyword to the next one; the first block of a file has none.
 struct InpBlock {
   struct Parameter {
@@ -36,9 +54,12 @@ struct InpBlock {
   const char* begin = nullptr;  ///< of the keyword line
   const char* data = nullptr;   ///< behind it
   const char* end = nullptr;
-  int file_number = 0;  ///< 0: the deck, else that of an included file
-  int included = 0;     ///< of *INCLUDE: the number of that file
-  bool is_in_assembly = false;
+  int file_number = 0;          ///< 0: the deck, else that of an included file
+  int included = 0;             ///< of *INCLUDE: the number of that file
+  bool is_in_assembly = false;  ///< and in no instance with nodes of its own
+  std::size_t scope = 0;        ///< of its numbers; for an assembly that of the instance it names
+  std::size_t instance = 0;     ///< that a block of the assembly names, from 1; 0: none
+  bool is_of_mesh = true;       ///< that scope is part of the mesh
   const InputFile* input = nullptr;  ///< its data lines are those of this file
 
   std::string_view text() const { return {begin, static_cast<std::size_t>(end - begin)}; }
@@ -93,11 +114,18 @@ class InpLines {
   explicit InpLines(const std::filesystem::path& file);
 
   std::deque<InpBlock> blocks;
+  std::vector<InpScope> scopes = {{"", true, 0, 0, 0, 0}};  ///< 0: the deck itself
+  std::vector<InpInstance> instances;
+  /// That lines outside of parts may mean. More than one: by the name of an instance alone.
+  std::vector<std::size_t> mesh_scopes;
   struct Include {
     int parent = 0;                ///< file that includes it
     bool parent_is_beside = true;  ///< beside the deck: so the line would mean the same there
   };
   std::vector<Include> includes;  ///< by file number; 0 is the deck itself
+
+  /// From 1; 0: none is called so.
+  std::size_t find_instance(std::string_view name) const;
 
   /// Bytes of all files, each once however often it is included.
   std::size_t size_of_files() const { return size_of_files_; }
@@ -116,9 +144,14 @@ class InpLines {
   int inclusions_ = 0;
   std::set<std::filesystem::path::string_type> open_;  // one in the other
   std::filesystem::path folder_;
+  std::map<std::string, std::size_t, std::less<>> number_of_instance_;  // from 1
+  void enter(InpBlock& block);
+  void choose_scopes();
+  void place_blocks();
+  void set_offsets();
+
   bool in_assembly_ = false;
-  int parts_ = 0;
-  int instances_ = 0;
+  std::size_t scope_ = 0;  // that lines are in
 };
 
 }  // namespace tetmend::formats

@@ -56,11 +56,15 @@ class Reader {
       block.fail(fmt::format("the coordinates of system {} cannot be read: expected SYSTEM=R",
                              in_quotes(system)));
     }
+    const std::int64_t offset = lines_.scopes[block.scope].node_offset;
     InpFields fields(block);
     while (fields.next_line()) {
-      mesh_.nodes.add(own_number(fields, "the number of a node"));
+      mesh_.nodes.add(own_number(fields, "the number of a node") + offset);
       Point& point = mesh_.points.emplace_back();
       for (int axis = 0; axis < 3; ++axis) point[axis] = fields.real("a coordinate");
+      if (fields.more()) {
+        mesh_.more_of_node[static_cast<std::uint32_t>(mesh_.points.size() - 1)] = fields.rest();
+      }
       // Behind them Abaqus has the cosines of a normal.
       for (int k = 0; k < 3 && fields.more(); ++k) fields.real("a direction cosine");
       if (fields.more()) {
@@ -85,14 +89,17 @@ class Reader {
                       "C3D20, C3D6, C3D15 or C3D5",
                       in_quotes(name)));
     }
+    const InpScope& scope = lines_.scopes[block.scope];
     InpFields fields(block);
-    if (elements.type.kind == InpType::Kind::other) return note_others(fields);
+    if (elements.type.kind == InpType::Kind::other) {
+      return note_others(fields, scope.element_offset);
+    }
     while (fields.next_line()) {
-      mesh_.elements.add(own_number(fields, "the number of an element"));
+      mesh_.elements.add(own_number(fields, "the number of an element") + scope.element_offset);
       if (elements.type.vtk_type == kVtkTet && question_ != nullptr && tets_++ == question_->tet) {
         question_->place = block.file->line_place(fields.place());
       }
-      read_vertices(fields, elements);
+      read_vertices(fields, elements, scope.node_offset);
       ++elements.count;
     }
     count_ += elements.count;
@@ -100,14 +107,14 @@ class Reader {
     mesh_.blocks.push_back(std::move(elements));
   }
 
-  void read_vertices(InpFields& fields, InpElements& elements) {
+  void read_vertices(InpFields& fields, InpElements& elements, std::int64_t offset) {
     const std::size_t width = elements.type.width;
     const std::size_t begin = elements.vertices.size();
     elements.vertices.resize(begin + width);
     std::uint32_t* vertices = elements.vertices.data() + begin;
     for (std::size_t i = 0; i < width; ++i) {
       const std::int64_t number = fields.integer("the number of a node", true);
-      const std::uint32_t vertex = mesh_.nodes.find(number);
+      const std::uint32_t vertex = mesh_.nodes.find(number + offset);
       if (vertex == InpNumbers::kNone) {
         fields.fail(fmt::format("'{}' is not the number of a node: expected one of *NODE", number));
       }
@@ -126,10 +133,10 @@ class Reader {
     return number;
   }
 
-  void note_others(InpFields& fields) {
+  void note_others(InpFields& fields, std::int64_t offset) {
     while (fields.next_line()) {
       std::int64_t number = 0;
-      if (to_integer(fields.field(), number)) mesh_.others.push_back(number);
+      if (to_integer(fields.field(), number)) mesh_.others.push_back(number + offset);
     }
   }
 
@@ -210,7 +217,7 @@ const InpElements& InpMesh::block_of(std::uint32_t element) const {
 }
 
 bool is_mesh_block(const InpBlock& block, std::string_view keyword) {
-  return block.keyword == keyword && !block.is_in_assembly;
+  return block.keyword == keyword && !block.is_in_assembly && block.is_of_mesh;
 }
 
 InpMesh read_inp_mesh(const InpLines& lines, TetPlace* question) {

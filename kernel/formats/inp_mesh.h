@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kernel/formats/gmsh_tags.h"
@@ -58,7 +60,8 @@ struct InpMesh {
   InpNumbers elements;               ///< of the mesh
   std::vector<InpElements> blocks;   ///< those of the mesh
   std::vector<std::int64_t> others;  ///< numbers of springs and their like, in ascending order
-  bool is_planar = false;
+  /// What stands behind the coordinates of a node, from the comma on: ", 0., 0., 1." is a normal.
+  std::map<std::uint32_t, std::string_view> more_of_node;
 
   /// The block of an element.
   const InpElements& block_of(std::uint32_t element) const;

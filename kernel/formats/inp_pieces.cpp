@@ -30,8 +30,7 @@ class Maker {
 
   std::vector<std::string> run() {
     find_inlined();
-    deck_.most_node = in_.mesh.nodes.most();
-    deck_.most_element = in_.mesh.most_element();
+    add_numberings();
     deck_.remarks = in_.remarks;
     for (std::size_t p = 0; p < in_.parts.all.size(); ++p) {
       deck_.block_of_part.emplace_back(static_cast<Label>(p + 1),
@@ -43,6 +42,21 @@ class Maker {
 
  private:
   bool is_use(const InpBlock& block) const { return uses_of_.contains(&block); }
+
+  void add_numberings() {
+    const std::vector<std::size_t>& scopes = in_.lines.mesh_scopes;
+    deck_.numberings.clear();
+    numbering_of_.assign(in_.lines.scopes.size(), 0);
+    for (const std::size_t s : scopes) {
+      const InpScope& scope = in_.lines.scopes[s];
+      numbering_of_[s] = deck_.numberings.size();
+      deck_.numberings.push_back(
+          {scope.node_offset, scope.element_offset, scope.most_node, scope.most_element});
+    }
+    if (scopes.size() < 2) {
+      deck_.numberings = {{0, 0, in_.mesh.nodes.most(), in_.mesh.most_element()}};
+    }
+  }
 
   /// Files with something of the mesh in them are written into the deck.
   void find_inlined() {
@@ -149,25 +163,39 @@ class Maker {
     return text.ends_with('\n') && !trimmed(text).ends_with(',') ? std::string(text) : ended(text);
   }
 
-  InpPiece& add_piece(InpPieceKind kind, std::string text) {
+  InpPiece& add_piece(InpPieceKind kind, std::size_t scope, std::string text) {
     InpPiece& piece = deck_.pieces.emplace_back();
     piece.kind = kind;
+    piece.numbering = numbering_of_[scope];
     piece.text = std::move(text);
     return piece;
   }
 
   void add_nodes(const InpBlock& block) {
     const InpSet* set = in_.sets.of_block(block);
-    if (!nodes_done_) {
-      nodes_done_ = true;
-      InpPiece& piece = add_piece(InpPieceKind::nodes, keyword_line(block, {"INPUT", "NSET"}));
+    if (nodes_done_.insert(block.scope).second) {
+      InpPiece& piece =
+          add_piece(InpPieceKind::nodes, block.scope, keyword_line(block, {"INPUT", "NSET"}));
+      add_more_of_nodes(block, piece.more);
       if (set != nullptr && set_done_.insert(set).second) piece.groups = set->groups;
     } else if (set != nullptr && set_done_.insert(set).second) {
-      add_piece(InpPieceKind::node_set, fmt::format("*NSET, NSET={}\n", block.value("NSET")))
+      add_piece(InpPieceKind::node_set, block.scope,
+                fmt::format("*NSET, NSET={}\n", block.value("NSET")))
           .groups = set->groups;
     }
     add_comments(block, true);
     add_comments(block, false);
+  }
+
+  /// Of all nodes of this scope: "7, 0., 0., 1.".
+  void add_more_of_nodes(const InpBlock& block, std::string& lines) {
+    const InpScope& own = in_.lines.scopes[block.scope];
+    for (const auto& [node, more] : in_.mesh.more_of_node) {
+      const std::int64_t number = in_.mesh.nodes.numbers()[node];
+      const bool is_own = in_.lines.mesh_scopes.size() < 2 ||
+                          (number > own.node_offset && number - own.node_offset <= own.most_node);
+      if (is_own) lines += fmt::format("{}{}\n", number - own.node_offset, more);
+    }
   }
 
   void add_element_block(const InpBlock& block) {
@@ -176,7 +204,7 @@ class Maker {
     add_comments(block, true);
     if (home_done_.insert(home).second) {
       const bool as_is = block.input == nullptr;
-      InpPiece& piece = add_piece(InpPieceKind::elements,
+      InpPiece& piece = add_piece(InpPieceKind::elements, block.scope,
                                   as_is ? as_it_stands(block) : keyword_line(block, {"INPUT"}));
       piece.type = in_.mesh.blocks[number].name;
       piece.block = static_cast<Label>(home);
@@ -193,9 +221,12 @@ class Maker {
       const auto kind = set->of_nodes ? InpPieceKind::node_set : InpPieceKind::element_set;
       std::set<std::string> without = {"GENERATE", "INPUT", "UNSORTED"};
       if (set->of_nodes) without.insert("ELSET");
-      InpPiece& piece = add_piece(kind, keyword_line(block, without));
+      InpPiece& piece = add_piece(kind, set->scope, keyword_line(block, without));
       piece.groups = set->groups;
-      for (const std::int64_t number : set->others) piece.more += fmt::format("{},\n", number);
+      const std::int64_t offset = in_.lines.scopes[set->scope].element_offset;
+      for (const std::int64_t number : set->others) {
+        piece.more += fmt::format("{},\n", number - offset);
+      }
     }
     add_comments(block, false);
   }
@@ -208,8 +239,10 @@ class Maker {
       add_text(load->second);
     }
     for (const InpFaceUse* use : uses_of_[&block]) {
-      InpPiece& piece = use->is_surface ? add_piece(InpPieceKind::surface, as_it_stands(block))
-                                        : add_piece(InpPieceKind::face_load, use->rest);
+      const bool begins = use->is_surface && !use->goes_on;
+      InpPiece& piece = begins ? add_piece(InpPieceKind::surface, use->scope, as_it_stands(block))
+                               : add_piece(InpPieceKind::face_load, use->scope, use->rest);
+      piece.instance = use->instance;
       piece.groups = {{2, use->number}};
       piece.type = use->prefix;
       piece.suffix = use->suffix;
@@ -223,7 +256,8 @@ class Maker {
   std::map<const InpBlock*, std::vector<const InpFaceUse*>> uses_of_;
   std::map<const InpBlock*, std::size_t> number_of_block_;
   std::vector<bool> inlined_;
-  bool nodes_done_ = false;
+  std::set<std::size_t> nodes_done_;       // scopes
+  std::vector<std::size_t> numbering_of_;  // each scope
   std::set<const InpSet*> set_done_;
   std::set<std::uint32_t> home_done_;
 };

@@ -90,6 +90,7 @@ InpPlan::InpPlan(const MeshView& mesh) : mesh_(mesh), data_(mesh.data()) {
     if (piece.kind != InpPieceKind::elements) continue;
     type_of_block_[piece.block] = inp_type(piece.type).vtk_type;
     home_of_block_[piece.block] = piece.groups;
+    numbering_of_block_[piece.block] = piece.numbering;
     next_block_ = std::max(next_block_, piece.block);
   }
   if (data_ != nullptr) {
@@ -208,10 +209,12 @@ void InpPlan::find_owners() {
 
 void InpPlan::assign() {
   for (std::size_t k = 0; k < kinds.size(); ++k) assign_kind(k);
-  if (!has_deck_)
-    deck.pieces.push_back(
-        {InpPieceKind::verbatim, "*HEADING\nwritten by tetmend\n", {}, {}, {}, {}, 0});
-  if (!has_deck_) deck.pieces.push_back({InpPieceKind::nodes, "*NODE\n", {}, {}, {}, {}, 0});
+  if (!has_deck_) {
+    deck.pieces.emplace_back().text = "*HEADING\nwritten by tetmend\n";
+    InpPiece& nodes = deck.pieces.emplace_back();
+    nodes.kind = InpPieceKind::nodes;
+    nodes.text = "*NODE\n";
+  }
   place_new(std::move(new_elements_));
 }
 
@@ -340,18 +343,68 @@ NewNumbers InpPlan::new_numbers(std::int64_t most, const std::vector<std::int64_
   });
 }
 
-void InpPlan::number_points() {
-  point_numbers.resize(mesh_.point_count());
-  std::int64_t most = deck.most_node;
-  const bool given = data_ != nullptr && !data_->point_numbers.empty();
-  std::vector<std::int64_t> known;
-  if (given) {
-    known = point_numbers = data_->point_numbers;
-    for (const std::int64_t number : point_numbers) most = std::max(most, number);
+/// Of a number of the mesh; the offsets ascend.
+std::size_t InpPlan::numbering_of(std::int64_t number, std::int64_t InpNumbering::*offset) const {
+  const auto after = std::upper_bound(
+      deck.numberings.begin(), deck.numberings.end(), number - 1,
+      [&](std::int64_t before, const InpNumbering& each) { return before < each.*offset; });
+  return static_cast<std::size_t>(after - deck.numberings.begin()) - 1;
+}
+
+/// A new point belongs where the elements around it do.
+void InpPlan::find_numberings_of_points() {
+  if (deck.numberings.size() < 2) return;
+  constexpr std::uint32_t kOpen = UINT32_MAX;
+  numbering_of_point_.assign(mesh_.point_count(), kOpen);
+  for (std::size_t i = 0; i < data_->point_numbers.size(); ++i) {
+    if (data_->point_numbers[i] == 0) continue;
+    numbering_of_point_[i] = static_cast<std::uint32_t>(
+        numbering_of(data_->point_numbers[i], &InpNumbering::node_offset));
   }
-  NewNumbers numbers = new_numbers(most, known);
-  for (std::int64_t& number : point_numbers) {
-    if (number == 0) number = numbers.next();
+  for (const InpKind& kind : kinds) {
+    for (std::size_t i = 0; i < kind.count; ++i) {
+      const auto numbering =
+          static_cast<std::uint32_t>(numbering_of_block(classes[kind.class_of[i]].block));
+      for (std::size_t k = 0; k < kind.width; ++k) {
+        std::uint32_t& of = numbering_of_point_[kind.of(i)[k]];
+        if (of == kOpen && classes[kind.class_of[i]].block != 0) of = numbering;
+      }
+    }
+  }
+  std::replace(numbering_of_point_.begin(), numbering_of_point_.end(), kOpen, std::uint32_t{0});
+}
+
+std::vector<std::uint32_t> InpPlan::points_of(std::size_t numbering) const {
+  std::vector<std::uint32_t> points;
+  for (std::uint32_t i = 0; i < mesh_.point_count(); ++i) {
+    if (numbering_of_point(i) == numbering) points.push_back(i);
+  }
+  return points;
+}
+
+void InpPlan::number_points() {
+  find_numberings_of_points();
+  point_numbers.resize(mesh_.point_count());
+  const bool given = data_ != nullptr && !data_->point_numbers.empty();
+  if (given) point_numbers = data_->point_numbers;
+  for (std::size_t n = 0; n < deck.numberings.size(); ++n) {
+    const InpNumbering& numbering = deck.numberings[n];
+    std::int64_t most = numbering.most_node;
+    std::vector<std::int64_t> known;
+    const bool is_alone = deck.numberings.size() == 1;
+    const std::vector<std::uint32_t> own = is_alone ? std::vector<std::uint32_t>() : points_of(n);
+    const std::size_t count = is_alone ? point_numbers.size() : own.size();
+    for (std::size_t i = 0; i < count && given; ++i) {
+      std::int64_t& number = point_numbers[is_alone ? i : own[i]];
+      if (number != 0) number -= numbering.node_offset;
+      known.push_back(number);
+      most = std::max(most, number);
+    }
+    NewNumbers numbers = new_numbers(most, known);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::int64_t& number = point_numbers[is_alone ? i : own[i]];
+      if (number == 0) number = numbers.next();
+    }
   }
 }
 
@@ -371,22 +424,29 @@ bool InpPlan::has_good_numbers() const {
 
 void InpPlan::number_elements() {
   const bool keeps = has_good_numbers();
-  std::int64_t most = keeps ? deck.most_element : 0;
-  std::vector<std::int64_t> known;
+  std::vector<std::int64_t> most;
+  for (const InpNumbering& each : deck.numberings) most.push_back(keeps ? each.most_element : 0);
+  std::vector<std::vector<std::int64_t>> known(most.size());
   for (InpKind& kind : kinds) {
     kind.numbers.resize(kind.count);
     const bool given = keeps && kind.given_numbers != nullptr && !kind.given_numbers->empty() &&
                        (has_deck_ || kind.dimension == 3);
     if (!given) continue;
     kind.numbers = *kind.given_numbers;
-    known.insert(known.end(), kind.numbers.begin(), kind.numbers.end());
-    for (const std::int64_t number : kind.numbers) most = std::max(most, number);
+    for (std::int64_t& number : kind.numbers) {
+      const std::size_t n = number == 0 ? 0 : numbering_of(number, &InpNumbering::element_offset);
+      if (number != 0) number -= deck.numberings[n].element_offset;
+      known[n].push_back(number);
+      most[n] = std::max(most[n], number);
+    }
   }
-  NewNumbers numbers = new_numbers(most, known);
+  std::vector<NewNumbers> numbers;
+  for (std::size_t n = 0; n < most.size(); ++n) numbers.push_back(new_numbers(most[n], known[n]));
   for (InpKind& kind : kinds) {
     for (std::size_t i = 0; i < kind.count; ++i) {
-      if (classes[kind.class_of[i]].block == 0 || kind.numbers[i] != 0) continue;
-      kind.numbers[i] = numbers.next();
+      const Label block = classes[kind.class_of[i]].block;
+      if (block == 0 || kind.numbers[i] != 0) continue;
+      kind.numbers[i] = numbers[numbering_of_block(block)].next();
     }
   }
 }

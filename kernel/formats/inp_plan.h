@@ -80,6 +80,12 @@ class InpPlan {
   /// Numbers of the elements of some groups that are not in a block of theirs, in ascending order.
   std::vector<std::int64_t> elements_of(const std::vector<InpGroupName>& names) const;
   std::vector<std::int64_t> nodes_of(const InpGroupName& name) const;
+  /// Which of the numberings of the deck a point belongs to.
+  std::size_t numbering_of_point(std::size_t i) const {
+    return numbering_of_point_.empty() ? 0 : numbering_of_point_[i];
+  }
+  /// Those of one numbering.
+  std::vector<std::uint32_t> points_of(std::size_t numbering) const;
   /// {tet, face} of the faces of a group.
   std::vector<std::pair<std::int64_t, int>> faces_of(const InpGroupName& name) const;
   struct Row {
@@ -104,6 +110,12 @@ class InpPlan {
   void number_points();
   void number_elements();
   bool has_good_numbers() const;
+  std::size_t numbering_of(std::int64_t number, std::int64_t InpNumbering::*offset) const;
+  std::size_t numbering_of_block(Label block) const {
+    const auto found = numbering_of_block_.find(block);
+    return found == numbering_of_block_.end() ? 0 : found->second;
+  }
+  void find_numberings_of_points();
   NewNumbers new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const;
   void add_missing_sets();
   void place_new(std::vector<InpPiece> pieces);
@@ -120,6 +132,8 @@ class InpPlan {
   std::map<Label, Label> block_of_part_;
   std::map<Label, const InpPiece*> piece_of_block_;
   std::map<Label, int> type_of_block_;
+  std::map<Label, std::size_t> numbering_of_block_;
+  std::vector<std::uint32_t> numbering_of_point_;  // empty: there is but one
   std::map<Label, std::vector<InpGroupName>> home_of_block_;
   std::map<std::pair<int, std::vector<std::size_t>>, Label> new_blocks_;
   std::map<std::pair<int, Label>, std::vector<std::size_t>> groups_of_part_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -60,7 +61,8 @@ class Reader {
     check();
     data_.variant = kInp;
     data_.notes = faces_.notes;
-    const InpReferences references = find_references(kept_blocks(), mesh_);
+    note_other_scopes();
+    const InpReferences references = find_references(lines_, kept_blocks(), mesh_);
     drop_sets_of_faces(references);
     find_homes();
     number_sets();
@@ -86,6 +88,19 @@ class Reader {
     };
     if (lines_.blocks.empty()) fail("the file is empty: expected *NODE");
     if (!has("NODE")) fail("*NODE is missing: expected a deck with nodes and elements");
+  }
+  /// Parts with elements that are not in the mesh.
+  void note_other_scopes() {
+    std::vector<bool> is_told(lines_.scopes.size(), false);
+    for (const InpBlock& block : lines_.blocks) {
+      if (block.is_of_mesh || block.is_in_assembly || block.keyword != "ELEMENT") continue;
+      if (inp_type(block.value("TYPE")).kind == InpType::Kind::other) continue;
+      if (is_told[block.scope]) continue;
+      is_told[block.scope] = true;
+      data_.notes.push_back(
+          fmt::format("{} has no tetrahedra: it stays in the deck, and is in no mesh",
+                      in_quotes(lines_.scopes[block.scope].name)));
+    }
   }
   [[noreturn]] void fail(std::string_view reason) const {
     const InputFile file(file_);
@@ -132,7 +147,7 @@ class Reader {
       for (const InpBlock* block : kept_blocks()) {
         if (!is_use(*block)) others.push_back(block);
       }
-      rest_of_names_ = find_references(others, mesh_).names;
+      rest_of_names_ = find_references(lines_, others, mesh_).names;
       rest_of_names_.insert("");
     }
     for (const std::string& name : here) {
@@ -145,10 +160,10 @@ class Reader {
   }
 
   void find_homes() {
-    std::map<std::pair<std::string, InpSet*>, std::uint32_t> known;
+    std::map<std::tuple<std::size_t, std::string, InpSet*>, std::uint32_t> known;
     for (const InpElements& block : mesh_.blocks) {
       InpSet* set = sets_.of_block(*block.block);
-      const auto [at, is_new] = known.try_emplace({inp_key(block.name), set},
+      const auto [at, is_new] = known.try_emplace({block.block->scope, inp_key(block.name), set},
                                                   static_cast<std::uint32_t>(homes_.size() + 1));
       if (is_new) homes_.push_back({&block, set});
       home_of_block_.push_back(at->second);

@@ -261,10 +261,11 @@ NodesOfBlock nodes_of(const InpBlock& block) {
 
 class Finder {
  public:
-  explicit Finder(const InpMesh& mesh) : mesh_(mesh) {}
+  Finder(const InpLines& lines, const InpMesh& mesh) : lines_(lines), mesh_(mesh) {}
 
   void look_at(const InpBlock& block) {
     block_ = &block;
+    find_offsets(block.scope, block.is_of_mesh);
     for (const InpBlock::Parameter& parameter : block.parameters) {
       const bool names_node = parameter.name.find("NODE") != std::string::npos;
       look_at(parameter.value, names_node);
@@ -318,10 +319,15 @@ class Finder {
     const std::string_view last = has_instance ? text.substr(dot + 1) : text;
     std::int64_t number = 0;
     if (to_integer(last, number)) {
-      const std::uint32_t place = mesh_.nodes.find(number);
-      if (may_be_node && place != InpNumbers::kNone && (has_instance || !needs_instance_)) {
-        result_.points.push_back({place, block_});
+      if (!may_be_node || (!has_instance && needs_instance_)) return;
+      const std::size_t instance =
+          has_instance ? lines_.find_instance(text.substr(0, dot)) : std::size_t{0};
+      if (instance != 0) {
+        const InpScope& scope = lines_.scopes[lines_.instances[instance - 1].scope];
+        if (scope.is_mesh) add_point(number, scope.most_node, scope.node_offset);
+        return;
       }
+      for (const auto& [most, offset] : offsets_) add_point(number, most, offset);
       return;
     }
     const char c = text[0];
@@ -330,9 +336,30 @@ class Finder {
     if (has_instance) result_.names.insert(inp_key(last));
   }
 
+  /// What numbers without an instance may mean: within a part its own, else those of any.
+  void find_offsets(std::size_t scope, bool is_of_mesh) {
+    offsets_.clear();
+    if (scope == 0) {
+      for (const std::size_t s : lines_.mesh_scopes) {
+        offsets_.emplace_back(lines_.scopes[s].most_node, lines_.scopes[s].node_offset);
+      }
+    } else if (is_of_mesh) {
+      offsets_.emplace_back(lines_.scopes[scope].most_node, lines_.scopes[scope].node_offset);
+    }
+  }
+
+  /// @param most  greatest number of the scope; 0: there is but one scope
+  void add_point(std::int64_t number, std::int64_t most, std::int64_t offset) {
+    if (most != 0 && (number < 1 || number > most)) return;
+    const std::uint32_t place = mesh_.nodes.find(number + offset);
+    if (place != InpNumbers::kNone) result_.points.push_back({place, block_});
+  }
+
+  const InpLines& lines_;
   const InpMesh& mesh_;
   const InpBlock* block_ = nullptr;
   bool needs_instance_ = false;
+  std::vector<std::pair<std::int64_t, std::int64_t>> offsets_;  // {most, offset}
   InpReferences result_;
 };
 
@@ -554,8 +581,9 @@ class Remarks {
 
 }  // namespace
 
-InpReferences find_references(const std::vector<const InpBlock*>& kept, const InpMesh& mesh) {
-  Finder finder(mesh);
+InpReferences find_references(const InpLines& lines, const std::vector<const InpBlock*>& kept,
+                              const InpMesh& mesh) {
+  Finder finder(lines, mesh);
   for (const InpBlock* block : kept) finder.look_at(*block);
   return finder.take();
 }

@@ -27,7 +27,8 @@ struct InpReferences {
 };
 
 /// Of each keyword only the fields that are nodes count; of an unknown one all that could be.
-InpReferences find_references(const std::vector<const InpBlock*>& kept, const InpMesh& mesh);
+InpReferences find_references(const InpLines& lines, const std::vector<const InpBlock*>& kept,
+                              const InpMesh& mesh);
 
 /// Points that must be kept, and who says so.
 struct InpPins {

@@ -49,7 +49,7 @@ std::string label_name(Label label) {
 
 bool is_set_block(const InpBlock& block) {
   const bool is_set = block.keyword == "NSET" || block.keyword == "ELSET";
-  return is_set && (!block.is_in_assembly || block.find("INSTANCE") != nullptr);
+  return is_set && block.is_of_mesh && (!block.is_in_assembly || block.find("INSTANCE") != nullptr);
 }
 
 InpSets::InpSets(const InpLines& lines, const InpMesh& mesh) : lines_(lines), mesh_(mesh) {
@@ -83,7 +83,8 @@ InpSets::InpSets(const InpLines& lines, const InpMesh& mesh) : lines_(lines), me
       InpFields fields(block);
       std::int64_t number = 0;
       while (set != nullptr && fields.next_line()) {
-        if (to_integer(fields.field(), number)) set->others.push_back(number);
+        if (!to_integer(fields.field(), number)) continue;
+        set->others.push_back(number + lines.scopes[block.scope].element_offset);
       }
     }
   }
@@ -105,32 +106,56 @@ void InpSets::add_work(std::size_t members, const InpBlock& block) {
   }
 }
 
-InpSet& InpSets::named(bool of_nodes, bool in_assembly, std::string_view name) {
-  const Key key{{of_nodes, in_assembly}, inp_key(name)};
-  const auto found = by_key_.find(key);
-  if (found != by_key_.end()) return *found->second;
+InpSet& InpSets::named(bool of_nodes, const InpBlock& block, std::string_view name) {
+  const std::size_t owner = block.is_in_assembly ? kAssembly : block.scope;
+  std::vector<InpSet*>& known = by_key_[{of_nodes, owner, inp_key(name)}];
+  for (InpSet* set : known) {
+    if (set->instance == block.instance) return *set;
+  }
   InpSet& set = all.emplace_back();
-  set.key = key.second;
+  set.key = inp_key(name);
   const bool quoted = name.size() > 1 && name.front() == '"' && name.back() == '"';
   set.name = quoted ? name.substr(1, name.size() - 2) : name;
   set.of_nodes = of_nodes;
-  return *by_key_.emplace(key, &set).first->second;
+  set.scope = block.scope;
+  set.instance = block.instance;
+  known.push_back(&set);
+  return set;
 }
 
-InpSet* InpSets::find(bool of_nodes, std::string_view name, const InpBlock& where) {
-  for (const std::string_view text : {name, without_instance(name)}) {
-    for (const bool in_assembly : {where.is_in_assembly, !where.is_in_assembly}) {
-      const auto found = by_key_.find({{of_nodes, in_assembly}, inp_key(text)});
-      if (found != by_key_.end()) return found->second;
+std::vector<InpSet*> InpSets::find_all(bool of_nodes, std::string_view name,
+                                       const InpBlock& where) const {
+  const auto look = [&](std::size_t owner, std::string_view text) -> std::vector<InpSet*> {
+    const auto found = by_key_.find({of_nodes, owner, inp_key(text)});
+    return found == by_key_.end() ? std::vector<InpSet*>() : found->second;
+  };
+  const bool is_outside = where.is_in_assembly || where.scope == 0;
+  if (!is_outside || where.instance != 0) {
+    if (auto found = look(where.scope, name); !found.empty()) return found;
+  }
+  if (auto found = look(kAssembly, name); !found.empty()) return found;
+  if (auto found = look(0, name); !found.empty()) return found;
+  const std::string_view last = without_instance(name);
+  if (last.size() < name.size()) {
+    const std::size_t instance =
+        lines_.find_instance(name.substr(0, name.size() - last.size() - 1));
+    if (instance != 0) return look(lines_.instances[instance - 1].scope, last);
+  }
+  // Where there is but one part, its names are known outside as well.
+  const std::vector<std::size_t>& scopes = lines_.mesh_scopes;
+  if (scopes.size() > 1) return {};
+  for (const std::string_view text : {name, last}) {
+    for (const std::size_t owner : {scopes.empty() ? 0 : scopes[0], kAssembly}) {
+      if (auto found = look(owner, text); !found.empty()) return found;
     }
   }
-  return nullptr;
+  return {};
 }
 
 InpSet* InpSets::of_block(const InpBlock& block) {
   const bool of_nodes = block.keyword == "NODE" || block.keyword == "NSET";
   const std::string_view name = block.value(of_nodes ? "NSET" : "ELSET");
-  return name.empty() ? nullptr : &named(of_nodes, block.is_in_assembly, name);
+  return name.empty() ? nullptr : &named(of_nodes, block, name);
 }
 
 void InpSets::read(const InpBlock& block) {
@@ -160,33 +185,50 @@ void InpSets::read_range(InpFields& fields, const InpBlock& block, InpSet& set) 
   const std::int64_t last = fields.more() ? fields.integer("the last number of a range") : first;
   const std::int64_t step = fields.more() ? fields.integer("the step of a range") : 1;
   if (step == 0) fields.fail("'0' is no step of a range: expected 1 or more");
-  const std::int64_t most = set.of_nodes ? mesh_.nodes.most() : mesh_.most_element();
+  const InpScope& scope = lines_.scopes[block.scope];
+  const std::int64_t offset = set.of_nodes ? scope.node_offset : scope.element_offset;
+  std::int64_t most = set.of_nodes ? scope.most_node : scope.most_element;
+  if (most == 0) most = set.of_nodes ? mesh_.nodes.most() : mesh_.most_element();
   if (last < first || last > most) {
     fields.fail(fmt::format("'{}' is not the last number of a range: expected {} to {}", last,
                             first, most));
   }
-  add_work(numbers(set).collect(first, last, step, set.members), block);
+  add_work(numbers(set).collect(first + offset, last + offset, step, set.members), block);
   if (set.of_nodes) return;
-  const auto begin = std::lower_bound(mesh_.others.begin(), mesh_.others.end(), first);
-  const auto end = std::upper_bound(begin, mesh_.others.end(), last);
+  const auto begin = std::lower_bound(mesh_.others.begin(), mesh_.others.end(), first + offset);
+  const auto end = std::upper_bound(begin, mesh_.others.end(), last + offset);
   add_work(static_cast<std::size_t>(end - begin), block);
   std::copy_if(begin, end, std::back_inserter(set.others),
-               [&](std::int64_t number) { return (number - first) % step == 0; });
+               [&](std::int64_t number) { return (number - offset - first) % step == 0; });
+}
+
+/// One of the same scope, and of the same instance if there is one.
+const InpSet* InpSets::find_beside(const InpSet& set, bool of_nodes, std::string_view name,
+                                   const InpBlock& where) const {
+  const InpSet* found = nullptr;
+  for (const InpSet* each : find_all(of_nodes, name, where)) {
+    if (each->scope != set.scope) continue;
+    if (found == nullptr || each->instance == set.instance) found = each;
+  }
+  return found;
 }
 
 void InpSets::read_members(InpFields& fields, const InpBlock& block, InpSet& set) {
+  const InpScope& scope = lines_.scopes[block.scope];
+  const std::int64_t offset = set.of_nodes ? scope.node_offset : scope.element_offset;
   while (fields.more()) {
     const std::string_view text = fields.field();
     if (text.empty()) continue;
     std::int64_t number = 0;
     if (to_integer(text, number)) {
-      const std::uint32_t place = numbers(set).find(number);
+      const std::uint32_t place = numbers(set).find(number + offset);
       const bool is_other =
-          !set.of_nodes && std::binary_search(mesh_.others.begin(), mesh_.others.end(), number);
+          !set.of_nodes &&
+          std::binary_search(mesh_.others.begin(), mesh_.others.end(), number + offset);
       if (place != InpNumbers::kNone) {
         set.members.push_back(place);
       } else if (is_other) {
-        set.others.push_back(number);
+        set.others.push_back(number + offset);
       } else {
         fields.fail(fmt::format("'{}' is not the number of {}: expected one of {}", number,
                                 set.of_nodes ? "a node" : "an element",
@@ -194,7 +236,7 @@ void InpSets::read_members(InpFields& fields, const InpBlock& block, InpSet& set
       }
       continue;
     }
-    const InpSet* other = find(set.of_nodes, text, block);
+    const InpSet* other = find_beside(set, set.of_nodes, text, block);
     if (other == nullptr) {
       fields.fail(
           fmt::format("{} is neither a number nor the name of a set: expected one that is "
@@ -211,7 +253,7 @@ void InpSets::read_members(InpFields& fields, const InpBlock& block, InpSet& set
 }
 
 void InpSets::add_nodes_of(const InpBlock& block, InpSet& set) {
-  const InpSet* elements = find(false, block.value("ELSET"), block);
+  const InpSet* elements = find_beside(set, false, block.value("ELSET"), block);
   if (elements == nullptr) {
     block.fail(
         fmt::format("{} is not the name of a set of elements: expected one that is defined "

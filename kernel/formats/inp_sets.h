@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct InpSet {
   std::string key;
   std::string name;  ///< as it stands there first
   bool of_nodes = false;
+  std::size_t scope = 0;               ///< of its members
+  std::size_t instance = 0;            ///< of a set of the assembly, from 1; 0: none
   std::vector<std::uint32_t> members;  ///< points, or elements of the mesh; in ascending order
   std::vector<std::int64_t> others;    ///< numbers of elements that are not in the mesh
   std::size_t unique = 0;              ///< how many of the members differ, as far as that is known
@@ -43,18 +46,27 @@ class InpSets {
 
   std::deque<InpSet> all;  ///< in the order of the deck, those of *NODE and *ELEMENT first
 
-  /// The set that a line of this block means; null if there is none. The name may have the prefix
-  /// of an instance.
-  InpSet* find(bool of_nodes, std::string_view name, const InpBlock& where);
+  /// The sets that a line of this block means, one for each instance that an assembly has one for.
+  /// The name may have the prefix of an instance.
+  std::vector<InpSet*> find_all(bool of_nodes, std::string_view name, const InpBlock& where) const;
+  /// The first of them; null if there is none.
+  InpSet* find(bool of_nodes, std::string_view name, const InpBlock& where) const {
+    const std::vector<InpSet*> found = find_all(of_nodes, name, where);
+    return found.empty() ? nullptr : found[0];
+  }
   /// The set that a *NSET, *ELSET, *NODE or *ELEMENT block adds to; null if it names none.
   InpSet* of_block(const InpBlock& block);
   /// Counts members that no number of a line names. @throws Error where they are too many
   void add_work(std::size_t members, const InpBlock& block);
 
  private:
-  using Key = std::pair<std::pair<bool, bool>, std::string>;  // of nodes, in the assembly; name
+  /// Of nodes; the scope, or none: in the assembly; name. There each instance has a set of its own.
+  using Key = std::tuple<bool, std::size_t, std::string>;
+  static constexpr std::size_t kAssembly = SIZE_MAX;
 
-  InpSet& named(bool of_nodes, bool in_assembly, std::string_view name);
+  InpSet& named(bool of_nodes, const InpBlock& block, std::string_view name);
+  const InpSet* find_beside(const InpSet& set, bool of_nodes, std::string_view name,
+                            const InpBlock& where) const;
   void read(const InpBlock& block);
   void read_range(InpFields& fields, const InpBlock& block, InpSet& set);
   void read_members(InpFields& fields, const InpBlock& block, InpSet& set);
@@ -65,7 +77,7 @@ class InpSets {
 
   const InpLines& lines_;
   const InpMesh& mesh_;
-  std::map<Key, InpSet*> by_key_;
+  std::map<Key, std::vector<InpSet*>> by_key_;
   std::size_t work_ = 0;  // members that no number of a line names
 };
 

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "kernel/formats/included_path.h"
 #include "kernel/formats/inp.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_plan.h"
@@ -99,13 +101,19 @@ class Writer {
         if (group.dimension == 0 && group.number == piece.groups[0].number) name = group.name;
       }
     }
-    const bool is_all = set.size() == mesh_.point_count() && !set.empty();
+    const bool is_alone = plan_.deck.numberings.size() == 1;
+    const std::vector<std::uint32_t> own =
+        is_alone ? std::vector<std::uint32_t>() : plan_.points_of(piece.numbering);
+    const std::size_t count = is_alone ? mesh_.point_count() : own.size();
+    const std::map<std::int64_t, std::string_view> more = more_of_nodes(piece.more);
+    const bool is_all = set.size() == count && !set.empty();
     const bool is_quoted = name.find(' ') != std::string::npos;
     if (is_quoted) name = '"' + name + '"';
     out_.put(std::string_view(piece.text).substr(0, piece.text.size() - 1));
     if (is_all) out_.put(fmt::format(", NSET={}", name));
     out_.put('\n');
-    put_rows(out_, mesh_.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
+    put_rows(out_, count, [&](std::size_t k, OutputBuffer& buffer) {
+      const std::size_t i = is_alone ? k : own[k];
       RealText memory;
       std::string long_memory;
       buffer.put_integer(plan_.point_numbers[i]);
@@ -113,11 +121,26 @@ class Writer {
         buffer.put(std::string_view(", "));
         buffer.put(real_text(mesh_.point(i)[axis], memory, long_memory));
       }
+      const auto rest = more.find(plan_.point_numbers[i]);
+      if (rest != more.end()) buffer.put(rest->second);
       buffer.put('\n');
     });
     if (set.empty() || is_all) return;
     out_.put(fmt::format("*NSET, NSET={}\n", name));
     write_numbers(set);
+  }
+
+  /// By the number of the node what stands behind its coordinates: a normal.
+  static std::map<std::int64_t, std::string_view> more_of_nodes(std::string_view lines) {
+    std::map<std::int64_t, std::string_view> more;
+    while (!lines.empty()) {
+      const std::string_view line = lines.substr(0, lines.find('\n'));
+      lines.remove_prefix(line.size() + 1);
+      const std::size_t comma = line.find(',');
+      std::int64_t number = 0;
+      if (to_integer(line.substr(0, comma), number)) more[number] = line.substr(comma);
+    }
+    return more;
   }
 
   void write_elements(const InpPiece& piece) {
@@ -174,15 +197,17 @@ class Writer {
   void write_surface(const InpPiece& piece) {
     out_.put(piece.text);
     for (const auto& [tet, face] : plan_.faces_of(piece.groups.at(0))) {
-      out_.put(fmt::format("{}, S{}\n", tet, face));
+      out_.put(fmt::format("{}{}, S{}\n", piece.instance, tet, face));
     }
     out_.put(piece.more);
   }
 
   void write_load(const InpPiece& piece) {
     for (const auto& [tet, face] : plan_.faces_of(piece.groups.at(0))) {
-      out_.put(fmt::format("{}, {}{}{}{}\n", tet, piece.type, face, piece.suffix, piece.text));
+      out_.put(fmt::format("{}{}, {}{}{}{}\n", piece.instance, tet, piece.type, face, piece.suffix,
+                           piece.text));
     }
+    out_.put(piece.more);
   }
 
   const MeshView& mesh_;
@@ -233,11 +258,8 @@ std::vector<std::string> not_in_inp(const std::filesystem::path& file, const Mes
                     rounded, kMostCharacters));
   }
   if (!has_deck) return notes;
-  const std::string folder = unpack_deck(mesh.deck).folder;
-  if (!folder.empty() &&
-      std::filesystem::absolute(file).parent_path().lexically_normal() != folder) {
-    notes.push_back(
-        fmt::format("the files of *INCLUDE stay in {}: the output lies elsewhere", folder));
+  for (std::string& note : included_files_stay(file, unpack_deck(mesh.deck).folder, "*INCLUDE")) {
+    notes.push_back(std::move(note));
   }
   return notes;
 }

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
-#include "kernel/formats/compression.h"
+#include "kernel/formats/packed_file.h"
 #include "kernel/formats/standard_stream.h"
 #include "kernel/printable.h"
 #include "platform/memory.h"
@@ -53,7 +53,7 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
     read_file(path);
   }
   size_of_file_ = size_;
-  if (is_gzip({bytes_.get(), size_})) unpack();
+  if (is_packed({bytes_.get(), size_})) unpack();
 }
 
 InputFile::InputFile(std::string name, std::string_view bytes)
@@ -96,7 +96,7 @@ void InputFile::read_file(const std::filesystem::path& path) {
 
 void InputFile::unpack() {
   try {
-    Inflated content = inflate_gzip({bytes_.get(), size_});
+    Inflated content = formats::unpack({bytes_.get(), size_});
     bytes_ = std::move(content.bytes);
     size_ = content.size;
   } catch (const Error& error) {

@@ -12,7 +12,7 @@ namespace tetmend::formats {
 
 /// The bytes of a file, read at once and not mapped: another process that shortens the file
 /// meanwhile must not end this one. A zero byte follows the last one, so that a scan for the end of
-/// a word needs no bound. Of a gzip file these are the bytes that it
+/// a word needs no bound. Of a packed file these are the bytes that it
 /// was made of, and places in it are theirs.
 class InputFile {
  public:
@@ -26,7 +26,7 @@ class InputFile {
   const char* begin() const { return bytes_.get(); }
   const char* end() const { return bytes_.get() + size_; }
   std::size_t size() const { return size_; }
-  /// Of the file itself; of a gzip file fewer than size().
+  /// Of the file itself; of a packed file fewer than size().
   std::size_t size_of_file() const { return size_of_file_; }
 
   /// "FILE:LINE" of a pointer into the file. Lines are counted only here, which keeps reading fast.

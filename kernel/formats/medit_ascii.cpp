@@ -165,6 +165,13 @@ class Reader {
     }
     const std::string_view first = text_.word();
     if (first != "MeshVersionFormatted") {
+      if (first == "MFEM") {
+        text_.fail(
+            "this is a mesh of MFEM, not of MEDIT: its own programs save it as .vtk or .vtu");
+      }
+      if (first == "%" && text_.word() == "GETFEM") {
+        text_.fail("this is a mesh of GetFEM, not of MEDIT: GetFEM exports it as .vtk or .vtu");
+      }
       text_.fail(first.empty() ? "the file is empty: expected MeshVersionFormatted"
                                : fmt::format("{} is not the beginning of a MEDIT file: expected "
                                              "MeshVersionFormatted",

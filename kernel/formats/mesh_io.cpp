@@ -24,6 +24,7 @@
 #include "kernel/formats/medit_elements.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/netgen.h"
+#include "kernel/formats/packed_file.h"
 #include "kernel/formats/room.h"
 #include "kernel/formats/standard_stream.h"
 #include "kernel/formats/su2.h"
@@ -136,13 +137,15 @@ constexpr std::array<Codec, 13> kCodecs = {
      {read_plain<formats::read_inp>, formats::write_inp, kInpRoom, false, formats::not_in_inp},
      {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},
      {read_plain<formats::read_netgen>, formats::write_netgen, kNetgenRoom},
-     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
-     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
+      formats::not_in_nastran},
+     {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
+      formats::not_in_nastran},
      {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true}}};
 
 /// Of "part.VTU.gz" that is ".vtu".
 std::string format_extension(const std::filesystem::path& file) {
-  const bool is_packed = file.extension() == ".gz";
+  const bool is_packed = formats::has_packed_name(file);
   std::string extension = (is_packed ? file.stem() : file).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -151,7 +154,7 @@ std::string format_extension(const std::filesystem::path& file) {
 
 /// Nobody packs several files one by one.
 const Codec& find_codec(const std::filesystem::path& file) {
-  const bool is_packed = file.extension() == ".gz";
+  const bool is_packed = formats::has_packed_name(file);
   const std::string extension = format_extension(file);
   std::string valid;
   for (std::size_t i = 0; i < kFormatsTable.size(); ++i) {
@@ -221,14 +224,16 @@ std::span<const std::string_view> mesh_variants(const std::filesystem::path& fil
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file) {
-  const std::string extension = file.extension() == ".gz" ? "" : format_extension(file);
+  const std::string extension = formats::has_packed_name(file) ? "" : format_extension(file);
   if (extension == ".node" || extension == ".ele") return formats::tetgen_files(file);
   if (extension == ".header") return formats::elmer_files(file);
   return {file};
 }
 
 std::vector<std::filesystem::path> source_files(const std::filesystem::path& file) {
-  if (format_extension(file) == ".inp") return formats::inp_files(file);
+  const std::string extension = format_extension(file);
+  if (extension == ".inp") return formats::inp_files(file);
+  if (extension == ".bdf" || extension == ".nas") return formats::nastran_files(file);
   return mesh_files(file);
 }
 
@@ -238,7 +243,8 @@ std::string format_name(const std::filesystem::path& file) {
       std::find_if(kFormatsTable.begin(), kFormatsTable.end(),
                    [&](const MeshFormat& format) { return format.extension == extension; });
   if (found == kFormatsTable.end()) return {};
-  return std::string(found->name) + (file.extension() == ".gz" ? ".gz" : "");
+  return std::string(found->name) +
+         (formats::has_packed_name(file) ? file.extension().string() : "");
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
@@ -247,6 +253,7 @@ void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
 }
 
 void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
+  formats::check_packing_to_write(file);
   const Codec& codec = find_codec(file);
   if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
   const formats::Room& room = codec.room;

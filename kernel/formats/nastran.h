@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/formats/element_kinds.h"
 #include "kernel/formats/tet_place.h"
@@ -17,6 +19,9 @@ namespace tetmend::formats {
 /// MeshData::variant of such a mesh.
 inline constexpr std::string_view kNastran = "Nastran";
 
+/// Characters of a number that solvers read.
+inline constexpr std::size_t kNastranRoom = 16;
+
 /// The pieces of its MeshData::deck.
 enum NastranPiece : std::size_t {
   nastran_front,     ///< what stands up to BEGIN BULK
@@ -24,6 +29,7 @@ enum NastranPiece : std::size_t {
   nastran_end,       ///< from ENDDATA on
   nastran_points,    ///< GRID cards that say more than MeshData can hold
   nastran_elements,  ///< likewise, those of elements
+  nastran_folder,    ///< that the deck lay in, if it names other files; else empty
   nastran_remarks,   ///< the last, if there are any: see deck_remarks(), each with a line break
   nastran_pieces = nastran_remarks
 };
@@ -67,12 +73,29 @@ inline bool nastran_holds(int vtk_type) {
   return false;
 }
 
-/// Fields are small, large or free. Property numbers are labels. Points that cards which are kept
-/// word for word name, or that have permanent constraints, become required vertices. @throws Error
+/// The kind of element that an element with some mid-side nodes left out is kept as.
+inline const ElementKind* nastran_first_order(const ElementKind& kind) {
+  for (const ElementKind& each : kElementKinds) {
+    if (each.dimension == kind.dimension && each.width == kind.corners) return &each;
+  }
+  return nullptr;
+}
+
+/// Fields are small, large or free. Property numbers are labels; 0 where the field is blank. Points
+/// that cards which are kept word for word name, or that have permanent constraints, become required
+/// vertices. Those of other coordinate systems are given in the basic one. Elements with some
+/// mid-side nodes left out are other elements, of first order. @throws Error
 MeshData read_nastran(const std::filesystem::path& file, TetPlace* question = nullptr);
 
-/// Writes free fields, large ones for points: a coordinate has all its digits, of which solvers
-/// read the first 16 characters. @throws Error
+/// The deck and all that it includes; the deck alone where one of them cannot be read.
+std::vector<std::filesystem::path> nastran_files(const std::filesystem::path& deck);
+
+/// Writes free fields, and for points fixed ones of 16 characters. Of a mesh that was no deck, a
+/// coordinate has all its digits, if need be in free fields. Of one that was, what a run has moved or
+/// made has as many digits as fit. @throws Error
 void write_nastran(const std::filesystem::path& file, const MeshView& mesh);
+
+/// What a deck cannot hold of a mesh, one sentence each.
+std::vector<std::string> not_in_nastran(const std::filesystem::path& file, const MeshData& mesh);
 
 }  // namespace tetmend::formats

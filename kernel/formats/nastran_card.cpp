@@ -26,50 +26,85 @@ void add(NastranCardText& card, std::string_view field) {
   card.fields.push_back(trimmed_field(field));
 }
 
-/// Fields between commas: eight, or four large ones; the next names the continuation.
-void split_free(NastranCardText& card, std::string_view line, bool is_large) {
-  const std::size_t most = is_large ? 4 : 8;
-  std::size_t at = line.find(',');
-  for (std::size_t k = 0; k < most; ++k) {
-    if (at == std::string_view::npos) {
-      add(card, {});
-      continue;
-    }
+bool is_blank(std::string_view text) {
+  return trimmed_field(text).empty();
+}
+
+/// What names a card or a continuation: up to the first comma or tab, or eight columns.
+std::string_view first_field(std::string_view line) {
+  const std::size_t end = line.find_first_of(",\t");
+  return line.substr(
+      0, end == std::string_view::npos || line[end] == '\t' ? std::min(end, kSmall) : end);
+}
+
+/// A continuation is named by what the line before ends in: "+A", or alone "+" or "*".
+bool is_mark(std::string_view field, std::string_view next_name) {
+  if (field.starts_with('+') || field.starts_with('*')) return true;
+  next_name = trimmed_field(next_name);
+  return next_name.size() > 1 && !field.empty() && next_name.substr(1) == field;
+}
+
+bool is_number(std::string_view field) {
+  std::int64_t integer = 0;
+  double real = 0;
+  return nastran_integer(field, integer) || nastran_real(field, real);
+}
+
+/// Fields between commas: eight, or four large ones; the next names the continuation. Where it does
+/// not, it is data, and so is what follows: as on lines of continuation of their own.
+void split_free(NastranCardText& card, std::string_view line, std::size_t most,
+                std::string_view next_name) {
+  const std::size_t begin = card.fields.size();
+  for (std::size_t at = line.find(','); at != std::string_view::npos;) {
     const std::size_t next = line.find(',', at + 1);
     add(card, line.substr(at + 1, next == std::string_view::npos ? next : next - at - 1));
     at = next;
   }
-}
-
-/// Fields of fixed width. A tab goes on to the next field; where one is, they are parted by tabs.
-void split_fixed(NastranCardText& card, std::string_view line, bool is_large) {
-  const std::size_t width = is_large ? 2 * kSmall : kSmall;
-  const std::size_t most = is_large ? 4 : 8;
-  if (line.find('\t') != std::string_view::npos) {
-    std::size_t at = line.find('\t');
-    for (std::size_t k = 0; k < most; ++k) {
-      const std::size_t next = at == std::string_view::npos ? at : line.find('\t', at + 1);
-      add(card,
-          at == std::string_view::npos ? std::string_view() : line.substr(at + 1, next - at - 1));
-      at = next;
+  std::size_t count = card.fields.size() - begin;
+  while (count > 0 && card.fields.back().empty()) {
+    card.fields.pop_back();
+    --count;
+  }
+  if (count > most) {
+    const auto tenth = card.fields.begin() + static_cast<std::ptrdiff_t>(begin + most);
+    const bool is_last = count == most + 1;
+    if (is_mark(*tenth, next_name) || (is_last && !is_number(*tenth))) {
+      card.fields.erase(tenth);
+      --count;
     }
-    return;
   }
-  for (std::size_t k = 0; k < most; ++k) {
-    const std::size_t begin = kSmall + k * width;
-    add(card, begin < line.size() ? line.substr(begin, width) : std::string_view());
-  }
+  const std::size_t lines = std::max<std::size_t>(1, (count + most - 1) / most);
+  card.fields.resize(begin + lines * most);
 }
 
-void split(NastranCardText& card, std::string_view whole) {
+/// Fields of fixed width; a tab goes on to the next multiple of eight columns, or ends a full field.
+void split_fixed(NastranCardText& card, std::string_view line, std::size_t width,
+                 std::size_t most) {
+  std::size_t at = 0;
+  std::size_t column = 0;
+  const auto go_to = [&](std::size_t end) {
+    const bool is_behind_full = at > 0 && at < line.size() && line[at] == '\t' &&
+                                line[at - 1] != ' ' && line[at - 1] != '\t';
+    if (is_behind_full) ++at;
+    const std::size_t begin = at;
+    for (; at < line.size() && column < end; ++at) {
+      column = line[at] == '\t' ? (column / kSmall + 1) * kSmall : column + 1;
+    }
+    return line.substr(begin, at - begin);
+  };
+  go_to(kSmall);
+  for (std::size_t k = 0; k < most; ++k) add(card, go_to(kSmall + (k + 1) * width));
+}
+
+void split(NastranCardText& card, std::string_view whole, std::string_view next_name) {
   const std::string_view line = without_comment(whole);
   const bool is_free = line.find(',') != std::string_view::npos;
-  const std::string_view name = line.substr(0, is_free ? line.find(',') : kSmall);
-  const bool is_large = name.find('*') != std::string_view::npos;
+  const bool is_large = first_field(line).find('*') != std::string_view::npos;
+  const std::size_t most = is_large ? 4 : 8;
   if (is_free) {
-    split_free(card, line, is_large);
+    split_free(card, line, most, next_name);
   } else {
-    split_fixed(card, line, is_large);
+    split_fixed(card, line, is_large ? 2 * kSmall : kSmall, most);
   }
 }
 
@@ -90,31 +125,66 @@ std::string_view NastranLines::line() {
   return {begin, static_cast<std::size_t>(next_ - begin)};
 }
 
+char NastranLines::initial() const {
+  for (const char* c = next_; c != end_ && c != next_ + kSmall && *c != '\n'; ++c) {
+    if (*c != ' ') return static_cast<char>(std::toupper(static_cast<unsigned char>(*c)));
+  }
+  return '\0';
+}
+
+void NastranLines::skip_comments() {
+  while (!at_end()) {
+    const char first = initial();
+    if (first != '$' && first != '\t' && first != '\r' && first != '\0') return;
+    NastranLines ahead = *this;
+    if (!is_blank(without_comment(ahead.line()))) return;
+    *this = ahead;
+  }
+}
+
 bool NastranLines::continues() const {
   if (at_end()) return false;
-  if (*next_ == '+' || *next_ == '*' || *next_ == ',') return true;
-  if (*next_ != ' ' && *next_ != '\t') return false;
+  const char first = initial();
+  if (first >= 'A' && first <= 'Z') return false;
+  if (*next_ == '+' || *next_ == '*') return true;
   NastranLines ahead = *this;
   const std::string_view line = without_comment(ahead.line());
-  return !trimmed_field(line).empty() && trimmed_field(line.substr(0, kSmall)).empty();
+  return is_blank(first_field(line)) || is_blank(line.substr(0, kSmall));
 }
 
 void NastranLines::read(NastranCardText& card) {
   const char* begin = next_;
   card.fields.clear();
-  const std::string_view first = line();
-  card.name = nastran_name(first);
-  split(card, first);
-  while (continues()) split(card, line());
+  card.comments.clear();
+  std::string_view present = line();
+  card.name = nastran_name(present);
+  card.text = present;
+  if (card.name.empty() && is_blank(without_comment(present))) return;
+  for (;;) {
+    NastranLines ahead = *this;
+    ahead.skip_comments();
+    const bool goes_on = ahead.continues();
+    NastranLines next = ahead;
+    const std::string_view following = goes_on ? next.line() : std::string_view();
+    split(card, present, first_field(without_comment(following)));
+    if (!goes_on) break;
+    while (next_ != ahead.next_) card.comments.push_back(line());
+    present = following;
+    *this = next;
+  }
   card.text = {begin, static_cast<std::size_t>(next_ - begin)};
 }
 
 std::string nastran_name(std::string_view line) {
-  std::string_view name = without_comment(line.substr(0, kSmall));
-  name = name.substr(0, name.find_first_of(",*\t"));
-  std::string capitals(trimmed_field(name));
-  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return capitals;
+  std::size_t begin = 0;
+  while (begin < std::min(kSmall, line.size()) && line[begin] == ' ') ++begin;
+  if (begin == kSmall) return {};
+  // A name may stand behind blanks, in free fields also beyond the first eight columns.
+  const bool is_free = begin > 0 && line.find(',') != std::string_view::npos;
+  const std::string_view rest = line.substr(begin, is_free ? kSmall : kSmall - begin);
+  std::string name(rest.substr(0, rest.find_first_of(" ,*$\t\r\n\v\f")));
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
 }
 
 bool nastran_integer(std::string_view field, std::int64_t& value) {

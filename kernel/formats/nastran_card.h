@@ -12,11 +12,12 @@
 
 namespace tetmend::formats {
 
-/// A card with its continuations. Fields are views into the file.
+/// A card with its continuations. All are views into the file.
 struct NastranCardText {
-  std::string name;                      ///< in capitals, without '*'
-  std::string_view text;                 ///< all lines, with the last line break
-  std::vector<std::string_view> fields;  ///< behind the name, trimmed
+  std::string name;                        ///< in capitals, without '*'
+  std::string_view text;                   ///< all lines, with the last line break
+  std::vector<std::string_view> fields;    ///< behind the name, trimmed
+  std::vector<std::string_view> comments;  ///< lines of these that stand within the card
 
   std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : ""; }
 };
@@ -30,17 +31,24 @@ class NastranLines {
   const char* position() const { return next_; }
   /// The next line, with its break.
   std::string_view line();
-  /// True if the next line goes on with the card before.
-  bool continues() const;
-  /// The card that begins here.
+  /// The letter that the next line begins with, as a capital; else what stands there, and '\0' where
+  /// the first of its eight columns that are a field have nothing.
+  char initial() const;
+  /// The card that begins here, with its continuations, also behind comments and blank lines. One of
+  /// these is a card of its own, without a name or fields.
   void read(NastranCardText& card);
 
  private:
+  /// Goes to the next line that says something.
+  void skip_comments();
+  bool continues() const;
+
   const char* next_;
   const char* end_;
 };
 
-/// The name of the card that a line begins, in capitals; empty for a comment or a blank line.
+/// The name of the card that a line begins, in capitals; empty for a comment, a blank line and a
+/// continuation without a name.
 std::string nastran_name(std::string_view line);
 
 std::string_view trimmed_field(std::string_view text);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Reads Nastran's bulk data in two passes: points, then all that names points.
 #include <algorithm>
-#include <array>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/gmsh_tags.h"
@@ -18,8 +20,9 @@
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
 #include "kernel/formats/nastran_references.h"
+#include "kernel/formats/nastran_sources.h"
+#include "kernel/formats/nastran_systems.h"
 #include "kernel/formats/pin_remarks.h"
-#include "kernel/formats/text_reader.h"
 
 namespace tetmend::formats {
 namespace {
@@ -54,34 +57,29 @@ std::vector<std::pair<Number, Number>> merged(std::vector<std::pair<Number, Numb
 
 class Reader {
  public:
-  Reader(const InputFile& file, TetPlace* question)
-      : file_(file),
-        text_(file, TextReader::kNoComments),
-        question_(question),
-        begin_(file.begin()),
-        end_(file.end()),
-        sorter_(mesh_) {}
+  Reader(const std::filesystem::path& file, TetPlace* question)
+      : path_(file), sources_(file), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
-    if (text_.at_end()) text_.fail("the file is empty: expected bulk data");
-    find_bulk();
+    if (sources_.deck().size() == 0) fail_at_end("the file is empty: expected bulk data");
+    mesh_.notes = sources_.notes();
     mesh_.deck.resize(nastran_pieces);
-    mesh_.deck[nastran_front].assign(file_.begin(), begin_);
-    mesh_.deck[nastran_end].assign(end_, file_.end());
+    mesh_.deck[nastran_front] = sources_.front();
+    mesh_.deck[nastran_end] = sources_.end();
     if (mesh_.deck[nastran_end].empty()) {
-      if (!mesh_.deck[nastran_front].empty()) {
-        file_.fail_at_line(end_, "the file ends where ENDDATA is expected");
-      }
       mesh_.notes.emplace_back("the bulk data have no ENDDATA: is the file complete?");
     }
     read_points();
     if (mesh_.points.empty() && mesh_.deck[nastran_end].empty()) {
-      file_.fail_at_line(end_, "the file has no points: expected GRID");
+      fail_at_end("the file has no points: expected GRID");
     }
+    place_points();
     read_rest();
     check_numbers();
+    label_blank_properties();
     require_points();
-    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n", "", ""}) {
+    note_partial();
+    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n", "", "", ""}) {
       mesh_.deck.clear();  // the writer's own
     }
     mesh_.variant = kNastran;
@@ -89,28 +87,15 @@ class Reader {
   }
 
  private:
-  /// The bulk goes from behind BEGIN BULK, or the beginning, to ENDDATA, or the end.
-  void find_bulk() {
-    NastranLines lines(file_.begin(), file_.end());
-    bool begun = false;
-    while (!lines.at_end()) {
-      const char* begin = lines.position();
-      const std::string_view line = lines.line();
-      if (line[0] != 'B' && line[0] != 'b' && line[0] != 'E' && line[0] != 'e') continue;
-      const std::string name = nastran_name(line);
-      if (!begun && name.starts_with("BEGIN")) {
-        begin_ = lines.position();
-        begun = true;
-      }
-      if (name == "ENDDATA") {
-        end_ = begin;
-        return;
-      }
-    }
+  [[noreturn]] void fail_at_end(std::string_view reason) const {
+    const InputFile& deck = sources_.deck();
+    deck.fail_at_line(sources_.end().empty() ? deck.end() : sources_.end().data(), reason);
   }
-
+  [[noreturn]] void fail_at(const char* place, std::string_view reason) const {
+    sources_.file_of(place).fail_at_line(place, reason);
+  }
   [[noreturn]] void fail(std::string_view where, std::string_view reason) const {
-    file_.fail_at_line(where.empty() ? card_.text.data() : where.data(), reason);
+    fail_at(where.empty() ? card_.text.data() : where.data(), reason);
   }
 
   /// A field that must be an integer from `low` to `high`.
@@ -134,42 +119,57 @@ class Reader {
     return true;
   }
 
+  // ---- Points -------------------------------------------------------------------------------------
+
   void read_points() {
-    NastranLines lines(begin_, end_);
-    while (!lines.at_end()) {
-      const char first = *lines.position();
-      if ((first != 'G' && first != 'g') || !is_point(lines)) {
-        lines.line();
-        continue;
+    for (const NastranStretch& stretch : sources_.stretches()) {
+      if (stretch.includes != 0) continue;
+      NastranLines lines(stretch.begin, stretch.end);
+      while (!lines.at_end()) {
+        NastranLines ahead = lines;
+        const char first = lines.initial();
+        const std::string name = first == 'G' || first == 'C' ? nastran_name(ahead.line()) : "";
+        if (name != "GRID" && name != "GRDSET" && !name.starts_with("CORD")) {
+          lines.line();
+          continue;
+        }
+        lines.read(card_);
+        if (name == "GRID") {
+          read_point();
+        } else if (name == "GRDSET") {
+          if (!card_.field(1).empty()) default_system_ = read_system(1);
+        } else {
+          read_definition();
+        }
       }
-      lines.read(card_);
-      read_point();
     }
+    number_points();
+  }
+
+  void number_points() {
     std::vector<std::int64_t>& numbers = mesh_.point_numbers;
     order_ = ascending_order(numbers);
     std::vector<std::int64_t> ascending(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) ascending[i] = numbers[order_[i]];
     for (std::size_t i = 1; i < order_.size(); ++i) {
       if (ascending[i] != ascending[i - 1]) continue;
-      file_.fail_at_line(
-          places_[order_[i]],
-          fmt::format("the number '{}' of a point appears for the second time", ascending[i]));
+      fail_at(places_[order_[i]],
+              fmt::format("the number '{}' of a point appears for the second time", ascending[i]));
     }
-    places_ = {};
     tags_ = GmshTags(std::move(ascending));
   }
-
-  static bool is_point(NastranLines lines) { return nastran_name(lines.line()) == "GRID"; }
 
   void read_point() {
     if (mesh_.points.size() == kMostVertices) fail({}, "too many points");
     mesh_.point_numbers.push_back(integer(0, "the number of a point", 1, INT64_MAX));
-    if (const std::string_view system = card_.field(1); !system.empty()) {
-      integer(1, "the coordinate system 0: points in others cannot be read", 0, 0);
-    }
+    const std::int64_t system = card_.field(1).empty() ? 0 : read_system(1);
+    if (system != 0) waiting_[static_cast<std::uint32_t>(mesh_.points.size())] = system;
     Point& point = mesh_.points.emplace_back();
+    bool is_long = false;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = card_.field(2 + static_cast<std::size_t>(axis));
+      is_long =
+          is_long || field.size() + (field.find('.') == std::string_view::npos) > kNastranRoom;
       point[axis] = 0;
       if (!field.empty() && !nastran_real(field, point[axis])) {
         fail(field,
@@ -177,7 +177,7 @@ class Reader {
       }
     }
     places_.push_back(card_.text.data());
-    if (is_blank(5)) return;
+    if (is_blank(5) && !is_long && system == 0) return keep_comments();
     mesh_.deck[nastran_points] += lines_of(card_.text);
     // Output coordinates, constraints, superelement: only constraints mean the place.
     std::int64_t components = 0;
@@ -187,6 +187,55 @@ class Reader {
       const std::int64_t number = mesh_.point_numbers.back();
       add_pins({{{number, number}}, true});
     }
+  }
+
+  std::int64_t read_system(std::size_t field) {
+    return integer(field, "the number of a coordinate system", 0, INT64_MAX);
+  }
+
+  void read_definition() {
+    try {
+      systems_.add(card_);
+    } catch (const NastranSystems::Failure& failure) {
+      fail_at(failure.place, failure.reason);
+    }
+  }
+
+  /// GRDSET means all points whose own field is blank. It may stand behind them.
+  void apply_default_system() {
+    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+      NastranLines(places_[i], sources_.file_of(places_[i]).end()).read(card_);
+      if (!card_.field(1).empty()) continue;
+      waiting_[i] = default_system_;
+      if (is_blank(5)) mesh_.deck[nastran_points] += lines_of(card_.text);
+    }
+  }
+
+  /// From the systems that they are given in to the basic one.
+  void place_points() {
+    if (default_system_ != 0) apply_default_system();
+    if (waiting_.empty()) return;
+    for (std::uint32_t i = 0; i < places_.size(); ++i) place_point(i);
+  }
+
+  void place_point(std::uint32_t i) {
+    const auto waiting = waiting_.find(i);
+    if (waiting == waiting_.end()) return;
+    const std::int64_t system = waiting->second;
+    try {
+      const NastranSystem& found =
+          systems_.find(system, [this](std::int64_t number) -> const Point* {
+            const std::uint32_t point = find_point(number);
+            if (point == GmshTags::kNone) return nullptr;
+            place_point(point);
+            return &mesh_.points[point];
+          });
+      mesh_.points[i] = found.to_basic(mesh_.points[i]);
+    } catch (const NastranSystems::Failure& failure) {
+      fail_at(failure.place == nullptr ? places_[i] : failure.place, failure.reason);
+    }
+    if (!mesh_.points[i].allFinite()) fail_at(places_[i], "the point lies beyond all numbers");
+    waiting_.erase(i);
   }
 
   static std::string lines_of(std::string_view text) {
@@ -201,25 +250,47 @@ class Reader {
     return found == GmshTags::kNone ? found : order_[found];
   }
 
+  // ---- Elements and all else ----------------------------------------------------------------------
+
   void read_rest() {
-    NastranLines lines(begin_, end_);
-    while (!lines.at_end()) {
-      const char first = *lines.position();
-      if (first == '$') {
-        mesh_.deck[nastran_cards] += lines_of(lines.line());
+    for (const NastranStretch& stretch : sources_.stretches()) {
+      is_written_ = sources_.is_inlined(stretch.inclusion);
+      NastranLines lines(stretch.begin, stretch.end);
+      if (stretch.includes != 0) {
+        if (is_written_ && !sources_.is_inlined(stretch.includes)) keep_include(stretch);
         continue;
       }
-      if ((first == 'G' || first == 'g') && is_point(lines)) {
-        lines.read(card_);
-        continue;
-      }
-      lines.read(card_);
-      if (card_.name.empty() || first == '+') {
-        if (first == '+' || !is_blank(0))
-          fail({}, "a continuation without a card: expected the name of a card");
-        continue;
-      }
-      if (!read_element()) keep_card();
+      while (!lines.at_end()) read_card(lines);
+    }
+  }
+
+  void keep_include(const NastranStretch& stretch) {
+    keep({stretch.begin, static_cast<std::size_t>(stretch.end - stretch.begin)});
+    mesh_.deck[nastran_folder] =
+        std::filesystem::absolute(path_).parent_path().lexically_normal().string();
+  }
+
+  void read_card(NastranLines& lines) {
+    const char first = *lines.position();
+    if (first == '$') return keep(lines.line());
+    lines.read(card_);
+    if (card_.name == "GRID") return;
+    if (card_.name.empty() || first == '+') {
+      if (first == '+' || !is_blank(0))
+        fail({}, "a continuation without a card: expected the name of a card");
+      return;
+    }
+    if (!read_element()) keep_card();
+  }
+
+  /// In a file whose INCLUDE stays, lines stay as well.
+  void keep(std::string_view text) {
+    if (is_written_) mesh_.deck[nastran_cards] += lines_of(text);
+  }
+  /// Of a card that is written anew.
+  void keep_comments() {
+    for (const std::string_view line : card_.comments) {
+      if (!trimmed_field(line).empty()) keep(line);
     }
   }
 
@@ -229,31 +300,64 @@ class Reader {
     if (std::none_of(kNastranCards.begin(), kNastranCards.end(), is_ours)) return false;
     const bool is_volume = card_.name != "CTRIA3" && card_.name != "CTRIA6" &&
                            card_.name != "CQUAD4" && card_.name != "CQUAD8";
-    std::size_t nodes = 0;
     row_.kind = nullptr;
+    std::size_t nodes = 0;
     for (const NastranCard& card : kNastranCards) {
-      const std::size_t width = element_kind(card.vtk_type)->width;
+      const ElementKind& kind = *element_kind(card.vtk_type);
       if (is_ours(card) && (row_.kind == nullptr || !is_blank(2 + nodes))) {
-        row_.kind = element_kind(card.vtk_type);
-        nodes = width;
+        row_.kind = &kind;
+        nodes = kind.width;
       }
     }
     row_.place = card_.text.data();
     row_.number = integer(0, "the number of an element", 1, INT64_MAX);
     row_.label = card_.field(1).empty()
-                     ? static_cast<Label>(integer(0, "the number of a property", 1, INT32_MAX))
+                     ? 0
                      : static_cast<Label>(integer(1, "the number of a property", 0, INT32_MAX));
-    read_nodes();
     if (is_volume && !is_blank(2 + nodes)) {
       fail(card_.field(2 + nodes),
            fmt::format("{} has more than {} points: expected none of higher order", card_.name,
                        nodes));
     }
-    sorter_.add(row_, true);
-    elements_.emplace_back(row_.number, row_.place);
-    answer(question_, mesh_, text_, row_);
-    if (!is_blank(2 + nodes)) mesh_.deck[nastran_elements] += lines_of(card_.text);
+    const bool is_partial = leaves_out_nodes();
+    if (is_partial) {
+      ++partial_[card_.name];
+      row_.kind = nastran_first_order(*row_.kind);
+    }
+    read_nodes();
+    add_element(is_partial);
+    if (card_.field(1).empty()) without_property_.push_back(elements_.back());
+    if (is_partial || !is_blank(2 + nodes)) {
+      mesh_.deck[nastran_elements] += lines_of(card_.text);
+    } else {
+      keep_comments();
+    }
     return true;
+  }
+
+  /// Some mid-side nodes, not all: Nastran has straight edges there.
+  bool leaves_out_nodes() const {
+    for (std::size_t k = row_.kind->corners; k < row_.kind->width; ++k) {
+      if (card_.field(2 + k).empty()) return true;
+    }
+    return false;
+  }
+
+  /// A tet that leaves out nodes stays as it is: it is no tet of the mesh.
+  void add_element(bool is_partial) {
+    if (is_partial && row_.kind->vtk_type == vtk_tet) {
+      OtherElements& others = sorter_.others(*row_.kind);
+      others.vertices.insert(others.vertices.end(), row_.vertices.begin(),
+                             row_.vertices.begin() + 4);
+      others.labels.push_back(row_.label);
+      others.numbers.push_back(row_.number);
+    } else {
+      sorter_.add(row_, true);
+      const bool is_asked = question_ != nullptr && row_.kind->vtk_type == vtk_tet &&
+                            mesh_.tets.size() == question_->tet + 1;
+      if (is_asked) question_->place = sources_.file_of(row_.place).line_place(row_.place);
+    }
+    elements_.push_back({row_.number, row_.kind->vtk_type, row_.place});
   }
 
   void read_nodes() {
@@ -269,29 +373,71 @@ class Reader {
     }
   }
 
+  /// Solvers want numbers that no two elements share; we need it of those of one kind.
   void check_numbers() {
-    const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto less = [](const Element& a, const Element& b) { return a.number < b.number; };
     if (!std::is_sorted(elements_.begin(), elements_.end(), less)) {
       std::stable_sort(elements_.begin(), elements_.end(), less);
     }
-    const auto same =
-        std::adjacent_find(elements_.begin(), elements_.end(),
-                           [](const auto& a, const auto& b) { return a.first == b.first; });
-    if (same == elements_.end()) return;
-    file_.fail_at_line(
-        std::next(same)->second,
-        fmt::format("the number '{}' of an element appears for the second time", same->first));
+    std::size_t shared = 0;
+    for (std::size_t i = 1; i < elements_.size(); ++i) {
+      for (std::size_t k = i; k-- > 0 && elements_[k].number == elements_[i].number;) {
+        if (nastran_first_order(*element_kind(elements_[k].vtk_type)) !=
+            nastran_first_order(*element_kind(elements_[i].vtk_type))) {
+          ++shared;
+          continue;
+        }
+        fail_at(elements_[i].place,
+                fmt::format("the number '{}' of an element appears for the second time",
+                            elements_[i].number));
+      }
+    }
+    if (shared == 0) return;
+    mesh_.notes.push_back(fmt::format(
+        "{} elements have the number of one of another kind: both are kept, which solvers refuse",
+        shared));
+  }
+
+  /// A blank field means the property with the number of the element, if there is one.
+  void label_blank_properties() {
+    if (properties_.empty() || without_property_.empty()) return;
+    std::map<std::pair<int, std::int64_t>, Label> labels;
+    for (const Element& element : without_property_) {
+      if (!properties_.contains(element.number)) continue;
+      labels[{element.vtk_type, element.number}] = static_cast<Label>(element.number);
+    }
+    if (labels.empty()) return;
+    const auto give = [&](int type, auto& elements, const std::vector<std::int64_t>& numbers) {
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto found = labels.find({type, numbers[i]});
+        if (found != labels.end()) elements[i].label = found->second;
+      }
+    };
+    give(vtk_tet, mesh_.tets, mesh_.tet_numbers);
+    give(vtk_triangle, mesh_.triangles, mesh_.triangle_numbers);
+    for (OtherElements& others : mesh_.other_elements) {
+      for (std::size_t i = 0; i < others.numbers.size(); ++i) {
+        const auto found = labels.find({others.vtk_type, others.numbers[i]});
+        if (found != labels.end()) others.labels[i] = found->second;
+      }
+    }
+  }
+
+  void note_partial() {
+    for (const auto& [name, count] : partial_) {
+      mesh_.notes.push_back(fmt::format(
+          "{} {} leave out some of their mid-side nodes: they stay as they are, and where they are",
+          count, name));
+    }
   }
 
   void keep_card() {
-    if (card_.name == "GRDSET" && !card_.field(1).empty()) {
-      integer(1, "the coordinate system 0: points in others cannot be read", 0, 0);
+    keep(card_.text);
+    std::int64_t number = 0;
+    if (card_.name.starts_with('P') && nastran_integer(card_.field(0), number) && number > 0 &&
+        number <= INT32_MAX) {
+      properties_.insert(number);
     }
-    if (card_.name == "INCLUDE") {
-      mesh_.notes.push_back(
-          fmt::format("what {} includes is not read", in_quotes(trimmed_field(card_.text))));
-    }
-    mesh_.deck[nastran_cards] += lines_of(card_.text);
     if (names_elements(card_.name) && element_cards_.insert(card_.name).second) {
       mesh_.notes.push_back(fmt::format(
           "the card {} names elements: where improving replaces them it must be made anew",
@@ -333,7 +479,9 @@ class Reader {
         all.emplace_back(begin, end);
         count += end - begin;
       }
-      if (count > 0) remarks.push_back({&file_, pins.first, pins.cards, who(name, pins), count});
+      if (count > 0)
+        remarks.push_back(
+            {&sources_.file_of(pins.first), pins.first, pins.cards, who(name, pins), count});
     }
     std::vector<bool> is_required(order_.size(), false);
     for (const auto& [begin, end] : merged(std::move(all))) {
@@ -353,18 +501,30 @@ class Reader {
     return pins.is_known ? name : name + ", a card whose fields are not known,";
   }
 
-  const InputFile& file_;
-  TextReader text_;  // for errors
+  /// As it stands in the deck.
+  struct Element {
+    std::int64_t number;
+    int vtk_type;
+    const char* place;
+  };
+
+  std::filesystem::path path_;
+  NastranSources sources_;
   TetPlace* question_;
-  const char* begin_;
-  const char* end_;
   MeshData mesh_;
   ElementSorter sorter_;
   NastranCardText card_;
   ElementRow row_;
-  std::vector<const char*> places_;                             // of points
-  std::vector<std::pair<std::int64_t, const char*>> elements_;  // number and place
-  std::vector<std::uint32_t> order_;                            // in which their numbers ascend
+  bool is_written_ = true;           // what is read now is written again, line by line
+  std::vector<const char*> places_;  // of points
+  std::vector<Element> elements_;
+  std::vector<Element> without_property_;
+  std::set<std::int64_t> properties_;           // their numbers
+  std::map<std::string, std::size_t> partial_;  // elements that leave out nodes, by card
+  NastranSystems systems_;
+  std::int64_t default_system_ = 0;
+  std::unordered_map<std::uint32_t, std::int64_t> waiting_;  // points not placed yet: their systems
+  std::vector<std::uint32_t> order_;                         // in which their numbers ascend
   GmshTags tags_;
   std::map<std::string, Pins> pins_;  // by the name of the card
   std::set<std::string> element_cards_;
@@ -373,8 +533,17 @@ class Reader {
 }  // namespace
 
 MeshData read_nastran(const std::filesystem::path& file, TetPlace* question) {
-  const InputFile input(file);
-  return Reader(input, question).read();
+  return Reader(file, question).read();
+}
+
+std::vector<std::filesystem::path> nastran_files(const std::filesystem::path& deck) {
+  try {
+    std::vector<std::filesystem::path> files = NastranSources(deck).files();
+    files.front() = deck;  // of standard input, too
+    return files;
+  } catch (const Error&) {
+    return {deck};
+  }
 }
 
 }  // namespace tetmend::formats

@@ -11,9 +11,12 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/element_rows.h"
+#include "kernel/formats/included_path.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
+#include "kernel/formats/nastran_systems.h"
 #include "kernel/formats/new_numbers.h"
 #include "kernel/formats/output_rows.h"
 
@@ -21,15 +24,63 @@ namespace tetmend::formats {
 namespace {
 
 /// Reals have a point.
-void put_nastran_real(OutputBuffer& buffer, double value) {
+std::string with_all_digits(double value) {
   std::array<char, 32> text{};
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-  const std::string_view digits(text.data(), static_cast<std::size_t>(end - text.data()));
+  std::string digits(text.data(), static_cast<std::size_t>(end - text.data()));
   const std::size_t exponent = std::min(digits.find('e'), digits.size());
-  buffer.put(digits.substr(0, exponent));
-  if (digits.find('.') == std::string_view::npos) buffer.put('.');
-  buffer.put(digits.substr(exponent));
+  if (digits.find('.') == std::string::npos) digits.insert(exponent, 1, '.');
+  return digits;
 }
+
+/// "1.25e-01" as ".125" or "1.25-1", in as few characters as possible.
+std::string short_form(std::string_view scientific) {
+  const std::size_t e = scientific.find('e');
+  const int exponent = std::stoi(std::string(scientific.substr(e + 1)));
+  std::string digits(scientific.substr(0, e));
+  std::erase(digits, '.');
+  const std::string sign = digits[0] == '-' ? "-" : "";
+  digits.erase(0, sign.size());
+  digits.erase(std::max<std::size_t>(1, digits.find_last_not_of('0') + 1));
+  const std::string with_exponent =
+      fmt::format("{}{}.{}{:+}", sign, digits.substr(0, 1), digits.substr(1), exponent);
+  constexpr int kRoom = static_cast<int>(kNastranRoom);
+  if (exponent < -kRoom || exponent >= kRoom) return with_exponent;
+  if (exponent < 0) {
+    digits.insert(0, "." + std::string(static_cast<std::size_t>(-exponent - 1), '0'));
+  } else {
+    const auto whole = static_cast<std::size_t>(exponent) + 1;
+    if (digits.size() < whole) digits.append(whole - digits.size(), '0');
+    digits.insert(whole, ".");
+  }
+  digits.insert(0, sign);
+  return digits.size() <= with_exponent.size() ? digits : with_exponent;
+}
+
+/// The same number in the room that a solver reads; empty if it needs more.
+std::string in_room(double value) {
+  std::string text = with_all_digits(value);
+  if (text.size() <= kNastranRoom) return text;
+  std::array<char, 32> memory{};
+  const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
+                                          std::chars_format::scientific);
+  text = short_form({memory.data(), static_cast<std::size_t>(end - memory.data())});
+  return text.size() <= kNastranRoom ? text : std::string();
+}
+
+/// The nearest number that has room.
+std::string rounded_to_room(double value) {
+  constexpr int kMostDigits = 15;
+  for (int digits = kMostDigits; digits > 0; --digits) {
+    std::string text = short_form(fmt::format("{:.{}e}", value, digits - 1));
+    double again = 0;  // the greatest numbers must not be rounded up
+    if (text.size() <= kNastranRoom && nastran_real(text, again)) return text;
+  }
+  return with_all_digits(value);
+}
+
+/// What elements of one number have to tell them apart: dimension, and number of corners.
+using Corners = std::pair<int, std::size_t>;
 
 /// Cards of points or elements that are kept word for word, by number. The text must outlive it.
 class WholeCards {
@@ -41,22 +92,40 @@ class WholeCards {
     while (!lines.at_end()) {
       lines.read(card);
       std::int64_t number = 0;
-      if (nastran_integer(card.field(0), number)) cards_.emplace_back(number, card.text);
+      if (!nastran_integer(card.field(0), number)) continue;
+      cards_.push_back({number, corners_of(card.name), card.text});
     }
     std::stable_sort(cards_.begin(), cards_.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+                     [](const Card& a, const Card& b) { return a.number < b.number; });
   }
 
   /// Empty if there is none.
-  std::string_view of(std::int64_t number) const {
-    const auto found =
+  std::string_view of(std::int64_t number, Corners corners = {}) const {
+    auto found =
         std::lower_bound(cards_.begin(), cards_.end(), number,
-                         [](const auto& card, std::int64_t of) { return card.first < of; });
-    return found == cards_.end() || found->first != number ? std::string_view() : found->second;
+                         [](const Card& card, std::int64_t of) { return card.number < of; });
+    for (; found != cards_.end() && found->number == number; ++found) {
+      if (found->corners == corners) return found->text;
+    }
+    return {};
   }
 
  private:
-  std::vector<std::pair<std::int64_t, std::string_view>> cards_;
+  struct Card {
+    std::int64_t number;
+    Corners corners;
+    std::string_view text;
+  };
+
+  static Corners corners_of(std::string_view name) {
+    for (const NastranCard& card : kNastranCards) {
+      if (card.name == name)
+        return {element_kind(card.vtk_type)->dimension, element_kind(card.vtk_type)->corners};
+    }
+    return {};
+  }
+
+  std::vector<Card> cards_;
 };
 
 /// The largest numbers of points and of elements in the cards that are kept.
@@ -89,7 +158,8 @@ class Writer {
   Writer(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {
     const MeshData* data = mesh.data();
-    if (data != nullptr && data->variant == kNastran && data->deck.size() >= nastran_pieces) {
+    was_deck_ = data != nullptr && data->variant == kNastran;
+    if (was_deck_ && data->deck.size() >= nastran_pieces) {
       deck_ = &data->deck;
       points_of_deck_ = WholeCards((*deck_)[nastran_points]);
       elements_of_deck_ = WholeCards((*deck_)[nastran_elements]);
@@ -101,6 +171,7 @@ class Writer {
     number_points();
     number_elements();
     number_properties();
+    find_systems();
     out_.put(deck_ == nullptr ? "BEGIN BULK\n" : (*deck_)[nastran_front]);
     write_points();
     for (std::size_t k = 0; k < lists_.all().size(); ++k) write_elements(k);
@@ -145,7 +216,8 @@ class Writer {
       }
     }
     std::sort(known.begin(), known.end());
-    const bool differ = std::adjacent_find(known.begin(), known.end()) == known.end();
+    // Those of a deck differ among the elements of each kind.
+    const bool differ = was_deck_ || std::adjacent_find(known.begin(), known.end()) == known.end();
     if (differ && !known.empty()) most = std::max(most, known.back());
     if (!differ) known.clear();
     NewNumbers new_ones = new_numbers(most, known);
@@ -157,7 +229,7 @@ class Writer {
     }
   }
 
-  /// Properties count from 1: other labels get the next numbers.
+  /// Properties count from 1: other labels get the next numbers. In a deck 0 is a blank field.
   void number_properties() {
     std::set<Label> labels;
     for (const ElementList& list : lists_.all()) {
@@ -170,9 +242,48 @@ class Writer {
     Label next = 0;
     for (const Label label : labels) {
       if (label > 0) break;
+      if (label == 0 && was_deck_) continue;
       while (labels.contains(++next)) {
       }
       properties_[label] = next;
+    }
+  }
+
+  /// Of the cards that are kept: where points that move are written in another system.
+  void find_systems() {
+    if (deck_ == nullptr) return;
+    NastranSystems systems;
+    std::set<std::int64_t> used;
+    NastranCardText card;
+    for (const NastranPiece piece : {nastran_cards, nastran_points}) {
+      const std::string& text = (*deck_)[piece];
+      NastranLines lines(text.data(), text.data() + text.size());
+      while (!lines.at_end()) {
+        lines.read(card);
+        systems.add(card);
+        std::int64_t number = 0;
+        if ((card.name == "GRID" || card.name == "GRDSET") &&
+            nastran_integer(card.field(1), number)) {
+          used.insert(number);
+          if (card.name == "GRDSET") default_system_ = number;
+        }
+      }
+    }
+    if (systems.is_empty()) return;
+    std::map<std::int64_t, Point> points;
+    const auto point_of = [&](std::int64_t number) -> const Point* {
+      if (points.empty()) {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+          points.emplace(points_[i], mesh_.point(i));
+        }
+      }
+      const auto found = points.find(number);
+      return found == points.end() ? nullptr : &found->second;
+    };
+    try {
+      for (const std::int64_t number : used) systems_[number] = systems.find(number, point_of);
+    } catch (const NastranSystems::Failure& failure) {
+      throw Error(failure.reason);
     }
   }
 
@@ -181,33 +292,59 @@ class Writer {
       const std::string_view known = points_of_deck_.of(points_[i]);
       NastranCardText card;
       if (!known.empty()) NastranLines(known.data(), known.data() + known.size()).read(card);
-      if (!known.empty() && stands_at(card, mesh_.point(i))) return buffer.put(known);
-      buffer.put("GRID*,");
-      buffer.put_integer(points_[i]);
-      buffer.put(",,");
-      put_nastran_real(buffer, mesh_.point(i)[0]);
-      buffer.put(',');
-      put_nastran_real(buffer, mesh_.point(i)[1]);
-      buffer.put("\n*,");
-      put_nastran_real(buffer, mesh_.point(i)[2]);
-      // What else the card of a point that moved says: fields 7 to 9.
-      for (std::size_t k = 5; k < 8 && !known.empty(); ++k) {
-        buffer.put(',');
-        buffer.put(card.field(k));
-      }
-      buffer.put('\n');
+      const NastranSystem& system = known.empty() ? basic_ : system_of(card);
+      if (!known.empty() && stands_at(card, system, mesh_.point(i))) return buffer.put(known);
+      put_point(buffer, i, card, system.from_basic(mesh_.point(i)));
     });
   }
 
+  /// In which a point of the deck is given.
+  const NastranSystem& system_of(const NastranCardText& card) const {
+    std::int64_t number = 0;
+    if (!nastran_integer(card.field(1), number)) number = default_system_;
+    const auto found = systems_.find(number);
+    return found == systems_.end() ? basic_ : found->second;
+  }
+
+  /// @param card the old one of a point that moved; else it has no fields
+  void put_point(OutputBuffer& buffer, std::size_t i, const NastranCardText& card,
+                 const Point& coordinates) const {
+    std::vector<std::string> fields = {fmt::format("{}", points_[i]), std::string(card.field(1))};
+    if (card.fields.empty() && default_system_ != 0) fields[1] = "0";
+    for (int axis = 0; axis < 3; ++axis) {
+      std::string text = in_room(coordinates[axis]);
+      if (text.empty()) {
+        text = was_deck_ ? rounded_to_room(coordinates[axis]) : with_all_digits(coordinates[axis]);
+      }
+      fields.push_back(std::move(text));
+    }
+    for (std::size_t k = 5; k < 8; ++k) fields.emplace_back(card.field(k));
+    while (fields.size() > 5 && fields.back().empty()) fields.pop_back();
+    const bool is_fixed = std::all_of(fields.begin(), fields.end(), [](const std::string& field) {
+      return field.size() <= kNastranRoom;
+    });
+    buffer.put(std::string_view(is_fixed ? "GRID*   " : "GRID*"));
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      if (k == 4) buffer.put(std::string_view(is_fixed ? "\n*       " : "\n*"));
+      if (is_fixed) {
+        buffer.put(std::string(kNastranRoom - fields[k].size(), ' '));
+      } else {
+        buffer.put(',');
+      }
+      buffer.put(fields[k]);
+    }
+    buffer.put('\n');
+  }
+
   /// True if the card says just this place.
-  static bool stands_at(const NastranCardText& card, const Point& point) {
+  static bool stands_at(const NastranCardText& card, const NastranSystem& system,
+                        const Point& point) {
+    Point place = Point::Zero();
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = card.field(2 + static_cast<std::size_t>(axis));
-      double value = 0;
-      if (!field.empty() && !nastran_real(field, value)) return false;
-      if (value != point[axis]) return false;
+      if (!field.empty() && !nastran_real(field, place[axis])) return false;
     }
-    return true;
+    return system.to_basic(place) == point;
   }
 
   void write_elements(std::size_t k) {
@@ -218,14 +355,15 @@ class Writer {
     if (card == kNastranCards.end()) return;
     put_rows(out_, list.count, [&](std::size_t i, OutputBuffer& buffer) {
       const std::int64_t number = elements_[k][i];
-      const std::string_view whole = elements_of_deck_.of(number);
+      const std::string_view whole =
+          elements_of_deck_.of(number, {list.kind.dimension, list.kind.corners});
       if (!whole.empty()) return buffer.put(whole);
       buffer.put(card->name);
       buffer.put(',');
       buffer.put_integer(number);
       buffer.put(',');
       const Label label = list.label(i);
-      buffer.put_integer(label > 0 ? label : properties_.at(label));
+      if (label != 0 || !was_deck_) buffer.put_integer(label > 0 ? label : properties_.at(label));
       put_nodes(buffer, list, i);
       buffer.put('\n');
     });
@@ -247,7 +385,11 @@ class Writer {
   const MeshView& mesh_;
   ElementLists lists_;
   const std::vector<std::string>* deck_ = nullptr;  // null: not ours
+  bool was_deck_ = false;                           // the mesh came from one
   WholeCards points_of_deck_, elements_of_deck_;
+  std::map<std::int64_t, NastranSystem> systems_;
+  NastranSystem basic_;
+  std::int64_t default_system_ = 0;  // of GRDSET
   Largest largest_;
   std::vector<std::int64_t> points_;                 // their numbers
   std::vector<std::vector<std::int64_t>> elements_;  // of each list
@@ -258,6 +400,11 @@ class Writer {
 
 void write_nastran(const std::filesystem::path& file, const MeshView& mesh) {
   Writer(file, mesh).write();
+}
+
+std::vector<std::string> not_in_nastran(const std::filesystem::path& file, const MeshData& mesh) {
+  if (mesh.variant != kNastran || mesh.deck.size() < nastran_pieces) return {};
+  return included_files_stay(file, mesh.deck[nastran_folder], "INCLUDE");
 }
 
 }  // namespace tetmend::formats

@@ -35,6 +35,7 @@
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_cells.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/formats/vtu_blocks.h"
 #include "kernel/formats/vtu_numbers.h"
 #include "kernel/from_chars.h"
 
@@ -158,12 +159,17 @@ class Reader {
     }
     header_size_ = header == "UInt32" ? 4 : 8;
     const std::string_view compressor = root.attribute("compressor").as_string();
-    if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
-      fail(root, fmt::format("data packed by {} cannot be read: expected none or "
-                             "vtkZLibDataCompressor",
+    const std::optional<VtuPacking> packing = vtu_packing(compressor);
+    if (!packing) {
+      fail(root, fmt::format("data packed by {} cannot be read: expected none, "
+                             "vtkZLibDataCompressor, vtkLZ4DataCompressor or vtkLZMADataCompressor",
                              in_quotes(compressor)));
     }
-    is_packed_ = !compressor.empty();
+    if (!can_unpack(*packing)) {
+      fail(root, fmt::format("data packed by {} cannot be read: tetmend is built without liblzma",
+                             in_quotes(compressor)));
+    }
+    packing_ = *packing;
     const pugi::xml_node appended = root.child("AppendedData");
     const std::string_view encoding = appended.attribute("encoding").as_string("base64");
     if (appended && encoding != "raw" && encoding != "base64") {
@@ -359,7 +365,7 @@ class Reader {
     }
     // A packed byte gives at most 1032; each value takes at least a byte, or a digit and a blank.
     constexpr std::size_t kBestPacking = 1032;
-    const std::size_t most = (is_packed_ ? kBestPacking : 2) * file_.size();
+    const std::size_t most = (packing_ == VtuPacking::none ? 2 : kBestPacking) * file_.size();
     if (components != 0 && rows > most / components) {
       fail(node, fmt::format("{} times {} values cannot fit into the file", rows, components));
     }
@@ -468,7 +474,7 @@ class Reader {
       if (given == size) return;
       fail(node, fmt::format("the array has {} bytes: expected {}", given, size));
     };
-    if (!is_packed_) {
+    if (packing_ == VtuPacking::none) {
       expect(header(node, source.next(header_size_), 0));
       std::string bytes = source.next(size);
       if (bytes.size() != size) fail(node, "the data are truncated");
@@ -497,7 +503,8 @@ class Reader {
       if (packed_size > file_.size()) fail(node, "a packed block is larger than the file");
       const std::string block = source.next(packed_size);
       const std::size_t part = i < full ? block_size : last;
-      if (block.size() != packed_size || !inflate_block(block, bytes.data() + done, part)) {
+      if (block.size() != packed_size ||
+          !unpack_block(packing_, block, bytes.data() + done, part)) {
         fail(node, fmt::format("the packed block {} is damaged or truncated", i));
       }
       done += part;
@@ -511,7 +518,7 @@ class Reader {
   pugi::xml_document document_;
   std::string_view appended_;
   bool swap_ = false;
-  bool is_packed_ = false;
+  VtuPacking packing_ = VtuPacking::none;
   bool is_raw_ = false;
   std::size_t header_size_ = 4;
   mutable std::size_t kept_ = 0;  // bytes of all arrays

@@ -3,6 +3,7 @@
 """Makes the inputs of cases_test.cpp whose rows say "made": small boxes of 48 tets, each with one
 thing that people's files have. Usage: make.py, in this folder."""
 import itertools
+import math
 
 
 def box(n=2, inner=(1.31, 1.27, 0.78), at=(0, 0, 0), size=2.0):
@@ -212,6 +213,58 @@ def touching():
     msh2("within-each-other.msh", msh_points, [(4, label, t) for t, label in zip(msh_tets, labels)])
 
 
+def in_cylinder(p):
+    return (math.hypot(p[0], p[1]), math.degrees(math.atan2(p[1], p[0])), p[2])
+
+
+def nastran_flavours():
+    points, tets = box()
+    lines = ["SOL 101", "CEND", " BEGIN BULK", "GRDSET\t\t7", "$ in a cylinder"]
+    for i, p in enumerate(points, 1):
+        lines += [f"GRID\t{i}\t\t" + "\t".join(f"{x:.5f}"[:8] for x in in_cylinder(p)), ""]
+    lines += ["CORD2C\t7\t0\t0.\t0.\t0.\t0.\t0.\t1.", "$ and", "\t1.\t0.\t0."]
+    lines += [f"  ctetra, {i}, , " + ", ".join(str(v + 1) for v in tet) for i, tet in enumerate(tets, 1)]
+    write("tabs-and-cylinder.bdf", lines + ["ENDDATA"])
+    quadratic, nodes = second_order(points, tets)
+    lines = ["BEGIN BULK"] + [f"GRID,{i},,{','.join(f'{x:.6f}' for x in p)}" for i, p in enumerate(quadratic, 1)]
+    for i, tet in enumerate(nodes, 1):
+        words = [str(v + 1) for v in tet]
+        if i == 48:
+            words[9] = ""
+        lines += ["$ on one line" if i % 2 else "", f"CTETRA,{i},1," + ",".join(words)]
+    write("a-node-left-out.bdf", lines + ["PSOLID,1,1", "MAT1,1,210000.,,.3", "ENDDATA"])
+
+
+def parts_of_abaqus():
+    points, tets = box()
+    mesh = ["*Node"] + [f"{i}, {', '.join(f'{x:.10g}' for x in p)}" for i, p in enumerate(points, 1)]
+    mesh += ["*Element, type=C3D4"] + [f"{i}, " + ", ".join(str(v + 1) for v in t) for i, t in enumerate(tets, 1)]
+    mesh += ["*Elset, elset=Set-1, generate", "1, 48, 1", "*Solid Section, elset=Set-1, material=steel", ","]
+    material = ["*Material, name=steel", "*Elastic", "210000., 0.3"]
+    def faces(z):
+        for name, corners in (("S1", (0, 1, 2)), ("S2", (0, 3, 1)), ("S3", (1, 3, 2)), ("S4", (2, 3, 0))):
+            there = [str(i) for i, t in enumerate(tets, 1) if all(points[t[c]][2] == z for c in corners)]
+            if there:
+                yield name, ", ".join(there)
+
+    assembly = ["*Assembly, name=Assembly", "*Instance, name=Block-1, part=Block", "*End Instance",
+                "*Instance, name=Block-2, part=Block", "0., 0., 2.", "0., 0., 2., 0., 0., 3., 90.", "*End Instance"]
+    for number, side, z in ((1, "top", 2), (2, "bottom", 0)):
+        for face, elements in faces(z):
+            assembly += [f"*Elset, elset=_{side}_{face}, internal, instance=Block-{number}", elements]
+        assembly += [f"*Surface, type=ELEMENT, name={side}"] + [f"_{side}_{face}, {face}" for face, _ in faces(z)]
+    assembly += ["*Tie, name=both, adjust=no", "bottom, top", "*End Assembly"]
+    write("one-part-twice.inp", ["*Heading", "*Part, name=Block", *mesh, "*End Part", *assembly, *material])
+    shell = ["*Part, name=Plate", "*Node", "1, 0., 0., 5.", "2, 1., 0., 5.", "3, 0., 1., 5., 0., 0., 1.",
+             "*Element, type=S3", "1, 1, 2, 3", "*End Part"]
+    write("plate-beside.inp", ["*Heading", *shell, "*Part, name=Block", *mesh, "*End Part", "*Assembly, name=A",
+                               "*Instance, name=Plate-1, part=Plate", "*End Instance",
+                               "*Instance, name=Block-1, part=Block", "*End Instance",
+                               "*Nset, nset=Set-2, instance=Plate-1", "1, 3", "*Nset, nset=Set-2, instance=Block-1",
+                               "1, 3", "*End Assembly", *material, "*Step", "*Static", "*Boundary", "Set-2, 1, 3",
+                               "*End Step"])
+
+
 def turned(made):
     points, tets, labels = made
     return [(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 0.1 * x) for x, y, z in points], tets, labels
@@ -222,3 +275,5 @@ if __name__ == "__main__":
     listings()
     degenerate()
     touching()
+    nastran_flavours()
+    parts_of_abaqus()

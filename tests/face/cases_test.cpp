@@ -5,6 +5,7 @@
 //   O  values from a part that overlaps           P  numbers in decks that are no nodes
 //   V  listings and numbers that `check` takes    M  mixed listings and inverted tets at once
 //   T  degenerate elements                        N  points that touch without being joined
+//   A  decks as Abaqus/CAE writes them            F  flavours of formats
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -165,6 +166,38 @@ const std::vector<Case>& cases() {
        .kind = 'N',
        .note = "18 of 35 points lie on a face or an edge of others"},
       {.file = "apart.mesh", .kind = 'N', .bad = 10, .bad_after = 0, .has_notes = false},
+
+      {.file = "mesh-in-instance.inp", .kind = 'A', .tets = 48, .bad = 5, .bad_after = 0},
+      {.file = "part-of-a-point.inp", .kind = 'A', .tets = 48, .bad = 5, .bad_after = 0},
+      {.file = "two-parts.inp", .kind = 'A', .tets = 96, .volumes = {{1, 8}, {2, 8}}},
+      {.file = "one-part-twice.inp", .kind = 'A', .tets = 48, .bad = 5, .bad_after = 0},
+      {.file = "plate-beside.inp",
+       .kind = 'A',
+       .tets = 48,
+       .bad = 5,
+       .bad_after = 0,
+       .note = "'PLATE' has no tetrahedra"},
+      {.file = "byte-order-mark.inp", .kind = 'A', .tets = 48, .bad = 5, .bad_after = 0},
+
+      {.file = "property-blank.bdf",
+       .kind = 'F',
+       .tets = 48,
+       .bad = 5,
+       .bad_after = 0,
+       .volumes = {{0, 8}}},
+      {.file = "comment-within-a-card.bdf", .kind = 'F', .tets = 1},
+      {.file = "long-free-line.bdf", .kind = 'F', .tets = 1},
+      {.file = "no-enddata.bdf", .kind = 'F', .tets = 1, .note = "have no ENDDATA"},
+      {.file = "other-coordinates.bdf", .kind = 'F', .tets = 1, .volumes = {{1, 1.0 / 6}}},
+      {.file = "included-mesh.bdf", .kind = 'F', .tets = 1},
+      {.file = "included-mesh-bulk.bdf", .kind = 'F', .tets = 1, .note = "have no ENDDATA"},
+      {.file = "tabs-and-cylinder.bdf", .kind = 'F', .tets = 48, .bad = 5, .bad_after = 0},
+      {.file = "a-node-left-out.bdf",
+       .kind = 'F',
+       .tets = 47,
+       .note = "1 CTETRA leave out some of their mid-side nodes"},
+      {.file = "names-without-quotes.msh", .kind = 'F', .tets = 48, .bad = 5, .bad_after = 0},
+      {.file = "lz4.vtu", .kind = 'F', .tets = 96},
   };
   return kCases;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Gmsh's files of both versions and codings: what is kept, and how bad ones are refused.
 #include <algorithm>
+#include <initializer_list>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -389,6 +390,68 @@ TEST_CASE("a tet of an MSH file is located by its line or byte, though numbers c
   }
 }
 
+TEST_CASE("names of groups of an MSH file may lack their quotes, and get them") {
+  const TempFolder folder;
+  for (const std::string name : {"inlet", "two  words"}) {
+    for (const std::string end : {"\n", " \r\n"}) {
+      const MeshData mesh = read_text(folder, replaced(text_2(), "\"inlet\"\n", name + end));
+      const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
+                                      [&](const Group& group) { return group.name == name; });
+      CHECK(found != mesh.groups.end());
+      write_mesh(folder / "b.msh", mesh);
+      CHECK(test::read_text(folder / "b.msh").find('"' + name + '"') != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("nodes of an MSH file of version 2.2 may have parameters") {
+  const TempFolder folder;
+  const MeshData plain = read_text(folder, text_2());
+  const std::string nodes =
+      "$ParametricNodes\n5\n2 0 0 0 0 1\n70 1 0 0 1 4 0.5\n30 0 1 0 2 5 0.25 0.75\n"
+      "900 0.1 0.2 -1 3 1\n40 0.25 0.125 1 3 1\n$EndParametricNodes\n";
+  const std::string text = text_2();
+  const std::size_t begin = text.find("$Nodes");
+  const std::size_t end = text.find("$Elements");
+  const MeshData mesh = read_text(folder, text.substr(0, begin) + nodes + text.substr(end));
+  CHECK(mesh.points == plain.points);
+  CHECK(mesh.tets == plain.tets);
+  const auto cut = text.substr(0, begin) + replaced(nodes, "4 0.5", "4") + text.substr(end);
+  write_text(folder / "a.msh", cut);
+  CHECK(error_of_reading(folder / "a.msh") != "no error");
+}
+
+TEST_CASE("an MSH file of version 4.1 may have sizes of 4 bytes") {
+  const TempFolder folder;
+  CHECK(read_text(folder, replaced(text_4(), "4.1 0 8", "4.1 0 4")).tets ==
+        read_text(folder, text_4()).tets);
+  std::string bytes = "$MeshFormat\n4.1 1 4\n";
+  const auto put = [&](auto value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  const auto put_sizes = [&](std::initializer_list<std::uint32_t> values) {
+    for (const std::uint32_t value : values) put(value);
+  };
+  const auto put_tags = [&](std::initializer_list<std::int32_t> values) {
+    for (const std::int32_t value : values) put(value);
+  };
+  put_tags({1});
+  bytes += "\n$EndMeshFormat\n$Nodes\n";
+  put_sizes({1, 4, 1, 9});
+  put_tags({3, 1, 0});
+  put_sizes({4, 1, 2, 3, 9});
+  for (const double x : {0., 0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1.}) put(x);
+  bytes += "\n$EndNodes\n$Elements\n";
+  put_sizes({1, 1, 7, 7});
+  put_tags({3, 1, 4});
+  put_sizes({1, 7, 1, 2, 3, 9});
+  bytes += "\n$EndElements\n";
+  const MeshData mesh = read_text(folder, bytes);
+  CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.tets[0].vertices == std::array<std::uint32_t, 4>{0, 1, 2, 3});
+  CHECK(mesh.points[3] == Point(0, 0, 1));
+}
+
 TEST_CASE("a bad MSH file is refused with line and reason") {
   const std::string two = text_2();
   const std::string four = text_4();
@@ -397,9 +460,11 @@ TEST_CASE("a bad MSH file is refused with line and reason") {
       {"4.0", replaced(four, "4.1 0 8", "4 0 8"),
        "2: ", "version '4' of the format cannot be read: expected 4.1 or 2.2"},
       {"4.0", replaced(four, "4.1 0 8", "4.0 0 8"), "2: ", "version '4.0' of the format"},
-      {"short", replaced(four, "4.1 0 8", "4.1 0 4"), "2: ", "'4' is not a size of numbers"},
+      {"short", replaced(four, "4.1 0 8", "4.1 0 2"), "2: ", "'2' is not a size of numbers"},
+      {"version 1", "$NOD\n4\n", "1: ", "this is an MSH file of version 1: expected 4.1 or 2.2"},
       {"no end", replaced(four, "$EndMeshFormat", "$EndMesh"), "3: ", "expected $EndMeshFormat"},
-      {"no quotes", replaced(four, "\"inlet\"", "inlet"), "7: ", "the name of a group in quotes"},
+      {"one quote", replaced(four, "\"inlet\"", "\"inlet"), "7: ", "the name of a group in quotes"},
+      {"no name", replaced(four, "\"inlet\"", " "), "7: ", "the name of a group in quotes"},
       {"named twice", replaced(four, "3 25", "3 10"),
        "10: ", "the group '3 10' is named for the second time"},
       {"entity twice", replaced(four, "\n3 0 0 0", "\n5 0 0 0"),

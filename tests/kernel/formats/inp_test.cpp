@@ -453,7 +453,7 @@ TEST_CASE("a mesh of another format becomes a deck with sets, surfaces and sets 
           return tet.label == 9;
         }) == static_cast<std::ptrdiff_t>(mesh.tets.size() - 1));
   write_mesh(folder / "b.inp", again);
-  CHECK(read_text(folder / "b.inp") == text);
+  CHECK(test::read_text(folder / "b.inp") == text);
 }
 
 TEST_CASE("coordinates have room in 20 characters, where solvers stop reading") {
@@ -528,8 +528,8 @@ TEST_CASE("a deck of one part and instance keeps what is in its assembly") {
   CHECK(group(mesh, 0, "E").members == std::vector<std::uint32_t>{0, 1});
   round_trip(folder, text);
   std::string expected = replaced(text, "*Elset, elset=_s_S1, internal, instance=P-1\n1,\n", "");
-  expected = replaced(expected, "_s_S1, S1\n", "1, S1\n");
-  CHECK(read_text(folder / "b.inp") == expected);
+  expected = replaced(expected, "_s_S1, S1\n", "P-1.1, S1\n");
+  CHECK(test::read_text(folder / "b.inp") == expected);
 }
 
 TEST_CASE("what a deck says of tets by number and is not a face is noted") {
@@ -630,7 +630,11 @@ TEST_CASE("bad decks are refused with line, word and what was expected") {
       {"volume lost", replaced(kSmall, "C3D4", "C3D27"), ":6", "'C3D27' cannot be kept"},
       {"generator", with("*NGEN\n1, 2, 1\n"), ":8", "'*NGEN' cannot be read"},
       {"other system", replaced(kSmall, "*NODE", "*NODE, SYSTEM=C"), ":1", "SYSTEM=R"},
-      {"two parts", with("*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), ":10", "a second *PART"},
+      {"instance twice",
+       with("*ASSEMBLY\n*INSTANCE, NAME=A, PART=B\n*END INSTANCE\n*INSTANCE, NAME=a, PART=C\n"),
+       ":11", "there is an instance 'a' already"},
+      {"part twice", with("*PART, NAME=A\n*END PART\n*PART, NAME=A\n"), "",
+       "there is a part 'A' already"},
       {"unknown set", with("*NSET, NSET=A\nB\n"), ":9", "'B' is neither a number nor the name"},
       {"unknown node", with("*NSET, NSET=A\n1, 77\n"), ":9", "'77' is not the number of a node"},
       {"set without name", with("*ELSET\n1\n"), ":8", "*ELSET has no name"},
@@ -650,6 +654,159 @@ TEST_CASE("bad decks are refused with line, word and what was expected") {
     CHECK_MESSAGE(error.starts_with("a.inp" + file.place), error);
     CHECK_MESSAGE(error.find(file.reason) != std::string::npos, error);
   }
+}
+
+namespace {
+
+constexpr std::string_view kNodes = "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n";
+constexpr std::string_view kElements = "*Element, type=C3D4\n1, 1, 2, 3, 4\n";
+constexpr std::string_view kSection = "*Solid Section, elset=Set-1, material=m\n,\n";
+
+std::string part(std::string_view name, std::string_view content) {
+  return fmt::format("*Part, name={}\n{}*End Part\n", name, content);
+}
+std::string instance(std::string_view name, std::string_view of, std::string_view content = {}) {
+  return fmt::format("*Instance, name={}, part={}\n{}*End Instance\n", name, of, content);
+}
+
+}  // namespace
+
+TEST_CASE("a mesh that stands in the instance is read, and written where it stood") {
+  const TempFolder folder;
+  const std::string deck =
+      "*Heading\n" + part("P", "") + "*Assembly, name=A\n" +
+      instance("P-1", "P",
+               "3., 0., 0.\n3., 0., 0., 3., 0., 1., 90.\n" + std::string(kNodes) +
+                   std::string(kElements) + "*Elset, elset=Set-1\n1,\n" + std::string(kSection)) +
+      "*Nset, nset=Fix, instance=P-1\n1, 2\n*End Assembly\n*Boundary\nFix, 1, 3\nP-1.4, 1\n";
+  const MeshData mesh = read_text(folder, deck);
+  CHECK(mesh.points.size() == 4);
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}});
+  CHECK(group(mesh, 0, "Fix").members == std::vector<std::uint32_t>{0, 1});
+  write_mesh(folder / "b.inp", mesh);
+  CHECK(test::read_text(folder / "b.inp") == deck);
+}
+
+TEST_CASE("parts without tets come back word for word beside the mesh") {
+  const TempFolder folder;
+  const std::string rest =
+      part("Rigid",
+           "*Node\n  1,  1.,  2.,  3.\n  2, 5., 5., 5.\n*Nset, nset=RefPt_\n1,\n"
+           "*Surface, type=CYLINDER, name=s\nSTART, 1., 0.\nLINE, 1., 5.\n") +
+      part("Shell",
+           "*Node\n1, 0., 0., 9.\n2, 1., 0., 9.\n3, 0., 1., 9., 0., 0., 1.\n"
+           "*Element, type=S3\n1, 1, 2, 3\n*Elset, elset=Set-1\n 1,\n"
+           "*Shell Section, elset=Set-1, material=m\n0.1, 5\n*Elset, elset=e, generate\n"
+           " 1, 1, 1\n*Surface, type=ELEMENT, name=outside\nSet-1, SPOS\n");
+  const std::string assembly =
+      "*Assembly, name=A\n" + instance("P-1", "P") + instance("R-1", "Rigid", "0., 0., 1.\n") +
+      instance("S-1", "Shell") + instance("Point-1", "Point", "*Node\n1, 1., 1., 3.\n") +
+      "*Nset, nset=both, instance=P-1\n1,\n*Nset, nset=both, instance=S-1\n 2,\n"
+      "*Elset, elset=there, instance=S-1\n 1,\n*Surface, type=ELEMENT, name=other\nthere, SPOS\n"
+      "*Rigid Body, ref node=Point-1.1, elset=R-1.x\n*End Assembly\n*Boundary\nS-1.3, 1\n";
+  const std::string mesh_part = part("P", std::string(kNodes) + std::string(kElements) +
+                                              "*Elset, elset=Set-1\n1,\n" + std::string(kSection));
+  for (const std::string& deck : {rest + mesh_part + part("Point", "") + assembly,
+                                  mesh_part + part("Point", "") + rest + assembly}) {
+    const MeshData mesh = read_text(folder, deck);
+    CHECK(mesh.points.size() == 4);
+    CHECK(mesh.tets.size() == 1);
+    CHECK(mesh.required_vertices.empty());
+    CHECK(mesh.notes == std::vector<std::string>{
+                            "'SHELL' has no tetrahedra: it stays in the deck, and is in no mesh"});
+    write_mesh(folder / "b.inp", mesh);
+    CHECK(test::read_text(folder / "b.inp") == deck);
+  }
+}
+
+TEST_CASE("several parts have numbers and sets of their own, and so have their new tets") {
+  const TempFolder folder;
+  const std::string content = std::string(kNodes) + std::string(kElements) +
+                              "*Elset, elset=Set-1\n1,\n*Nset, nset=n\n2, 3\n" +
+                              std::string(kSection);
+  const std::string deck =
+      part("P", content) +
+      part("Q", replaced(content, "\n4, 0, 0, 1\n", "\n9, 0, 0, 1\n5, 1, 1, 1\n")) +
+      "*Assembly, name=A\n" + instance("P-1", "P") + instance("Q-1", "Q", "3., 0., 0.\n") +
+      "*Nset, nset=hold, instance=P-1\n1, 4\n*Nset, nset=hold, instance=Q-1\n2, 5\n*End Assembly\n";
+  const std::string fixed = [&] {
+    std::string text = deck;
+    const std::size_t second = text.find("*Element", text.find("name=Q"));
+    return text.replace(text.find("1, 1, 2, 3, 4", second), 13, "1, 1, 2, 3, 9");
+  }();
+  MeshData mesh = read_text(folder, fixed);
+  CHECK(mesh.points.size() == 9);
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}, {{4, 5, 6, 7}, 2}});
+  write_mesh(folder / "b.inp", mesh);
+  CHECK(test::read_text(folder / "b.inp") == fixed);
+  // A point and a tet more in the second part, and a tet in the first.
+  mesh.points.emplace_back(2, 2, 2);
+  mesh.point_numbers.push_back(0);
+  mesh.tets.push_back({{5, 6, 7, 9}, 2});
+  mesh.tet_parts.push_back(mesh.tet_parts[1]);
+  mesh.tet_numbers.push_back(0);
+  mesh.tets.push_back({{1, 2, 3, 0}, 1});
+  mesh.tet_parts.push_back(mesh.tet_parts[0]);
+  mesh.tet_numbers.push_back(0);
+  write_mesh(folder / "c.inp", mesh);
+  const std::string written = read_text(folder / "c.inp");
+  CHECK(written.find("1, 1, 2, 3, 4\n2, 2, 3, 4, 1\n*Elset") != std::string::npos);
+  CHECK(written.find("10, 2, 2, 2\n*Element") != std::string::npos);
+  CHECK(written.find("1, 1, 2, 3, 9\n2, 2, 3, 9, 10\n*Elset") != std::string::npos);
+}
+
+TEST_CASE(
+    "a part that is used twice is in the mesh once, and surfaces say which instance they are of") {
+  const TempFolder folder;
+  const std::string assembly = "*Assembly, name=A\n" + instance("P-1", "P") +
+                               instance("P-2", "P", "0., 0., -1.\n") +
+                               "*Elset, elset=_top_S1, internal, instance=P-2\n1,\n"
+                               "*Elset, elset=_bottom_S1, internal, instance=P-1\n1,\n"
+                               "*Elset, elset=_both_S2, internal, instance=P-1\n1,\n"
+                               "*Elset, elset=_both_S2, internal, instance=P-2\n1,\n"
+                               "*Elset, elset=keep, instance=P-2\n1,\n"
+                               "*Surface, type=ELEMENT, name=top\n_top_S1, S1\n"
+                               "*Surface, type=ELEMENT, name=bottom\n_bottom_S1, S1\n"
+                               "*Surface, type=ELEMENT, name=both\n_both_S2, S2\n"
+                               "*Tie, name=t\ntop, bottom\n*End Assembly\n";
+  const std::string deck =
+      part("P", std::string(kNodes) + std::string(kElements) + "*Elset, elset=Set-1\n1,\n" +
+                    std::string(kSection)) +
+      assembly + "*Output, field\n*Element Output, elset=keep\nS,\n*Dsload\nP-2.none, P, 1.\n";
+  const MeshData mesh = read_text(folder, deck);
+  CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.triangles.size() == 2);
+  write_mesh(folder / "b.inp", mesh);
+  std::string expected = deck;
+  for (const char* line : {"*Elset, elset=_top_S1, internal, instance=P-2\n1,\n",
+                           "*Elset, elset=_bottom_S1, internal, instance=P-1\n1,\n",
+                           "*Elset, elset=_both_S2, internal, instance=P-1\n1,\n",
+                           "*Elset, elset=_both_S2, internal, instance=P-2\n1,\n"}) {
+    expected = replaced(expected, line, "");
+  }
+  expected = replaced(expected, "_top_S1, S1\n", "P-2.1, S1\n");
+  expected = replaced(expected, "_bottom_S1, S1\n", "P-1.1, S1\n");
+  expected = replaced(expected, "_both_S2, S2\n", "P-1.1, S2\nP-2.1, S2\n");
+  CHECK(test::read_text(folder / "b.inp") == expected);
+  // Read again, it is the same.
+  write_mesh(folder / "c.inp", read_mesh(folder / "b.inp"));
+  CHECK(read_text(folder / "c.inp") == expected);
+}
+
+TEST_CASE("a byte order mark before a deck, normals of nodes and paths of Windows are understood") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  const std::string nodes = replaced(kNodes, "3, 0, 1, 0\n", "3, 0, 1, 0, 0.6, 0., 0.8\n");
+  write_text(folder / "sub" / "mesh.inp", "\xEF\xBB\xBF" + nodes);
+  write_text(folder / "a.inp",
+             "\xEF\xBB\xBF*Include, input=sub\\mesh.inp\n" + std::string(kElements));
+  MeshData mesh = read_mesh(folder / "a.inp");
+  CHECK(mesh.tets.size() == 1);
+  mesh.points.emplace_back(5, 5, 5);
+  mesh.point_numbers.push_back(0);
+  write_mesh(folder / "b.inp", mesh);
+  CHECK(read_text(folder / "b.inp") ==
+        replaced(nodes, "4, 0, 0, 1\n", "4, 0, 0, 1\n5, 5, 5, 5\n") + std::string(kElements));
 }
 
 TEST_CASE("a tet of a deck is located by its line") {

@@ -12,6 +12,7 @@
 #include "kernel/formats/base64.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/vtu_blocks.h"
 #include "tests/kernel/formats/fixtures.h"
 
 using namespace tetmend;
@@ -142,7 +143,7 @@ TEST_CASE("a bad VTK XML file is refused with line and reason") {
       {"other root", "<html></html>", ":1: ", "expected the element VTKFile"},
       {"other type", replaced(good, "Unstr", "Str"), ":2: ", "'StructuredGrid' cannot be read"},
       {"cut", good.substr(0, good.size() - 30), ":", "the XML is broken"},
-      {"other packer", replaced(packed, "ZLib", "LZ4"), ":2: ", "'vtkLZ4DataCompressor'"},
+      {"other packer", replaced(packed, "ZLib", "LZ5"), ":2: ", "'vtkLZ5DataCompressor'"},
       {"no count", replaced(good, "NumberOfCells=\"2\"", "NumberOfCells=\"x\""),
        ":4: ", "NumberOfCells is 'x': expected a count"},
       {"huge count", replaced(good, "NumberOfPoints=\"4\"", "NumberOfPoints=\"1000000000\""),
@@ -203,6 +204,143 @@ TEST_CASE("files are read and written packed by gzip, and damaged ones refused")
           std::string::npos);
   }
   CHECK_THROWS_AS(write_mesh(folder / "a.node.gz", awkward_mesh()), Error);
+}
+
+namespace {
+
+// MEDIT's text of one tet, packed by the programs xz, zstd and bzip2.
+constexpr std::string_view kXz =
+    "/Td6WFoAAATm1rRGAgAhARYAAAB0L+"
+    "Wj4ABoAFVdACaZSmaZdKqxXd3sHo3WwKIwLgRUMxc08OP74MEbnZrEZMQUgjT3l5Ag"
+    "6FkHvTcVhT9DfXWoliWqhhgkTWVbDUFjXPGmTCMZ0KkhBu2jMVSo8GhyzWAAAAAAGbpWbXs5hUwAAXFpYCTMIh+"
+    "2830BAAAA"
+    "AARZWg==";
+constexpr std::string_view kBzip2 =
+    "QlpoOTFBWSZTWVAQlFoAAB1fgAAQQAB8gAcCBQAuY5wAIABUNU9T1PUyDTEaP0UEqfqppkaaAAE4mbL26m0sGExFCNnc5U"
+    "rA"
+    "KiiIgokkGEcEsREmIcvj2fyilID9KIO2rAXnoi8fi7kinChIKAhKLQA=";
+constexpr std::string_view kZstd =
+    "KLUv/QRYnQIAEgURFqA3HQCwMgIu23TXn/+4S2rENv3qGQI9F6jhwoQHV6sGzxGD6YSWS9WlRfMFS/"
+    "ijhA9Z3hMDdPB5SiZB"
+    "JDhkiT+Q/CAEAC0CgDxWEkOtgwLbxhOY";
+
+std::string decoded(std::string_view base64, std::size_t size) {
+  std::string bytes;
+  formats::decode_base64(base64, size, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "files packed by xz, Zstandard and bzip2 are read, damaged ones refused, none is written") {
+  const TempFolder folder;
+  struct Packed {
+    std::string extension;
+    std::string bytes;
+  };
+  for (const Packed& packed :
+       {Packed{".xz", decoded(kXz, 148)}, Packed{".bz2", decoded(kBzip2, 113)},
+        Packed{".zst", decoded(kZstd, 96)}}) {
+    CAPTURE(packed.extension);
+    const std::filesystem::path file = folder / ("a.mesh" + packed.extension);
+    write_text(file, packed.bytes);
+    const std::string error = error_of_reading(file);
+    if (error.find("tetmend is built without") != std::string::npos) continue;
+    CHECK(read_mesh(file).tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 7}});
+    CHECK(format_name(file) == "MEDIT ASCII" + packed.extension);
+    write_text(file, packed.bytes + packed.bytes);  // two streams: two meshes in a row
+    CHECK(error_of_reading(file).find("MeshVersionFormatted") != std::string::npos);
+    for (std::size_t size = 7; size < packed.bytes.size(); ++size) {
+      write_text(file, packed.bytes.substr(0, size));
+      const std::string cut = error_of_reading(file);
+      CHECK_MESSAGE((cut.find("file is truncated") != std::string::npos ||
+                     cut.find("file is damaged") != std::string::npos),
+                    size, cut);
+    }
+    std::string damaged = packed.bytes;
+    damaged[packed.bytes.size() / 2] ^= 4;
+    write_text(file, damaged);
+    CHECK(error_of_reading(file) != "no error");
+    CHECK_THROWS_AS(write_mesh(file, awkward_mesh()), Error);
+  }
+}
+
+TEST_CASE("arrays of a VTU file may be packed by LZ4 and LZMA") {
+  CHECK(formats::vtu_packing("vtkLZ4DataCompressor") == formats::VtuPacking::lz4);
+  // "abcabcabcabcabcabcabcabc" and a block of 300 bytes that repeat one another
+  const auto unpacked = [](std::string_view block, std::size_t size) {
+    std::string bytes(size, '?');
+    const bool is_good = formats::unpack_block(formats::VtuPacking::lz4, block, bytes.data(), size);
+    return is_good ? bytes : "bad";
+  };
+  CHECK(unpacked(std::string_view("\x50hello", 6), 5) == "hello");
+  CHECK(unpacked(std::string_view("\x3f"
+                                  "abc\x03\x00\x00\x20"
+                                  "de",
+                                  9),
+                 3 + 19 + 2) == "abcabcabcabcabcabcabcade");
+  CHECK(unpacked(std::string_view("\x1f"
+                                  "a\x01\x00\xff\x1a\x10"
+                                  "b",
+                                  8),
+                 1 + 300 + 1) == std::string(301, 'a') + "b");
+  for (const std::string_view bad : {std::string_view("\x50hell", 5),
+                                     std::string_view("\x10"
+                                                      "a\x02\x00",
+                                                      4),
+                                     std::string_view("\x10"
+                                                      "a\x00\x00",
+                                                      4),
+                                     std::string_view("\x10"
+                                                      "a\x01",
+                                                      3),
+                                     std::string_view("\xf0", 1),
+                                     std::string_view("\x1f"
+                                                      "a\x01\x00\xff",
+                                                      5)}) {
+    CHECK(unpacked(bad, 5) == "bad");
+  }
+  const TempFolder folder;
+  write_text(
+      folder / "a.vtu",
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt32\" compressor=\"vtkLZMADataCompressor\">\n"
+      "<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n"
+      "<PointData>\n"
+      "</PointData>\n"
+      "<CellData>\n"
+      "</CellData>\n"
+      "<Points>\n"
+      "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\">\n"
+      "AQAAAACAAABgAAAARAAAAA==/"
+      "Td6WFoAAAFpIt42AsATYCEBFgBcV77y4ABfAAtdAABuFTfEGPHWOxAAAAAIGmJEAAEjYBKjndOQQpkNAQAAAAABWVo="
+      "\n"
+      "</DataArray>\n"
+      "</Points>\n"
+      "<Cells>\n"
+      "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"binary\">\n"
+      "AQAAAACAAAAgAAAARAAAAA==/"
+      "Td6WFoAAAFpIt42AsAUICEBFgCtP0i34AAfAAxdAABqfrsUbxtBMbVtagAKEgCRAAEkIEV0AOqQQpkNAQAAAAABWVo="
+      "\n"
+      "</DataArray>\n"
+      "<DataArray type=\"Int64\" Name=\"offsets\" format=\"binary\">\n"
+      "AQAAAACAAAAIAAAAPAAAAA==/"
+      "Td6WFoAAAFpIt42AsAMCCEBFgCe23ypAQAHBAAAAAAAAAAAk9Fo4QABHAhEYCrIkEKZDQEAAAAAAVla\n"
+      "</DataArray>\n"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"binary\">\n"
+      "AQAAAACAAAABAAAAOAAAAA==/"
+      "Td6WFoAAAFpIt42AsAFASEBFgAn6GODAQAACgAAAACTBtcyAAEVAaljNGCQQpkNAQAAAAABWVo=\n"
+      "</DataArray>\n"
+      "</Cells>\n"
+      "</Piece>\n"
+      "</UnstructuredGrid>\n"
+      "</VTKFile>\n");
+  if (formats::can_unpack(formats::VtuPacking::lzma)) {
+    CHECK(read_mesh(folder / "a.vtu").tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 0}});
+  }
 }
 
 TEST_CASE("a file that was packed to use memory up is refused before it has") {

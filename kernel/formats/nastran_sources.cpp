@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// The bulk data of a Nastran deck, with the files that it includes.
+#include "kernel/formats/nastran_sources.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/compression.h"
+#include "kernel/formats/included_path.h"
+#include "kernel/formats/nastran_card.h"
+
+namespace tetmend::formats {
+namespace {
+
+/// Points, systems of coordinates, and what has a number that no new element may get.
+bool is_of_mesh(std::string_view name) {
+  return name == "GRID" || name == "GRDSET" || name == "SPOINT" || name == "EPOINT" ||
+         name.starts_with('C') || name.starts_with('R');
+}
+
+/// Of "INCLUDE 'a/b.bdf' $ the mesh" the name with its quotes; a name in quotes may be broken.
+std::string name_of(std::string_view statement) {
+  constexpr std::string_view kWord = "INCLUDE";
+  std::string_view rest = statement.substr(statement.find_first_not_of(' ') + kWord.size());
+  rest.remove_prefix(std::min(rest.find_first_not_of(" \t=,"), rest.size()));
+  if (!rest.empty() && (rest[0] == '\'' || rest[0] == '"')) {
+    std::string name;
+    for (const char c : rest.substr(0, rest.find(rest[0], 1) + 1)) {
+      if (c != '\n' && c != '\r') name += c;
+    }
+    return name;
+  }
+  return std::string(trimmed_field(rest.substr(0, rest.find_first_of("$\n"))));
+}
+
+/// True if a name in quotes goes on in the next line.
+bool is_broken(std::string_view statement) {
+  const std::size_t quote = statement.find_first_of("'\"");
+  return quote != std::string_view::npos &&
+         statement.find(statement[quote], quote + 1) == std::string_view::npos;
+}
+
+}  // namespace
+
+NastranSources::NastranSources(const std::filesystem::path& deck) {
+  folder_ = deck.parent_path();
+  inclusions_.push_back({0, true, true, true});
+  const InputFile& file = *open(deck, {});
+  const Bulk bulk = find_bulk(file);
+  bulk_begin_ = bulk.begin;
+  bulk_end_ = bulk.end;
+  read(bulk, deck, 0);
+  decide();
+}
+
+const InputFile& NastranSources::file_of(const char* place) const {
+  for (const auto& [number, file] : files_) {
+    const std::less_equal<> before;
+    if (before(file->begin(), place) && before(place, file->end())) return *file;
+  }
+  return deck();
+}
+
+/// From behind BEGIN BULK, or the beginning, to ENDDATA, or the end.
+NastranSources::Bulk NastranSources::find_bulk(const InputFile& file) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  Bulk bulk{file.begin(), file.end()};
+  if (std::string_view(file.begin(), file.size()).starts_with(kMark)) bulk.begin += kMark.size();
+  NastranLines lines(bulk.begin, bulk.end);
+  bool begun = false;
+  while (!lines.at_end()) {
+    const char* begin = lines.position();
+    const char first = lines.initial();
+    const std::string_view line = lines.line();
+    if (first != 'B' && first != 'E') continue;
+    const std::string name = nastran_name(line);
+    if (!begun && name == "BEGIN") {
+      bulk.begin = lines.position();
+      begun = true;
+    }
+    if (name == "ENDDATA") {
+      bulk.end = begin;
+      break;
+    }
+  }
+  return bulk;
+}
+
+/// A file that is included again is not read again.
+const InputFile* NastranSources::open(const std::filesystem::path& path,
+                                      std::string_view statement) {
+  const auto [at, is_new] =
+      number_of_.try_emplace(std::filesystem::weakly_canonical(path), files_.size());
+  if (is_new) {
+    try {
+      auto file = std::make_unique<InputFile>(path);
+      size_of_files_ += file->size_of_file();
+      opened_.push_back(path);
+      files_.emplace(at->second, std::move(file));
+    } catch (const Error& error) {
+      number_of_.erase(at);
+      if (statement.empty()) throw;
+      notes_.push_back(fmt::format("what {} includes is not read: {}",
+                                   in_quotes(trimmed_field(statement)), error.what()));
+      return nullptr;
+    }
+  }
+  return files_.at(at->second).get();
+}
+
+void NastranSources::read(const Bulk& bulk, const std::filesystem::path& path,
+                          std::size_t inclusion) {
+  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path);
+  open_.insert(canonical);
+  NastranLines lines(bulk.begin, bulk.end);
+  const char* begin = bulk.begin;
+  NastranCardText card;
+  while (!lines.at_end()) {
+    NastranLines ahead = lines;
+    const bool may_be = lines.initial() == 'I';
+    if (!may_be || nastran_name(ahead.line()) != "INCLUDE") {
+      lines.line();
+      continue;
+    }
+    const char* statement = lines.position();
+    lines.read(card);
+    while (!lines.at_end() &&
+           is_broken({statement, static_cast<std::size_t>(lines.position() - statement)})) {
+      lines.line();
+    }
+    if (begin != statement) stretches_.push_back({begin, statement, inclusion, 0});
+    begin = lines.position();
+    include({statement, static_cast<std::size_t>(begin - statement)}, path, inclusion);
+  }
+  if (begin != bulk.end) stretches_.push_back({begin, bulk.end, inclusion, 0});
+  open_.erase(canonical);
+}
+
+void NastranSources::include(std::string_view statement, const std::filesystem::path& from,
+                             std::size_t inclusion) {
+  const std::size_t number = inclusions_.size();
+  inclusions_.push_back({inclusion, from.parent_path() == folder_, false, true});
+  stretches_.push_back({statement.data(), statement.data() + statement.size(), inclusion, number});
+  const std::filesystem::path path = included_path(from.parent_path(), name_of(statement));
+  const auto fail = [&](std::string_view reason) {
+    file_of(statement.data()).fail_at_line(statement.data(), reason);
+  };
+  if (open_.contains(std::filesystem::weakly_canonical(path))) {
+    fail(fmt::format("{} includes itself: expected another file",
+                     in_quotes(trimmed_field(statement))));
+  }
+  constexpr std::size_t kDeepest = 1000;
+  if (open_.size() > kDeepest) fail("more than 1,000 files include each other");
+  const InputFile* file = open(path, statement);
+  inclusions_.back().is_there = file != nullptr;
+  if (file == nullptr) return;
+  included_ += file->size();
+  if (is_bomb(size_of_files_, included_)) {
+    fail("the same files are included again and again, hundreds of times their size");
+  }
+  const Bulk bulk = find_bulk(*file);
+  if (bulk.end != file->end()) {
+    notes_.push_back(
+        fmt::format("ENDDATA of {} is not kept, nor what follows: it is included", file->name()));
+  }
+  read(bulk, path, number);
+}
+
+void NastranSources::decide() {
+  for (const NastranStretch& stretch : stretches_) {
+    if (stretch.includes != 0 || inclusions_[stretch.inclusion].is_inlined) continue;
+    NastranLines lines(stretch.begin, stretch.end);
+    bool is_inlined = false;
+    while (!lines.at_end() && !is_inlined) {
+      is_inlined = is_of_mesh(nastran_name(lines.line()));
+    }
+    for (std::size_t k = stretch.inclusion; is_inlined && !inclusions_[k].is_inlined;
+         k = inclusions_[k].parent) {
+      inclusions_[k].is_inlined = true;
+    }
+  }
+  for (std::size_t k = 1; k < inclusions_.size(); ++k) {
+    Inclusion& inclusion = inclusions_[k];
+    const bool is_written = inclusions_[inclusion.parent].is_inlined && inclusion.is_there;
+    if (is_written && !inclusion.parent_is_beside) inclusion.is_inlined = true;
+  }
+}
+
+}  // namespace tetmend::formats
