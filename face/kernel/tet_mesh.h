@@ -163,13 +163,7 @@ class TETMEND_API TetMesh {
     return {HalfFace(t, 0), HalfFace(t, 1), HalfFace(t, 2), HalfFace(t, 3)};
   }
   /// The tets behind its faces: four, or fewer at the boundary.
-  Neighbours neighbours(TetHandle t) const {
-    Neighbours found;
-    for (const HalfFace f : mesh_.neighbours(t)) {
-      if (!f.is_outside()) found.push_back(f.tet());
-    }
-    return found;
-  }
+  Neighbours neighbours(TetHandle t) const { return Neighbours(mesh_.neighbours(t)); }
   /// The other side of a face, or the outside.
   HalfFace twin(HalfFace f) const { return mesh_.twin(f); }
   bool is_boundary(HalfFace f) const { return mesh_.is_boundary(f); }

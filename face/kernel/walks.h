@@ -2,6 +2,7 @@
 // What walks over a mesh return, and ranges over all of its live entities.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -21,7 +22,50 @@ class TetMesh;
 using Star = Few<TetHandle, 48>;        ///< the tets around a vertex
 using Link = Few<HalfFace, 48>;         ///< for each of them its face opposite the vertex
 using OneRing = Few<VertexHandle, 32>;  ///< the other ends of the edges of a vertex
-using Neighbours = Few<TetHandle, 4>;   ///< the tets behind the faces of one
+
+/// The tets behind the faces of one: four, or fewer at the boundary.
+class Neighbours {
+ public:
+  explicit Neighbours(const std::array<HalfFace, 4>& twins) : twins_(twins) {}
+
+  class Iterator {
+   public:
+    using value_type = TetHandle;
+    using difference_type = std::ptrdiff_t;
+    using iterator_category = std::forward_iterator_tag;
+    using reference = TetHandle;
+    using pointer = void;
+
+    Iterator() = default;
+    Iterator(const HalfFace* next, const HalfFace* end) : next_(next), end_(end) { skip(); }
+    TetHandle operator*() const { return next_->tet(); }
+    Iterator& operator++() {
+      ++next_;
+      skip();
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator old = *this;
+      ++*this;
+      return old;
+    }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.next_ == b.next_; }
+
+   private:
+    void skip() {
+      while (next_ != end_ && next_->is_outside()) ++next_;
+    }
+    const HalfFace* next_ = nullptr;
+    const HalfFace* end_ = nullptr;
+  };
+
+  Iterator begin() const { return {twins_.data(), twins_.data() + 4}; }
+  Iterator end() const { return {twins_.data() + 4, twins_.data() + 4}; }
+  std::size_t size() const { return static_cast<std::size_t>(std::distance(begin(), end())); }
+
+ private:
+  std::array<HalfFace, 4> twins_;
+};
 
 /// The tets around an edge (a, b) in turn: tets[i] is (a, b, vertices[i], vertices[i + 1]), and
 /// positive. A closed ring has as many vertices as tets. An open one goes from one face of the

@@ -72,7 +72,8 @@ std::size_t flip_edges_away(TetMesh& mesh) {
   std::size_t count = 0;
   for (TetEdge e : mesh.edges()) {
     Transaction edit(mesh);
-    if (edit.flip_3_2(e) != EditResult::made || worst(edit.after()) <= worst(edit.before())) continue;
+    if (edit.flip_3_2(e) != EditResult::made || worst(edit.after()) <= worst(edit.before()))
+      continue;
     edit.keep();  // otherwise all is as it was, bit for bit
     ++count;
   }
