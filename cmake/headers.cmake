@@ -19,8 +19,8 @@ tetmend_made_header(plugin.h "All that a plugin needs to add operators to tetmen
   ROOMS kernel trace ops HEADERS ops/plugin.h kernel/star.h)
 tetmend_made_header(kernel.h "Meshes of tets for programs: loops, walks, properties, edits with undo (docs/kernel.md)."
   ROOMS kernel face/kernel HEADERS face/kernel/transaction.h face/kernel/extract.h)
-tetmend_made_header(operators.h "Attempts of operators on meshes of <tetmend/kernel.h> (docs/kernel.md)."
-  ROOMS kernel trace ops face/kernel HEADERS face/kernel/transaction.h face/kernel/extract.h face/kernel/operators.h)
+tetmend_made_header(operators.h "Attempts of operators, and operators of a program, on meshes of <tetmend/kernel.h> (docs/kernel.md)."
+  ROOMS kernel trace ops face/kernel HEADERS face/kernel/transaction.h face/kernel/extract.h face/kernel/own_operators.h)
 add_custom_target(tetmend_made_headers ALL DEPENDS ${TETMEND_MADE_HEADERS})
 
 # tetmend::kernel: what a program needs besides the library for the two of them.

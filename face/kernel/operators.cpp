@@ -2,14 +2,13 @@
 // Makes an operator ready, lets it try, and writes down its tree of calls.
 #include "face/kernel/operators.h"
 
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "face/kernel/operator_tools.h"
 #include "face/kernel/transaction.h"
-#include "ops/registry.h"
 
 namespace tetmend::kernel {
 
@@ -74,38 +73,47 @@ std::string Call::text() const {
   return text;
 }
 
-/// What attempts on one mesh need besides it.
-struct OperatorTools {
-  Registry registry = Registry::builtin();
-  std::map<std::string, std::unique_ptr<Operator>, std::less<>> operators;  // with their defaults
-  OperatorStates states;
-
-  static OperatorTools& of(TetMesh& mesh) {
-    if (!mesh.tools_) {
-      mesh.tools_ = {new OperatorTools, [](OperatorTools* tools) { delete tools; }};
-    }
-    return *mesh.tools_;
+OperatorTools& OperatorTools::of(TetMesh& mesh) {
+  if (!mesh.tools_) {
+    mesh.tools_ = {new OperatorTools, [](OperatorTools* tools) { delete tools; }};
   }
-  const Operator& find(std::string_view name) {
-    const auto found = operators.find(name);
-    if (found != operators.end()) return *found->second;
-    return *operators.emplace(name, registry.make(name)).first->second;
-  }
-  static bool is_live(const TetMesh& mesh, Target target);
-  Call attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps);
-};
+  return *mesh.tools_;
+}
 
-/// @throws Error for what the mesh never had
+const Operator& OperatorTools::find(std::string_view name) {
+  const auto found = operators.find(name);
+  if (found != operators.end()) return *found->second;
+  return *operators.emplace(name, registry.make(name)).first->second;
+}
+
+TetHandle OperatorTools::tet_of(Target target) {
+  switch (target.kind) {
+    case TargetKind::tet:
+      return target.tet();
+    case TargetKind::edge:
+      return target.edge().tet();
+    case TargetKind::face:
+      return target.face().tet();
+    case TargetKind::vertex:
+      break;
+  }
+  return {};
+}
+
 bool OperatorTools::is_live(const TetMesh& mesh, Target target) {
   if (target.kind == TargetKind::vertex) {
     return mesh.is_known(target.vertex(), "attempt") &&
            mesh.mesh_.tet_of(target.vertex()).is_valid();
   }
   if (target.kind == TargetKind::face && target.face().is_outside()) return false;
-  const TetHandle t = target.kind == TargetKind::tet    ? target.tet()
-                      : target.kind == TargetKind::edge ? target.edge().tet()
-                                                        : target.face().tet();
+  const TetHandle t = tet_of(target);
   return mesh.is_known(t, "attempt") && !mesh.mesh_.is_deleted(t);
+}
+
+void OperatorTools::check_target(std::string_view name, TargetKind kind, Target target) {
+  if (kind == target.kind) return;
+  throw Error(fmt::format("attempt: operator '{}' is for a target of kind {}, not {}", name,
+                          to_string(kind), to_string(target.kind)));
 }
 
 Call OperatorTools::attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps) {
@@ -147,10 +155,7 @@ Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
   if (!settings.empty()) own = tools.registry.make(operator_name, settings);
   const Operator& op = own ? *own : tools.find(operator_name);
   const OperatorInfo& info = op.info();
-  if (info.target != target.kind) {
-    throw Error(fmt::format("attempt: operator '{}' is for a target of kind {}, not {}", info.name,
-                            to_string(info.target), to_string(target.kind)));
-  }
+  OperatorTools::check_target(info.name, info.target, target);
   Call call;
   call.operator_name = info.name;
   if (!OperatorTools::is_live(mesh, target)) return call;

@@ -18,6 +18,8 @@
 namespace tetmend::kernel {
 
 using tetmend::ParameterSettings;
+using tetmend::Target;
+using tetmend::TargetKind;
 using tetmend::Verdict;
 
 /// An attempt, with those that it made itself.
@@ -40,7 +42,7 @@ struct TETMEND_API Call {
 };
 
 /// See attempt() and try_only().
-TETMEND_API Call attempt_at(TetMesh& mesh, std::string_view operator_name, tetmend::Target target,
+TETMEND_API Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
                             const ParameterSettings& settings, bool keeps);
 
 /// Tries an operator of tetmend at a tet, an edge, a face or a vertex, whichever it is for. What it
@@ -51,14 +53,14 @@ TETMEND_API Call attempt_at(TetMesh& mesh, std::string_view operator_name, tetme
 template <class Handle>
 Call attempt(TetMesh& mesh, std::string_view operator_name, Handle target,
              const ParameterSettings& settings = {}) {
-  return attempt_at(mesh, operator_name, tetmend::Target::of(target), settings, true);
+  return attempt_at(mesh, operator_name, Target::of(target), settings, true);
 }
 
 /// The same, and undone whatever came of it: what would happen.
 template <class Handle>
 Call try_only(TetMesh& mesh, std::string_view operator_name, Handle target,
               const ParameterSettings& settings = {}) {
-  return attempt_at(mesh, operator_name, tetmend::Target::of(target), settings, false);
+  return attempt_at(mesh, operator_name, Target::of(target), settings, false);
 }
 
 }  // namespace tetmend::kernel

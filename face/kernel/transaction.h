@@ -76,6 +76,7 @@ class TETMEND_API Transaction {
   void undo();
 
  private:
+  friend struct OperatorTools;  // judges what was done
   void check_usable() const;
   template <class Edit>
   EditResult make(const Edit& edit);

@@ -17,7 +17,7 @@
 
 #include "contract/zoo.h"
 #include "face/kernel/extract.h"
-#include "face/kernel/operators.h"
+#include "face/kernel/own_operators.h"
 #include "face/kernel/transaction.h"
 #include "face/mesh_access.h"
 #include "tests/face/meshes.h"
@@ -535,6 +535,89 @@ TEST_CASE("an attempt that is only tried shows its tree and leaves the mesh alon
   CHECK(message_of([&] { attempt(mesh, "edge_removal", VertexHandle(0)); }) ==
         "attempt: operator 'edge_removal' is for a target of kind edge, not vertex");
   CHECK(message_of([&] { attempt(mesh, "nothing", TetHandle(0)); }).find("unknown operator") == 0);
+}
+
+TEST_CASE("an operator of a program does what that of tetmend does, under the same judge") {
+  TetMesh mesh = ball();
+  Operators own;
+  own.add("my_flip", "three tets of an edge become two",
+          [](const TetMesh& look, TetEdge e, Proposal& out) {
+            const Ring r = look.ring(e);
+            if (!r.closed || r.tets.size() != 3) return Verdict::not_applicable;
+            const auto& p = r.vertices;
+            return out.replace(r.tets, {{r.a, p[0], p[1], p[2]}, {p[0], p[1], p[2], r.b}});
+          });
+  std::size_t accepted = 0;
+  for (const TetEdge e : mesh.edges()) {
+    const Picture before = picture_of(mesh);
+    const Call theirs = try_only(mesh, "flip_3_2", e);
+    const Call tried = try_only(mesh, own, "my_flip", e);
+    REQUIRE(picture_of(mesh) == before);
+    CHECK(tried.accepted() == theirs.accepted());
+    CHECK(tried.target.size() == 2);
+    const Call made = attempt(mesh, own, "my_flip", e);
+    CHECK(made.text() == tried.text());
+    CHECK((picture_of(mesh) == before) == !made.accepted());
+    if (!made.accepted()) continue;
+    ++accepted;
+    CHECK(made.worst_after == theirs.worst_after);
+  }
+  CHECK(accepted > 0);
+  CHECK(mesh.check().empty());
+  CHECK(attempt(mesh, own, "smoothing", inner_vertex(mesh)).operator_name == "smoothing");
+  CHECK(message_of([&] { attempt(mesh, own, "my_flip", TetHandle(0)); }) ==
+        "attempt: operator 'my_flip' is for a target of kind edge, not tet");
+  CHECK(message_of([&] {
+          own.add("my_flip", "again",
+                  [](const TetMesh&, TetHandle, Proposal&) { return Verdict::not_applicable; });
+        }) == "operator 'my_flip' is registered twice");
+}
+
+TEST_CASE("an operator of a program is judged by its own criterion, and a wrong one is refused") {
+  TetMesh mesh = ball();
+  Operators own;
+  std::size_t asked = 0;
+  own.add(
+      "shift", "a vertex to the mean of those around",
+      [](const TetMesh& look, VertexHandle v, Proposal& out) {
+        Point mean = Point::Zero();
+        const OneRing ring = look.one_ring(v);
+        for (const VertexHandle w : ring) {
+          mean += look.point(w) / static_cast<double>(ring.size());
+        }
+        return out.move(v, mean);
+      },
+      Judge::by([&](Judge::Tets before, Judge::Tets now) {
+        ++asked;
+        CHECK(before.size() == now.size());
+        return asked % 2 == 0;
+      }));
+  std::size_t accepted = 0;
+  for (const VertexHandle v : mesh.vertices()) {
+    const Point place = mesh.point(v);
+    const Call call = attempt(mesh, own, "shift", v);
+    if (mesh.is_fixed(v)) CHECK(call.verdict == Verdict::constrained);
+    CHECK((mesh.point(v) != place) == call.accepted());
+    accepted += call.accepted() ? 1 : 0;
+  }
+  CHECK(asked > 10);
+  CHECK(accepted == asked / 2);
+
+  own.add("wrong", "turns a tet over", [](const TetMesh& look, TetHandle t, Proposal& out) {
+    TetVertices v = look.vertices(t);
+    std::swap(v[0], v[1]);
+    return out.replace(std::vector<TetHandle>{t}, {v});
+  });
+  own.add("empty", "proposes nothing",
+          [](const TetMesh&, TetHandle, Proposal&) { return Verdict::accepted; });
+  own.add("broken", "throws",
+          [](const TetMesh&, TetHandle, Proposal&) -> Verdict { throw Error("no idea"); });
+  const Picture before = picture_of(mesh);
+  const TetHandle t = *mesh.tets().begin();
+  CHECK(attempt(mesh, own, "wrong", t).verdict == Verdict::inverted);
+  CHECK(attempt(mesh, own, "empty", t).verdict == Verdict::not_applicable);
+  CHECK(message_of([&] { attempt(mesh, own, "broken", t); }) == "no idea");
+  CHECK(picture_of(mesh) == before);
 }
 
 TEST_CASE("a part of a mesh has its labels, data, groups and mid-side nodes") {

@@ -171,6 +171,20 @@ Call largest_call(TetMesh& mesh) {
   return largest;
 }
 
+Operators own_operators() {
+  Operators own;
+  own.add(
+      "my_flip", "three tets of an edge become two",
+      [](const TetMesh& look, TetEdge e, Proposal& out) {
+        const Ring r = look.ring(e);
+        if (!r.closed || r.tets.size() != 3) return Verdict::not_applicable;
+        const auto& p = r.vertices;
+        return out.replace(r.tets, {{r.a, p[0], p[1], p[2]}, {p[0], p[1], p[2], r.b}});
+      },
+      Judge::by([](Judge::Tets before, Judge::Tets now) { return now.size() < before.size(); }));
+  return own;
+}
+
 /// Prints and ends the program when something of the page is not so.
 void expect(bool holds, const char* what) {
   if (holds) return;
@@ -195,6 +209,10 @@ int main(int argc, char** argv) {
   save("half.vtu", half_of(mesh, 0.5));
   expect(refine(mesh).tet_count() == 8 * mesh.tet_count(), "(i) eight tets for one");
   std::fputs(largest_call(mesh).text().c_str(), stdout);
+  const Operators own = own_operators();
+  std::size_t accepted = 0;
+  for (TetEdge e : mesh.edges()) accepted += attempt(mesh, own, "my_flip", e).accepted() ? 1 : 0;
+  expect(accepted > 0, "an operator of the program makes fewer tets of more");
   expect(mesh.check().empty(), "the mesh is sound after all that");
   expect(tetmend::measure(mesh.to_mesh()).statistics.inverted == 0, "no tet is inverted");
   return 0;
