@@ -1,6 +1,7 @@
 # What is installed: the library, its headers, how others find it, and the licences.
-#   find_package(tetmend)   the target tetmend::tetmend; with COMPONENTS plugin also tetmend::plugin; petsc.cmake has tetmend::petsc
-#   pkg-config tetmend      the same for other build tools; with --static what a static libtetmend needs
+#   find_package(tetmend)   the target tetmend::tetmend; with COMPONENTS plugin or kernel also tetmend::plugin, tetmend::kernel;
+#                           petsc.cmake has tetmend::petsc
+#   pkg-config tetmend      the same for other build tools; with --static what a static libtetmend needs; tetmend-kernel finds Eigen
 # The components are those of the packages that cmake/packages.cmake makes: program, viewer, library, development, python.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tetmend)
@@ -14,8 +15,10 @@ install(FILES ${PROJECT_SOURCE_DIR}/bindings/fortran/tetmend.f90 DESTINATION ${C
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(EXPORT tetmendTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
 install(TARGETS tetmend_plugin EXPORT tetmendPluginTargets)
-install(FILES ${TETMEND_PLUGIN_HEADER} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tetmend)
+install(FILES ${TETMEND_MADE_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tetmend)
 install(EXPORT tetmendPluginTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
+install(TARGETS tetmend_for_kernel EXPORT tetmendKernelTargets)
+install(EXPORT tetmendKernelTargets NAMESPACE tetmend:: DESTINATION ${package_dir})
 set(tetmend_config_libraries "")
 if(NOT BUILD_SHARED_LIBS)
   set(tetmend_config_libraries "# A static library does not bring along what it is made with.
@@ -34,4 +37,6 @@ string(REGEX REPLACE "/$" "" tetmend_way_up "${tetmend_way_up}")
 list(TRANSFORM tetmend_static_libraries PREPEND "-l" OUTPUT_VARIABLE tetmend_private_libraries)
 list(JOIN tetmend_private_libraries " " tetmend_private_libraries)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmend.pc.in ${PROJECT_BINARY_DIR}/tetmend.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/tetmend.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmend-kernel.pc.in ${PROJECT_BINARY_DIR}/tetmend-kernel.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/tetmend.pc ${PROJECT_BINARY_DIR}/tetmend-kernel.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

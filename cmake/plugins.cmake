@@ -4,18 +4,11 @@
 #                       it, or in libtetmend.so; a copy of its own would only be a second one of the same.
 # tetmend_plugin_host   for a program of this build that loads plugins: all of kernel, trace, search and ops is linked and
 #                       exported, whether the program itself uses it or not. Programs elsewhere have libtetmend.so.
-set(TETMEND_PLUGIN_HEADER ${PROJECT_BINARY_DIR}/include/tetmend/plugin.h)
-file(GLOB private_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernel/*.h ${PROJECT_SOURCE_DIR}/trace/*.h
-     ${PROJECT_SOURCE_DIR}/ops/*.h)
-add_custom_command(OUTPUT ${TETMEND_PLUGIN_HEADER}
-  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} "-DHEADERS=ops/plugin.h;kernel/star.h"
-          -DOUTPUT=${TETMEND_PLUGIN_HEADER} -P ${PROJECT_SOURCE_DIR}/cmake/plugin_header.cmake
-  DEPENDS ${private_headers} ${PROJECT_SOURCE_DIR}/cmake/plugin_header.cmake VERBATIM)
-add_custom_target(tetmend_plugin_header ALL DEPENDS ${TETMEND_PLUGIN_HEADER})
+include(cmake/headers.cmake)
 
 add_library(tetmend_plugin INTERFACE)
 add_library(tetmend::plugin ALIAS tetmend_plugin)
-add_dependencies(tetmend_plugin tetmend_plugin_header)
+add_dependencies(tetmend_plugin tetmend_made_headers)
 target_include_directories(tetmend_plugin INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

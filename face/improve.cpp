@@ -19,6 +19,7 @@
 #include "face/advice.h"
 #include "face/arena.h"
 #include "face/carry.h"
+#include "face/constraints.h"
 #include "face/curving.h"
 #include "face/growth.h"
 #include "face/maps.h"
@@ -37,7 +38,6 @@
 #include "kernel/formats/deck_remarks.h"
 #include "kernel/integrity.h"
 #include "kernel/rulers.h"
-#include "kernel/shared_parts.h"
 #include "kernel/size_field.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/volume_rounding.h"
@@ -218,13 +218,8 @@ void Improvement::build() {
 }
 
 void Improvement::build_mesh(MeshData& data, Mending mending) {
-  const std::vector<MeshData::Triangle> walls = face::walls_between_parts(data);
   face::put_marks(marks_, data);
-  data.triangles.insert(data.triangles.end(), walls.begin(), walls.end());
-  const std::vector<MeshData::Edge> curved =
-      find_fixed_mid_nodes(data, !options_.ignore_interior).inside;
-  data.edges.insert(data.edges.end(), curved.begin(), curved.end());
-  hold_shared_inside(data);
+  face::name_constraints(data, !options_.ignore_interior);
   mesh_ = face::build_located(file_, data,
                               {.interior = options_.ignore_interior ? InteriorConstraints::dropped
                                                                     : InteriorConstraints::kept,

@@ -26,7 +26,7 @@ NAVIGATION: dict[str, list[str]] = {
     "index": ["start", "install", "howto", "choosing", "report", "troubleshooting", "extending",
               "overview", "reliability", "results", "reference"],
     "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
-              "howto/others", "python", "library", "c", "howto/ci", "layers", "surface", "pieces", "viewer", "examples"],
+              "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "pieces", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing", "portability"],
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",

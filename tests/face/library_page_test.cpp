@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// docs/library.md shows programs that are compiled and run, and all options that there are.
+// docs/library.md and kernel.md show programs that are compiled and run; the first has all options that there are.
 #include <regex>
 #include <string>
 #include <vector>
@@ -44,6 +44,21 @@ TEST_CASE("the programs of docs/library.md are those that the install test build
     CAPTURE(block);
     CHECK(projects.find(block) != std::string::npos);
   }
+}
+
+TEST_CASE("the ten programs of docs/kernel.md are those that the install test builds and runs") {
+  const std::string page = read_text(kSource / "docs/kernel.md");
+  const auto programs = kSource / "tests/install/kernel_user";
+  const std::string source = read_text(programs / "programs.cpp");
+  const auto blocks = blocks_of(page, "cpp");
+  CHECK(blocks.size() >= 10);
+  for (const std::string& block : blocks) {
+    CAPTURE(block);
+    CHECK(source.find(block) != std::string::npos);
+  }
+  CHECK(blocks_of(page, "cmake").size() == 1);
+  CHECK(read_text(programs / "CMakeLists.txt").find(blocks_of(page, "cmake")[0]) !=
+        std::string::npos);
 }
 
 TEST_CASE("docs/library.md has a row for each field of Options and Result") {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Installs tetmend into a folder of its own, and builds against it, with find_package alone, what a stranger would: the
-# plugin of plugins/ and the programs of docs/library.md. Then runs them. The programs are built for this very processor,
+# plugin of plugins/ and the programs of docs/library.md and docs/kernel.md. Then runs them. The programs are built for this very processor,
 # and write the same bytes as the command line. So does one that is built by pkg-config alone, after all that was installed
 # has moved.
 #   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -DGENERATOR=... -DLAUNCHER=... -DFLAGS=... -P installed_test.cmake
@@ -46,11 +46,11 @@ expect("The C++ headers of tetmend need C++20")
 file(WRITE ${WORK}/old.cpp "#include <tetmend/tetmend.h>\nint main() { return 0; }\n")
 run(${COMPILER} -std=c++11 -fsyntax-only -I${WORK}/prefix/include ${WORK}/old.cpp)
 
-# What users see of it is one folder. Programs need nothing but the standard library, plugins Eigen as well.
+# What users see of it is one folder. Programs need nothing but the standard library, plugins and those of the kernel Eigen as well.
 file(GLOB_RECURSE headers ${WORK}/prefix/include/*.h)
 file(GLOB packages ${WORK}/prefix/lib*/cmake/tetmend ${WORK}/prefix/lib/*/cmake/tetmend)
 list(LENGTH headers count)
-if(count EQUAL 0 OR count GREATER 21)
+if(count EQUAL 0 OR count GREATER 23)
   message(FATAL_ERROR "${count} headers are installed: ${headers}")
 endif()
 foreach(file IN LISTS headers)
@@ -58,7 +58,7 @@ foreach(file IN LISTS headers)
     message(FATAL_ERROR "${file} is not in the one folder")
   endif()
   set(eigen "")
-  if(file MATCHES "/plugin\\.h$")
+  if(file MATCHES "/(plugin|kernel|operators)\\.h$")
     set(eigen "|Eigen/[A-Za-z]+")
   endif()
   file(STRINGS ${file} includes REGEX "^ *#")
@@ -79,7 +79,7 @@ foreach(file IN LISTS package)
   if(content MATCHES "OpenMesh|TBB|fmt::|lua|nlohmann|gmp|zstd|CGAL|FastFloat")
     message(FATAL_ERROR "${file} names ${CMAKE_MATCH_0}")
   endif()
-  if(content MATCHES "Eigen" AND NOT file MATCHES "Plugin|tetmendConfig.cmake$")
+  if(content MATCHES "Eigen" AND NOT file MATCHES "Plugin|Kernel|tetmendConfig.cmake$")
     message(FATAL_ERROR "${file} names Eigen")
   endif()
 endforeach()
@@ -137,6 +137,24 @@ run(${CMAKE_COMMAND} -E compare_files ${WORK}/better.mesh ${WORK}/expected.mesh)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/programs/embedded ${plugin})
 expect("odt_smoothing: ")
 
+# The programs of the kernel, by the compiler of this build and by clang, without a warning.
+set(strict -Wall -Wextra -Wconversion -Wshadow -Werror)
+build(${SOURCE}/tests/install/kernel_user ${WORK}/kernel -march=native -O3 -fvisibility=hidden ${strict})
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/kernel/kernel_programs ${WORK}/part.mesh)
+expect("recursive_shell_transformation(")
+set(kernel_output "${output}")
+find_program(clang NAMES clang++-14 clang++)
+if(clang AND NOT FLAGS)  # its sanitizers are others
+  set(COMPILER_HERE ${COMPILER})
+  set(COMPILER ${clang})
+  build(${SOURCE}/tests/install/kernel_user ${WORK}/kernel_by_clang ${strict})
+  set(COMPILER ${COMPILER_HERE})
+  run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/kernel_by_clang/kernel_programs ${WORK}/part.mesh)
+  if(NOT output STREQUAL kernel_output)
+    message(FATAL_ERROR "the programs of the kernel say something else where clang compiled them:\n${output}")
+  endif()
+endif()
+
 find_program(pkg_config pkg-config REQUIRED)
 find_program(mpirun mpirun)
 execute_process(COMMAND ${pkg_config} --exists PETSc RESULT_VARIABLE no_petsc)
@@ -175,6 +193,11 @@ run(${CMAKE_COMMAND} -E chdir ${WORK} ${environment} ${WORK}/by_pkg_config)
 run(${CMAKE_COMMAND} -E compare_files ${WORK}/better.mesh ${WORK}/expected.mesh)
 run(${environment} ${pkg_config} --static --libs tetmend)
 expect("-lzstd")
+run(${environment} ${pkg_config} --cflags --libs tetmend-kernel)
+string(STRIP "${output}" words)
+separate_arguments(words UNIX_COMMAND "${words} ${FLAGS}")
+run(${COMPILER} -std=c++20 ${SOURCE}/tests/install/kernel_user/programs.cpp ${words} -o ${WORK}/kernel_by_pkg_config)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${environment} ${WORK}/kernel_by_pkg_config ${WORK}/part.mesh)
 
 # The page about C and Fortran, command by command.
 if(NOT FLAGS)  # a sanitizer would have to be in these programs too

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# Writes <tetmend/plugin.h>, all that a plugin needs in one file: our headers named by HEADERS and what they include,
-# each once, in the order of their includes. What a plugin may not see is refused: a search engine, an operator.
-#   cmake -DSOURCE=... -DHEADERS=ops/plugin.h;... -DOUTPUT=... -P plugin_header.cmake
+# Writes a header that users see, all of a part of the library in one file: our headers named by HEADERS and what they include,
+# each once, in the order of their includes. What lies in none of the ROOMS is refused: a search engine, an operator. Each of
+# our headers has a guard of its own, for a program may include several such files.
+#   cmake -DSOURCE=... -DHEADERS=ops/plugin.h;... -DROOMS=kernel;... -DVERSION=0.1.0 "-DPURPOSE=..." -DOUTPUT=... -P one_header.cmake
 cmake_minimum_required(VERSION 3.21)
-set(rooms "^(kernel|trace|ops)/")
+list(JOIN ROOMS "|" rooms)
 set(seen "")
 set(text "")
 
@@ -11,8 +12,8 @@ set(text "")
 macro(add header)
   if(NOT "${header}" IN_LIST seen)
     list(APPEND seen ${header})
-    if(NOT "${header}" MATCHES "${rooms}")
-      message(FATAL_ERROR "a plugin would see ${header}: by ${stack}")
+    if(NOT "${header}" MATCHES "^(${rooms})/[^/]+$")
+      message(FATAL_ERROR "a user would see ${header}: by ${stack}")
     endif()
     file(READ ${SOURCE}/${header} content_${header})
     string(REGEX MATCHALL "#include \"[^\"\n]+\"" includes_${header} "${content_${header}}")
@@ -26,15 +27,21 @@ macro(add header)
     string(REPLACE "#pragma once\n" "" content "${content}")
     string(REPLACE "// SPDX-License-Identifier: MIT\n" "" content "${content}")
     string(REGEX REPLACE "\n\n\n+" "\n\n" content "${content}")
-    string(APPEND text "\n// ---- ${header}\n${content}")
+    string(MAKE_C_IDENTIFIER "${header}" guard)
+    string(TOUPPER "TETMEND_HAS_${guard}" guard)
+    string(APPEND text "\n// ---- ${header}\n#ifndef ${guard}\n#define ${guard}\n${content}#endif\n")
   endif()
 endmacro()
 
 foreach(header IN LISTS HEADERS)
-  set(stack plugin.h)
+  set(stack ${OUTPUT})
   add(${header})
 endforeach()
+set(version "#define TETMEND_VERSION_TEXT \"${VERSION}\"")
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT "// SPDX-License-Identifier: MIT
-// All that a plugin needs to add operators to tetmend (docs/operators.md). Made from the headers that are named in it.
+// @PURPOSE@ Made from the headers that are named in it.
 #pragma once
+#ifndef TETMEND_VERSION_TEXT
+@version@
+#endif
 @text@")
