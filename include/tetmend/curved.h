@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include <tetmend/cxx20.h>
+#include <tetmend/language.h>
 
 namespace tetmend {
 

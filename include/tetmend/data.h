@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <tetmend/api.h>
-#include <tetmend/cxx20.h>
+#include <tetmend/language.h>
 
 namespace tetmend {
 

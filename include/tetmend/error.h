@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <tetmend/api.h>
-#include <tetmend/cxx20.h>
+#include <tetmend/language.h>
 
 namespace tetmend {
 

@@ -2,7 +2,7 @@
 // What a run works towards.
 #pragma once
 
-#include <tetmend/cxx20.h>
+#include <tetmend/language.h>
 
 namespace tetmend {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include <tetmend/cxx20.h>
+#include <tetmend/language.h>
 
 namespace tetmend {
 
