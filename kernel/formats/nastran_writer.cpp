@@ -59,12 +59,16 @@ std::string short_form(std::string_view scientific) {
 
 /// The same number in the room that a solver reads; empty if it needs more.
 std::string in_room(double value) {
+  constexpr std::size_t kMostDigits = 15;
   std::string text = with_all_digits(value);
   if (text.size() <= kNastranRoom) return text;
   std::array<char, 32> memory{};
   const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
                                           std::chars_format::scientific);
-  text = short_form({memory.data(), static_cast<std::size_t>(end - memory.data())});
+  const std::string_view shortest(memory.data(), static_cast<std::size_t>(end - memory.data()));
+  constexpr std::size_t kSigns = 2;  // of the number, and its point
+  if (shortest.find('e') > kMostDigits + kSigns) return {};
+  text = short_form(shortest);
   return text.size() <= kNastranRoom ? text : std::string();
 }
 
@@ -309,25 +313,32 @@ class Writer {
   /// @param card the old one of a point that moved; else it has no fields
   void put_point(OutputBuffer& buffer, std::size_t i, const NastranCardText& card,
                  const Point& coordinates) const {
-    std::vector<std::string> fields = {fmt::format("{}", points_[i]), std::string(card.field(1))};
+    std::array<char, 24> number{};
+    const auto [end, error] =
+        std::to_chars(number.data(), number.data() + number.size(), points_[i]);
+    std::array<std::string, 3> reals;
+    std::array<std::string_view, 8> fields = {
+        std::string_view(number.data(), static_cast<std::size_t>(end - number.data())),
+        card.field(1)};
     if (card.fields.empty() && default_system_ != 0) fields[1] = "0";
-    for (int axis = 0; axis < 3; ++axis) {
-      std::string text = in_room(coordinates[axis]);
-      if (text.empty()) {
-        text = was_deck_ ? rounded_to_room(coordinates[axis]) : with_all_digits(coordinates[axis]);
-      }
-      fields.push_back(std::move(text));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = coordinates[static_cast<Eigen::Index>(k)];
+      reals[k] = in_room(value);
+      if (reals[k].empty()) reals[k] = was_deck_ ? rounded_to_room(value) : with_all_digits(value);
+      fields[2 + k] = reals[k];
     }
-    for (std::size_t k = 5; k < 8; ++k) fields.emplace_back(card.field(k));
-    while (fields.size() > 5 && fields.back().empty()) fields.pop_back();
-    const bool is_fixed = std::all_of(fields.begin(), fields.end(), [](const std::string& field) {
+    for (std::size_t k = 5; k < 8; ++k) fields[k] = card.field(k);
+    std::size_t count = fields.size();
+    while (count > 5 && fields[count - 1].empty()) --count;
+    const bool is_fixed = std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
       return field.size() <= kNastranRoom;
     });
+    constexpr std::string_view kBlanks = "                ";
     buffer.put(std::string_view(is_fixed ? "GRID*   " : "GRID*"));
-    for (std::size_t k = 0; k < fields.size(); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       if (k == 4) buffer.put(std::string_view(is_fixed ? "\n*       " : "\n*"));
       if (is_fixed) {
-        buffer.put(std::string(kNastranRoom - fields[k].size(), ' '));
+        buffer.put(kBlanks.substr(0, kNastranRoom - fields[k].size()));
       } else {
         buffer.put(',');
       }
