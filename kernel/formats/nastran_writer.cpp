@@ -296,18 +296,19 @@ class Writer {
       const std::string_view known = points_of_deck_.of(points_[i]);
       NastranCardText card;
       if (!known.empty()) NastranLines(known.data(), known.data() + known.size()).read(card);
-      const NastranSystem& system = known.empty() ? basic_ : system_of(card);
+      const NastranSystem* system = known.empty() ? nullptr : system_of(card);
       if (!known.empty() && stands_at(card, system, mesh_.point(i))) return buffer.put(known);
-      put_point(buffer, i, card, system.from_basic(mesh_.point(i)));
+      const Point& point = mesh_.point(i);
+      put_point(buffer, i, card, system == nullptr ? point : system->from_basic(point));
     });
   }
 
-  /// In which a point of the deck is given.
-  const NastranSystem& system_of(const NastranCardText& card) const {
+  /// In which a point of the deck is given; null: the basic one.
+  const NastranSystem* system_of(const NastranCardText& card) const {
     std::int64_t number = 0;
     if (!nastran_integer(card.field(1), number)) number = default_system_;
     const auto found = systems_.find(number);
-    return found == systems_.end() ? basic_ : found->second;
+    return number == 0 || found == systems_.end() ? nullptr : &found->second;
   }
 
   /// @param card the old one of a point that moved; else it has no fields
@@ -348,14 +349,14 @@ class Writer {
   }
 
   /// True if the card says just this place.
-  static bool stands_at(const NastranCardText& card, const NastranSystem& system,
+  static bool stands_at(const NastranCardText& card, const NastranSystem* system,
                         const Point& point) {
     Point place = Point::Zero();
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = card.field(2 + static_cast<std::size_t>(axis));
       if (!field.empty() && !nastran_real(field, place[axis])) return false;
     }
-    return system.to_basic(place) == point;
+    return (system == nullptr ? place : system->to_basic(place)) == point;
   }
 
   void write_elements(std::size_t k) {
@@ -399,7 +400,6 @@ class Writer {
   bool was_deck_ = false;                           // the mesh came from one
   WholeCards points_of_deck_, elements_of_deck_;
   std::map<std::int64_t, NastranSystem> systems_;
-  NastranSystem basic_;
   std::int64_t default_system_ = 0;  // of GRDSET
   Largest largest_;
   std::vector<std::int64_t> points_;                 // their numbers
