@@ -37,38 +37,37 @@ std::string with_all_digits(double value) {
 std::string short_form(std::string_view scientific) {
   const std::size_t e = scientific.find('e');
   const int exponent = std::stoi(std::string(scientific.substr(e + 1)));
-  std::string digits(scientific.substr(0, e));
-  std::erase(digits, '.');
-  const std::string sign = digits[0] == '-' ? "-" : "";
-  digits.erase(0, sign.size());
-  digits.erase(std::max<std::size_t>(1, digits.find_last_not_of('0') + 1));
+  const std::string_view sign = scientific.starts_with('-') ? "-" : "";
+  std::string memory(scientific.substr(sign.size(), e - sign.size()));
+  std::erase(memory, '.');
+  memory.resize(std::max<std::size_t>(1, memory.find_last_not_of('0') + 1));
+  const std::string_view digits = memory;
   const std::string with_exponent =
       fmt::format("{}{}.{}{:+}", sign, digits.substr(0, 1), digits.substr(1), exponent);
   constexpr int kRoom = static_cast<int>(kNastranRoom);
   if (exponent < -kRoom || exponent >= kRoom) return with_exponent;
+  std::string fixed;
   if (exponent < 0) {
-    digits.insert(0, "." + std::string(static_cast<std::size_t>(-exponent - 1), '0'));
+    fixed = fmt::format("{}.{:0>{}}{}", sign, "", -exponent - 1, digits);
   } else {
     const auto whole = static_cast<std::size_t>(exponent) + 1;
-    if (digits.size() < whole) digits.append(whole - digits.size(), '0');
-    digits.insert(whole, ".");
+    const std::size_t given = std::min(whole, digits.size());
+    fixed = fmt::format("{}{}{:0>{}}.{}", sign, digits.substr(0, given), "", whole - given,
+                        digits.substr(given));
   }
-  digits.insert(0, sign);
-  return digits.size() <= with_exponent.size() ? digits : with_exponent;
+  return fixed.size() <= with_exponent.size() ? fixed : with_exponent;
 }
 
-/// The same number in the room that a solver reads; empty if it needs more.
-std::string in_room(double value) {
+/// The same number in the room that a solver reads, in a short form; empty if it needs more.
+std::string shortened(double value) {
   constexpr std::size_t kMostDigits = 15;
-  std::string text = with_all_digits(value);
-  if (text.size() <= kNastranRoom) return text;
   std::array<char, 32> memory{};
   const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
                                           std::chars_format::scientific);
   const std::string_view shortest(memory.data(), static_cast<std::size_t>(end - memory.data()));
   constexpr std::size_t kSigns = 2;  // of the number, and its point
   if (shortest.find('e') > kMostDigits + kSigns) return {};
-  text = short_form(shortest);
+  std::string text = short_form(shortest);
   return text.size() <= kNastranRoom ? text : std::string();
 }
 
@@ -324,8 +323,12 @@ class Writer {
     if (card.fields.empty() && default_system_ != 0) fields[1] = "0";
     for (std::size_t k = 0; k < 3; ++k) {
       const double value = coordinates[static_cast<Eigen::Index>(k)];
-      reals[k] = in_room(value);
-      if (reals[k].empty()) reals[k] = was_deck_ ? rounded_to_room(value) : with_all_digits(value);
+      reals[k] = with_all_digits(value);
+      if (reals[k].size() > kNastranRoom) {
+        std::string short_text = shortened(value);
+        if (short_text.empty() && was_deck_) short_text = rounded_to_room(value);
+        if (!short_text.empty()) reals[k] = std::move(short_text);
+      }
       fields[2 + k] = reals[k];
     }
     for (std::size_t k = 5; k < 8; ++k) fields[k] = card.field(k);
