@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include <tetmend/improve.h>
 
@@ -51,6 +52,7 @@ class Renewal {
     append_edges(now_.edges, all);
     make_list(all);
     keep_old(all);
+    if (!had_curved_tets()) of_tets.clear();
     for (const Edge& edge : of_tets) {
       if (!std::binary_search(kept_.begin(), kept_.end(), edge)) add(edge);
     }
@@ -58,6 +60,17 @@ class Renewal {
   }
 
  private:
+  /// False where only triangles or edges are of second order. Tets all are, or none is.
+  bool had_curved_tets() const {
+    std::vector<Edge> edges;
+    append_edges(std::span(before_.tets).first(std::min<std::size_t>(1, before_.tets.size())),
+                 edges);
+    return std::any_of(before_.mid_nodes.begin(), before_.mid_nodes.end(), [&](const auto& mid) {
+      const Edge edge = {std::min(mid[0], mid[1]), std::max(mid[0], mid[1])};
+      return std::find(edges.begin(), edges.end(), edge) != edges.end();
+    });
+  }
+
   /// The old nodes of edges that are still there.
   void keep_old(const std::vector<Edge>& edges) {
     for (const auto& mid : before_.mid_nodes) {

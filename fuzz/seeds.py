@@ -149,15 +149,15 @@ WORDS = {
     "vtk": "DATASET UNSTRUCTURED_GRID POINTS CELLS CELL_TYPES POINT_DATA CELL_DATA SCALARS LOOKUP_TABLE FIELD VECTORS OFFSETS "
            "CONNECTIVITY METADATA vtktypeint64 float double int ASCII BINARY",
     "vtu": "VTKFile UnstructuredGrid Piece NumberOfPoints NumberOfCells DataArray Points Cells PointData CellData type format ascii "
-           "appended binary offset encoding base64 raw compressor vtkZLibDataCompressor UInt64 header_type Float64 Int64",
+           "appended binary offset encoding base64 raw compressor vtkZLibDataCompressor vtkLZ4DataCompressor UInt64 header_type Float64 Int64",
     "msh": "$MeshFormat $EndMeshFormat $PhysicalNames $Entities $Nodes $Elements $Periodic $NodeData $ElementData "
-           "$PartitionedEntities 2.2 4.1",
-    "inp": "*NODE *ELEMENT *NSET *ELSET *SURFACE *INCLUDE *END *PART *ASSEMBLY *INSTANCE TYPE=C3D4 TYPE=C3D10 TYPE=C3D6 GENERATE "
+           "$PartitionedEntities $ParametricNodes 2.2 4.1",
+    "inp": "*NODE *ELEMENT *NSET *ELSET *SURFACE *INCLUDE *END *PART *ASSEMBLY *INSTANCE INSTANCE= PART= TYPE=C3D4 TYPE=C3D10 TYPE=C3D6 GENERATE "
            "ELSET= NSET= NAME= TYPE=ELEMENT S1 S2",
     "su2": "NDIME= NELEM= NPOIN= NMARK= MARKER_TAG= MARKER_ELEMS= NZONE= NCHUNK=",
     "vol": "mesh3d dimension geomtype surfaceelements volumeelements points edgesegmentsgi2 pointelements materials bcnames "
            "cd2names identifications endmesh",
-    "bdf": "GRID GRID* CTETRA CTETRA* CTRIA3 CPENTA CHEXA CPYRAM PSOLID SET BEGIN BULK ENDDATA CORD2R INCLUDE PLOAD4",
+    "bdf": "GRID GRID* CTETRA CTETRA* CTRIA3 CPENTA CHEXA CPYRAM PSOLID SET BEGIN BULK ENDDATA CORD2R CORD1C GRDSET INCLUDE PLOAD4",
 }
 
 

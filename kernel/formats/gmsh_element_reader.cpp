@@ -126,7 +126,8 @@ void GmshElementReader::read_4() {
 void GmshElementReader::read_block(int type, std::size_t count, Label label, Label part) {
   const std::size_t width = gmsh_type(type).width;
   TextReader& text = source_.text();
-  if (count > text.bytes_left() / (source_.binary() ? 8 * (width + 1) : 2 * (width + 1))) {
+  if (count > text.bytes_left() /
+                  (source_.binary() ? source_.wide_size() * (width + 1) : 2 * (width + 1))) {
     text.fail(
         fmt::format("{} elements of type {} cannot fit into the {} bytes that are left: the "
                     "count is wrong or the file is truncated",

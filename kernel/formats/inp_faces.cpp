@@ -49,7 +49,9 @@ FaceLabel to_face(std::string_view text) {
 class Reader {
  public:
   Reader(const InpLines& lines, const InpMesh& mesh, InpSets& sets)
-      : lines_(lines), mesh_(mesh), sets_(sets) {}
+      : lines_(lines), mesh_(mesh), sets_(sets) {
+    find_other_instances();
+  }
 
   void read(const InpBlock& block) {
     if (!block.is_of_mesh) return;
@@ -158,7 +160,10 @@ class Reader {
         made.name = made.goes_on ? name + "_" + prefix.substr(0, prefix.size() - 1) : name;
         result_.uses.push_back(std::move(made));
       }
-      if (any) continue;
+      if (any) {
+        add_other_instances(first, block, face, rest, more);
+        continue;
+      }
       note_element(block, fields, is_face ? std::string_view() : first);
       more += fmt::format("{}\n", trimmed(fields.line()));
     }
@@ -199,7 +204,10 @@ class Reader {
         made.rest = rest;
         result_.uses.push_back(std::move(made));
       }
-      if (any) continue;
+      if (any) {
+        add_other_instances(first, block, face, rest, rest_of_block);
+        continue;
+      }
       note_element(block, fields, first);
       rest_of_block += fmt::format("{}\n", trimmed(fields.line()));
     }
@@ -238,6 +246,43 @@ class Reader {
     for (const std::int64_t number : named.set->others) add(number);
   }
 
+  /// A set of an assembly may have elements of instances that are not in the mesh, too.
+  void add_other_instances(std::string_view text, const InpBlock& block, std::string_view face,
+                           std::string_view rest, std::string& lines) {
+    if (block.scope != 0 && !block.is_in_assembly) return;
+    const auto others = others_of_set_.find(inp_key(text));
+    if (others == others_of_set_.end()) return;
+    for (const std::string& each : others->second) {
+      lines += fmt::format("{}, {}{}\n", each, face, rest);
+    }
+  }
+
+  /// By the name of the set: "Shell-1.17", or "Shell-1.Set-1".
+  void find_other_instances() {
+    for (const InpBlock& block : lines_.blocks) {
+      if (block.keyword != "ELSET" || block.instance == 0 || block.is_of_mesh) continue;
+      const std::string prefix = lines_.instances[block.instance - 1].name + ".";
+      std::vector<std::string>& others = others_of_set_[inp_key(block.value("ELSET"))];
+      InpFields fields(block);
+      while (fields.next_line()) {
+        if (block.find("GENERATE") == nullptr) {
+          while (fields.more()) others.push_back(prefix + std::string(fields.field()));
+          continue;
+        }
+        const std::int64_t first = fields.integer("the first number of a range");
+        const std::int64_t last = fields.more() ? fields.integer("the last number") : first;
+        const std::int64_t step =
+            std::max<std::int64_t>(1, fields.more() ? fields.integer("the step of a range") : 1);
+        if (last < first) continue;
+        sets_.add_work(static_cast<std::size_t>((last - first) / step + 1), block);
+        for (std::int64_t number = first; number <= last; number += step) {
+          others.push_back(fmt::format("{}{}", prefix, number));
+        }
+      }
+      std::erase(others, prefix);
+    }
+  }
+
   void note_element(const InpBlock& block, const InpFields& fields, std::string_view text) {
     std::int64_t number = 0;
     if (!to_integer(text, number)) return;
@@ -256,7 +301,8 @@ class Reader {
   const InpMesh& mesh_;
   InpSets& sets_;
   InpFaces result_;
-  std::set<std::pair<std::size_t, std::string>> names_;  // of surfaces, by scope
+  std::set<std::pair<std::size_t, std::string>> names_;            // of surfaces, by scope
+  std::map<std::string, std::vector<std::string>> others_of_set_;  // by its name
 };
 
 }  // namespace

@@ -266,7 +266,7 @@ void InpLines::enter(InpBlock& block) {
 }
 
 /// The mesh is in the scopes with tets; where none has any, in those with other elements, or with
-/// nodes at least. An instance without nodes stands for its part.
+/// nodes at least. An instance stands for its part, unless it has a mesh of its own.
 void InpLines::choose_scopes() {
   enum : int { nothing, nodes, elements, tets };
   std::vector<int> has(scopes.size(), nothing);
@@ -299,7 +299,10 @@ void InpLines::choose_scopes() {
   }
   for (InpInstance& instance : instances) {
     const auto part = parts.find(instance.part);
-    if (has[instance.scope] == nothing && part != parts.end()) instance.scope = part->second;
+    const bool has_less = part != parts.end() && has[instance.scope] < has[part->second];
+    if (has_less || (has[instance.scope] == nothing && part != parts.end())) {
+      instance.scope = part->second;
+    }
   }
 }
 

@@ -23,7 +23,8 @@ void make_unique(std::vector<T>& values) {
 std::string_view without_instance(std::string_view text) {
   const std::size_t dot = text.rfind('.');
   const bool has_instance =
-      dot != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text[0])) != 0;
+      dot != std::string_view::npos &&
+      (text[0] == '"' || std::isalpha(static_cast<unsigned char>(text[0])) != 0);
   return has_instance ? text.substr(dot + 1) : text;
 }
 

@@ -26,7 +26,7 @@ void add(NastranCardText& card, std::string_view field) {
   card.fields.push_back(trimmed_field(field));
 }
 
-bool is_blank(std::string_view text) {
+bool is_blank_text(std::string_view text) {
   return trimmed_field(text).empty();
 }
 
@@ -98,8 +98,10 @@ void split_fixed(NastranCardText& card, std::string_view line, std::size_t width
 
 void split(NastranCardText& card, std::string_view whole, std::string_view next_name) {
   const std::string_view line = without_comment(whole);
-  const bool is_free = line.find(',') != std::string_view::npos;
-  const bool is_large = first_field(line).find('*') != std::string_view::npos;
+  const std::size_t comma = line.find(',');
+  const bool is_free = comma != std::string_view::npos;
+  const std::string_view name = is_free ? line.substr(0, comma) : line.substr(0, kSmall);
+  const bool is_large = name.find('*') != std::string_view::npos;
   const std::size_t most = is_large ? 4 : 8;
   if (is_free) {
     split_free(card, line, most, next_name);
@@ -132,12 +134,21 @@ char NastranLines::initial() const {
   return '\0';
 }
 
+bool NastranLines::begins_with(std::string_view word) const {
+  const char* at = next_;
+  while (at != end_ && at != next_ + kSmall && *at == ' ') ++at;
+  if (static_cast<std::size_t>(end_ - at) < word.size()) return false;
+  return std::equal(word.begin(), word.end(), at, [](char wanted, char c) {
+    return std::toupper(static_cast<unsigned char>(c)) == wanted;
+  });
+}
+
 void NastranLines::skip_comments() {
   while (!at_end()) {
     const char first = initial();
     if (first != '$' && first != '\t' && first != '\r' && first != '\0') return;
     NastranLines ahead = *this;
-    if (!is_blank(without_comment(ahead.line()))) return;
+    if (!is_blank_text(without_comment(ahead.line()))) return;
     *this = ahead;
   }
 }
@@ -149,7 +160,7 @@ bool NastranLines::continues() const {
   if (*next_ == '+' || *next_ == '*') return true;
   NastranLines ahead = *this;
   const std::string_view line = without_comment(ahead.line());
-  return is_blank(first_field(line)) || is_blank(line.substr(0, kSmall));
+  return is_blank_text(first_field(line)) || is_blank_text(line.substr(0, kSmall));
 }
 
 void NastranLines::read(NastranCardText& card) {
@@ -159,8 +170,13 @@ void NastranLines::read(NastranCardText& card) {
   std::string_view present = line();
   card.name = nastran_name(present);
   card.text = present;
-  if (card.name.empty() && is_blank(without_comment(present))) return;
+  if (card.name.empty() && is_blank_text(without_comment(present))) return;
   for (;;) {
+    const char first = at_end() ? '\0' : initial();
+    if (at_end() || (first >= 'A' && first <= 'Z')) {  // most often: a card of one line
+      split(card, present, {});
+      break;
+    }
     NastranLines ahead = *this;
     ahead.skip_comments();
     const bool goes_on = ahead.continues();
@@ -182,8 +198,12 @@ std::string nastran_name(std::string_view line) {
   // A name may stand behind blanks, in free fields also beyond the first eight columns.
   const bool is_free = begin > 0 && line.find(',') != std::string_view::npos;
   const std::string_view rest = line.substr(begin, is_free ? kSmall : kSmall - begin);
-  std::string name(rest.substr(0, rest.find_first_of(" ,*$\t\r\n\v\f")));
-  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  std::string name;
+  for (const char c : rest) {
+    const bool ends = c == ' ' || c == ',' || c == '*' || c == '$' || (c >= '\t' && c <= '\r');
+    if (ends) break;
+    name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
   return name;
 }
 

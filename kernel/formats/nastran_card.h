@@ -34,6 +34,8 @@ class NastranLines {
   /// The letter that the next line begins with, as a capital; else what stands there, and '\0' where
   /// the first of its eight columns that are a field have nothing.
   char initial() const;
+  /// True if the next line begins with this word, whatever the case. `word` is in capitals.
+  bool begins_with(std::string_view word) const;
   /// The card that begins here, with its continuations, also behind comments and blank lines. One of
   /// these is a card of its own, without a name or fields.
   void read(NastranCardText& card);

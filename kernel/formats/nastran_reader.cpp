@@ -68,6 +68,8 @@ class Reader {
     mesh_.deck[nastran_end] = sources_.end();
     if (mesh_.deck[nastran_end].empty()) {
       mesh_.notes.emplace_back("the bulk data have no ENDDATA: is the file complete?");
+    } else if (mesh_.deck[nastran_front].empty()) {
+      mesh_.deck[nastran_front] = "BEGIN BULK\n";  // as Gmsh writes it, which others do not read
     }
     read_points();
     if (mesh_.points.empty() && mesh_.deck[nastran_end].empty()) {
@@ -126,19 +128,16 @@ class Reader {
       if (stretch.includes != 0) continue;
       NastranLines lines(stretch.begin, stretch.end);
       while (!lines.at_end()) {
-        NastranLines ahead = lines;
-        const char first = lines.initial();
-        const std::string name = first == 'G' || first == 'C' ? nastran_name(ahead.line()) : "";
-        if (name != "GRID" && name != "GRDSET" && !name.starts_with("CORD")) {
+        if (!lines.begins_with("GR") && !lines.begins_with("CORD")) {
           lines.line();
           continue;
         }
         lines.read(card_);
-        if (name == "GRID") {
+        if (card_.name == "GRID") {
           read_point();
-        } else if (name == "GRDSET") {
+        } else if (card_.name == "GRDSET") {
           if (!card_.field(1).empty()) default_system_ = read_system(1);
-        } else {
+        } else if (card_.name.starts_with("CORD")) {
           read_definition();
         }
       }

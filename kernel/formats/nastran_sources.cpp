@@ -67,7 +67,7 @@ const InputFile& NastranSources::file_of(const char* place) const {
 /// From behind BEGIN BULK, or the beginning, to ENDDATA, or the end.
 NastranSources::Bulk NastranSources::find_bulk(const InputFile& file) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  Bulk bulk{file.begin(), file.end()};
+  Bulk bulk{file.begin(), file.end(), false};
   if (std::string_view(file.begin(), file.size()).starts_with(kMark)) bulk.begin += kMark.size();
   NastranLines lines(bulk.begin, bulk.end);
   bool begun = false;
@@ -75,6 +75,7 @@ NastranSources::Bulk NastranSources::find_bulk(const InputFile& file) {
     const char* begin = lines.position();
     const char first = lines.initial();
     const std::string_view line = lines.line();
+    if (first == 'I') bulk.may_include = true;
     if (first != 'B' && first != 'E') continue;
     const std::string name = nastran_name(line);
     if (!begun && name == "BEGIN") {
@@ -115,7 +116,7 @@ void NastranSources::read(const Bulk& bulk, const std::filesystem::path& path,
                           std::size_t inclusion) {
   const std::filesystem::path canonical = std::filesystem::weakly_canonical(path);
   open_.insert(canonical);
-  NastranLines lines(bulk.begin, bulk.end);
+  NastranLines lines(bulk.may_include ? bulk.begin : bulk.end, bulk.end);
   const char* begin = bulk.begin;
   NastranCardText card;
   while (!lines.at_end()) {

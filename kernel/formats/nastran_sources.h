@@ -54,6 +54,7 @@ class NastranSources {
   struct Bulk {
     const char* begin;
     const char* end;
+    bool may_include = false;
   };
 
   static Bulk find_bulk(const InputFile& file);

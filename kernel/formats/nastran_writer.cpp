@@ -37,34 +37,37 @@ std::string with_all_digits(double value) {
 std::string short_form(std::string_view scientific) {
   const std::size_t e = scientific.find('e');
   const int exponent = std::stoi(std::string(scientific.substr(e + 1)));
-  std::string digits(scientific.substr(0, e));
-  std::erase(digits, '.');
-  const std::string sign = digits[0] == '-' ? "-" : "";
-  digits.erase(0, sign.size());
-  digits.erase(std::max<std::size_t>(1, digits.find_last_not_of('0') + 1));
+  const std::string_view sign = scientific.starts_with('-') ? "-" : "";
+  std::string memory(scientific.substr(sign.size(), e - sign.size()));
+  std::erase(memory, '.');
+  memory.resize(std::max<std::size_t>(1, memory.find_last_not_of('0') + 1));
+  const std::string_view digits = memory;
   const std::string with_exponent =
       fmt::format("{}{}.{}{:+}", sign, digits.substr(0, 1), digits.substr(1), exponent);
   constexpr int kRoom = static_cast<int>(kNastranRoom);
   if (exponent < -kRoom || exponent >= kRoom) return with_exponent;
+  std::string fixed;
   if (exponent < 0) {
-    digits.insert(0, "." + std::string(static_cast<std::size_t>(-exponent - 1), '0'));
+    fixed = fmt::format("{}.{:0>{}}{}", sign, "", -exponent - 1, digits);
   } else {
     const auto whole = static_cast<std::size_t>(exponent) + 1;
-    if (digits.size() < whole) digits.append(whole - digits.size(), '0');
-    digits.insert(whole, ".");
+    const std::size_t given = std::min(whole, digits.size());
+    fixed = fmt::format("{}{}{:0>{}}.{}", sign, digits.substr(0, given), "", whole - given,
+                        digits.substr(given));
   }
-  digits.insert(0, sign);
-  return digits.size() <= with_exponent.size() ? digits : with_exponent;
+  return fixed.size() <= with_exponent.size() ? fixed : with_exponent;
 }
 
-/// The same number in the room that a solver reads; empty if it needs more.
-std::string in_room(double value) {
-  std::string text = with_all_digits(value);
-  if (text.size() <= kNastranRoom) return text;
+/// The same number in the room that a solver reads, in a short form; empty if it needs more.
+std::string shortened(double value) {
+  constexpr std::size_t kMostDigits = 15;
   std::array<char, 32> memory{};
   const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
                                           std::chars_format::scientific);
-  text = short_form({memory.data(), static_cast<std::size_t>(end - memory.data())});
+  const std::string_view shortest(memory.data(), static_cast<std::size_t>(end - memory.data()));
+  constexpr std::size_t kSigns = 2;  // of the number, and its point
+  if (shortest.find('e') > kMostDigits + kSigns) return {};
+  std::string text = short_form(shortest);
   return text.size() <= kNastranRoom ? text : std::string();
 }
 
@@ -292,42 +295,54 @@ class Writer {
       const std::string_view known = points_of_deck_.of(points_[i]);
       NastranCardText card;
       if (!known.empty()) NastranLines(known.data(), known.data() + known.size()).read(card);
-      const NastranSystem& system = known.empty() ? basic_ : system_of(card);
+      const NastranSystem* system = known.empty() ? nullptr : system_of(card);
       if (!known.empty() && stands_at(card, system, mesh_.point(i))) return buffer.put(known);
-      put_point(buffer, i, card, system.from_basic(mesh_.point(i)));
+      const Point& point = mesh_.point(i);
+      put_point(buffer, i, card, system == nullptr ? point : system->from_basic(point));
     });
   }
 
-  /// In which a point of the deck is given.
-  const NastranSystem& system_of(const NastranCardText& card) const {
+  /// In which a point of the deck is given; null: the basic one.
+  const NastranSystem* system_of(const NastranCardText& card) const {
     std::int64_t number = 0;
     if (!nastran_integer(card.field(1), number)) number = default_system_;
     const auto found = systems_.find(number);
-    return found == systems_.end() ? basic_ : found->second;
+    return number == 0 || found == systems_.end() ? nullptr : &found->second;
   }
 
   /// @param card the old one of a point that moved; else it has no fields
   void put_point(OutputBuffer& buffer, std::size_t i, const NastranCardText& card,
                  const Point& coordinates) const {
-    std::vector<std::string> fields = {fmt::format("{}", points_[i]), std::string(card.field(1))};
+    std::array<char, 24> number{};
+    const auto [end, error] =
+        std::to_chars(number.data(), number.data() + number.size(), points_[i]);
+    std::array<std::string, 3> reals;
+    std::array<std::string_view, 8> fields = {
+        std::string_view(number.data(), static_cast<std::size_t>(end - number.data())),
+        card.field(1)};
     if (card.fields.empty() && default_system_ != 0) fields[1] = "0";
-    for (int axis = 0; axis < 3; ++axis) {
-      std::string text = in_room(coordinates[axis]);
-      if (text.empty()) {
-        text = was_deck_ ? rounded_to_room(coordinates[axis]) : with_all_digits(coordinates[axis]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = coordinates[static_cast<Eigen::Index>(k)];
+      reals[k] = with_all_digits(value);
+      if (reals[k].size() > kNastranRoom) {
+        std::string short_text = shortened(value);
+        if (short_text.empty() && was_deck_) short_text = rounded_to_room(value);
+        if (!short_text.empty()) reals[k] = std::move(short_text);
       }
-      fields.push_back(std::move(text));
+      fields[2 + k] = reals[k];
     }
-    for (std::size_t k = 5; k < 8; ++k) fields.emplace_back(card.field(k));
-    while (fields.size() > 5 && fields.back().empty()) fields.pop_back();
-    const bool is_fixed = std::all_of(fields.begin(), fields.end(), [](const std::string& field) {
+    for (std::size_t k = 5; k < 8; ++k) fields[k] = card.field(k);
+    std::size_t count = fields.size();
+    while (count > 5 && fields[count - 1].empty()) --count;
+    const bool is_fixed = std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
       return field.size() <= kNastranRoom;
     });
+    constexpr std::string_view kBlanks = "                ";
     buffer.put(std::string_view(is_fixed ? "GRID*   " : "GRID*"));
-    for (std::size_t k = 0; k < fields.size(); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       if (k == 4) buffer.put(std::string_view(is_fixed ? "\n*       " : "\n*"));
       if (is_fixed) {
-        buffer.put(std::string(kNastranRoom - fields[k].size(), ' '));
+        buffer.put(kBlanks.substr(0, kNastranRoom - fields[k].size()));
       } else {
         buffer.put(',');
       }
@@ -337,14 +352,14 @@ class Writer {
   }
 
   /// True if the card says just this place.
-  static bool stands_at(const NastranCardText& card, const NastranSystem& system,
+  static bool stands_at(const NastranCardText& card, const NastranSystem* system,
                         const Point& point) {
     Point place = Point::Zero();
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view field = card.field(2 + static_cast<std::size_t>(axis));
       if (!field.empty() && !nastran_real(field, place[axis])) return false;
     }
-    return system.to_basic(place) == point;
+    return (system == nullptr ? place : system->to_basic(place)) == point;
   }
 
   void write_elements(std::size_t k) {
@@ -388,7 +403,6 @@ class Writer {
   bool was_deck_ = false;                           // the mesh came from one
   WholeCards points_of_deck_, elements_of_deck_;
   std::map<std::int64_t, NastranSystem> systems_;
-  NastranSystem basic_;
   std::int64_t default_system_ = 0;  // of GRDSET
   Largest largest_;
   std::vector<std::int64_t> points_;                 // their numbers

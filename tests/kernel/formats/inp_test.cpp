@@ -793,6 +793,22 @@ TEST_CASE(
   CHECK(read_text(folder / "c.inp") == expected);
 }
 
+TEST_CASE("a surface keeps the faces of instances that are not in the mesh") {
+  const TempFolder folder;
+  const std::string deck =
+      part("S",
+           "*Node\n1, 0., 0., 9.\n2, 1., 0., 9.\n3, 0., 1., 9.\n*Element, type=S3\n1, 1, 2, 3\n") +
+      part("P", std::string(kNodes) + std::string(kElements)) + "*Assembly, name=A\n" +
+      instance("S-1", "S") + instance("P-1", "P") +
+      "*Elset, elset=both, instance=S-1\n1, inner\n*Elset, elset=both, instance=P-1\n1,\n"
+      "*Elset, elset=both, instance=S-1, generate\n4, 6, 2\n"
+      "*Surface, type=ELEMENT, name=x\nboth, S1\n*End Assembly\n";
+  write_mesh(folder / "b.inp", read_text(folder, deck));
+  CHECK(read_text(folder / "b.inp")
+            .find("name=x\nP-1.1, S1\nS-1.1, S1\nS-1.inner, S1\nS-1.4, S1\n"
+                  "S-1.6, S1\n*End Assembly\n") != std::string::npos);
+}
+
 TEST_CASE("a byte order mark before a deck, normals of nodes and paths of Windows are understood") {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "sub");

@@ -163,6 +163,11 @@ TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
         std::filesystem::resize_file(part, size);
         try {
           MeshData got = read_mesh(file);
+          const auto tells = [](const std::string& note) {
+            return note.find("have no ENDDATA: is the file complete?") != std::string::npos;
+          };
+          // People have decks of Nastran without their end: a note takes the place of the error.
+          if (std::any_of(got.notes.begin(), got.notes.end(), tells)) continue;
           // No end mark: a cut exactly before the labels of points goes unseen.
           if (extension == ".vtk" || extension == ".msh") {
             REQUIRE(got.tets.size() == mesh.tets.size());

@@ -298,8 +298,10 @@ TEST_CASE("reals of Nastran may lack their letter") {
 
 TEST_CASE("bulk data of Nastran without BEGIN BULK are read; without ENDDATA with a note") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, "GRID,1\nGRID,2,,1.\nENDDATA\n");
+  const MeshData mesh = read(folder, "$ made by hand\nGRID,1\nGRID,2,,1.\nENDDATA\n");
   CHECK(mesh.points.size() == 2);
+  write_mesh(folder / "b.bdf", mesh);  // as other programs want it
+  CHECK(test::read_text(folder / "b.bdf").starts_with("BEGIN BULK\nGRID*"));
   for (const char* begin : {"", "SOL 101\nCEND\n BEGIN BULK\n"}) {
     const MeshData open = read(folder, std::string(begin) + "GRID,1\nGRID,2,,1.\n");
     CHECK(open.points.size() == 2);

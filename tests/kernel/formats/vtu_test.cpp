@@ -13,6 +13,7 @@
 #include "kernel/formats/base64.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/formats/packed_file.h"
 #include "kernel/formats/vtu_blocks.h"
 #include "tests/kernel/formats/fixtures.h"
 
@@ -292,8 +293,8 @@ TEST_CASE(
     if (error.find("tetmend is built without") != std::string::npos) continue;
     CHECK(read_mesh(file).tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 7}});
     CHECK(format_name(file) == "MEDIT ASCII" + packed.extension);
-    write_text(file, packed.bytes + packed.bytes);  // two streams: two meshes in a row
-    CHECK(error_of_reading(file).find("MeshVersionFormatted") != std::string::npos);
+    CHECK(formats::unpack(packed.bytes + packed.bytes).size ==
+          2 * formats::unpack(packed.bytes).size);
     for (std::size_t size = 7; size < packed.bytes.size(); ++size) {
       write_text(file, packed.bytes.substr(0, size));
       const std::string cut = error_of_reading(file);
@@ -321,7 +322,7 @@ TEST_CASE("arrays of a VTU file may be packed by LZ4 and LZMA") {
   CHECK(unpacked(std::string_view("\x3f"
                                   "abc\x03\x00\x00\x20"
                                   "de",
-                                  9),
+                                  10),
                  3 + 19 + 2) == "abcabcabcabcabcabcabcade");
   CHECK(unpacked(std::string_view("\x1f"
                                   "a\x01\x00\xff\x1a\x10"
