@@ -25,6 +25,7 @@ add_custom_target(tetmend_made_headers ALL DEPENDS ${TETMEND_MADE_HEADERS})
 
 # tetmend::kernel: what a program needs besides the library for the two of them.
 add_library(tetmend_for_kernel INTERFACE)
+add_library(tetmend::kernel ALIAS tetmend_for_kernel)
 add_dependencies(tetmend_for_kernel tetmend_made_headers)
 target_include_directories(tetmend_for_kernel INTERFACE
   $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

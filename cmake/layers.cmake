@@ -6,7 +6,6 @@ function(tetmend_layer folder below)
   string(REPLACE "/" "_" name ${folder})
   list(FILTER sources EXCLUDE REGEX "/kernel/surface\\.(h|cpp)$")  # see tetmend_surface
   add_library(tetmend_${name} STATIC ${sources})
-  add_library(tetmend::${name} ALIAS tetmend_${name})
   target_include_directories(tetmend_${name} PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
   target_compile_features(tetmend_${name} PUBLIC cxx_std_20)
   target_link_libraries(tetmend_${name} PUBLIC ${below} ${ARGN} PRIVATE tetmend_flags)

@@ -41,7 +41,7 @@ endif()
 set(tetmend_static_libraries stdc++ m)
 list(REMOVE_DUPLICATES tetmend_libraries_inside)
 foreach(library IN LISTS tetmend_libraries_inside)
-  if(library MATCHES "^PkgConfig::(.+)$")
+  if(library MATCHES "PkgConfig::([A-Za-z0-9_]+)")  # also within a generator expression: a choice of Lua
     list(APPEND tetmend_static_libraries ${${CMAKE_MATCH_1}_LIBRARIES})
   elseif(library MATCHES "^(fmt)::fmt$|^TBB::(tbb)$")
     list(APPEND tetmend_static_libraries ${CMAKE_MATCH_1}${CMAKE_MATCH_2})

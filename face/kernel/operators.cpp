@@ -119,7 +119,7 @@ void OperatorTools::check_target(std::string_view name, TargetKind kind, Target 
 Call OperatorTools::attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps) {
   PropertyKeeper& keeper = *mesh.keeper_;
   CallTree tree;
-  keeper.take_touched_lock();
+  keeper.start();
   Transaction scope(mesh);
   {
     struct Listening {  // ends before the scope does

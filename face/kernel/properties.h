@@ -217,7 +217,12 @@ class TETMEND_API PropertyKeeper final : public EditListener {
   void set_next(EditListener* next) { next_ = next; }
   /// The property that says which vertices are locked; null: none is.
   void set_locks(const ArrayOf<bool>* locks) { locks_ = locks; }
-  /// An edit since the last call has moved or removed a locked vertex.
+  /// What went wrong before, and was dealt with, is no concern of the edits that follow.
+  void start() noexcept {
+    touched_lock_ = false;
+    if (missed_ == 0) failure_ = nullptr;
+  }
+  /// An edit since start() or the last call has moved or removed a locked vertex.
   bool take_touched_lock() { return std::exchange(touched_lock_, false); }
   /// Throws what went wrong in an edit that is undone by now, if anything did.
   void rethrow();

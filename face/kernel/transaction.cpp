@@ -14,12 +14,6 @@ namespace {
 /// Stands for the vertex of a split until there is one.
 constexpr VertexHandle kNewVertex;
 
-bool has_duplicates(std::span<const TetHandle> tets, IndexSet& seen) {
-  seen.clear();
-  return !std::all_of(tets.begin(), tets.end(),
-                      [&seen](TetHandle t) { return seen.insert(t.index()); });
-}
-
 }  // namespace
 
 Transaction::Transaction(TetMesh& mesh)
@@ -40,7 +34,7 @@ template <class Edit>
 EditResult Transaction::make(const Edit& edit) {
   check_usable();
   PropertyKeeper& keeper = *mesh_.keeper_;
-  keeper.take_touched_lock();
+  keeper.start();
   tetmend::Transaction step(mesh_.mesh_, *mesh_.workspace_);
   result_ = edit(step);
   if (keeper.has_failed()) {
@@ -204,7 +198,6 @@ EditResult Transaction::replace(std::span<const TetHandle> old,
     mesh_.is_known(t, "replace");
     if (mesh_.is_deleted(t)) return refuse(EditResult::not_closed);
   }
-  if (has_duplicates(old, mesh_.workspace_->star_set)) return refuse(EditResult::not_closed);
   for (const TetVertices& tet : created) {
     if (!std::all_of(tet.begin(), tet.end(), [this](VertexHandle v) { return may_use(v); })) {
       return refuse(EditResult::not_closed);

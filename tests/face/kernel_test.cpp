@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <ranges>
 #include <set>
 #include <string>
 #include <utility>
@@ -135,6 +136,14 @@ MeshArrays rich_arrays() {
   arrays.groups = {{3, 1, "left", {1}, {}}, {0, 2, "marks", {}, {0, 4}}};
   return arrays;
 }
+
+template <class Range>
+constexpr bool kIsRange = std::ranges::forward_range<Range>&& std::ranges::viewable_range<Range>;
+static_assert(kIsRange<decltype(std::declval<TetMesh>().tets())>);
+static_assert(kIsRange<decltype(std::declval<TetMesh>().faces())>);
+static_assert(kIsRange<decltype(std::declval<TetMesh>().edges())>);
+static_assert(kIsRange<decltype(std::declval<TetMesh>().neighbours(TetHandle()))>);
+static_assert(kIsRange<Star> && std::ranges::contiguous_range<Star>);
 
 }  // namespace
 
@@ -362,6 +371,9 @@ TEST_CASE("an exception of a rule for new tets comes out of the edit, which is u
         }) == "no value");
   CHECK(picture_of(mesh) == before);
   CHECK(mesh.check().empty());
+  mesh.remove_tet_property("odd");
+  Transaction edit(mesh);
+  CHECK(edit.split(e, middle(mesh, e)).is_valid());
 }
 
 TEST_CASE("a locked vertex neither moves nor vanishes, whoever tries") {
