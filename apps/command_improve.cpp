@@ -16,6 +16,7 @@
 #include <tetmend/improve.h>
 #include <tetmend/option_text.h>
 
+#include "apps/command_improve.h"
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/improve_options.h"
@@ -223,6 +224,8 @@ void note_peaks(ImproveReport& report, Ranks* ranks) {
   }
 }
 
+}  // namespace
+
 int run_improve(ImproveOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
@@ -261,8 +264,6 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   }
   return kSuccess;
 }
-
-}  // namespace
 
 void add_improve(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ImproveOptions>();
