@@ -12,6 +12,7 @@
 #include "kernel/star.h"
 #include "kernel/wanted_lengths.h"
 #include "schedule/sweep.h"
+#include "search/covering_search.h"
 
 namespace tetmend {
 
@@ -108,7 +109,7 @@ class LengthAttempts {
  public:
   LengthAttempts(const Registry& registry, Quality floor)
       : judge_(Judge::fits_lengths(floor)),
-        split_(registry.make("edge_split", {{"max_degree", kMaxSearchRing}})),
+        split_(registry.make("edge_split", {{"max_degree", double{kMaxSearchRing}}})),
         surface_split_(registry.make("surface_split", {{"relax", 0}})),
         contraction_(registry.make("edge_contraction", {})),
         surface_contraction_(registry.make("surface_contraction", {})) {}

@@ -19,7 +19,7 @@ PACKAGE = ROOT / "bindings" / "python" / "tetmend"
 
 # Where each name that the package offers stands.
 SECTIONS = {
-    "Improving": ["improve", "Options", "Result", "Statistics", "Pass", "Progress"],
+    "Improving": ["improve", "adapt", "Options", "Result", "Statistics", "Pass", "Progress"],
     "Meshes and files": ["Mesh", "Group", "load", "save", "formats"],
     "Figures and checks": ["quality", "Quality", "BadTet", "check", "Check", "Fact"],
     "Recorded runs": ["Trace"],
@@ -27,7 +27,7 @@ SECTIONS = {
     "Errors": ["Error", "OptionError"],
 }
 # Modules for other programs, and what they offer.
-BRIDGES = {"gmsh": "improve", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor"}
+BRIDGES = {"gmsh": "improve", "adapt", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor"}
 MADE_BY_USERS = ("Mesh", "Group", "Trace")  # the others come from functions
 
 # --- the page
