@@ -163,15 +163,14 @@ bool keeps_lengths(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   const SizeField* field = mesh.size_field();
   if (field == nullptr) return true;
-  std::vector<EdgePlaces> before;
-  std::vector<EdgePlaces> now;
-  if (field->looks_back()) {
-    transaction.list_changed_edges(before, now);
-    return field->admits(before, now);
-  }
   std::vector<std::array<VertexHandle, 2>> edges;
   transaction.list_new_edges(edges);
+  std::vector<EdgePlaces> now;
   for (const auto& [a, b] : edges) now.push_back({mesh.point(a), mesh.point(b)});
+  if (field->admits({}, now)) return true;
+  if (!field->looks_back()) return false;
+  std::vector<EdgePlaces> before;
+  transaction.list_changed_edges(before, now);
   return field->admits(before, now);
 }
 

@@ -27,7 +27,7 @@ SECTIONS = {
     "Errors": ["Error", "OptionError"],
 }
 # Modules for other programs, and what they offer.
-BRIDGES = {"gmsh": "improve", "adapt", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor"}
+BRIDGES = {"gmsh": "improve", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor"}
 MADE_BY_USERS = ("Mesh", "Group", "Trace")  # the others come from functions
 
 # --- the page
