@@ -13,7 +13,8 @@ for round = 1, max_rounds do
   begin_round()
   local before = quality().tets
   local changed = adapt{floor = floor}
-  polish{cycles = 1, below = 0.8, insert = 0, contract = 0}
+  local is_rough = changed > 0.05 * before
+  polish{cycles = 1, below = is_rough and 0.5 or 0.8, smooth = is_rough and 0.7 or 1, insert = 0, contract = 0}
   if changed < 0.002 * before then break end
 end
 
