@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "contract/zoo.h"
+#include "kernel/star.h"
 #include "kernel/transaction.h"
 
 using namespace tetmend;
