@@ -4,6 +4,8 @@
 //   check names and folders | read | improve | write
 //   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual;
 //   later: what is left to do is done
+#include "apps/command_improve.h"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -16,7 +18,6 @@
 #include <tetmend/improve.h>
 #include <tetmend/option_text.h>
 
-#include "apps/command_improve.h"
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/improve_options.h"

@@ -134,13 +134,13 @@ std::string format_sizes(const SizeStatistics& before, const SizeStatistics& aft
            static_cast<double>(std::max<std::size_t>(sizes.edges, 1));
   };
   const auto& bounds = SizeStatistics::kBounds;
-  std::string text = fmt::format("{:<24} {:>12} {:>12}\n{:-<50}\n", "length over wanted", "before",
-                                 "after", "");
+  std::string text =
+      fmt::format("{:<24} {:>12} {:>12}\n{:-<50}\n", "length over wanted", "before", "after", "");
   for (std::size_t i = 0; i <= bounds.size(); ++i) {
-    const std::string bin = i == 0               ? fmt::format("below {:.2f}", bounds[0])
-                            : i == bounds.size() ? fmt::format("from {:.2f}", bounds.back())
-                                                 : fmt::format("{:.2f} to {:.2f}", bounds[i - 1],
-                                                               bounds[i]);
+    const std::string bin = i == 0 ? fmt::format("below {:.2f}", bounds[0])
+                            : i == bounds.size()
+                                ? fmt::format("from {:.2f}", bounds.back())
+                                : fmt::format("{:.2f} to {:.2f}", bounds[i - 1], bounds[i]);
     text += fmt::format("{:<24} {:>10.2f} % {:>10.2f} %\n", bin,
                         percent(before, before.histogram[i]), percent(after, after.histogram[i]));
   }

@@ -127,8 +127,7 @@ constexpr Row kRows[] = {
     {{"tets", "P%|N"}, [](Options& o, std::string_view text) { o.tets = text; }},
     {{"keep-size", kSwitch},
      [](Options& o, std::string_view text) { o.keep_size = read_switch(text); }},
-    {{"size", "SIZE", kAdds},
-     [](Options& o, std::string_view text) { o.size.emplace_back(text); }},
+    {{"size", "SIZE", kAdds}, [](Options& o, std::string_view text) { o.size.emplace_back(text); }},
     {{"gradation", "RATIO"},
      [](Options& o, std::string_view text) {
        o.gradation = read_number(text, 0.0, 1e9, "a ratio");

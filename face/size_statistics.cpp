@@ -33,8 +33,9 @@ double tets_wanted(const TetMesh& mesh, const std::vector<double>& wanted) {
     if (mesh.is_deleted(t)) continue;
     const TetVertices& v = mesh.vertices(t);
     const Point& p = mesh.point(v[0]);
-    const double volume = std::abs((mesh.point(v[1]) - p).dot(
-                              (mesh.point(v[2]) - p).cross(mesh.point(v[3]) - p))) / 6;
+    const double volume =
+        std::abs((mesh.point(v[1]) - p).dot((mesh.point(v[2]) - p).cross(mesh.point(v[3]) - p))) /
+        6;
     double density = 0;
     for (const VertexHandle w : v) density += std::pow(wanted[w.index()], -3) / 4;
     sum += volume * density;
@@ -87,8 +88,8 @@ SizeStatistics size_statistics(const TetMesh& mesh) {
   for (const std::uint64_t key : edges) {
     const VertexHandle a(static_cast<std::uint32_t>(key >> 32));
     const VertexHandle b(static_cast<std::uint32_t>(key));
-    const double length = WantedLengths::relative_length(
-        (mesh.point(a) - mesh.point(b)).norm(), wanted[a.index()], wanted[b.index()]);
+    const double length = WantedLengths::relative_length((mesh.point(a) - mesh.point(b)).norm(),
+                                                         wanted[a.index()], wanted[b.index()]);
     count(sizes, length);
     if (WantedLengths::fit(length) >= 1) {
       ++in_range;

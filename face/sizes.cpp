@@ -81,9 +81,10 @@ Spec read_spec(const std::string& text) {
   }
   const auto number = to_number<double>(rest);
   if (!number) {
-    throw wrong_size(text,
-                     "is no size: expected a length such as 0.5, a factor such as 0.5x, array:NAME, "
-                     "or a file FILE.sol or FILE.solb, and label:L= before it for a region");
+    throw wrong_size(
+        text,
+        "is no size: expected a length such as 0.5, a factor such as 0.5x, array:NAME, "
+        "or a file FILE.sol or FILE.solb, and label:L= before it for a region");
   }
   if (!(std::isfinite(*number) && *number > 0)) throw wrong_size(text, "is not above 0");
   spec.number = *number;
@@ -140,8 +141,8 @@ std::vector<double> lengths_of(const Spec& spec, const MeshData& data, const Tet
       break;
   }
   if (lengths.size() != data.points.size()) {
-    throw Error(fmt::format("{}: {} lengths for {} points", spec.name, lengths.size(),
-                            data.points.size()));
+    throw Error(
+        fmt::format("{}: {} lengths for {} points", spec.name, lengths.size(), data.points.size()));
   }
   for (double& length : lengths) length = mesh.scale().to_work(length);
   return lengths;
@@ -219,7 +220,10 @@ void grade(const MeshData& data, double rate, std::vector<double>& lengths) {
 class LinearLengths {
  public:
   LinearLengths(const MeshData& data, std::vector<double> lengths)
-      : data_(data), lengths_(std::move(lengths)), bodies_(data), locator_(data, bodies_, all(data)) {}
+      : data_(data),
+        lengths_(std::move(lengths)),
+        bodies_(data),
+        locator_(data, bodies_, all(data)) {}
 
   double at(const Point& place) const {
     const TetPlace found = locator_.find(place);
@@ -257,19 +261,20 @@ Sizes::Sizes(const Options& options)
       largest_(options.largest) {
   for (const std::string& text : options.size) specs_.push_back(read_spec(text));
   if (!(gradation_ == 0 || (gradation_ > 1 && std::isfinite(gradation_)))) {
-    throw OptionError("gradation", fmt::format("gradation: {:g} is neither 0 nor above 1",
-                                               gradation_));
+    throw OptionError("gradation",
+                      fmt::format("gradation: {:g} is neither 0 nor above 1", gradation_));
   }
   if (!(smallest_ >= 0 && std::isfinite(smallest_))) {
     throw OptionError("smallest", fmt::format("smallest: {:g} is no length", smallest_));
   }
   if (!(largest_ >= 0) || (largest_ > 0 && largest_ < smallest_)) {
-    throw OptionError("largest", fmt::format("largest: {:g} is less than smallest, {:g}", largest_,
-                                             smallest_));
+    throw OptionError(
+        "largest", fmt::format("largest: {:g} is less than smallest, {:g}", largest_, smallest_));
   }
   if (!are_wanted()) return;
   if (function_ && !specs_.empty()) {
-    throw OptionError("size_at", "size_at: the lengths come from a function or from size, not both");
+    throw OptionError("size_at",
+                      "size_at: the lengths come from a function or from size, not both");
   }
   if (options.keep_size) {
     throw OptionError("keep_size", "keep_size: the lengths are those of size, or those there were");
@@ -330,7 +335,8 @@ std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const Te
   }
   if (gradation_ > 0) grade(data, gradation_ - 1, lengths);
   auto linear = std::make_shared<const LinearLengths>(data, std::move(lengths));
-  return std::make_shared<WantedLengths>([linear](const Point& place) { return linear->at(place); });
+  return std::make_shared<WantedLengths>(
+      [linear](const Point& place) { return linear->at(place); });
 }
 
 }  // namespace tetmend::face

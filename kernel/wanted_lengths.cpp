@@ -71,8 +71,9 @@ bool WantedLengths::admits(std::span<const EdgePlaces> before,
   const std::vector<Quality> after = misfits(now);
   if (after.empty()) return true;
   const std::vector<Quality> old = misfits(before);
-  return after.size() <= old.size() && std::equal(after.begin(), after.end(), old.begin(),
-                                                  [](Quality is, Quality was) { return is >= was; });
+  return after.size() <= old.size() &&
+         std::equal(after.begin(), after.end(), old.begin(),
+                    [](Quality is, Quality was) { return is >= was; });
 }
 
 }  // namespace tetmend

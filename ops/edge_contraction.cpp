@@ -158,8 +158,8 @@ class EdgeContraction final : public OperatorOf<State> {
     for (const auto& [length, w] : state.near) {
       const Point& to = mesh.point(w);
       const double fit = WantedLengths::fit(length);
-      const bool fits = std::all_of(
-          state.neighbours.begin(), state.neighbours.end(), [&, w = w](VertexHandle x) {
+      const bool fits =
+          std::all_of(state.neighbours.begin(), state.neighbours.end(), [&, w = w](VertexHandle x) {
             return x == w || WantedLengths::fit(wanted.relative_length(to, mesh.point(x))) > fit;
           });
       if (!fits || !contract(mesh, w, std::max(least, 0.0), state)) continue;

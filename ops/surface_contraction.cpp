@@ -118,7 +118,8 @@ class SurfaceContraction final : public OperatorOf<State> {
   }
 
   /// Leaves those that are nearer than wanted.
-  static void keep_near(const TetMesh& mesh, VertexHandle v, std::vector<VertexHandle>& neighbours) {
+  static void keep_near(const TetMesh& mesh, VertexHandle v,
+                        std::vector<VertexHandle>& neighbours) {
     const WantedLengths& wanted = *mesh.size_field()->wanted();
     std::erase_if(neighbours, [&](VertexHandle w) {
       return wanted.relative_length(mesh.point(v), mesh.point(w)) >= WantedLengths::kLeast;

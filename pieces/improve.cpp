@@ -157,7 +157,8 @@ void Improvement::prepare() {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  if (options_.keep_size && mesh.scale().is_one()) size_field_ = std::make_shared<UsualLengths>(mesh);
+  if (options_.keep_size && mesh.scale().is_one())
+    size_field_ = std::make_shared<UsualLengths>(mesh);
   measure_before(mesh);
   std::vector<char> is_protected(input_.tets.size(), 0);
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {

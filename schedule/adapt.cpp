@@ -52,14 +52,15 @@ class EdgeQueue {
 
   /// Each once, around which something changed at `since` or later.
   std::vector<QueuedEdge> take(PassScope& scope, Miss miss, Date since) const {
-    auto edges = collect<QueuedEdge>(
-        scope, mesh_.tet_slots(),
-        [&](std::size_t begin, std::size_t end, std::vector<QueuedEdge>& out) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const TetHandle t(static_cast<std::uint32_t>(i));
-            if (!mesh_.is_deleted(t) && !mesh_.is_frozen(t)) take_of(t, miss, since, out);
-          }
-        });
+    auto edges =
+        collect<QueuedEdge>(scope, mesh_.tet_slots(),
+                            [&](std::size_t begin, std::size_t end, std::vector<QueuedEdge>& out) {
+                              for (std::size_t i = begin; i < end; ++i) {
+                                const TetHandle t(static_cast<std::uint32_t>(i));
+                                if (!mesh_.is_deleted(t) && !mesh_.is_frozen(t))
+                                  take_of(t, miss, since, out);
+                              }
+                            });
     const PassScope::Scan timed(scope);
     tbb::parallel_sort(edges.begin(), edges.end(), [](const QueuedEdge& x, const QueuedEdge& y) {
       return x.ends != y.ends ? x.ends < y.ends : x.edge < y.edge;

@@ -124,7 +124,8 @@ constexpr std::array<WordInfo, 27> kWords = {{
     {"adapt",
      "adapt{...}",
      "splits the edges that are longer than 1.41 of the wanted length, the longest first, and "
-     "contracts those shorter than 0.71, the shortest first; each change brings the edges closer to "
+     "contracts those shorter than 0.71, the shortest first; each change brings the edges closer "
+     "to "
      "that range. Needs --size",
      {},
      kAdaptNumbers},

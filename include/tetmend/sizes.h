@@ -12,8 +12,8 @@ namespace tetmend {
 struct SizeStatistics {
   /// Between the bins of the histogram; the first bin is below the first, the last above the last.
   static constexpr std::array<double, 9> kBounds = {
-      0.25, 0.35355339059327376, 0.5, 0.70710678118654752, 1,
-      1.41421356237309505, 2, 2.82842712474619010, 4};
+      0.25, 0.35355339059327376, 0.5, 0.70710678118654752, 1, 1.41421356237309505,
+      2,    2.82842712474619010, 4};
 
   std::size_t edges = 0;  ///< of tets
   /// Edges by relative length. A length of exactly a bound counts for the bin above.

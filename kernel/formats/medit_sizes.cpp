@@ -106,8 +106,9 @@ class BinarySizes {
     bytes_.set_swap(cookie != 1);
     version_ = bytes_.number<std::int32_t>("the version of the format");
     if (version_ >= 1 && version_ <= kNewestVersion) return;
-    bytes_.fail_at(sizeof cookie, fmt::format("version {} of the format is unknown: expected 1 to {}",
-                                              version_, kNewestVersion));
+    bytes_.fail_at(sizeof cookie,
+                   fmt::format("version {} of the format is unknown: expected 1 to {}", version_,
+                               kNewestVersion));
   }
 
   template <class Real>

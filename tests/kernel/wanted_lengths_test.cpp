@@ -46,7 +46,8 @@ TEST_CASE("the middle of an edge makes two of the same relative length") {
   CHECK(middle.x() < 1);
 }
 
-TEST_CASE("an edge fits from 0.71 to 1.41 of the wanted length, and less the farther it is outside") {
+TEST_CASE(
+    "an edge fits from 0.71 to 1.41 of the wanted length, and less the farther it is outside") {
   CHECK(WantedLengths::fit(0.7072) == 1);
   CHECK(WantedLengths::fit(1.4142) == 1);
   CHECK(WantedLengths::fit(0.35) < WantedLengths::fit(0.7));

@@ -85,8 +85,7 @@ py::dict to_dict(const SizeStatistics& sizes) {
                   "histogram"_a = sizes.histogram, "in_range"_a = sizes.in_range,
                   "within_two"_a = sizes.within_two, "shortest"_a = sizes.shortest,
                   "longest"_a = sizes.longest, "off_on_surface"_a = sizes.on_surface,
-                  "off_between_walls"_a = sizes.between_walls,
-                  "tets_wanted"_a = sizes.tets_wanted);
+                  "off_between_walls"_a = sizes.between_walls, "tets_wanted"_a = sizes.tets_wanted);
 }
 
 py::dict to_dict(const SurfaceChange& change) {

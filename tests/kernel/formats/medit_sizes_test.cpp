@@ -18,7 +18,8 @@ using namespace tetmend;
 namespace {
 
 std::filesystem::path write(const std::string& name, const std::string& bytes) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("tetmend_sizes_" + name);
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("tetmend_sizes_" + name);
   std::ofstream(file, std::ios::binary) << bytes;
   return file;
 }
