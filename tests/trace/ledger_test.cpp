@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "kernel/transaction.h"
 #include "tests/support/example_traces.h"
 #include "trace/replay.h"
 
@@ -102,6 +103,51 @@ TEST_CASE("accepted for good are exactly the calls whose edits lasted, as a repl
   }
   CHECK(file.edit_count() == fate.lasting.size() + fate.undone.size());
   CHECK(file.undo_count() == fate.undone.size());
+}
+
+TEST_CASE("a single undo takes along whoever was accepted while its edit stood, and nobody else") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::shell_mesh({.degree = 5}));
+  const std::array edge = {VertexHandle(0), VertexHandle(1)};
+  {
+    TraceRecorder recorder(folder / "one.trace", mesh, {});
+    Workspace workspace(mesh);
+    workspace.set_listener(&recorder);
+    const auto begin = [&] { recorder.attempt_begins({"shell_transformation", edge, 0, ""}); };
+    const auto end = [&](Verdict verdict) { recorder.attempt_ends(verdict, {}, {}); };
+    begin();  // 0: will fail
+    begin();  // 1: before there is anything to undo
+    end(Verdict::accepted);
+    {
+      Transaction trial(mesh, workspace);
+      begin();  // 2: makes one edit
+      trial.add_vertex(Point(0, 0, 5));
+      end(Verdict::accepted);
+      begin();  // 3: found the mesh as 2 had left it
+      end(Verdict::accepted);
+      begin();  // 4: refused then, and not undone
+      end(Verdict::no_improvement);
+    }
+    end(Verdict::no_improvement);
+    begin();  // 5: makes the same edit, which lasts
+    Transaction lasting(mesh, workspace);
+    lasting.add_vertex(Point(0, 0, 5));
+    lasting.keep();
+    end(Verdict::accepted);
+    recorder.finish();
+  }
+  const TraceFile file(folder / "one.trace");
+  REQUIRE(file.calls().size() == 6);
+  const auto ending = [&](std::size_t call) { return file.ending(file.calls()[call]); };
+  CHECK(ending(1) == CallEnding::for_good);
+  CHECK(ending(2) == CallEnding::undone);
+  CHECK(ending(3) == CallEnding::undone);
+  CHECK(is_refusal(ending(4)));
+  CHECK(ending(5) == CallEnding::for_good);
+  CHECK(file.calls()[2].undone_with == 0);
+  CHECK(file.calls()[3].verdict_in_words() == "undone with call 0");
+  CHECK(file.undo_count() == 1);
+  CHECK(make_ledger(file).lasting == 1);
 }
 
 TEST_CASE("a call that was undone says with which call, which is around it") {

@@ -67,10 +67,10 @@ struct ConditionCall {
   std::string_view operator_name;
   unsigned level = 0;
   std::span<const VertexHandle> target;
-  std::optional<Verdict> verdict;      ///< nothing: it has not ended
-  double worst = 0;                    ///< quality of the worst tet that it has before it
-  std::optional<CallEnding> ending;    ///< what became of it; of live runs nobody knows yet
-  std::optional<std::uint32_t> visit;  ///< number of the visit that it is in; of a recorded run
+  std::optional<Verdict> verdict;           ///< nothing: it has not ended
+  double worst = 0;                         ///< quality of the worst tet that it has before it
+  std::optional<CallEnding> ending = {};    ///< what became of it; of live runs nobody knows yet
+  std::optional<std::uint32_t> visit = {};  ///< that it is in; of a recorded run
 };
 /// Where a vertex is, in lengths of the file; nothing for one that is not there.
 using PlaceOf = std::function<std::optional<Point>(VertexHandle)>;
