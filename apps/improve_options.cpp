@@ -138,6 +138,9 @@ void add_region_options(CLI::App& command, Options& options) {
   command.add_flag("--ignore-interior", options.ignore_interior,
                    "Drop the triangles, edges and required\n"
                    "vertices that the file names inside a region");
+  command.add_flag("--straighten", options.straighten,
+                   "Second order: where tets stay turned over,\n"
+                   "make edges of the surface straight");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "apps/bad_tets.h"
 #include "apps/files.h"
 #include "apps/report.h"
+#include "face/identifiers.h"
 #include "kernel/printable.h"
 #include "kernel/statistics.h"
 #include "report/shape.h"
@@ -242,8 +243,11 @@ namespace {
 std::string format_carried(const std::vector<CarriedArray>& carried) {
   std::string text;
   for (const CarriedArray& array : carried) {
-    text += fmt::format("data of {} '{}': {}; its integral changed by {:.2g}\n", array.on,
-                        array.name, array.rule, array.integral_error);
+    text += fmt::format("data of {} '{}': {}", array.on, array.name, array.rule);
+    if (array.rule != face::kIdentifierRule) {
+      text += fmt::format("; its integral changed by {:.2g}", array.integral_error);
+    }
+    text += '\n';
   }
   return text.empty() ? text : text + '\n';
 }
@@ -384,6 +388,8 @@ nlohmann::json to_json(const ImproveReport& report) {
       {"before", to_json(result.before, result.rulers_before, result.curved_before)},
       {"after", to_json(result.after, result.rulers_after, result.curved_after)},
       {"limit", tetmend::to_json(result.limit.value_or(SurfaceLimit()))},
+      {"curved_edges", result.curved_edges},
+      {"straightened_edges", result.straightened_edges},
       {"surface", surface_to_json(result)},
       {"not_positive_tets",
        {{"before", result.not_positive_before}, {"after", result.not_positive_after}}},

@@ -86,7 +86,9 @@ nlohmann::json words_of_the_library() {
   for (const RulerInfo& ruler : kRulers) words["ruler"].push_back(ruler.name);
   for (const Measure& measure : measures()) words["measure"].push_back(measure.name);
   for (const FileFormat& format : file_formats()) words["extension"].push_back(format.extension);
-  for (const std::string_view variant : file_variants("x.msh")) words["variant"].push_back(variant);
+  for (const char* file : {"x.msh", "x.vtk", "x.ele", "x.inp"}) {
+    for (const std::string_view variant : file_variants(file)) words["variant"].push_back(variant);
+  }
   return words;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include <fmt/ranges.h>
 
 #include "face/bodies.h"
+#include "face/identifiers.h"
 #include "face/overlap.h"
 #include "face/tet_locator.h"
 #include "kernel/chunks.h"
@@ -202,7 +204,7 @@ class Carrying {
     }
   }
 
-  std::vector<CarriedArray> run() {
+  Carried run() {
     std::optional<TetLocator> locator;
     if (needs_places() || marks_ != nullptr) {
       std::vector<std::uint32_t> gone = gone_tets();
@@ -288,6 +290,11 @@ class Carrying {
       }
     });
     for (const DataArray& array : before_.point_data) {
+      if (are_identifiers(array)) {
+        NewIdentifiers numbers({&array});
+        now_.point_data.push_back(renumbered(array, old_point_, "points", numbers));
+        continue;
+      }
       DataArray& made = now_.point_data.emplace_back(DataArray{array.name, array.components, {}});
       std::visit([&](const auto& old) { made.values = interpolated(old, array.components); },
                  array.values);
@@ -323,6 +330,36 @@ class Carrying {
     return made;
   }
 
+  DataArray renumbered(const DataArray& array, std::span<const std::uint32_t> same,
+                       std::string_view of, NewIdentifiers& numbers) {
+    DataArray made = numbers.carried(array, same);
+    std::string note = identifier_note(array, made, of, same);
+    if (!note.empty()) notes_.push_back(std::move(note));
+    return made;
+  }
+  /// Those that elements of all kinds share.
+  NewIdentifiers& identifiers_of_elements(const std::string& name) {
+    const auto known = element_identifiers_.find(name);
+    if (known != element_identifiers_.end()) return known->second;
+    std::vector<const DataArray*> arrays;
+    const auto add = [&](const std::vector<DataArray>& list) {
+      for (const DataArray& array : list) {
+        if (array.name == name && array.components == 1) arrays.push_back(&array);
+      }
+    };
+    add(before_.tet_data);
+    add(before_.triangle_data);
+    add(before_.edge_data);
+    for (const OtherElements& others : before_.other_elements) add(others.data);
+    return element_identifiers_.try_emplace(name, std::move(arrays)).first->second;
+  }
+  /// By new tet the old one with these vertices, though they may have moved.
+  std::vector<std::uint32_t> same_tets() const {
+    std::vector<std::uint32_t> same = old_tet_;
+    for (const std::uint32_t t : changed_) same[t] = moved_from_[t];
+    return same;
+  }
+
   void carry_tets(const std::optional<TetLocator>& locator) {
     if (!needs_tets()) return;
     const std::vector<Shares> shares =
@@ -343,6 +380,11 @@ class Carrying {
       }
     }
     for (const DataArray& array : before_.tet_data) {
+      if (!is_conserved(array) && are_identifiers(array)) {
+        now_.tet_data.push_back(
+            renumbered(array, same_tets(), "tets", identifiers_of_elements(array.name)));
+        continue;
+      }
       now_.tet_data.push_back(is_conserved(array) ? conserved(array, shares)
                                                   : formats::selected_rows(array, old_tet_));
     }
@@ -468,8 +510,12 @@ class Carrying {
       if (!marks.empty()) kept.back().label = old.elements[model].label;
     }
     made.elements = std::move(kept);
+    const bool are_all_old = std::find(same.begin(), same.end(), kGone) == same.end();
     for (const DataArray& array : old.data) {
-      made.data.push_back(formats::selected_rows(array, from));
+      made.data.push_back(are_all_old || !are_identifiers(array)
+                              ? formats::selected_rows(array, from)
+                              : renumbered(array, same, dimension == 2 ? "triangles" : "edges",
+                                           identifiers_of_elements(array.name)));
     }
     if (!old.parts.empty()) {
       for (const std::uint32_t i : from) made.parts.push_back(old.parts[i]);
@@ -647,7 +693,7 @@ class Carrying {
     });
   }
 
-  std::vector<CarriedArray> tell() const {
+  Carried tell() const {
     const auto then = integrals_of(before_);
     const auto now = integrals_of(now_);
     std::vector<CarriedArray> carried;
@@ -662,7 +708,7 @@ class Carrying {
       carried.push_back(
           carried_array(array, is_of_points, !is_of_points && is_conserved(array), components));
     }
-    return carried;
+    return {std::move(carried), notes_};
   }
 
   const MeshData& before_;
@@ -685,6 +731,8 @@ class Carrying {
   std::array<std::vector<std::uint32_t>, 4> element_maps_;
   // New ones of a changed surface, each with the old one that it is like.
   std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 4> new_elements_;
+  std::map<std::string, NewIdentifiers> element_identifiers_;  // by name of arrays
+  std::vector<std::string> notes_;
 };
 
 }  // namespace
@@ -717,16 +765,18 @@ std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data) {
   return walls;
 }
 
-std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
-                                std::span<const std::uint32_t> tet_map,
-                                std::span<const std::string> conserve, MeshData& now,
-                                const SurfaceMarks* marks) {
+Carried carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
+              std::span<const std::uint32_t> tet_map, std::span<const std::string> conserve,
+              MeshData& now, const SurfaceMarks* marks) {
   return Carrying(before, vertex_map, tet_map, conserve, now, marks).run();
 }
 
 CarriedArray carried_array(const DataArray& array, bool is_of_points, bool is_conserved,
                            std::span<const ComponentIntegral> integrals) {
   const bool is_real = array.values.index() >= 2;
+  if (!is_conserved && are_identifiers(array)) {
+    return {array.name, is_of_points ? "points" : "tets", std::string(kIdentifierRule), 0};
+  }
   const std::string_view rule = !is_of_points ? is_conserved ? kConserved : kCentroid
                                 : is_real     ? kLinear
                                               : kNearest;

@@ -4,6 +4,8 @@
 //   what has not changed keeps its values
 //   point data: linear in the old tet that holds the new place of a point; integers come from the
 //     vertex of that tet with the greatest weight
+//   identifiers, whole numbers that are all different: what is left keeps its own, new ones are above
+//     the largest
 //   data and parts of tets: those of the old tet that holds the centroid; on request the mean of the
 //     old tets by the volume that they share with the new one, which keeps the integral
 //   groups: a new point is in one that holds all vertices of its old tet
@@ -29,12 +31,17 @@ bool holds_more(const MeshData& data);
 /// Triangles between tets of one label but two parts, to be named as constraints.
 std::vector<MeshData::Triangle> walls_between_parts(const MeshData& data);
 
+/// What carry() did.
+struct Carried {
+  std::vector<CarriedArray> arrays;  ///< how each came over, and what that did to its integral
+  std::vector<std::string> notes;    ///< what files beside the mesh have to know
+};
+
 /// Gives `now`, what TetMesh::to_data() made of the improved mesh, all that `before` holds besides.
 /// Triangles that `before` does not name go. The maps are those of maps.h.
 /// @param conserve arrays of the tets, see check_conserve()
 /// @param marks what `now` has for labels where the surface may change; null: it is fixed
-/// @returns for each array, how, and what that did to its integral
-std::vector<CarriedArray> carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
+Carried carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
                                 std::span<const std::uint32_t> tet_map,
                                 std::span<const std::string> conserve, MeshData& now,
                                 const SurfaceMarks* marks = nullptr);

@@ -19,6 +19,7 @@
 #include "face/advice.h"
 #include "face/arena.h"
 #include "face/carry.h"
+#include "face/curving.h"
 #include "face/growth.h"
 #include "face/maps.h"
 #include "face/mesh_access.h"
@@ -157,6 +158,8 @@ class Improvement {
   void map_entities();
   void give_back();
   void give_back_improved();
+  std::vector<std::uint32_t> frozen_tets() const;
+  void curve_inside(const std::vector<std::uint32_t>& frozen, MeshData& data);
   void give_back_input() noexcept;
   void check_promises() const;
   void note(const std::vector<std::string>& texts) {
@@ -459,10 +462,35 @@ void Improvement::give_back() {
   }
 }
 
+/// In the user's mesh; only of one of second order that has tets turned over.
+std::vector<std::uint32_t> Improvement::frozen_tets() const {
+  std::vector<std::uint32_t> frozen;
+  if (!result_.curved_after || result_.curved_after->turned_over == 0) return frozen;
+  for (std::uint32_t slot = 0; slot < mesh_.tet_slots(); ++slot) {
+    const TetHandle t(slot);
+    if (mesh_.is_deleted(t) || !mesh_.is_frozen(t)) continue;
+    frozen.push_back(tet_numbers_[slot]);
+  }
+  return frozen;
+}
+
+/// Last of all: which edges there are is settled.
+void Improvement::curve_inside(const std::vector<std::uint32_t>& frozen, MeshData& data) {
+  if (!result_.curved_after || result_.curved_after->turned_over == 0) return;
+  std::vector<bool> is_frozen(frozen.empty() ? 0 : data.tets.size(), false);
+  for (const std::uint32_t t : frozen) is_frozen[result_.tet_map[t]] = true;
+  const face::Curving done = face::curve_inside(data, is_frozen, options_.straighten);
+  result_.curved_edges = done.curved;
+  result_.straightened_edges = done.straightened;
+  result_.curved_after = curved_statistics(data);
+  note(done.notes);
+}
+
 void Improvement::give_back_improved() {
   // What the run and the measuring have freed lies in pieces of the heap. Given back, it makes room
   // for the arrays: about 10 bytes a tet less at the peak.
   platform::trim_heap();
+  const std::vector<std::uint32_t> frozen = frozen_tets();
   if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
   MeshData data = std::move(mesh_).to_data();
   if (carries_) {
@@ -471,9 +499,13 @@ void Improvement::give_back_improved() {
     if (!input_.mid_nodes.empty()) {
       result_.after.vertices = data.points.size();
       if (result_.curved_after) result_.curved_after->mid_nodes = data.mid_nodes.size();
+      curve_inside(frozen, data);
     }
-    result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve,
-                                  data, plan_.surface.is_fixed() ? nullptr : &marks_);
+    face::Carried carried =
+        face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data,
+                    plan_.surface.is_fixed() ? nullptr : &marks_);
+    result_.carried = std::move(carried.arrays);
+    note(carried.notes);
     if (!plan_.surface.is_fixed()) {
       face::label_surface_points(input_, result_.vertex_map, data);
     }

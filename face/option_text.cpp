@@ -129,6 +129,8 @@ constexpr Row kRows[] = {
      [](Options& o, std::string_view text) { o.keep_size = read_switch(text); }},
     {{"ignore-interior", kSwitch},
      [](Options& o, std::string_view text) { o.ignore_interior = read_switch(text); }},
+    {{"straighten", kSwitch},
+     [](Options& o, std::string_view text) { o.straighten = read_switch(text); }},
     {{"conserve", "NAME", kAdds},
      [](Options& o, std::string_view text) { o.conserve.emplace_back(text); }},
     {{"trace", "FILE"}, [](Options& o, std::string_view text) { o.trace = text; }},

@@ -28,6 +28,7 @@ Options options_from(Bytes& bytes) {
   options.threads = 1 + static_cast<int>(bytes.below(2));
   options.keep_size = bytes.below(8) == 0;
   options.ignore_interior = bytes.below(8) == 0;
+  options.straighten = bytes.below(8) == 0;
   options.time_limit = 2;
   return options;
 }

@@ -76,6 +76,8 @@ def formats(program, extension, folder):
         variants = [None]
         if extension == "msh":
             variants = re.findall(r"'([24]\.[12] \w+)'", help_text)
+        elif extension in ("vtk", "vtu"):
+            variants = ["ASCII", "binary"]
         for variant in variants:
             command = [program, "convert", folder / f"{name}.mesh", out]
             command += ["--variant", variant] if variant else []

@@ -128,6 +128,19 @@ void count(CurvedStatistics& statistics, const JacobianRatio& one) {
 
 }  // namespace
 
+CurvedTet::CurvedTet(const MeshData& data, const MidNodes& mid_nodes, const MeshData::Tet& tet) {
+  for (std::size_t i = 0; i < 4; ++i) vertices[i] = data.points[tet.vertices[i]];
+  for (std::size_t e = 0; e < 6; ++e) {
+    const std::uint32_t a = tet.vertices[kMidNodeEdges[e][0]];
+    const std::uint32_t b = tet.vertices[kMidNodeEdges[e][1]];
+    nodes[e] = mid_nodes.of(a, b);
+    bends[e] = Point::Zero();
+    if (nodes[e] == kNoMidNode || !is_bent(data, {a, b, nodes[e]}, kStraight)) continue;
+    bends[e] = data.points[nodes[e]] - (data.points[a] + data.points[b]) / 2;
+    is_curved = true;
+  }
+}
+
 JacobianRatio jacobian_ratio(const std::array<Point, 4>& vertices,
                              const std::array<Point, 6>& bends) {
   const Bezier bezier(vertices, bends);
@@ -142,6 +155,22 @@ JacobianRatio jacobian_ratio(const std::array<Point, 4>& vertices,
   // The greatest value is between these two: a bound takes the one that makes it lower.
   const double divisor = *least < 0 ? *greatest_node : *greatest;
   return {ratio(*least_node, *greatest_node), ratio(*least, divisor)};
+}
+
+std::array<double, 20> jacobian_coefficients(const std::array<Point, 4>& vertices,
+                                             const std::array<Point, 6>& bends) {
+  return Bezier(vertices, bends).coefficients();
+}
+
+CurvedStatistics curved_statistics(const MeshData& data) {
+  CurvedStatistics statistics;
+  statistics.mid_nodes = data.mid_nodes.size();
+  const MidNodes mid_nodes(data.mid_nodes);
+  for (const MeshData::Tet& tet : data.tets) {
+    const CurvedTet curved(data, mid_nodes, tet);
+    if (curved.is_curved) count(statistics, jacobian_ratio(curved.vertices, curved.bends));
+  }
+  return statistics;
 }
 
 CurvedStatistics curved_statistics(const MeshData& data, const TetMesh& mesh) {

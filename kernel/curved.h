@@ -19,13 +19,31 @@
 
 namespace tetmend {
 
+class MidNodes;
 class TetMesh;
+
+/// A tet of a MeshData with the bends of its edges, in VTK's order; 0 where it is rounding alone.
+struct CurvedTet {
+  CurvedTet(const MeshData& data, const MidNodes& mid_nodes, const MeshData::Tet& tet);
+
+  std::array<Point, 4> vertices;
+  std::array<Point, 6> bends;
+  std::array<std::uint32_t, 6> nodes{};  ///< kNoMidNode where there is none
+  bool is_curved = false;
+};
 
 /// Of a tet with these vertices. `bends` are the places of its mid-side nodes less the middles of
 /// their edges, in VTK's order. Cost: 64 determinants.
 JacobianRatio jacobian_ratio(const std::array<Point, 4>& vertices,
                              const std::array<Point, 6>& bends);
 
+/// The 20 Bezier coefficients of the Jacobian determinant: between the least and the greatest of them
+/// lie all its values. Of a straight tet they are all the same. Each is affine in each bend.
+std::array<double, 20> jacobian_coefficients(const std::array<Point, 4>& vertices,
+                                             const std::array<Point, 6>& bends);
+
+/// Of the tets of `data`, which are not inverted. Cost: n log n.
+CurvedStatistics curved_statistics(const MeshData& data);
 /// Of a mesh that was built from `data` and has not changed. Cost: n log n.
 CurvedStatistics curved_statistics(const MeshData& data, const TetMesh& mesh);
 

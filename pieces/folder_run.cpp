@@ -301,7 +301,9 @@ Result FolderRun::finish(const Options& options) {
                           .shelf = &to,
                           .pieces = saved_.division.pieces};
   if (face::worse_for_nothing(result).empty()) {
-    result.carried = write_pieces(output, mesh, details);
+    face::Carried carried = write_pieces(output, mesh, details);
+    result.carried = std::move(carried.arrays);
+    for (std::string& text : carried.notes) result.notes.push_back(std::move(text));
   } else {
     result.notes.push_back(why_as_it_was(result));
     result.after = result.before;
@@ -312,7 +314,7 @@ Result FolderRun::finish(const Options& options) {
     details.parts = saved_.division.pieces;
     InputMesh(saved_.input, ranks, array_files_, saved_.label_array)
         .add_to(slices, saved_.division.pieces);
-    result.carried = write_pieces(output, slices, details);
+    result.carried = write_pieces(output, slices, details).arrays;
   }
   saved_.is_finished = true;
   folder_.save(saved_);

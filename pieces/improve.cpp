@@ -344,8 +344,11 @@ void Improvement::give_back(Joined& joined) {
   const Stopwatch watch(result_.carrying);
   MeshData data = std::move(joined.data);
   if (face::holds_more(input_)) {
-    result_.carried = face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve,
-                                  data, plan_.surface.is_fixed() ? nullptr : &marks_);
+    face::Carried carried =
+        face::carry(input_, result_.vertex_map, result_.tet_map, options_.conserve, data,
+                    plan_.surface.is_fixed() ? nullptr : &marks_);
+    result_.carried = std::move(carried.arrays);
+    for (const std::string& text : carried.notes) note(text);
   }
   user_mesh_ = MeshAccess::make(std::move(data));
 }

@@ -19,6 +19,7 @@
 #include "face/worse.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/formats/vtk_roles.h"
 #include "kernel/printable.h"
 #include "kernel/shared_parts.h"
 #include "kernel/volume_rounding.h"
@@ -128,7 +129,8 @@ bool holds_more_than_arrays(const MeshData& data) {
   const auto any = [](const auto&... lists) { return (!lists.empty() || ...); };
   return any(data.tet_parts, data.triangle_parts, data.edge_parts, data.point_entities, data.groups,
              data.entities, data.periodic, data.other_elements, data.point_numbers,
-             data.tet_numbers, data.deck);
+             data.tet_numbers) ||
+         (!data.deck.empty() && !formats::has_only_roles(data));
 }
 
 /// Names the arrays that are not carried, and those that get other names.
@@ -284,6 +286,7 @@ void check_for_files(const Options& options) {
   };
   refuse(options.keep_size, "keep_size", "keep-size");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
+  refuse(options.straighten, "straighten", "straighten");
 }
 
 void check_before(const Figures& before, const Options& options,

@@ -11,6 +11,7 @@
 #include "face/carry.h"
 #include "face/surface_marks.h"
 #include "kernel/formats/mesh_io.h"
+#include "kernel/formats/vtk_roles.h"
 #include "kernel/mesh_view.h"
 #include "pieces/carried_rows.h"
 #include "pieces/file_slices.h"
@@ -41,10 +42,10 @@ MeshData read_source(const WriteDetails& details, Ranks& ranks) {
 }
 
 /// On the first rank. @param before null: it holds nothing besides the mesh
-std::vector<CarriedArray> write_whole(const std::filesystem::path& file, const DividedMesh& mesh,
-                                      const WriteDetails& details, const MeshData* before) {
+face::Carried write_whole(const std::filesystem::path& file, const DividedMesh& mesh,
+                          const WriteDetails& details, const MeshData* before) {
   Joined joined = join(mesh, details.vertices);
-  std::vector<CarriedArray> carried;
+  face::Carried carried;
   if (before != nullptr) {
     const Maps maps = maps_of(joined, before->points.size(), before->tets.size());
     const face::SurfaceMarks marks =
@@ -192,16 +193,17 @@ MeshData gather_mesh(const std::filesystem::path& file, const ArrayFiles& files,
   return data;
 }
 
-std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
-                                       const WriteDetails& details) {
+face::Carried write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
+                           const WriteDetails& details) {
   const ArrayFiles* const files = details.array_files;
   const bool is_of_ranks = files != nullptr && files->is_one(file);
   if (is_of_ranks && details.parts > 0 && files->is_in_parts(file)) {
     divide_into_parts(mesh, details.parts);
   }
-  const bool takes_rows = is_of_ranks || file.extension() == ".vtu";
+  const bool is_vtu = file.extension() == ".vtu" && details.variant != formats::kVtkAscii;
+  const bool takes_rows = is_of_ranks || is_vtu;
   if (takes_rows && !details.source.empty() && !details.surface_moves) {
-    if (auto carried = write_with_rows(file, mesh, details)) return std::move(*carried);
+    if (auto carried = write_with_rows(file, mesh, details)) return {std::move(*carried), {}};
   }
   if (is_of_ranks) {
     files->write_stored(file, mesh, nullptr);
@@ -214,7 +216,7 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   if (file.extension() == ".meshb" && !details.surface_moves) {
     if (write_medit_with_marks(file, mesh, details)) return {};
   }
-  if (file.extension() == ".vtu" && details.source.empty()) {
+  if (is_vtu && details.source.empty()) {
     write_vtu_slices(file, mesh);
     return {};
   }
@@ -230,7 +232,7 @@ std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, Divide
   const bool has_source = !details.source.empty();
   const MeshData before = has_source ? read_source(details, mesh.ranks()) : MeshData();
   mesh.bring_to_first();
-  std::vector<CarriedArray> carried;
+  face::Carried carried;
   if (mesh.ranks().is_first()) {
     carried = write_whole(file, mesh, details, has_source ? &before : nullptr);
   }

@@ -10,6 +10,7 @@
 
 #include <tetmend/improve.h>
 
+#include "face/carry.h"
 #include "kernel/mesh_data.h"
 #include "pieces/divided_mesh.h"
 #include "pieces/rank_share.h"
@@ -42,7 +43,7 @@ MeshData gather_mesh(const std::filesystem::path& file, const ArrayFiles& files,
 /// All ranks: the first writes the stored pieces, others help.
 /// @returns on the first rank, what was brought over
 /// @throws Error as write_mesh() and read_mesh()
-std::vector<CarriedArray> write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
-                                       const WriteDetails& details);
+face::Carried write_pieces(const std::filesystem::path& file, DividedMesh& mesh,
+                           const WriteDetails& details);
 
 }  // namespace tetmend::pieces

@@ -371,17 +371,23 @@ void FileRun::write() {
     read();  // slices are pieces, too
     parts = division_.pieces;
   }
-  result_.carried = write_pieces(files_.output, *mesh_,
-                                 {.vertices = vertices_,
-                                  .array_files = files_.array_files,
-                                  .parts = parts,
-                                  .variant = files_.variant,
-                                  .source = holds_more_ ? files_.input : std::filesystem::path(),
-                                  .label_array = files_.label_array,
-                                  .conserve = options_.conserve,
-                                  .surface_moves = !plan_.surface.is_fixed(),
-                                  .shelf = shelf_.get(),
-                                  .pieces = division_.pieces});
+  face::Carried carried =
+      write_pieces(files_.output, *mesh_,
+                   {.vertices = vertices_,
+                    .array_files = files_.array_files,
+                    .parts = parts,
+                    .variant = files_.variant,
+                    .source = holds_more_ ? files_.input : std::filesystem::path(),
+                    .label_array = files_.label_array,
+                    .conserve = options_.conserve,
+                    .surface_moves = !plan_.surface.is_fixed(),
+                    .shelf = shelf_.get(),
+                    .pieces = division_.pieces});
+  result_.carried = std::move(carried.arrays);
+  for (std::string& text : carried.notes) {
+    watcher_.noted(text);
+    result_.notes.push_back(std::move(text));
+  }
   if (ranks_.is_first() && !files_.checkpoint.empty() && !steps_->stopped()) checkpoint_.clear();
 }
 

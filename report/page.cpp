@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "explain/page_text.h"
+#include "face/identifiers.h"
 #include "kernel/grouped.h"
 #include "report/figures.h"
 #include "report/measure_table.h"
@@ -69,9 +70,12 @@ std::string notes_of(const Figures& figures) {
   }
   for (const nlohmann::json& array : figures.at("data")) {
     const Figures of(array);
-    items += fmt::format("<li>data of {} '{}': {}; its integral changed by {:.2g}</li>\n",
-                         escaped(of.text("on")), escaped(of.text("name")), escaped(of.text("rule")),
-                         of.number("integral_error"));
+    items += fmt::format("<li>data of {} '{}': {}", escaped(of.text("on")),
+                         escaped(of.text("name")), escaped(of.text("rule")));
+    if (of.text("rule") != face::kIdentifierRule) {
+      items += fmt::format("; its integral changed by {:.2g}", of.number("integral_error"));
+    }
+    items += "</li>\n";
   }
   return items.empty()
              ? items

@@ -93,6 +93,9 @@ struct Options {
   /// by the volume that they share. Others have the value of the old tet at their centroid.
   std::vector<std::string> conserve = {};
   bool ignore_interior = false;  ///< drop triangles, edges, required vertices inside a region
+  /// Of second order: where tets stay turned over though edges within the volume are curved, nodes of
+  /// the surface and of walls move to the middle of their edges.
+  bool straighten = false;
 
   std::filesystem::path trace = {};  ///< record all that happens; the run uses one thread then
   /// Of a run in pieces, which piece is recorded: "ROUND" or "ROUND:PIECE". Rounds count from 1,
@@ -218,6 +221,9 @@ struct Result {
   std::size_t layer_bad_tets = 0;      ///< of them
   std::size_t touched_tets = 0;       ///< of the new mesh: tets that are new or have a moved vertex
   std::optional<SurfaceLimit> limit;  ///< of the new mesh
+  /// Edges within the volume that were curved, so that fewer tets of second order are turned over.
+  std::size_t curved_edges = 0;
+  std::size_t straightened_edges = 0;  ///< of the surface and of walls, see Options::straighten
 
   /// By the old number of a vertex: its new one, or kGone. A vertex that moved is still the same.
   /// Vertices that stay keep their order and come first; new ones follow.

@@ -20,24 +20,46 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/element_checks.h"
+#include "kernel/parts.h"
 
 namespace tetmend::formats {
 namespace {
 
 // Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
-constexpr std::array<std::string_view, 28> kLabelNames = {
-    "cellentityids", "label",       "labels",    "medit:ref",       "gmsh:physical", "tetgen:ref",
-    "region",        "regionid",    "region_id", "modelregionid",   "material",      "materialids",
-    "materialid",    "material_id", "mat_id",    "matid",           "mat",           "physicalids",
-    "physical",      "tag",         "tags",      "cell_tags",       "cell_scalars",  "domain",
-    "subdomain",     "geometryids", "geometry",  "gmsh:geometrical"};
+constexpr std::array<std::string_view, 56> kLabelNames = {
+    "cellentityids",   "label",           "labels",       "medit:ref",       "gmsh:physical",
+    "tetgen:ref",      "region",          "regionid",     "region_id",       "modelregionid",
+    "material",        "materialids",     "materialid",   "material_id",     "mat_id",
+    "matid",           "mat",             "physicalids",  "physical",        "tag",
+    "tags",            "cell_tags",       "cell_scalars", "domain",          "subdomain",
+    "attribute",       "attributes",      "subdomain_id", "subdomainid",     "subdomain_ids",
+    "elementblockids", "elementblockid",  "block_id",     "blockid",         "blockids",
+    "objectid",        "object_id",       "partid",       "part_id",         "part_ids",
+    "body_id",         "bodyid",          "body_ids",     "cell_markers",    "cell_marker",
+    "markers",         "element_markers", "elementtag",   "element_tag",     "element_tags",
+    "property_id",     "propertyid",      "zone_id",      "geometryids",     "geometry",
+    "gmsh:geometrical"};
 
-std::size_t rank_of(std::string_view name) {
+// How a mesh was divided among processes, and which cells belong to another: no regions.
+constexpr std::array<std::string_view, 9> kDivisionNames = {
+    "vtkghosttype", "vtkghostlevels", "vtkprocessid", "processid",   "process_id",
+    "mpi_rank",     "rank",           "partition",    "partition_id"};
+
+std::string in_lower_case(std::string_view name) {
   std::string lower(name.substr(0, 30));
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto* found = std::find(kLabelNames.begin(), kLabelNames.end(), lower);
+  return lower;
+}
+
+std::size_t rank_of(std::string_view name) {
+  const auto* found = std::find(kLabelNames.begin(), kLabelNames.end(), in_lower_case(name));
   return static_cast<std::size_t>(found - kLabelNames.begin());
+}
+
+bool tells_division(std::string_view name) {
+  const std::string lower = in_lower_case(name);
+  return std::find(kDivisionNames.begin(), kDivisionNames.end(), lower) != kDivisionNames.end();
 }
 
 bool is_integral(const DataArray& array) {
@@ -73,17 +95,22 @@ bool is_constant(const DataArray& array) {
   return true;
 }
 
-/// Among arrays of one number for each cell.
-std::optional<std::size_t> find_known_name(const std::vector<ArrayFacts>& arrays) {
-  std::optional<std::size_t> best;
-  std::size_t best_rank = kLabelNames.size();
+/// The array of labels among those with a known name, and others of them that might tell more apart.
+RegionArrays find_known_names(const std::vector<ArrayFacts>& arrays) {
+  std::vector<std::size_t> known;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
-    const std::size_t rank = rank_of(arrays[i].name);
-    if (rank >= best_rank || arrays[i].components != 1 || arrays[i].has_fractions()) continue;
-    best = i;
-    best_rank = rank;
+    const bool is_known = rank_of(arrays[i].name) < kLabelNames.size();
+    if (is_known && arrays[i].components == 1 && !arrays[i].has_fractions()) known.push_back(i);
   }
-  return best;
+  if (known.empty()) return {};
+  const auto rank = [&](std::size_t i) { return rank_of(arrays[i].name); };
+  std::stable_sort(known.begin(), known.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  RegionArrays found{known.front(), {known.begin() + 1, known.end()}};
+  std::erase_if(found.parts, [&](std::size_t i) {
+    return arrays[i].is_constant() || !arrays[i].looks_like_labels();
+  });
+  return found;
 }
 
 /// Arrays whose name says nothing, but whose numbers could be labels: integers before others.
@@ -98,23 +125,31 @@ std::vector<std::size_t> find_candidates(const std::vector<ArrayFacts>& arrays) 
   return found;
 }
 
-/// The array of labels, if only one can be meant; else which might be is noted.
-std::optional<std::size_t> guess_labels(const std::vector<ArrayFacts>& arrays,
-                                        std::vector<std::string>& notes) {
+/// The array of labels, if only one can be meant; else all that might be one, which is noted.
+RegionArrays guess_regions(const std::vector<ArrayFacts>& arrays, std::vector<std::string>& notes) {
   std::vector<std::size_t> candidates = find_candidates(arrays);
   const auto is_number = [&](std::size_t i) { return arrays[i].is_integral; };
   const auto integers = std::count_if(candidates.begin(), candidates.end(), is_number);
-  if (integers == 1) return candidates.front();
+  if (integers == 1) return {candidates.front(), {}};
   // One value for all tells nothing apart.
   std::erase_if(candidates, [&](std::size_t i) { return arrays[i].is_constant(); });
-  if (candidates.empty()) return std::nullopt;
+  const auto tells = [&](std::size_t i) { return !tells_division(arrays[i].name); };
+  if (std::any_of(candidates.begin(), candidates.end(), tells)) {
+    std::erase_if(candidates, [&](std::size_t i) { return !tells(i); });
+  }
+  // Integers before others.
+  if (std::any_of(candidates.begin(), candidates.end(), is_number)) {
+    std::erase_if(candidates, [&](std::size_t i) { return !is_number(i); });
+  }
+  if (candidates.empty()) return {};
+  if (candidates.size() == 1) return {candidates.front(), {}};
   std::vector<std::string> names;
   for (const std::size_t i : candidates) names.push_back(fmt::format("'{}'", arrays[i].name));
   notes.push_back(fmt::format(
-      "no array has the name of labels, so regions are not told apart: {} might hold them; "
-      "--label-array NAME says which, 'none' that none does",
+      "no array has the name of labels: {} might hold them, so faces between different values of "
+      "any of them stay; --label-array NAME says which one does, 'none' that none does",
       fmt::join(names, ", ")));
-  return std::nullopt;
+  return {std::nullopt, std::move(candidates)};
 }
 
 std::size_t find_wanted(const std::vector<ArrayFacts>& arrays, const std::string& name) {
@@ -162,6 +197,19 @@ void set_labels(std::vector<Element>& elements, std::span<const std::uint32_t> c
   for (std::size_t i = 0; i < elements.size(); ++i) elements[i].label = labels[cells[i]];
 }
 
+/// A part for each combination of values, in the order in which they come.
+void set_parts(MeshData& mesh, const std::vector<DataArray>& arrays,
+               std::span<const std::size_t> which, const CellNumbers& numbers) {
+  if (which.empty()) return;
+  std::map<std::vector<double>, Label> parts;
+  std::vector<double> values(which.size());
+  for (const std::uint32_t cell : numbers.tets) {
+    for (std::size_t k = 0; k < which.size(); ++k) values[k] = real_value(arrays[which[k]], cell);
+    const auto next = static_cast<Label>(parts.size() + 1);
+    mesh.tet_parts.push_back(parts.try_emplace(values, next).first->second);
+  }
+}
+
 /// Puts `count` numbers of `array`, or as many that say "none", behind those of `joined`.
 void append(DataArray& joined, const DataArray* array, std::size_t count) {
   std::visit(
@@ -202,18 +250,15 @@ bool is_few_labels(std::size_t different, std::size_t size) {
   return different <= std::min(kMostLabels, size / 2 + 1);
 }
 
-std::optional<std::size_t> choose_label_array(const std::vector<ArrayFacts>& arrays,
-                                              const std::string& wanted,
-                                              std::vector<std::string>& notes) {
+RegionArrays choose_region_arrays(const std::vector<ArrayFacts>& arrays, const std::string& wanted,
+                                  std::vector<std::string>& notes) {
   if (!wanted.empty()) {
     const auto is_wanted = [&](const ArrayFacts& array) { return array.name == wanted; };
-    if (wanted == "none" && std::none_of(arrays.begin(), arrays.end(), is_wanted)) {
-      return std::nullopt;
-    }
-    return find_wanted(arrays, wanted);
+    if (wanted == "none" && std::none_of(arrays.begin(), arrays.end(), is_wanted)) return {};
+    return {find_wanted(arrays, wanted), {}};
   }
-  const std::optional<std::size_t> known = find_known_name(arrays);
-  return known ? known : guess_labels(arrays, notes);
+  RegionArrays known = find_known_names(arrays);
+  return known.labels ? known : guess_regions(arrays, notes);
 }
 
 bool is_point_label_array(std::string_view name) {
@@ -224,8 +269,9 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
                        const LabelChoice& choice) {
   std::vector<ArrayFacts> facts;
   for (const DataArray& array : arrays) facts.push_back(facts_of(array));
-  const std::optional<std::size_t> which = choose_label_array(facts, choice.wanted, mesh.notes);
-  if (which) {
+  const RegionArrays regions = choose_region_arrays(facts, choice.wanted, mesh.notes);
+  set_parts(mesh, arrays, regions.parts, numbers);
+  if (const std::optional<std::size_t> which = regions.labels) {
     const std::vector<Label> labels = to_labels(arrays, *which, choice.fail);
     set_labels(mesh.tets, numbers.tets, labels);
     set_labels(mesh.triangles, numbers.triangles, labels);
@@ -236,6 +282,15 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
       }
     }
     mesh.label_array = arrays[*which].name;
+    if (!are_finer_than_labels(mesh.tets, mesh.tet_parts)) {
+      mesh.tet_parts.clear();
+    } else {
+      std::vector<std::string> names;
+      for (const std::size_t i : regions.parts) names.push_back(fmt::format("'{}'", arrays[i].name));
+      mesh.notes.push_back(
+          fmt::format("labels are those of '{}'; faces between different values of {} stay, too",
+                      mesh.label_array, fmt::join(names, ", ")));
+    }
     arrays.erase(arrays.begin() + static_cast<std::ptrdiff_t>(*which));
   }
   for (const DataArray& array : arrays) {

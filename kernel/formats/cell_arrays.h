@@ -38,11 +38,16 @@ bool is_few_labels(std::size_t different, std::size_t size);
 /// More than these need not be counted for that.
 inline constexpr std::size_t kMostLabels = 1000;
 
-/// Which array holds labels; nothing: none. @param wanted its name, see LabelChoice
+/// What tells regions apart.
+struct RegionArrays {
+  std::optional<std::size_t> labels;  ///< the array that holds labels; nothing: none does
+  /// Where several could: a face between different values of any of them stays.
+  std::vector<std::size_t> parts;
+};
+/// @param wanted the name of the array of labels, see LabelChoice
 /// @throws Error for a wanted array that is not there
-std::optional<std::size_t> choose_label_array(const std::vector<ArrayFacts>& arrays,
-                                              const std::string& wanted,
-                                              std::vector<std::string>& notes);
+RegionArrays choose_region_arrays(const std::vector<ArrayFacts>& arrays, const std::string& wanted,
+                                  std::vector<std::string>& notes);
 /// Whether an array of points of that name has their labels, if it is of integers.
 bool is_point_label_array(std::string_view name);
 

@@ -16,6 +16,11 @@ namespace tetmend::formats {
 /// MeshData::variant of a deck.
 inline constexpr std::string_view kInp = "Abaqus";
 
+/// How sets are written: number by number, or as ranges where these are shorter. By themselves number
+/// by number, but for those that are one range.
+inline constexpr std::string_view kInpLists = "lists";
+inline constexpr std::string_view kInpRanges = "ranges";
+
 /// Sets become groups, and so do surfaces and loads on faces of tets, with the faces as triangles.
 /// What is not the mesh is in `deck`, word for word. See read_mesh().
 MeshData read_inp(const std::filesystem::path& file, TetPlace* question);

@@ -137,7 +137,8 @@ class Writer {
     });
   }
 
-  /// Ranges if these are shorter.
+  /// Numbers, or a range if it is all of the set: not every program reads more than one line of
+  /// GENERATE. On request ranges, where these are shorter, or no range.
   void write_set(const InpPiece& piece, const std::vector<std::int64_t>& numbers) {
     const bool given_elsewhere = piece.kind == InpPieceKind::element_set && numbers.empty() &&
                                  piece.more.empty() && !piece.groups.empty();
@@ -147,7 +148,9 @@ class Writer {
       runs += i == 0 || numbers[i] != numbers[i - 1] + 1 ? 1 : 0;
     }
     constexpr std::size_t kWorthARange = 3;
-    if (!piece.more.empty() || kWorthARange * runs > numbers.size()) {
+    const bool by_ranges = mesh_.variant() == kInpRanges;
+    const bool is_list = mesh_.variant() == kInpLists || (runs > 1 && !by_ranges);
+    if (is_list || !piece.more.empty() || kWorthARange * runs > numbers.size()) {
       out_.put(piece.text);
       write_numbers(numbers);
       return out_.put(piece.more);

@@ -30,6 +30,7 @@
 #include "kernel/formats/tet_place.h"
 #include "kernel/formats/tetgen.h"
 #include "kernel/formats/vtk_legacy.h"
+#include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/vtu.h"
 #include "kernel/second_order.h"
 
@@ -216,7 +217,14 @@ std::vector<std::string> not_written(const std::filesystem::path& file, const Me
 std::span<const std::string_view> mesh_variants(const std::filesystem::path& file) {
   static constexpr std::array<std::string_view, 4> kOfGmsh = {"2.2 ASCII", "2.2 binary",
                                                               "4.1 ASCII", "4.1 binary"};
-  if (format_extension(file) == ".msh") return kOfGmsh;
+  static constexpr std::array kOfVtk = {formats::kVtkAscii, formats::kVtkBinary};
+  static constexpr std::array kOfTetgen = {formats::kTetgenFromZero, formats::kTetgenFromOne};
+  static constexpr std::array kOfInp = {formats::kInpLists, formats::kInpRanges};
+  const std::string extension = format_extension(file);
+  if (extension == ".msh") return kOfGmsh;
+  if (extension == ".vtk" || extension == ".vtu") return kOfVtk;
+  if (extension == ".node" || extension == ".ele") return kOfTetgen;
+  if (extension == ".inp") return kOfInp;
   return {};
 }
 

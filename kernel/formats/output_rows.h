@@ -3,8 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <string_view>
+#include <type_traits>
 #include <vector>
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
 
 #include "kernel/formats/output_file.h"
 #include "kernel/mesh_view.h"
@@ -30,6 +36,20 @@ void put_tets(OutputFile& out, const MeshView& mesh, const Put& put) {
     std::size_t number = mesh.first_tet(block);
     for (const MeshData::Tet& tet : mesh.tets(block, memory)) put(number++, tet, buffer);
   });
+}
+
+/// As text: the shortest digits from which the same number is read back.
+template <class Value>
+void put_number(OutputBuffer& buffer, Value value) {
+  if constexpr (std::is_integral_v<Value>) {
+    buffer.put_integer(value);
+  } else if constexpr (std::is_same_v<Value, float>) {
+    std::array<char, 32> text{};
+    const char* const end = fmt::format_to(text.data(), FMT_COMPILE("{}"), value);
+    buffer.put(std::string_view(text.data(), static_cast<std::size_t>(end - text.data())));
+  } else {
+    buffer.put_real(value);
+  }
 }
 
 }  // namespace tetmend::formats

@@ -126,7 +126,10 @@ class Reader {
     std::vector<std::vector<double>> values(static_cast<std::size_t>(attributes));
     for (std::size_t i = 0; i < count; ++i) {
       table.begin_row("vertex");
-      if (i == 0) base_ = table.integer("the number of the first vertex", 0, 1);
+      if (i == 0) {
+        base_ = table.integer("the number of the first vertex", 0, 1);
+        mesh_.variant = base_ == 1 ? kTetgenFromOne : kTetgenFromZero;
+      }
       const auto number = static_cast<std::int64_t>(i) + base_;
       if (i > 0) table.integer("the next vertex", number, number);
       for (int axis = 0; axis < 3; ++axis) mesh_.points[i][axis] = table.real("a coordinate");
@@ -297,13 +300,19 @@ void write_attributes(OutputBuffer& out, const Columns& columns, std::size_t row
   }
 }
 
+/// Of the first vertex and the first element.
+std::size_t base_of(const MeshView& mesh) {
+  return mesh.variant() == kTetgenFromOne ? 1 : 0;
+}
+
 void write_nodes(OutputFile& out, const MeshView& mesh) {
   const bool marked = mesh.has_point_labels();
   const Columns columns =
       mesh.data() == nullptr ? Columns() : attributes_of(mesh.data()->point_data);
+  const std::size_t base = base_of(mesh);
   out.put(fmt::format("{} 3 {} {}\n", mesh.point_count(), width_of(columns), marked ? 1 : 0));
   put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
-    buffer.put_integer(static_cast<std::int64_t>(i));
+    buffer.put_integer(static_cast<std::int64_t>(i + base));
     for (int axis = 0; axis < 3; ++axis) {
       buffer.put(' ');
       buffer.put_real(mesh.point(i)[axis]);
@@ -318,12 +327,13 @@ void write_nodes(OutputFile& out, const MeshView& mesh) {
   out.put(kLastLine);
 }
 
-/// A row without its end.
-void write_numbers(OutputBuffer& out, std::size_t number, std::span<const std::uint32_t> vertices) {
-  out.put_integer(static_cast<std::int64_t>(number));
+/// A row without its end. @param number,vertices from 0
+void write_numbers(OutputBuffer& out, std::size_t base, std::size_t number,
+                   std::span<const std::uint32_t> vertices) {
+  out.put_integer(static_cast<std::int64_t>(number + base));
   for (const std::uint32_t vertex : vertices) {
     out.put(' ');
-    out.put_integer(vertex);
+    out.put_integer(static_cast<std::int64_t>(vertex + base));
   }
 }
 
@@ -346,8 +356,9 @@ void write_tets(OutputFile& out, const MeshView& mesh) {
                            [](const MeshData::Tet& tet) { return tet.label != 0; });
   }
   out.put(fmt::format("{} 4 {}\n", mesh.tet_count(), width_of(columns) + (labelled ? 1 : 0)));
+  const std::size_t base = base_of(mesh);
   put_tets(out, mesh, [&](std::size_t number, const MeshData::Tet& tet, OutputBuffer& rows) {
-    write_numbers(rows, number, tet.vertices);
+    write_numbers(rows, base, number, tet.vertices);
     write_end(rows, labelled ? &tet.label : nullptr, columns, number);
   });
   out.put(kLastLine);
@@ -362,14 +373,14 @@ const OtherElements* second_order(const MeshView& mesh, int vtk_type) {
   return nullptr;
 }
 
-void write_second_order_tets(OutputFile& out, const OtherElements& tets) {
+void write_second_order_tets(OutputFile& out, std::size_t base, const OtherElements& tets) {
   const Columns columns = attributes_of(tets.data);
   out.put(fmt::format("{} 10 {}\n", tets.labels.size(), 1 + width_of(columns)));
   put_rows(out, tets.labels.size(), [&](std::size_t i, OutputBuffer& buffer) {
     std::array<std::uint32_t, 10> row;
     std::copy_n(&tets.vertices[10 * i], 4, row.begin());
     for (std::size_t e = 0; e < 6; ++e) row[4 + kTetgenNodes[e]] = tets.vertices[10 * i + 4 + e];
-    write_numbers(buffer, i, row);
+    write_numbers(buffer, base, i, row);
     write_end(buffer, &tets.labels[i], columns, i);
   });
   out.put(kLastLine);
@@ -377,16 +388,16 @@ void write_second_order_tets(OutputFile& out, const OtherElements& tets) {
 
 /// Of first order, or of second if the mesh is.
 template <class Element>
-void write_elements(OutputFile& out, std::span<const Element> elements,
+void write_elements(OutputFile& out, std::size_t base, std::span<const Element> elements,
                     const OtherElements* second) {
   const std::size_t count = second == nullptr ? elements.size() : second->labels.size();
   out.put(fmt::format("{} 1\n", count));
   put_rows(out, count, [&](std::size_t i, OutputBuffer& buffer) {
     if (second == nullptr) {
-      write_numbers(buffer, i, elements[i].vertices);
+      write_numbers(buffer, base, i, elements[i].vertices);
     } else {
       const std::size_t width = second->vertex_count;
-      write_numbers(buffer, i, std::span(second->vertices).subspan(i * width, width));
+      write_numbers(buffer, base, i, std::span(second->vertices).subspan(i * width, width));
     }
     write_end(buffer, second == nullptr ? &elements[i].label : &second->labels[i], {}, i);
   });
@@ -409,15 +420,16 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
   const bool has_edges = !mesh.edges().empty() || second_order(mesh, 21) != nullptr;
   if (has_edges || std::filesystem::exists(edge_file, ignored)) edges.emplace(edge_file);
 
+  const std::size_t base = base_of(mesh);
   write_nodes(nodes, mesh);
   if (const OtherElements* second = second_order(mesh, 24)) {
-    write_second_order_tets(tets, *second);
+    write_second_order_tets(tets, base, *second);
   } else {
     write_tets(tets, mesh);
   }
-  write_elements(faces, mesh.triangles(), second_order(mesh, 22));
+  write_elements(faces, base, mesh.triangles(), second_order(mesh, 22));
   if (edges) {
-    write_elements(*edges, mesh.edges(), second_order(mesh, 21));
+    write_elements(*edges, base, mesh.edges(), second_order(mesh, 21));
   }
   std::vector<OutputFile*> all = {&faces, &nodes, &tets};
   if (edges) all.push_back(&*edges);

@@ -25,6 +25,7 @@
 #include "kernel/formats/vtk_array.h"
 #include "kernel/formats/vtk_cells.h"
 #include "kernel/formats/vtk_legacy.h"
+#include "kernel/formats/vtk_roles.h"
 
 namespace tetmend::formats {
 namespace {
@@ -106,6 +107,7 @@ class Reader {
       text_.fail(fmt::format("{} is not expected here: expected ASCII or BINARY", in_quotes(word)));
     }
     binary_ = coding == "binary";
+    mesh_.variant = binary_ ? kVtkBinary : kVtkAscii;
     if (binary_) text_.locate_errors_by_byte();
   }
 
@@ -245,13 +247,19 @@ class Reader {
   bool read_attribute(const std::string& name) {
     if (name == "scalars") {
       read_scalars();
-    } else if (name == "vectors" || name == "normals") {
+    } else if (name == "vectors") {
       read_attribute_of(3);
+    } else if (name == "normals") {
+      keep_role("Normals", read_attribute_of(3));
     } else if (name == "tensors") {
       read_attribute_of(9);
     } else if (name == "tensors6") {
       read_attribute_of(6);
-    } else if (name == "global_ids" || name == "pedigree_ids" || name == "edge_flags") {
+    } else if (name == "global_ids") {
+      keep_role("GlobalIds", read_attribute_of(1));
+    } else if (name == "pedigree_ids") {
+      keep_role("PedigreeIds", read_attribute_of(1));
+    } else if (name == "edge_flags") {
       const std::string_view array = text_.expect_word("the name of an array");
       skip_values(array, read_type(), data_count_, 1);
     } else if (name == "texture_coordinates") {
@@ -273,11 +281,15 @@ class Reader {
     return true;
   }
 
-  void read_attribute_of(std::size_t columns) {
+  std::string_view read_attribute_of(std::size_t columns) {
     const std::string_view name = text_.expect_word("the name of an array");
     const VtkType& type = read_type();
     begin_values();
     read_array(name, type, data_count_, columns);
+    return name;
+  }
+  void keep_role(std::string_view role, std::string_view array) {
+    formats::keep_role(mesh_, {data_of_ == DataOf::points, std::string(role), decoded(array)});
   }
 
   void skip_values(std::string_view name, const VtkType& type, std::size_t rows,

@@ -62,8 +62,10 @@ std::string xml_escaped(std::string_view text);
 /// As files name the type of its numbers.
 std::string_view vtu_type_of(const DataArray& array);
 /// What stands before the content of an array, which follows as two streams of base64: header() of its
-/// blocks, and the blocks.
-std::string vtu_array_tag(std::string_view name, std::string_view type, std::size_t components);
+/// blocks, and the blocks; or as text.
+/// @param is_id  VTK's vtkIdType, which the type must be
+std::string vtu_array_tag(std::string_view name, std::string_view type, std::size_t components,
+                          bool is_text = false, bool is_id = false);
 inline constexpr std::string_view kVtuArrayEnd = "\n</DataArray>\n";
 /// The first lines of a file, to the counts of its piece.
 std::string vtu_head(std::uint64_t points, std::uint64_t cells);

@@ -34,6 +34,7 @@
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_cells.h"
+#include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/vtu.h"
 #include "kernel/formats/vtu_numbers.h"
 #include "kernel/from_chars.h"
@@ -196,6 +197,7 @@ class Reader {
     const bool is_first = first_point == 0 && types_.size() == cells;
     read_arrays(piece.child("PointData"), points, first_point, is_first, point_arrays_);
     read_arrays(piece.child("CellData"), cells, types_.size() - cells, is_first, cell_arrays_);
+    if (is_first) read_roles(piece);
   }
 
   void read_points(const pugi::xml_node& piece, std::size_t points) {
@@ -204,6 +206,8 @@ class Reader {
     if (node.attribute("NumberOfComponents").as_uint(1) != 3) {
       fail(node, "points of other than 3 components: expected 3");
     }
+    const bool is_text = std::string_view(node.attribute("format").as_string("ascii")) == "ascii";
+    mesh_.variant = is_text ? kVtkAscii : kVtkBinary;
     const DataArray::Values values = read_values(node, points, 3);
     mesh_.points.reserve(mesh_.points.size() + points);
     std::visit(
@@ -304,6 +308,16 @@ class Reader {
                        in_quotes(node.attribute("Name").as_string())));
     }
     drop_short(arrays, rows_before + rows);
+  }
+
+  void read_roles(const pugi::xml_node& piece) {
+    for (const bool of_points : {true, false}) {
+      const pugi::xml_node data = piece.child(of_points ? "PointData" : "CellData");
+      for (const std::string_view role : vtk_roles()) {
+        const std::string array = data.attribute(std::string(role).c_str()).as_string();
+        if (!array.empty()) keep_role(mesh_, {of_points, std::string(role), array});
+      }
+    }
   }
 
   /// Drops arrays that a piece has not.

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Writes VTK's XML files: inline base64, in blocks of zlib.
+// Writes VTK's XML files: inline base64, in blocks of zlib; or text.
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "kernel/formats/base64.h"
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/output_rows.h"
+#include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/vtu.h"
 #include "kernel/formats/vtu_array.h"
 
@@ -24,7 +28,11 @@ std::string_view bytes_of(const std::vector<T>& values) {
 class Writer {
  public:
   Writer(OutputFile& out, const MeshView& mesh)
-      : out_(out), mesh_(mesh), rest_(mesh.data() != nullptr ? *mesh.data() : kNothingElse) {}
+      : out_(out),
+        mesh_(mesh),
+        rest_(mesh.data() != nullptr ? *mesh.data() : kNothingElse),
+        is_text_(mesh.variant() == kVtkAscii),
+        roles_(roles_of(rest_)) {}
 
   void write() {
     collect_cells();
@@ -33,9 +41,9 @@ class Writer {
     write_cell_data();
     write_points();
     out_.put("<Cells>\n");
-    write_array("connectivity", "Int64", 1, bytes_of(connectivity_));
-    write_array("offsets", "Int64", 1, bytes_of(offsets_));
-    write_array("types", "UInt8", 1, bytes_of(types_));
+    write_values("connectivity", "Int64", 1, connectivity_);
+    write_values("offsets", "Int64", 1, offsets_);
+    write_values("types", "UInt8", 1, types_);
     out_.put("</Cells>\n");
     out_.put(kVtuEnd);
   }
@@ -71,25 +79,30 @@ class Writer {
 
   void write_point_data() {
     if (!mesh_.has_point_labels() && rest_.point_data.empty()) return;
-    out_.put("<PointData>\n");
+    std::set<std::string> names;
+    for (const DataArray& array : rest_.point_data) names.insert(array.name);
+    out_.put(data_tag("PointData", true, names));
     if (mesh_.has_point_labels()) {
       std::vector<Label> labels(mesh_.point_count());
       for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = mesh_.point_label(i);
-      write_array("CellEntityIds", "Int32", 1, bytes_of(labels));
+      write_values("CellEntityIds", "Int32", 1, labels);
     }
-    for (const DataArray& array : rest_.point_data) write_array(array);
+    for (const DataArray& array : rest_.point_data) write_array(array, true);
     out_.put("</PointData>\n");
   }
 
   void write_cell_data() {
-    out_.put("<CellData>\n");
+    const std::vector<DataArray> arrays = join_cell_arrays(rest_);
+    std::set<std::string> names = {rest_.label_array};
+    for (const DataArray& array : arrays) names.insert(array.name);
+    out_.put(data_tag("CellData", false, names));
     const bool tell_apart =
         std::any_of(labels_.begin(), labels_.end(), [](Label l) { return l != 0; });
     if (tell_apart || !rest_.label_array.empty()) {
-      write_array(rest_.label_array.empty() ? "CellEntityIds" : rest_.label_array, "Int32", 1,
-                  bytes_of(labels_));
+      write_values(rest_.label_array.empty() ? "CellEntityIds" : rest_.label_array, "Int32", 1,
+                   labels_);
     }
-    for (const DataArray& array : join_cell_arrays(rest_)) write_array(array);
+    for (const DataArray& array : arrays) write_array(array, false);
     out_.put("</CellData>\n");
   }
 
@@ -100,22 +113,56 @@ class Writer {
       for (int axis = 0; axis < 3; ++axis) numbers.push_back(mesh_.point(i)[axis]);
     }
     out_.put("<Points>\n");
-    write_array("Points", "Float64", 3, bytes_of(numbers));
+    write_values("Points", "Float64", 3, numbers);
     out_.put("</Points>\n");
   }
 
-  void write_array(const DataArray& array) {
+  /// With the roles of arrays that are there.
+  std::string data_tag(std::string_view tag, bool of_points, const std::set<std::string>& names) {
+    std::string text = fmt::format("<{}", tag);
+    for (const VtkRole& role : roles_) {
+      if (role.of_points != of_points || !names.contains(role.array)) continue;
+      text += fmt::format(" {}=\"{}\"", role.role, xml_escaped(role.array));
+    }
+    return text + ">\n";
+  }
+  bool has_id_role(const DataArray& array, bool of_points) const {
+    return std::any_of(roles_.begin(), roles_.end(), [&](const VtkRole& role) {
+      return is_id_role(role.role) && role.of_points == of_points && role.array == array.name;
+    });
+  }
+
+  void write_array(const DataArray& array, bool of_points) {
+    const bool is_id = array.values.index() == 1 && has_id_role(array, of_points);
     std::visit(
         [&](const auto& values) {
-          write_array(array.name, vtu_type_of(array), array.components, bytes_of(values));
+          write_values(array.name, vtu_type_of(array), array.components, values, is_id);
         },
         array.values);
   }
 
+  template <class Value>
+  void write_values(std::string_view name, std::string_view type, std::size_t components,
+                    const std::vector<Value>& values, bool is_id = false) {
+    out_.put(vtu_array_tag(name, type, components, is_text_, is_id));
+    if (is_text_) {
+      write_text(values, components);
+    } else {
+      write_packed(bytes_of(values));
+    }
+    out_.put(kVtuArrayEnd);
+  }
+
+  template <class Value>
+  void write_text(const std::vector<Value>& values, std::size_t components) {
+    put_rows(out_, values.size(), [&](std::size_t i, OutputBuffer& buffer) {
+      put_number(buffer, values[i]);
+      buffer.put((i + 1) % components == 0 ? '\n' : ' ');
+    });
+  }
+
   /// The header of the blocks is a base64 stream of its own.
-  void write_array(std::string_view name, std::string_view type, std::size_t components,
-                   std::string_view bytes) {
-    out_.put(vtu_array_tag(name, type, components));
+  void write_packed(std::string_view bytes) {
     VtuBlocks blocks;
     std::string packed;
     const auto take = [&](std::string_view block) { packed += block; };
@@ -123,12 +170,13 @@ class Writer {
     blocks.finish(take);
     out_.put(encode_base64(bytes_of(blocks.header())));
     out_.put(encode_base64(packed));
-    out_.put(kVtuArrayEnd);
   }
 
   OutputFile& out_;
   const MeshView& mesh_;
   const MeshData& rest_;
+  const bool is_text_;
+  const std::vector<VtkRole> roles_;
   std::vector<std::int64_t> connectivity_;
   std::vector<std::int64_t> offsets_;
   std::vector<std::uint8_t> types_;

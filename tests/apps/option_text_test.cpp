@@ -145,7 +145,7 @@ TEST_CASE("options as text are those of C++") {
       {"trace", "a.trace"},     {"trace-around", "7"},
       {"trace-operator", "x"},  {"trace-depth", "0"},
       {"trace-limit", "5K"},    {"trace-piece", "2:3"},
-      {"limit", "true"}};
+      {"limit", "true"},        {"straighten", ""}};
   for (const auto& [name, value] : all) set_option(options, name, value);
   CHECK(options.schedule == "thorough");
   CHECK(options.script == "smooth{}");
@@ -168,6 +168,7 @@ TEST_CASE("options as text are those of C++") {
   CHECK(options.feature_angle == 30);
   CHECK(options.keep_size);
   CHECK(options.ignore_interior);
+  CHECK(options.straighten);
   CHECK(options.conserve == std::vector<std::string>{"density"});
   CHECK(options.trace == "a.trace");
   CHECK(options.trace_piece == "2:3");

@@ -40,6 +40,7 @@ class Options(TypedDict, total=False):
     keep_size: bool
     conserve: str | Sequence[str]
     ignore_interior: bool
+    straighten: bool
     trace: Text
     trace_piece: str
     trace_around: str

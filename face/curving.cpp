@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+//   tets that are turned over -> their edges that may be curved -> the best bend of each, again and
+//   again, with those of neighbours that came close to turning over
+#include "face/curving.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kernel/curved.h"
+#include "kernel/grouping.h"
+#include "kernel/second_order.h"
+#include "search/bend_search.h"
+
+namespace tetmend::face {
+
+namespace {
+
+/// Below this share of its straight determinant a tet is worked on: it may turn over next.
+constexpr double kEnough = 0.1;
+
+class Curver {
+ public:
+  Curver(MeshData& data, const std::vector<bool>& is_frozen)
+      : data_(data), mid_nodes_(data.mid_nodes), is_free_(data.points.size(), false) {
+    mark_free(is_frozen);
+    index_tets();
+  }
+
+  std::vector<std::uint32_t> turned_over() const {
+    std::vector<std::uint32_t> over;
+    for (std::uint32_t t = 0; t < data_.tets.size(); ++t) {
+      if (is_turned_over(t)) over.push_back(t);
+    }
+    return over;
+  }
+
+  /// Until no bend helps any more.
+  void curve(const std::vector<std::uint32_t>& over) {
+    constexpr int kMostRounds = 60;
+    std::set<std::uint32_t> active(over.begin(), over.end());
+    for (int round = 0; round < kMostRounds && !active.empty(); ++round) {
+      std::set<std::uint32_t> next;
+      for (const std::uint32_t t : active) improve_tet(t, next);
+      active = std::move(next);
+    }
+  }
+
+  /// The most bent edge of each that is held. @returns how many edges
+  std::size_t straighten(const std::vector<std::uint32_t>& over,
+                         const std::vector<bool>& is_required) {
+    std::size_t count = 0;
+    for (const std::uint32_t t : over) {
+      const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
+      std::size_t most = 6;
+      for (std::size_t e = 0; e < 6; ++e) {
+        if (tet.nodes[e] == kNoMidNode || is_free_[tet.nodes[e]] || is_required[tet.nodes[e]] ||
+            tet.bends[e] == Point::Zero())
+          continue;
+        if (most == 6 || share(tet, e) > share(tet, most)) most = e;
+      }
+      if (most == 6) continue;
+      data_.points[tet.nodes[most]] = middle(tet, most);
+      ++count;
+    }
+    return count;
+  }
+
+  /// Nodes that hold these tets, each once.
+  std::size_t count_holding(const std::vector<std::uint32_t>& over) const {
+    std::set<std::uint32_t> nodes;
+    for (const std::uint32_t t : over) {
+      const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
+      for (std::size_t e = 0; e < 6; ++e) {
+        const bool is_held = tet.nodes[e] != kNoMidNode && !is_free_[tet.nodes[e]];
+        if (is_held && tet.bends[e] != Point::Zero()) nodes.insert(tet.nodes[e]);
+      }
+    }
+    return nodes.size();
+  }
+
+  /// Edges whose nodes are elsewhere than they were.
+  std::size_t count_moved(const std::vector<Point>& points, bool free) const {
+    std::size_t count = 0;
+    for (const auto& mid : data_.mid_nodes) {
+      count += is_free_[mid[2]] == free && points[mid[2]] != data_.points[mid[2]] ? 1 : 0;
+    }
+    return count;
+  }
+
+ private:
+  void mark_free(const std::vector<bool>& is_frozen) {
+    const std::vector<bool> is_fixed = find_fixed_mid_nodes(data_, true).is_fixed;
+    for (std::size_t i = 0; i < data_.mid_nodes.size(); ++i) {
+      is_free_[data_.mid_nodes[i][2]] = !is_fixed[i];
+    }
+    for (const OtherElements& others : data_.other_elements) {
+      for (const std::uint32_t v : others.vertices) is_free_[v] = false;
+    }
+    for (std::size_t t = 0; t < is_frozen.size(); ++t) {
+      if (!is_frozen[t]) continue;
+      for (const std::uint32_t node : mid_nodes_.of(data_.tets[t].vertices)) is_free_[node] = false;
+    }
+  }
+
+  void index_tets() {
+    std::vector<std::uint32_t> nodes;  // 6 of each tet
+    const auto none = static_cast<std::uint32_t>(data_.points.size());
+    for (const MeshData::Tet& tet : data_.tets) {
+      for (const auto& [a, b] : kMidNodeEdges) {
+        const std::uint32_t node = mid_nodes_.of(tet.vertices[a], tet.vertices[b]);
+        nodes.push_back(node == kNoMidNode ? none : node);
+      }
+    }
+    edges_at_ = group_by_key(nodes, none + 1);
+  }
+
+  bool is_turned_over(std::uint32_t t) const {
+    const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
+    return tet.is_curved && jacobian_ratio(tet.vertices, tet.bends).at_nodes <= 0;
+  }
+
+  static Point middle(const CurvedTet& tet, std::size_t e) {
+    return (tet.vertices[kMidNodeEdges[e][0]] + tet.vertices[kMidNodeEdges[e][1]]) / 2;
+  }
+  /// The bend of an edge by its length.
+  static double share(const CurvedTet& tet, std::size_t e) {
+    return tet.bends[e].norm() /
+           (tet.vertices[kMidNodeEdges[e][1]] - tet.vertices[kMidNodeEdges[e][0]]).norm();
+  }
+
+  /// Bends each of its free edges anew. @param next gets the tets that are to be looked at again
+  void improve_tet(std::uint32_t t, std::set<std::uint32_t>& next) {
+    for (const auto& [a, b] : kMidNodeEdges) {
+      const auto& v = data_.tets[t].vertices;
+      const std::uint32_t node = mid_nodes_.of(v[a], v[b]);
+      if (node != kNoMidNode && is_free_[node]) bend(node, v[a], v[b], next);
+    }
+  }
+
+  void bend(std::uint32_t node, std::uint32_t a, std::uint32_t b, std::set<std::uint32_t>& next) {
+    constexpr double kWorthwhile = 1e-4;
+    BendSearch search;
+    for (const std::uint32_t place : edges_at_.group(node)) {
+      const CurvedTet tet(data_, mid_nodes_, data_.tets[place / 6]);
+      if (is_inverted(tet)) return;
+      search.add(tet.vertices, tet.bends, place % 6);
+    }
+    const Point middle = (data_.points[a] + data_.points[b]) / 2;
+    const Point before = data_.points[node] - middle;
+    const double then = search.value(before);
+    if (then >= kEnough) return;
+    const Point best = search.best(before);
+    const double now = search.value(best);
+    if (now < then + kWorthwhile) return;
+    data_.points[node] = middle + best;
+    for (const std::uint32_t place : edges_at_.group(node)) next.insert(place / 6);
+  }
+  static bool is_inverted(const CurvedTet& tet) {
+    std::array<Point, 6> none;
+    none.fill(Point::Zero());
+    return !(jacobian_coefficients(tet.vertices, none)[0] > 0);
+  }
+
+  MeshData& data_;
+  const MidNodes mid_nodes_;
+  std::vector<bool> is_free_;  // by point
+  Grouping edges_at_;          // by node: 6 * tet + edge
+};
+
+std::vector<bool> required_points(const MeshData& data) {
+  std::vector<bool> is_required(data.points.size(), false);
+  for (const std::uint32_t v : data.required_vertices) is_required[v] = true;
+  return is_required;
+}
+
+void tell(const Curving& done, std::size_t before, std::size_t holding, bool straightens,
+          std::vector<std::string>& notes) {
+  if (done.curved > 0) {
+    notes.push_back(fmt::format("{} edges within the volume are curved, so that of {} curved tets "
+                                "that were turned over {} are",
+                                done.curved, before, done.left));
+  }
+  if (done.straightened > 0) {
+    notes.push_back(fmt::format("{} edges of the surface and of walls are made straight, as "
+                                "--straighten asks for",
+                                done.straightened));
+  }
+  if (done.left == 0) return;
+  notes.push_back(fmt::format(
+      "{} curved tets stay turned over: {} nodes on edges that stay hold them{}", done.left,
+      holding, straightens ? "" : "; --straighten moves nodes of the surface to the middle of their edges"));
+}
+
+}  // namespace
+
+Curving curve_inside(MeshData& data, const std::vector<bool>& is_frozen, bool straightens) {
+  Curving done;
+  const CurvedStatistics then = curved_statistics(data);
+  if (then.turned_over == 0) return done;
+  const std::vector<Point> before = data.points;
+  Curver curver(data, is_frozen);
+  std::vector<std::uint32_t> over = curver.turned_over();
+  curver.curve(over);
+  over = curver.turned_over();
+  const std::vector<bool> is_required = required_points(data);
+  while (straightens && !over.empty() && curver.straighten(over, is_required) > 0) {
+    curver.curve(over);
+    over = curver.turned_over();
+  }
+  done.curved = curver.count_moved(before, true);
+  done.straightened = curver.count_moved(before, false);
+  done.left = over.size();
+  const JacobianRatio now = curved_statistics(data).worst;
+  if (now.at_nodes < then.worst.at_nodes || now.bound < then.worst.bound) {
+    data.points = before;  // what is promised of the worst goes first
+    done = {0, 0, then.turned_over, {}};
+    over = curver.turned_over();
+  }
+  tell(done, then.turned_over, curver.count_holding(over), straightens, done.notes);
+  return done;
+}
+
+}  // namespace tetmend::face
