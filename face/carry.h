@@ -42,9 +42,8 @@ struct Carried {
 /// @param conserve arrays of the tets, see check_conserve()
 /// @param marks what `now` has for labels where the surface may change; null: it is fixed
 Carried carry(const MeshData& before, std::span<const std::uint32_t> vertex_map,
-                                std::span<const std::uint32_t> tet_map,
-                                std::span<const std::string> conserve, MeshData& now,
-                                const SurfaceMarks* marks = nullptr);
+              std::span<const std::uint32_t> tet_map, std::span<const std::string> conserve,
+              MeshData& now, const SurfaceMarks* marks = nullptr);
 
 /// Of a component of an array over the mesh.
 struct ComponentIntegral {

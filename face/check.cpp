@@ -171,12 +171,22 @@ std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after, co
   return facts;
 }
 
-/// Of edges that had to stay.
-std::vector<Bits> fixed_mid_nodes(const MeshData& mesh) {
-  const std::vector<bool> is_fixed = find_fixed_mid_nodes(mesh, true).is_fixed;
+/// Of edges that had to stay. Of those that only their bend holds within the volume, the ones that
+/// `known` tells: others are curved since.
+std::vector<Bits> fixed_mid_nodes(const MeshData& mesh, const std::vector<Bits>* known = nullptr) {
+  const FixedMidNodes fixed = find_fixed_mid_nodes(mesh, true);
   std::vector<Bits> nodes;
-  for (std::size_t i = 0; i < is_fixed.size(); ++i) {
-    if (is_fixed[i]) nodes.push_back(bits_of(mesh.points[mesh.mid_nodes[i][2]]));
+  auto inside = fixed.inside.begin();  // in the order of the nodes
+  for (std::size_t i = 0; i < fixed.is_fixed.size(); ++i) {
+    if (!fixed.is_fixed[i]) continue;
+    const auto& [a, b, node] = mesh.mid_nodes[i];
+    const bool is_inside = inside != fixed.inside.end() && inside->vertices == std::array{a, b};
+    if (is_inside) ++inside;
+    const Bits bits = bits_of(mesh.points[node]);
+    if (known != nullptr && is_inside && !std::binary_search(known->begin(), known->end(), bits)) {
+      continue;
+    }
+    nodes.push_back(bits);
   }
   std::sort(nodes.begin(), nodes.end());
   return nodes;
@@ -666,8 +676,9 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads,
       not_more_inverted(before, MeshAccess::data(first), after, MeshAccess::data(second)));
   const bool is_mended = std::get<std::uint64_t>(facts.back().value) < inverted_before;
   if (!before.mid_nodes.empty() || !after.mid_nodes.empty()) {
-    facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", fixed_mid_nodes(before),
-                         fixed_mid_nodes(after)));
+    const std::vector<Bits> nodes = fixed_mid_nodes(before);
+    facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", nodes,
+                         fixed_mid_nodes(after, &nodes)));
   }
   const Measurement then = measure(first, {.threads = threads});
   const Measurement now = measure(second, {.threads = threads});

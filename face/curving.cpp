@@ -21,10 +21,15 @@ namespace tetmend::face {
 namespace {
 
 /// Below this share of its straight determinant a tet is worked on: it may turn over next.
-constexpr double kEnough = 0.1;
+constexpr double kEnough = 0.3;
+/// What is wished for while edges give way to each other.
+constexpr double kWanted = 0.3;
 
 class Curver {
  public:
+  /// How an edge gets its bend.
+  enum class Way : bool { ease, raise };
+
   Curver(MeshData& data, const std::vector<bool>& is_frozen)
       : data_(data), mid_nodes_(data.mid_nodes), is_free_(data.points.size(), false) {
     mark_free(is_frozen);
@@ -39,13 +44,24 @@ class Curver {
     return over;
   }
 
+  /// All of them a little, so that no edge is in the way of another.
+  void ease(const std::vector<std::uint32_t>& over) {
+    constexpr int kRounds = 100;
+    std::set<std::uint32_t> active(over.begin(), over.end());
+    for (int round = 0; round < kRounds && !active.empty(); ++round) {
+      std::set<std::uint32_t> next;
+      for (const std::uint32_t t : active) improve_tet(t, Way::ease, next);
+      active = std::move(next);
+    }
+  }
+
   /// Until no bend helps any more.
   void curve(const std::vector<std::uint32_t>& over) {
     constexpr int kMostRounds = 60;
     std::set<std::uint32_t> active(over.begin(), over.end());
     for (int round = 0; round < kMostRounds && !active.empty(); ++round) {
       std::set<std::uint32_t> next;
-      for (const std::uint32_t t : active) improve_tet(t, next);
+      for (const std::uint32_t t : active) improve_tet(t, Way::raise, next);
       active = std::move(next);
     }
   }
@@ -134,16 +150,16 @@ class Curver {
   }
 
   /// Bends each of its free edges anew. @param next gets the tets that are to be looked at again
-  void improve_tet(std::uint32_t t, std::set<std::uint32_t>& next) {
+  void improve_tet(std::uint32_t t, Way way, std::set<std::uint32_t>& next) {
     for (const auto& [a, b] : kMidNodeEdges) {
       const auto& v = data_.tets[t].vertices;
       const std::uint32_t node = mid_nodes_.of(v[a], v[b]);
-      if (node != kNoMidNode && is_free_[node]) bend(node, v[a], v[b], next);
+      if (node != kNoMidNode && is_free_[node]) bend(node, v[a], v[b], way, next);
     }
   }
 
-  void bend(std::uint32_t node, std::uint32_t a, std::uint32_t b, std::set<std::uint32_t>& next) {
-    constexpr double kWorthwhile = 1e-4;
+  void bend(std::uint32_t node, std::uint32_t a, std::uint32_t b, Way way,
+            std::set<std::uint32_t>& next) {
     BendSearch search;
     for (const std::uint32_t place : edges_at_.group(node)) {
       const CurvedTet tet(data_, mid_nodes_, data_.tets[place / 6]);
@@ -154,10 +170,17 @@ class Curver {
     const Point before = data_.points[node] - middle;
     const double then = search.value(before);
     if (then >= kEnough) return;
-    const Point best = search.best(before);
-    const double now = search.value(best);
-    if (now < then + kWorthwhile) return;
-    data_.points[node] = middle + best;
+    Point made;
+    if (way == Way::ease) {
+      made = search.eased(before, kWanted);
+      constexpr double kWorthwhile = 1e-4;
+      if ((made - before).norm() < kWorthwhile * (data_.points[b] - data_.points[a]).norm()) return;
+    } else {
+      made = search.best(before);
+      constexpr double kWorthwhile = 1e-4;
+      if (search.value(made) < then + kWorthwhile) return;
+    }
+    data_.points[node] = middle + made;
     for (const std::uint32_t place : edges_at_.group(node)) next.insert(place / 6);
   }
   static bool is_inverted(const CurvedTet& tet) {
@@ -178,22 +201,35 @@ std::vector<bool> required_points(const MeshData& data) {
   return is_required;
 }
 
+/// As long as that helps. `over` becomes what is left.
+void curve_all(Curver& curver, std::vector<std::uint32_t>& over) {
+  for (std::size_t then = over.size() + 1; !over.empty() && over.size() < then;) {
+    then = over.size();
+    curver.ease(over);
+    curver.curve(over);
+    over = curver.turned_over();
+  }
+}
+
 void tell(const Curving& done, std::size_t before, std::size_t holding, bool straightens,
           std::vector<std::string>& notes) {
   if (done.curved > 0) {
-    notes.push_back(fmt::format("{} edges within the volume are curved, so that of {} curved tets "
-                                "that were turned over {} are",
-                                done.curved, before, done.left));
+    notes.push_back(
+        fmt::format("{} edges within the volume are curved, so that of {} curved tets "
+                    "that were turned over {} are",
+                    done.curved, before, done.left));
   }
   if (done.straightened > 0) {
-    notes.push_back(fmt::format("{} edges of the surface and of walls are made straight, as "
-                                "--straighten asks for",
-                                done.straightened));
+    notes.push_back(
+        fmt::format("{} edges of the surface and of walls are made straight, as "
+                    "--straighten asks for",
+                    done.straightened));
   }
   if (done.left == 0) return;
   notes.push_back(fmt::format(
       "{} curved tets stay turned over: {} nodes on edges that stay hold them{}", done.left,
-      holding, straightens ? "" : "; --straighten moves nodes of the surface to the middle of their edges"));
+      holding,
+      straightens ? "" : "; --straighten moves nodes of the surface to the middle of their edges"));
 }
 
 }  // namespace
@@ -205,12 +241,10 @@ Curving curve_inside(MeshData& data, const std::vector<bool>& is_frozen, bool st
   const std::vector<Point> before = data.points;
   Curver curver(data, is_frozen);
   std::vector<std::uint32_t> over = curver.turned_over();
-  curver.curve(over);
-  over = curver.turned_over();
+  curve_all(curver, over);
   const std::vector<bool> is_required = required_points(data);
   while (straightens && !over.empty() && curver.straighten(over, is_required) > 0) {
-    curver.curve(over);
-    over = curver.turned_over();
+    curve_all(curver, over);
   }
   done.curved = curver.count_moved(before, true);
   done.straightened = curver.count_moved(before, false);

@@ -143,8 +143,8 @@ std::string identifier_note(const DataArray& old, const DataArray& made, std::st
   if (fresh == 0 && gone == 0) return {};
   std::string from;
   if (fresh > 0) {
-    const auto first = static_cast<std::size_t>(
-        std::find_if(same.begin(), same.end(), is_new) - same.begin());
+    const auto first =
+        static_cast<std::size_t>(std::find_if(same.begin(), same.end(), is_new) - same.begin());
     std::visit(
         [&](const auto& values) {
           from = fmt::format(", from {} on", static_cast<std::int64_t>(values[first]));
@@ -152,7 +152,8 @@ std::string identifier_note(const DataArray& old, const DataArray& made, std::st
         made.values);
   }
   return fmt::format(
-      "'{}' numbers {}: {} of {} numbers are gone, {} are new{}; files beside the mesh that refer to "
+      "'{}' numbers {}: {} of {} numbers are gone, {} are new{}; files beside the mesh that refer "
+      "to "
       "them, such as those of faces, have the old ones",
       printable(old.name), of, gone, old.size(), fresh, from);
 }

@@ -308,8 +308,7 @@ bool VtuSlices::choose_labels(const std::string& label_array, Ranks& ranks) {
                      [&known] { return known.values.size() <= 1; }});
   }
   try {
-    const formats::RegionArrays regions =
-        formats::choose_region_arrays(facts, label_array, notes_);
+    const formats::RegionArrays regions = formats::choose_region_arrays(facts, label_array, notes_);
     if (!regions.parts.empty()) return false;  // their walls are found in the whole mesh
     cell_labels_ = regions.labels;
   } catch (const Error&) {

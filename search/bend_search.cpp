@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Dense>
+
 #include "kernel/curved.h"
 #include "kernel/second_order.h"
 
@@ -90,6 +92,45 @@ Point BendSearch::best(const Point& start) const {
     }
   }
   return best;
+}
+
+double BendSearch::shortfall(const Point& bend, double wanted) const {
+  double sum = 0;
+  for (const Plane& plane : planes_) {
+    const double missing = wanted - plane.constant - plane.gradient.dot(bend);
+    if (missing > 0) sum += missing * missing;
+  }
+  return sum;
+}
+
+/// Newton's method: the sum of squares is convex in the bend.
+Point BendSearch::eased(const Point& start, double wanted) const {
+  constexpr int kSteps = 6;
+  constexpr int kHalvings = 6;
+  Point bend = start;
+  double least = shortfall(bend, wanted);
+  for (int i = 0; i < kSteps && least > 0; ++i) {
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    Point slope = Point::Zero();
+    for (const Plane& plane : planes_) {
+      const double missing = wanted - plane.constant - plane.gradient.dot(bend);
+      if (!(missing > 0)) continue;
+      squares += plane.gradient * plane.gradient.transpose();
+      slope += missing * plane.gradient;
+    }
+    squares += 1e-9 * squares.trace() * Eigen::Matrix3d::Identity();
+    Point step = squares.ldlt().solve(slope);
+    if (!step.allFinite()) break;
+    double reached = shortfall(bend + step, wanted);
+    for (int k = 0; k < kHalvings && !(reached < least); ++k) {
+      step /= 2;
+      reached = shortfall(bend + step, wanted);
+    }
+    if (!(reached < least)) break;
+    bend += step;
+    least = reached;
+  }
+  return bend;
 }
 
 }  // namespace tetmend

@@ -27,18 +27,20 @@ namespace {
 
 // Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
 constexpr std::array<std::string_view, 56> kLabelNames = {
-    "cellentityids",   "label",           "labels",       "medit:ref",       "gmsh:physical",
-    "tetgen:ref",      "region",          "regionid",     "region_id",       "modelregionid",
-    "material",        "materialids",     "materialid",   "material_id",     "mat_id",
-    "matid",           "mat",             "physicalids",  "physical",        "tag",
-    "tags",            "cell_tags",       "cell_scalars", "domain",          "subdomain",
-    "attribute",       "attributes",      "subdomain_id", "subdomainid",     "subdomain_ids",
-    "elementblockids", "elementblockid",  "block_id",     "blockid",         "blockids",
-    "objectid",        "object_id",       "partid",       "part_id",         "part_ids",
-    "body_id",         "bodyid",          "body_ids",     "cell_markers",    "cell_marker",
-    "markers",         "element_markers", "elementtag",   "element_tag",     "element_tags",
-    "property_id",     "propertyid",      "zone_id",      "geometryids",     "geometry",
-    "gmsh:geometrical"};
+    "cellentityids", "label",         "labels",          "medit:ref",
+    "gmsh:physical", "tetgen:ref",    "region",          "regionid",
+    "region_id",     "modelregionid", "material",        "materialids",
+    "materialid",    "material_id",   "mat_id",          "matid",
+    "mat",           "physicalids",   "physical",        "tag",
+    "tags",          "cell_tags",     "cell_scalars",    "domain",
+    "subdomain",     "attribute",     "attributes",      "subdomain_id",
+    "subdomainid",   "subdomain_ids", "elementblockids", "elementblockid",
+    "block_id",      "blockid",       "blockids",        "objectid",
+    "object_id",     "partid",        "part_id",         "part_ids",
+    "body_id",       "bodyid",        "body_ids",        "cell_markers",
+    "cell_marker",   "markers",       "element_markers", "elementtag",
+    "element_tag",   "element_tags",  "property_id",     "propertyid",
+    "zone_id",       "geometryids",   "geometry",        "gmsh:geometrical"};
 
 // How a mesh was divided among processes, and which cells belong to another: no regions.
 constexpr std::array<std::string_view, 9> kDivisionNames = {
@@ -286,7 +288,8 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
       mesh.tet_parts.clear();
     } else {
       std::vector<std::string> names;
-      for (const std::size_t i : regions.parts) names.push_back(fmt::format("'{}'", arrays[i].name));
+      for (const std::size_t i : regions.parts)
+        names.push_back(fmt::format("'{}'", arrays[i].name));
       mesh.notes.push_back(
           fmt::format("labels are those of '{}'; faces between different values of {} stay, too",
                       mesh.label_array, fmt::join(names, ", ")));

@@ -129,8 +129,8 @@ class Writer {
     write(mesh_.edges());
     for (const OtherElements& others : rest_.other_elements) {
       put_rows(out_, others.labels.size(), [&](std::size_t i, OutputBuffer& buffer) {
-        put_cell(buffer, std::span(others.vertices)
-                             .subspan(i * others.vertex_count, others.vertex_count));
+        put_cell(buffer,
+                 std::span(others.vertices).subspan(i * others.vertex_count, others.vertex_count));
       });
     }
   }

@@ -16,8 +16,9 @@ bool is_of_vtk(const MeshData& mesh) {
 }  // namespace
 
 std::span<const std::string_view> vtk_roles() {
-  static constexpr std::array<std::string_view, 8> kRoles = {
-      "Scalars", "Vectors", "Normals", "TCoords", "Tensors", "Tangents", "GlobalIds", "PedigreeIds"};
+  static constexpr std::array<std::string_view, 8> kRoles = {"Scalars",   "Vectors",    "Normals",
+                                                             "TCoords",   "Tensors",    "Tangents",
+                                                             "GlobalIds", "PedigreeIds"};
   return kRoles;
 }
 
@@ -37,8 +38,8 @@ std::vector<VtkRole> roles_of(const MeshData& mesh) {
     const bool of_points = piece.starts_with(kOfPoints);
     const std::string_view rest = piece.substr((of_points ? kOfPoints : kOfCells).size());
     const std::size_t blank = rest.find(' ');
-    roles.push_back({of_points, std::string(rest.substr(0, blank)),
-                     std::string(rest.substr(blank + 1))});
+    roles.push_back(
+        {of_points, std::string(rest.substr(0, blank)), std::string(rest.substr(blank + 1))});
   }
   return roles;
 }

@@ -217,7 +217,90 @@ def turned(made):
     return [(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z + 0.1 * x) for x, y, z in points], tets, labels
 
 
+def vtk_of_arrays(name, points, cells, cell_data=(), point_data=()):
+    """Arrays: (keyword, name, type, values); of FIELD if the keyword is empty."""
+    vtk(name, points, cells)
+    with open(name, "a", encoding="ascii") as file:
+        for title, count, arrays in (("CELL_DATA", len(cells), cell_data), ("POINT_DATA", len(points), point_data)):
+            if not arrays:
+                continue
+            file.write(f"{title} {count}\n")
+            for keyword, array, kind, values in arrays:
+                if keyword == "SCALARS":
+                    file.write(f"SCALARS {array} {kind} 1\nLOOKUP_TABLE default\n")
+                elif keyword:
+                    file.write(f"{keyword} {array} {kind}\n")
+                else:
+                    file.write(f"FIELD FieldData 1\n{array} 1 {count} {kind}\n")
+                file.write("\n".join(str(v) for v in values) + "\n")
+
+
+def vtu(name, points, cells, cell_data=(), point_data=(), cell_roles="", point_roles=""):
+    """Arrays: (name, type, values)."""
+    size = {2: 3, 3: 5, 4: 10, 10: 24}
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">',
+             "<UnstructuredGrid>", f'<Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">']
+
+    def array(label, kind, values, components=1):
+        return [f'<DataArray type="{kind}" Name="{label}" NumberOfComponents="{components}" format="ascii">',
+                " ".join(str(v) for v in values), "</DataArray>"]
+
+    for title, roles, arrays in (("PointData", point_roles, point_data), ("CellData", cell_roles, cell_data)):
+        lines += [f"<{title}{roles}>"]
+        for label, kind, values in arrays:
+            lines += array(label, kind, values, 1 if len(values) in (len(points), len(cells)) else 3)
+        lines += [f"</{title}>"]
+    lines += ["<Points>"] + array("Points", "Float64", [row(p) for p in points], 3) + ["</Points>", "<Cells>"]
+    lines += array("connectivity", "Int64", [" ".join(map(str, c)) for c in cells])
+    ends = [sum(len(c) for c in cells[:i + 1]) for i in range(len(cells))]
+    lines += array("offsets", "Int64", ends) + array("types", "UInt8", [size[len(c)] for c in cells])
+    write(name, lines + ["</Cells>", "</Piece>", "</UnstructuredGrid>", "</VTKFile>"])
+
+
+def squeezed():
+    """A box with a bad vertex inside that is often replaced, so that tets and points are new."""
+    points, tets = box(n=3, inner=None)
+    points = [tuple(0.92 * x if 0 < x < 2 and 0 < y < 2 and 0 < z < 2 and i % 2 else x for x in (x, y, z))
+              for i, (x, y, z) in enumerate(points)]
+    k = points.index(min((p for p in points if all(0.1 < x < 1.9 for x in p)), key=sum))
+    points[k] = (0.3, 1.1, 0.35)
+    return points, tets
+
+
+def identifiers():
+    points, tets = squeezed()
+    n, t = len(points), len(tets)
+    vtk_of_arrays("ids-by-keyword.vtk", points, tets, [("GLOBAL_IDS", "cells", "vtkIdType", range(t)),
+                                                       ("SCALARS", "heat", "double", [0.5 * i for i in range(t)])],
+                  [("PEDIGREE_IDS", "nodes", "vtkIdType", range(1000, 1000 + n))])
+    vtu("ids-as-reals.vtu", points, tets, [("GlobalElementID", "Float64", [float(i) for i in range(1, t + 1)])],
+        [("GlobalNodeID", "Int32", range(1, n + 1))], ' GlobalIds="GlobalElementID"', ' GlobalIds="GlobalNodeID"')
+    faces = [(0, 1, 5), (0, 5, 4)]
+    vtk_of_arrays("ids-of-tets-and-faces.vtk", points, tets + faces,
+                  [("", "element_id", "int", [*range(101, 101 + t), 900, 901])])
+    vtu("ids-near-the-end.vtu", points, tets, [("PedigreeElementId", "Int32", range(2147483647 - t + 1, 2147483648))])
+
+
+def halves(points, tets, axis):
+    return [1 if sum(points[v][axis] for v in tet) / 4 < 1 else 2 for tet in tets]
+
+
+def regions():
+    points, tets = box()
+    x, y = halves(points, tets, 0), halves(points, tets, 1)
+    vtk_of_arrays("blocks-beside-ghosts.vtk", points, tets, [("", "ElementBlockIds", "int", x),
+                                                             ("", "vtkGhostType", "int", [0] * 48)])
+    vtk_of_arrays("markers-as-doubles.vtk", points, tets, [("", "cell_markers", "double", [float(v) for v in x])])
+    vtk_of_arrays("two-unknown-arrays.vtk", points, tets, [("", "zebra", "int", x), ("", "crossing", "int", y)])
+    vtu("body-and-object.vtu", points, tets, [("ObjectId", "Int32", y), ("body_id", "Int64", x)])
+    vtu("one-unknown-double.vtu", points, tets, [("zebra", "Float64", [float(v) for v in x]),
+                                                 ("vtkGhostType", "UInt8", [0] * 48)])
+    vtu("divided.vtu", points, tets, [("zebra", "Int32", x), ("vtkProcessId", "Int32", y)])
+
+
 if __name__ == "__main__":
+    identifiers()
+    regions()
     numbers()
     listings()
     degenerate()
