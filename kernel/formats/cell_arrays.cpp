@@ -130,15 +130,15 @@ std::vector<std::size_t> find_candidates(const std::vector<ArrayFacts>& arrays) 
 /// The array of labels, if only one can be meant; else all that might be one, which is noted.
 RegionArrays guess_regions(const std::vector<ArrayFacts>& arrays, std::vector<std::string>& notes) {
   std::vector<std::size_t> candidates = find_candidates(arrays);
+  const auto tells = [&](std::size_t i) { return !tells_division(arrays[i].name); };
+  if (std::any_of(candidates.begin(), candidates.end(), tells)) {
+    std::erase_if(candidates, [&](std::size_t i) { return !tells(i); });
+  }
   const auto is_number = [&](std::size_t i) { return arrays[i].is_integral; };
   const auto integers = std::count_if(candidates.begin(), candidates.end(), is_number);
   if (integers == 1) return {candidates.front(), {}};
   // One value for all tells nothing apart.
   std::erase_if(candidates, [&](std::size_t i) { return arrays[i].is_constant(); });
-  const auto tells = [&](std::size_t i) { return !tells_division(arrays[i].name); };
-  if (std::any_of(candidates.begin(), candidates.end(), tells)) {
-    std::erase_if(candidates, [&](std::size_t i) { return !tells(i); });
-  }
   // Integers before others.
   if (std::any_of(candidates.begin(), candidates.end(), is_number)) {
     std::erase_if(candidates, [&](std::size_t i) { return !is_number(i); });

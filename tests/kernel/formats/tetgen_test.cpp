@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // TetGen files: numbering, attributes, companions, and how bad files are refused.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/kernel/formats/fixtures.h"
 
@@ -57,6 +58,31 @@ TEST_CASE("TetGen files that count from 1 with comments, attributes and markers 
   CHECK(again.point_data == mesh.point_data);
   CHECK(again.tet_data == mesh.tet_data);
   CHECK(again.tets == mesh.tets);
+}
+
+TEST_CASE("TetGen files count as they did, or as is asked for") {
+  const TempFolder folder;
+  for (const int base : {0, 1}) {
+    write_files(folder, {.node = fmt::format("4 3 0 0\n{} 0 0 0\n{} 1 0 0\n{} 0 1 0\n{} 0 0 1\n",
+                                             base, base + 1, base + 2, base + 3),
+                         .ele = fmt::format("1 4 0\n{} {} {} {} {}\n", base, base, base + 1,
+                                            base + 2, base + 3),
+                         .face = fmt::format("1 0\n{} {} {} {}\n", base, base, base + 1, base + 2)});
+    const MeshData mesh = read_mesh(folder / "a.ele");
+    for (const std::string_view variant : {"", "from 0", "from 1"}) {
+      const int wanted = variant.empty() ? base : variant.back() - '0';
+      MeshView view(mesh);
+      view.set_variant(variant);
+      write_mesh(folder / "b.ele", view);
+      CHECK(read_text(folder / "b.ele")
+                .starts_with(fmt::format("1 4 0\n{} {} {} {} {}\n", wanted, wanted, wanted + 1,
+                                         wanted + 2, wanted + 3)));
+      CHECK(read_text(folder / "b.face")
+                .starts_with(fmt::format("1 1\n{} {} {} {} 0\n", wanted, wanted, wanted + 1,
+                                         wanted + 2)));
+      CHECK(read_mesh(folder / "b.node").points == mesh.points);
+    }
+  }
 }
 
 TEST_CASE("TetGen's order of the nodes of edges is that of its switch -o2") {

@@ -58,15 +58,14 @@ TEST_CASE("arrays of every kind are read from an ASCII VTK file and labels are f
     names.push_back(array.name + "*" + std::to_string(array.components));
   }
   CHECK(names ==
-        std::vector<std::string>{"quality*1", "v*3", "n*3", "t*9", "t6*6", "tc*2", "pairs*2"});
+        std::vector<std::string>{"quality*1", "v*3", "n*3", "t*9", "t6*6", "tc*2", "g*1", "pairs*2"});
   CHECK(std::get<std::vector<float>>(mesh.tet_data[1].values) == std::vector<float>{1, 2, 3});
   CHECK(std::get<std::vector<float>>(mesh.triangle_data[1].values) == std::vector<float>{4, 5, 6});
   CHECK(std::isnan(std::get<std::vector<float>>(mesh.triangle_data[0].values)[0]));
-  CHECK(std::get<std::vector<std::int32_t>>(mesh.tet_data[6].values) ==
+  CHECK(std::get<std::vector<std::int32_t>>(mesh.tet_data[7].values) ==
         std::vector<std::int32_t>{1, 2});
   CHECK(mesh.notes ==
         std::vector<std::string>{"the array 'my_table' is not kept", "the array 'c' is not kept",
-                                 "the array 'g' is not kept",
                                  "the array 'names' is not kept: it holds no numbers",
                                  "the array 'bits' is not kept: it holds no numbers"});
 }
@@ -150,6 +149,73 @@ TEST_CASE("a VTK file keeps arrays, their names and cells of other kinds when it
   CHECK(read_text(folder / "c.vtk") == read_text(folder / "b.vtk"));
   CHECK(not_written(folder / "c.vtk", second).empty());
   CHECK(not_written(folder / "c.mesh", second).size() == 7);
+}
+
+TEST_CASE("an ASCII VTK file stays one, bit for bit, and the other form can be asked for") {
+  const TempFolder folder;
+  const std::string text =
+      kHead + kPoints + kCells +
+      "CELL_DATA 2\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6\n"
+      "FIELD FieldData 4\nids 1 2 long\n7 4000000000\nx 1 2 float\n0.1 nan\n"
+      "y 2 2 double\n0.1 1e-300 -0 3\nn 1 2 int\n-7 8\n"
+      "POINT_DATA 4\nVECTORS u double\n1 2 3 4 5 6 7 8 9 10 11 12\n";
+  write_text(folder / "a.vtk", text);
+  const MeshData first = read_mesh(folder / "a.vtk");
+  for (const std::string_view variant : {"", "ASCII", "binary"}) {
+    CAPTURE(variant);
+    MeshView view(first);
+    view.set_variant(variant);
+    write_mesh(folder / "b.vtk", view);
+    const std::string written = read_text(folder / "b.vtk");
+    CHECK(written.find(variant == "binary" ? "\nBINARY\n" : "\nASCII\n") != std::string::npos);
+    CHECK(written.find("vtktypeint64") == std::string::npos);  // none of version 3.0
+    const MeshData second = read_mesh(folder / "b.vtk");
+    CHECK(second.points == first.points);
+    CHECK(second.tets == first.tets);
+    CHECK(second.triangles == first.triangles);
+    REQUIRE(second.tet_data.size() == first.tet_data.size());
+    for (std::size_t i = 0; i < first.tet_data.size(); ++i) {
+      CHECK(second.tet_data[i].values.index() == first.tet_data[i].values.index());
+      CHECK(second.tet_data[i].name == first.tet_data[i].name);
+    }
+    CHECK(second.tet_data[0] == first.tet_data[0]);
+    CHECK(second.tet_data[2] == first.tet_data[2]);
+    CHECK(second.point_data == first.point_data);
+  }
+  MeshData other = awkward_mesh();
+  other.variant = "2.2 ASCII";  // of Gmsh
+  write_mesh(folder / "c.vtk", other);
+  CHECK(read_text(folder / "c.vtk").find("\nBINARY\n") != std::string::npos);
+}
+
+TEST_CASE("what VTK takes an array for survives, from each of its formats to the other") {
+  const TempFolder folder;
+  const std::string text = kHead + kPoints + kCells +
+                           "CELL_DATA 2\nGLOBAL_IDS cells vtkIdType\n40 50\n"
+                           "POINT_DATA 4\nPEDIGREE_IDS p%20q vtkIdType\n4 5 6 7\n"
+                           "NORMALS n double\n1 0 0 1 0 0 1 0 0 1 0 0\n";
+  write_text(folder / "a.vtk", text);
+  for (const char* file : {"b.vtu", "b.vtk"}) {
+    CAPTURE(file);
+    write_mesh(folder / file, read_mesh(folder / "a.vtk"));
+    const std::string through = read_text(folder / file);
+    CHECK(not_written(folder / file, read_mesh(folder / "a.vtk")).empty());
+    write_mesh(folder / "c.vtk", read_mesh(folder / file));
+    const std::string written = read_text(folder / "c.vtk");
+    CHECK(written.find("\nGLOBAL_IDS cells vtkIdType\n40 \n50 \n") != std::string::npos);
+    CHECK(written.find("\nPEDIGREE_IDS p%20q vtkIdType\n") != std::string::npos);
+    CHECK(written.find("\nNORMALS n double\n1 0 0 \n") != std::string::npos);
+  }
+  const std::string xml = read_text(folder / "b.vtu");
+  CHECK(xml.find("<CellData GlobalIds=\"cells\">") != std::string::npos);
+  CHECK(xml.find("<PointData PedigreeIds=\"p q\" Normals=\"n\">") != std::string::npos);
+  // Numbers that VTK's vtkIdType of 4 bytes does not hold are an array like any other.
+  const std::string wide = replaced(text, "4 5 6 7", "4 5 6 7000000000");
+  write_text(folder / "a.vtk", wide);
+  write_mesh(folder / "c.vtk", read_mesh(folder / "a.vtk"));
+  CHECK(read_text(folder / "c.vtk").find("p%20q 1 4 long\n") != std::string::npos);
+  // They are none of the mesh: other formats lose no more than the arrays.
+  CHECK(not_written(folder / "c.mesh", read_mesh(folder / "c.vtk")).size() == 4);
 }
 
 TEST_CASE("points, lines and polygons of a VTK file are kept by their type") {

@@ -2,6 +2,7 @@
 // VTK XML files made by hand, files packed by gzip, and how bad ones are refused.
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -104,11 +105,53 @@ TEST_CASE("labels are guessed from the only array that could hold them, else ask
   CHECK(two.label_array.empty());
   REQUIRE(two.notes.size() == 1);
   CHECK(two.notes[0].find("'owner', 'my_region' might hold them") != std::string::npos);
-  CHECK(read_with({{"zone", 1, zone}}, "").notes.size() == 1);
+  // A part for each combination of the two.
+  CHECK(std::set<Label>(two.tet_parts.begin(), two.tet_parts.end()).size() == 4);
+  const MeshData doubles = read_with({{"zone", 1, zone}}, "");
+  CHECK(doubles.label_array == "zone");
+  CHECK(doubles.notes.empty());
+  const std::vector<std::int32_t> same(zone.size(), 3);
+  CHECK(read_with({{"one", 1, same}, {"zone", 1, zone}, {"owner", 1, owner}, {"two", 1, same}}, "")
+            .label_array == "owner");
+  CHECK(read_with({{"vtkProcessId", 1, owner}, {"my_region", 1, region}}, "").label_array ==
+        "my_region");
+  const MeshData known = read_with({{"ObjectId", 1, region}, {"subdomain_id", 1, owner}}, "");
+  CHECK(known.label_array == "subdomain_id");
+  CHECK(std::set<Label>(known.tet_parts.begin(), known.tet_parts.end()).size() == 2);
+  CHECK(known.notes.size() == 1);
+  CHECK(read_with({{"ObjectId", 1, owner}, {"subdomain_id", 1, owner}}, "").tet_parts.empty());
   CHECK(read_with({{"zone", 1, zone}}, "zone").tets[1].label == 2);
   CHECK(read_with({{"zone", 1, zone}}, "none").notes.empty());
   // Without labels there is no array of them.
   CHECK(read_text(folder / "a.vtu").find("CellEntityIds") == std::string::npos);
+}
+
+TEST_CASE("a VTK XML file of text stays one, and names the roles of its arrays") {
+  const TempFolder folder;
+  const std::string text = R"(<VTKFile type="UnstructuredGrid"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3">
+0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>
+<DataArray type="Int64" Name="connectivity">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets">4</DataArray><DataArray type="UInt8" Name="types">10</DataArray></Cells>
+<PointData Scalars="a &amp; b" GlobalIds="id" Vectors="none"><DataArray type="Float32" Name="a &amp; b">0.1 2 3 nan</DataArray>
+<DataArray type="Int64" IdType="1" Name="id">1 2 3 9</DataArray></PointData>
+</Piece></UnstructuredGrid></VTKFile>)";
+  write_text(folder / "a.vtu", text);
+  const MeshData mesh = read_mesh(folder / "a.vtu");
+  for (const std::string_view variant : {"", "binary"}) {
+    MeshView view(mesh);
+    view.set_variant(variant);
+    write_mesh(folder / "b.vtu", view);
+    const std::string written = read_text(folder / "b.vtu");
+    CHECK((written.find("format=\"binary\"") == std::string::npos) == variant.empty());
+    CHECK(written.find("<PointData Scalars=\"a &amp; b\" GlobalIds=\"id\">") !=
+          std::string::npos);
+    CHECK(written.find("type=\"Int64\" IdType=\"1\" Name=\"id\"") != std::string::npos);
+    const MeshData again = read_mesh(folder / "b.vtu");
+    CHECK(again.points == mesh.points);
+    CHECK(again.point_data[1] == mesh.point_data[1]);
+    CHECK(std::get<std::vector<float>>(again.point_data[0].values)[0] == 0.1F);
+  }
 }
 
 TEST_CASE("an array with integers of 64 bits and no sign is noted if they are too great") {
