@@ -31,8 +31,8 @@ class Curver {
   enum class Way : bool { ease, raise };
 
   Curver(MeshData& data, const std::vector<bool>& is_frozen)
-      : data_(data), mid_nodes_(data.mid_nodes), is_free_(data.points.size(), false) {
-    mark_free(is_frozen);
+      : data_(data), mid_nodes_(data.mid_nodes), hold_of_(data.points.size(), Hold::stays) {
+    mark(is_frozen);
     index_tets();
   }
 
@@ -67,16 +67,13 @@ class Curver {
   }
 
   /// The most bent edge of each that is held. @returns how many edges
-  std::size_t straighten(const std::vector<std::uint32_t>& over,
-                         const std::vector<bool>& is_required) {
+  std::size_t straighten(const std::vector<std::uint32_t>& over) {
     std::size_t count = 0;
     for (const std::uint32_t t : over) {
       const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
       std::size_t most = 6;
       for (std::size_t e = 0; e < 6; ++e) {
-        if (tet.nodes[e] == kNoMidNode || is_free_[tet.nodes[e]] || is_required[tet.nodes[e]] ||
-            tet.bends[e] == Point::Zero())
-          continue;
+        if (hold_of(tet.nodes[e]) != Hold::surface || tet.bends[e] == Point::Zero()) continue;
         if (most == 6 || share(tet, e) > share(tet, most)) most = e;
       }
       if (most == 6) continue;
@@ -92,7 +89,7 @@ class Curver {
     for (const std::uint32_t t : over) {
       const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
       for (std::size_t e = 0; e < 6; ++e) {
-        const bool is_held = tet.nodes[e] != kNoMidNode && !is_free_[tet.nodes[e]];
+        const bool is_held = hold_of(tet.nodes[e]) != Hold::free;
         if (is_held && tet.bends[e] != Point::Zero()) nodes.insert(tet.nodes[e]);
       }
     }
@@ -103,23 +100,32 @@ class Curver {
   std::size_t count_moved(const std::vector<Point>& points, bool free) const {
     std::size_t count = 0;
     for (const auto& mid : data_.mid_nodes) {
-      count += is_free_[mid[2]] == free && points[mid[2]] != data_.points[mid[2]] ? 1 : 0;
+      const bool is_free = hold_of_[mid[2]] == Hold::free;
+      count += is_free == free && points[mid[2]] != data_.points[mid[2]] ? 1 : 0;
     }
     return count;
   }
 
  private:
-  void mark_free(const std::vector<bool>& is_frozen) {
+  /// What keeps a mid-side node where it is.
+  enum class Hold : std::uint8_t { free, surface, stays };
+
+  Hold hold_of(std::uint32_t node) const {
+    return node == kNoMidNode ? Hold::stays : hold_of_[node];
+  }
+
+  void mark(const std::vector<bool>& is_frozen) {
     const std::vector<bool> is_fixed = find_fixed_mid_nodes(data_, true).is_fixed;
     for (std::size_t i = 0; i < data_.mid_nodes.size(); ++i) {
-      is_free_[data_.mid_nodes[i][2]] = !is_fixed[i];
+      hold_of_[data_.mid_nodes[i][2]] = is_fixed[i] ? Hold::surface : Hold::free;
     }
+    for (const std::uint32_t v : data_.required_vertices) hold_of_[v] = Hold::stays;
     for (const OtherElements& others : data_.other_elements) {
-      for (const std::uint32_t v : others.vertices) is_free_[v] = false;
+      for (const std::uint32_t v : others.vertices) hold_of_[v] = Hold::stays;
     }
     for (std::size_t t = 0; t < is_frozen.size(); ++t) {
       if (!is_frozen[t]) continue;
-      for (const std::uint32_t node : mid_nodes_.of(data_.tets[t].vertices)) is_free_[node] = false;
+      for (const std::uint32_t v : mid_nodes_.of(data_.tets[t].vertices)) hold_of_[v] = Hold::stays;
     }
   }
 
@@ -154,7 +160,7 @@ class Curver {
     for (const auto& [a, b] : kMidNodeEdges) {
       const auto& v = data_.tets[t].vertices;
       const std::uint32_t node = mid_nodes_.of(v[a], v[b]);
-      if (node != kNoMidNode && is_free_[node]) bend(node, v[a], v[b], way, next);
+      if (hold_of(node) == Hold::free) bend(node, v[a], v[b], way, next);
     }
   }
 
@@ -191,15 +197,9 @@ class Curver {
 
   MeshData& data_;
   const MidNodes mid_nodes_;
-  std::vector<bool> is_free_;  // by point
+  std::vector<Hold> hold_of_;  // by point
   Grouping edges_at_;          // by node: 6 * tet + edge
 };
-
-std::vector<bool> required_points(const MeshData& data) {
-  std::vector<bool> is_required(data.points.size(), false);
-  for (const std::uint32_t v : data.required_vertices) is_required[v] = true;
-  return is_required;
-}
 
 /// As long as that helps. `over` becomes what is left.
 void curve_all(Curver& curver, std::vector<std::uint32_t>& over) {
@@ -242,8 +242,7 @@ Curving curve_inside(MeshData& data, const std::vector<bool>& is_frozen, bool st
   Curver curver(data, is_frozen);
   std::vector<std::uint32_t> over = curver.turned_over();
   curve_all(curver, over);
-  const std::vector<bool> is_required = required_points(data);
-  while (straightens && !over.empty() && curver.straighten(over, is_required) > 0) {
+  while (straightens && !over.empty() && curver.straighten(over) > 0) {
     curve_all(curver, over);
   }
   done.curved = curver.count_moved(before, true);

@@ -20,6 +20,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/vtk_roles.h"
 #include "kernel/parts.h"
 
 namespace tetmend::formats {
@@ -271,6 +272,12 @@ void adopt_cell_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Cell
                        const LabelChoice& choice) {
   std::vector<ArrayFacts> facts;
   for (const DataArray& array : arrays) facts.push_back(facts_of(array));
+  for (const VtkRole& role : roles_of(mesh)) {
+    if (role.of_points || !is_id_role(role.role)) continue;
+    for (ArrayFacts& array : facts) {
+      if (array.name == role.array) array.looks_like_labels = [] { return false; };
+    }
+  }
   const RegionArrays regions = choose_region_arrays(facts, choice.wanted, mesh.notes);
   set_parts(mesh, arrays, regions.parts, numbers);
   if (const std::optional<std::size_t> which = regions.labels) {
