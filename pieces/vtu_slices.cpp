@@ -10,8 +10,11 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "kernel/error.h"
 #include "kernel/formats/cell_arrays.h"
+#include "kernel/printable.h"
 #include "pieces/bytes.h"
 #include "pieces/number_order.h"
 
@@ -244,6 +247,8 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       if (!is_whole || !(real >= INT32_MIN && real <= INT32_MAX)) known.is_no_label = 1;
       if (number < 0 && column.type->name == "UInt64") known.is_beyond = 1;
       known.others_than_0 += real != 0 ? 1 : 0;
+      known.least = std::min(known.least, real);
+      known.most = std::max(known.most, real);
       if (column.components == 1 && is_whole && values.size() <= formats::kMostLabels) {
         values.insert(real);
       }
@@ -263,6 +268,8 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
     put(known.is_no_label, bytes);
     put(known.is_beyond, bytes);
     put(known.others_than_0, bytes);
+    put(known.least, bytes);
+    put(known.most, bytes);
     put(known.values, bytes);
   }
   std::vector<ArrayKnowledge> all(columns.size());
@@ -275,11 +282,15 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       take(rest, other.is_no_label);
       take(rest, other.is_beyond);
       take(rest, other.others_than_0);
+      take(rest, other.least);
+      take(rest, other.most);
       take(rest, other.values);
       all[i].has_fractions |= other.has_fractions;
       all[i].is_no_label |= other.is_no_label;
       all[i].is_beyond |= other.is_beyond;
       all[i].others_than_0 += other.others_than_0;
+      all[i].least = std::min(all[i].least, other.least);
+      all[i].most = std::max(all[i].most, other.most);
       values[i].insert(other.values.begin(), other.values.end());
     }
   }
@@ -288,6 +299,19 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
     is_good = is_good && all[i].is_beyond == 0;
   }
   return all;
+}
+
+/// Where no rank has all numbers, none can tell which are taken.
+void VtuSlices::note_identifiers(const std::vector<VtuColumn>& columns, std::uint64_t rows,
+                                 const std::vector<ArrayKnowledge>& known) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const VtuColumn& column = columns[i];
+    const bool is_integral = column.type->kind != formats::VtuType::Kind::real;
+    if (!is_integral || column.components != 1 || !known[i].may_be_identifiers(rows)) continue;
+    notes_.push_back(fmt::format(
+        "the array '{}' may number points or elements: in pieces its numbers may come twice",
+        printable(column.name)));
+  }
 }
 
 /// As adopt_cell_arrays() and adopt_point_arrays() do it.
@@ -315,6 +339,8 @@ bool VtuSlices::choose_labels(const std::string& label_array, Ranks& ranks) {
     return false;
   }
   if (cell_labels_ && of_cells[*cell_labels_].is_no_label != 0) return false;
+  note_identifiers(layout_.cell_data, layout_.cells, of_cells);
+  note_identifiers(layout_.point_data, layout_.points, of_points);
   for (std::size_t i = 0; i < of_points.size(); ++i) {
     const VtuColumn& column = layout_.point_data[i];
     const bool is_it = formats::is_point_label_array(column.name) && column.components == 1 &&

@@ -2,15 +2,18 @@
 // VTK's format `.vtu`, in all its encodings, read slice by slice.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/vtu_layout.h"
 #include "pieces/file_slices.h"
 
@@ -51,7 +54,15 @@ class VtuSlices final : public FileSlices {
     std::uint64_t is_no_label = 0;  ///< it has a number that is none
     std::uint64_t is_beyond = 0;    ///< an unsigned number above 2^63
     std::uint64_t others_than_0 = 0;
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
     std::vector<double> values;  ///< different ones, as far as they are few
+
+    /// Of `rows` whole numbers no two may be alike.
+    bool may_be_identifiers(std::uint64_t rows) const {
+      return rows > 2 && values.size() >= std::min<std::uint64_t>(rows, formats::kMostLabels) &&
+             most - least + 1 >= static_cast<double>(rows);
+    }
   };
   class Cells;
 
@@ -69,6 +80,8 @@ class VtuSlices final : public FileSlices {
   std::vector<ArrayKnowledge> look_at_arrays(const std::vector<formats::VtuColumn>& columns,
                                              std::uint64_t rows, Ranks& ranks, bool& is_good) const;
   bool choose_labels(const std::string& label_array, Ranks& ranks);
+  void note_identifiers(const std::vector<formats::VtuColumn>& columns, std::uint64_t rows,
+                        const std::vector<ArrayKnowledge>& known);
   bool collect_labels(Ranks& ranks);
 
   std::filesystem::path file_;

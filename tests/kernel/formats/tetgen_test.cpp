@@ -63,11 +63,12 @@ TEST_CASE("TetGen files that count from 1 with comments, attributes and markers 
 TEST_CASE("TetGen files count as they did, or as is asked for") {
   const TempFolder folder;
   for (const int base : {0, 1}) {
-    write_files(folder, {.node = fmt::format("4 3 0 0\n{} 0 0 0\n{} 1 0 0\n{} 0 1 0\n{} 0 0 1\n",
-                                             base, base + 1, base + 2, base + 3),
-                         .ele = fmt::format("1 4 0\n{} {} {} {} {}\n", base, base, base + 1,
-                                            base + 2, base + 3),
-                         .face = fmt::format("1 0\n{} {} {} {}\n", base, base, base + 1, base + 2)});
+    write_files(
+        folder,
+        {.node = fmt::format("4 3 0 0\n{} 0 0 0\n{} 1 0 0\n{} 0 1 0\n{} 0 0 1\n", base, base + 1,
+                             base + 2, base + 3),
+         .ele = fmt::format("1 4 0\n{} {} {} {} {}\n", base, base, base + 1, base + 2, base + 3),
+         .face = fmt::format("1 0\n{} {} {} {}\n", base, base, base + 1, base + 2)});
     const MeshData mesh = read_mesh(folder / "a.ele");
     for (const std::string_view variant : {"", "from 0", "from 1"}) {
       const int wanted = variant.empty() ? base : variant.back() - '0';
@@ -78,8 +79,8 @@ TEST_CASE("TetGen files count as they did, or as is asked for") {
                 .starts_with(fmt::format("1 4 0\n{} {} {} {} {}\n", wanted, wanted, wanted + 1,
                                          wanted + 2, wanted + 3)));
       CHECK(read_text(folder / "b.face")
-                .starts_with(fmt::format("1 1\n{} {} {} {} 0\n", wanted, wanted, wanted + 1,
-                                         wanted + 2)));
+                .starts_with(
+                    fmt::format("1 1\n{} {} {} {} 0\n", wanted, wanted, wanted + 1, wanted + 2)));
       CHECK(read_mesh(folder / "b.node").points == mesh.points);
     }
   }

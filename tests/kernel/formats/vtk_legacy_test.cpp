@@ -57,8 +57,8 @@ TEST_CASE("arrays of every kind are read from an ASCII VTK file and labels are f
   for (const DataArray& array : mesh.tet_data) {
     names.push_back(array.name + "*" + std::to_string(array.components));
   }
-  CHECK(names ==
-        std::vector<std::string>{"quality*1", "v*3", "n*3", "t*9", "t6*6", "tc*2", "g*1", "pairs*2"});
+  CHECK(names == std::vector<std::string>{"quality*1", "v*3", "n*3", "t*9", "t6*6", "tc*2", "g*1",
+                                          "pairs*2"});
   CHECK(std::get<std::vector<float>>(mesh.tet_data[1].values) == std::vector<float>{1, 2, 3});
   CHECK(std::get<std::vector<float>>(mesh.triangle_data[1].values) == std::vector<float>{4, 5, 6});
   CHECK(std::isnan(std::get<std::vector<float>>(mesh.triangle_data[0].values)[0]));
@@ -153,12 +153,11 @@ TEST_CASE("a VTK file keeps arrays, their names and cells of other kinds when it
 
 TEST_CASE("an ASCII VTK file stays one, bit for bit, and the other form can be asked for") {
   const TempFolder folder;
-  const std::string text =
-      kHead + kPoints + kCells +
-      "CELL_DATA 2\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6\n"
-      "FIELD FieldData 4\nids 1 2 long\n7 4000000000\nx 1 2 float\n0.1 nan\n"
-      "y 2 2 double\n0.1 1e-300 -0 3\nn 1 2 int\n-7 8\n"
-      "POINT_DATA 4\nVECTORS u double\n1 2 3 4 5 6 7 8 9 10 11 12\n";
+  const std::string text = kHead + kPoints + kCells +
+                           "CELL_DATA 2\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6\n"
+                           "FIELD FieldData 4\nids 1 2 long\n7 4000000000\nx 1 2 float\n0.1 nan\n"
+                           "y 2 2 double\n0.1 1e-300 -0 3\nn 1 2 int\n-7 8\n"
+                           "POINT_DATA 4\nVECTORS u double\n1 2 3 4 5 6 7 8 9 10 11 12\n";
   write_text(folder / "a.vtk", text);
   const MeshData first = read_mesh(folder / "a.vtk");
   for (const std::string_view variant : {"", "ASCII", "binary"}) {

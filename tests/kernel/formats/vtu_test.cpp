@@ -144,8 +144,7 @@ TEST_CASE("a VTK XML file of text stays one, and names the roles of its arrays")
     write_mesh(folder / "b.vtu", view);
     const std::string written = read_text(folder / "b.vtu");
     CHECK((written.find("format=\"binary\"") == std::string::npos) == variant.empty());
-    CHECK(written.find("<PointData Scalars=\"a &amp; b\" GlobalIds=\"id\">") !=
-          std::string::npos);
+    CHECK(written.find("<PointData Scalars=\"a &amp; b\" GlobalIds=\"id\">") != std::string::npos);
     CHECK(written.find("type=\"Int64\" IdType=\"1\" Name=\"id\"") != std::string::npos);
     const MeshData again = read_mesh(folder / "b.vtu");
     CHECK(again.points == mesh.points);
