@@ -214,22 +214,19 @@ void curve_all(Curver& curver, std::vector<std::uint32_t>& over) {
 void tell(const Curving& done, std::size_t before, std::size_t holding, bool straightens,
           std::vector<std::string>& notes) {
   if (done.curved > 0) {
-    notes.push_back(
-        fmt::format("{} edges within the volume are curved, so that of {} curved tets "
-                    "that were turned over {} are",
-                    done.curved, before, done.left));
+    notes.push_back(fmt::format(
+        "edges within the volume that are curved at the end: {}; tets turned over: {} -> {}",
+        done.curved, before, done.left));
   }
   if (done.straightened > 0) {
-    notes.push_back(
-        fmt::format("{} edges of the surface and of walls are made straight, as "
-                    "--straighten asks for",
-                    done.straightened));
+    notes.push_back(fmt::format("edges of the surface and of walls that are made straight: {}",
+                                done.straightened));
   }
   if (done.left == 0) return;
   notes.push_back(fmt::format(
-      "{} curved tets stay turned over: {} nodes on edges that stay hold them{}", done.left,
-      holding,
-      straightens ? "" : "; --straighten moves nodes of the surface to the middle of their edges"));
+      "curved tets that stay turned over: {}; nodes on edges that stay hold "
+      "them: {}{}",
+      done.left, holding, straightens ? "" : "; --straighten makes edges of the surface straight"));
 }
 
 }  // namespace
