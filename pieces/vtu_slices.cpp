@@ -232,6 +232,15 @@ bool VtuSlices::look_at_cells(Ranks& ranks) {
   return all[tets] > 0;
 }
 
+void VtuSlices::ArrayKnowledge::join(const ArrayKnowledge& other) {
+  has_fractions |= other.has_fractions;
+  is_no_label |= other.is_no_label;
+  is_beyond |= other.is_beyond;
+  others_than_0 += other.others_than_0;
+  least = std::min(least, other.least);
+  most = std::max(most, other.most);
+}
+
 /// Of each array, by all ranks.
 std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
     const std::vector<VtuColumn>& columns, std::uint64_t rows, Ranks& ranks, bool& is_good) const {
@@ -285,12 +294,7 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       take(rest, other.least);
       take(rest, other.most);
       take(rest, other.values);
-      all[i].has_fractions |= other.has_fractions;
-      all[i].is_no_label |= other.is_no_label;
-      all[i].is_beyond |= other.is_beyond;
-      all[i].others_than_0 += other.others_than_0;
-      all[i].least = std::min(all[i].least, other.least);
-      all[i].most = std::max(all[i].most, other.most);
+      all[i].join(other);
       values[i].insert(other.values.begin(), other.values.end());
     }
   }

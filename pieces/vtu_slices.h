@@ -58,6 +58,8 @@ class VtuSlices final : public FileSlices {
     double most = -std::numeric_limits<double>::infinity();
     std::vector<double> values;  ///< different ones, as far as they are few
 
+    /// But for the values.
+    void join(const ArrayKnowledge& other);
     /// Of `rows` whole numbers no two may be alike.
     bool may_be_identifiers(std::uint64_t rows) const {
       return rows > 2 && values.size() >= std::min<std::uint64_t>(rows, formats::kMostLabels) &&
