@@ -237,8 +237,7 @@ void VtuSlices::ArrayKnowledge::join(const ArrayKnowledge& other) {
   is_no_label |= other.is_no_label;
   is_beyond |= other.is_beyond;
   others_than_0 += other.others_than_0;
-  least = std::min(least, other.least);
-  most = std::max(most, other.most);
+  range = {std::min(range[0], other.range[0]), std::max(range[1], other.range[1])};
 }
 
 /// Of each array, by all ranks.
@@ -256,8 +255,7 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       if (!is_whole || !(real >= INT32_MIN && real <= INT32_MAX)) known.is_no_label = 1;
       if (number < 0 && column.type->name == "UInt64") known.is_beyond = 1;
       known.others_than_0 += real != 0 ? 1 : 0;
-      known.least = std::min(known.least, real);
-      known.most = std::max(known.most, real);
+      known.range = {std::min(known.range[0], real), std::max(known.range[1], real)};
       if (column.components == 1 && is_whole && values.size() <= formats::kMostLabels) {
         values.insert(real);
       }
@@ -277,8 +275,7 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
     put(known.is_no_label, bytes);
     put(known.is_beyond, bytes);
     put(known.others_than_0, bytes);
-    put(known.least, bytes);
-    put(known.most, bytes);
+    put(known.range, bytes);
     put(known.values, bytes);
   }
   std::vector<ArrayKnowledge> all(columns.size());
@@ -291,8 +288,7 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       take(rest, other.is_no_label);
       take(rest, other.is_beyond);
       take(rest, other.others_than_0);
-      take(rest, other.least);
-      take(rest, other.most);
+      take(rest, other.range);
       take(rest, other.values);
       all[i].join(other);
       values[i].insert(other.values.begin(), other.values.end());
