@@ -232,6 +232,14 @@ bool VtuSlices::look_at_cells(Ranks& ranks) {
   return all[tets] > 0;
 }
 
+void VtuSlices::ArrayKnowledge::join(const ArrayKnowledge& other) {
+  has_fractions |= other.has_fractions;
+  is_no_label |= other.is_no_label;
+  is_beyond |= other.is_beyond;
+  others_than_0 += other.others_than_0;
+  range = {std::min(range[0], other.range[0]), std::max(range[1], other.range[1])};
+}
+
 /// Of each array, by all ranks.
 std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
     const std::vector<VtuColumn>& columns, std::uint64_t rows, Ranks& ranks, bool& is_good) const {
@@ -247,8 +255,7 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       if (!is_whole || !(real >= INT32_MIN && real <= INT32_MAX)) known.is_no_label = 1;
       if (number < 0 && column.type->name == "UInt64") known.is_beyond = 1;
       known.others_than_0 += real != 0 ? 1 : 0;
-      known.least = std::min(known.least, real);
-      known.most = std::max(known.most, real);
+      known.range = {std::min(known.range[0], real), std::max(known.range[1], real)};
       if (column.components == 1 && is_whole && values.size() <= formats::kMostLabels) {
         values.insert(real);
       }
@@ -268,8 +275,7 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
     put(known.is_no_label, bytes);
     put(known.is_beyond, bytes);
     put(known.others_than_0, bytes);
-    put(known.least, bytes);
-    put(known.most, bytes);
+    put(known.range, bytes);
     put(known.values, bytes);
   }
   std::vector<ArrayKnowledge> all(columns.size());
@@ -282,15 +288,9 @@ std::vector<VtuSlices::ArrayKnowledge> VtuSlices::look_at_arrays(
       take(rest, other.is_no_label);
       take(rest, other.is_beyond);
       take(rest, other.others_than_0);
-      take(rest, other.least);
-      take(rest, other.most);
+      take(rest, other.range);
       take(rest, other.values);
-      all[i].has_fractions |= other.has_fractions;
-      all[i].is_no_label |= other.is_no_label;
-      all[i].is_beyond |= other.is_beyond;
-      all[i].others_than_0 += other.others_than_0;
-      all[i].least = std::min(all[i].least, other.least);
-      all[i].most = std::max(all[i].most, other.most);
+      all[i].join(other);
       values[i].insert(other.values.begin(), other.values.end());
     }
   }

@@ -54,14 +54,16 @@ class VtuSlices final : public FileSlices {
     std::uint64_t is_no_label = 0;  ///< it has a number that is none
     std::uint64_t is_beyond = 0;    ///< an unsigned number above 2^63
     std::uint64_t others_than_0 = 0;
-    double least = std::numeric_limits<double>::infinity();
-    double most = -std::numeric_limits<double>::infinity();
+    std::array<double, 2> range = {std::numeric_limits<double>::infinity(),
+                                   -std::numeric_limits<double>::infinity()};  ///< least, most
     std::vector<double> values;  ///< different ones, as far as they are few
 
+    /// But for the values.
+    void join(const ArrayKnowledge& other);
     /// Of `rows` whole numbers no two may be alike.
     bool may_be_identifiers(std::uint64_t rows) const {
       return rows > 2 && values.size() >= std::min<std::uint64_t>(rows, formats::kMostLabels) &&
-             most - least + 1 >= static_cast<double>(rows);
+             range[1] - range[0] + 1 >= static_cast<double>(rows);
     }
   };
   class Cells;
