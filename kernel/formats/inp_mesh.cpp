@@ -59,11 +59,12 @@ class Reader {
     const std::int64_t offset = lines_.scopes[block.scope].node_offset;
     InpFields fields(block);
     while (fields.next_line()) {
-      mesh_.nodes.add(own_number(fields, "the number of a node") + offset);
+      const std::int64_t number = own_number(fields, "the number of a node") + offset;
+      mesh_.nodes.add(number);
       Point& point = mesh_.points.emplace_back();
       for (int axis = 0; axis < 3; ++axis) point[axis] = fields.real("a coordinate");
       if (fields.more()) {
-        mesh_.more_of_node[static_cast<std::uint32_t>(mesh_.points.size() - 1)] = fields.rest();
+        mesh_.more_of_node[number] = fields.rest();
       }
       // Behind them Abaqus has the cosines of a normal.
       for (int k = 0; k < 3 && fields.more(); ++k) fields.real("a direction cosine");

@@ -60,8 +60,9 @@ struct InpMesh {
   InpNumbers elements;               ///< of the mesh
   std::vector<InpElements> blocks;   ///< those of the mesh
   std::vector<std::int64_t> others;  ///< numbers of springs and their like, in ascending order
-  /// What stands behind the coordinates of a node, from the comma on: ", 0., 0., 1." is a normal.
-  std::map<std::uint32_t, std::string_view> more_of_node;
+  /// By the number of a node what stands behind its coordinates, from the comma on: ", 0., 0., 1." is a
+  /// normal.
+  std::map<std::int64_t, std::string_view> more_of_node;
 
   /// The block of an element.
   const InpElements& block_of(std::uint32_t element) const;

@@ -190,11 +190,11 @@ class Maker {
   /// Of all nodes of this scope: "7, 0., 0., 1.".
   void add_more_of_nodes(const InpBlock& block, std::string& lines) {
     const InpScope& own = in_.lines.scopes[block.scope];
-    for (const auto& [node, more] : in_.mesh.more_of_node) {
-      const std::int64_t number = in_.mesh.nodes.numbers()[node];
-      const bool is_own = in_.lines.mesh_scopes.size() < 2 ||
-                          (number > own.node_offset && number - own.node_offset <= own.most_node);
-      if (is_own) lines += fmt::format("{}{}\n", number - own.node_offset, more);
+    const auto& all = in_.mesh.more_of_node;
+    const bool is_alone = in_.lines.mesh_scopes.size() < 2;
+    const auto end = is_alone ? all.end() : all.upper_bound(own.node_offset + own.most_node);
+    for (auto at = all.upper_bound(own.node_offset); at != end; ++at) {
+      lines += fmt::format("{}{}\n", at->first - own.node_offset, at->second);
     }
   }
 

@@ -372,14 +372,8 @@ void InpPlan::find_numberings_of_points() {
     }
   }
   std::replace(numbering_of_point_.begin(), numbering_of_point_.end(), kOpen, std::uint32_t{0});
-}
-
-std::vector<std::uint32_t> InpPlan::points_of(std::size_t numbering) const {
-  std::vector<std::uint32_t> points;
-  for (std::uint32_t i = 0; i < mesh_.point_count(); ++i) {
-    if (numbering_of_point(i) == numbering) points.push_back(i);
-  }
-  return points;
+  points_of_numbering_ =
+      group_by_key(numbering_of_point_, static_cast<std::uint32_t>(deck.numberings.size()));
 }
 
 void InpPlan::number_points() {
@@ -392,7 +386,7 @@ void InpPlan::number_points() {
     std::int64_t most = numbering.most_node;
     std::vector<std::int64_t> known;
     const bool is_alone = deck.numberings.size() == 1;
-    const std::vector<std::uint32_t> own = is_alone ? std::vector<std::uint32_t>() : points_of(n);
+    const std::span<const std::uint32_t> own = points_of(n);
     const std::size_t count = is_alone ? point_numbers.size() : own.size();
     for (std::size_t i = 0; i < count && given; ++i) {
       std::int64_t& number = point_numbers[is_alone ? i : own[i]];

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -80,12 +81,11 @@ class InpPlan {
   /// Numbers of the elements of some groups that are not in a block of theirs, in ascending order.
   std::vector<std::int64_t> elements_of(const std::vector<InpGroupName>& names) const;
   std::vector<std::int64_t> nodes_of(const InpGroupName& name) const;
-  /// Which of the numberings of the deck a point belongs to.
-  std::size_t numbering_of_point(std::size_t i) const {
-    return numbering_of_point_.empty() ? 0 : numbering_of_point_[i];
+  /// The points of one of the numberings of the deck; none where there is but one.
+  std::span<const std::uint32_t> points_of(std::size_t numbering) const {
+    if (numbering_of_point_.empty()) return {};
+    return points_of_numbering_.group(static_cast<std::uint32_t>(numbering));
   }
-  /// Those of one numbering.
-  std::vector<std::uint32_t> points_of(std::size_t numbering) const;
   /// {tet, face} of the faces of a group.
   std::vector<std::pair<std::int64_t, int>> faces_of(const InpGroupName& name) const;
   struct Row {
@@ -134,6 +134,7 @@ class InpPlan {
   std::map<Label, int> type_of_block_;
   std::map<Label, std::size_t> numbering_of_block_;
   std::vector<std::uint32_t> numbering_of_point_;  // empty: there is but one
+  Grouping points_of_numbering_;
   std::map<Label, std::vector<InpGroupName>> home_of_block_;
   std::map<std::pair<int, std::vector<std::size_t>>, Label> new_blocks_;
   std::map<std::pair<int, Label>, std::vector<std::size_t>> groups_of_part_;

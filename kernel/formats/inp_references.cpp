@@ -336,13 +336,15 @@ class Finder {
     if (has_instance) result_.names.insert(inp_key(last));
   }
 
-  /// What numbers without an instance may mean: within a part its own, else those of any.
+  /// What numbers without an instance mean: within a part its own; outside those of the only one. Where
+  /// there are several they mean none of these.
   void find_offsets(std::size_t scope, bool is_of_mesh) {
     offsets_.clear();
-    if (scope == 0) {
-      for (const std::size_t s : lines_.mesh_scopes) {
-        offsets_.emplace_back(lines_.scopes[s].most_node, lines_.scopes[s].node_offset);
-      }
+    if (scope == 0 && lines_.mesh_scopes.size() == 1) {
+      const InpScope& only = lines_.scopes[lines_.mesh_scopes[0]];
+      offsets_.emplace_back(only.most_node, only.node_offset);
+    } else if (scope == 0) {
+      return;
     } else if (is_of_mesh) {
       offsets_.emplace_back(lines_.scopes[scope].most_node, lines_.scopes[scope].node_offset);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <span>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -102,8 +103,7 @@ class Writer {
       }
     }
     const bool is_alone = plan_.deck.numberings.size() == 1;
-    const std::vector<std::uint32_t> own =
-        is_alone ? std::vector<std::uint32_t>() : plan_.points_of(piece.numbering);
+    const std::span<const std::uint32_t> own = plan_.points_of(piece.numbering);
     const std::size_t count = is_alone ? mesh_.point_count() : own.size();
     const std::map<std::int64_t, std::string_view> more = more_of_nodes(piece.more);
     const bool is_all = set.size() == count && !set.empty();

@@ -131,6 +131,24 @@ def inp_node_blocks_with_sets(n):
 
 
 @case
+def inp_parts_with_instances(n):
+    parts = rows("*PART,NAME=P%(i)d\n*NODE\n1,0,0,0,0,0,1\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT,TYPE=C3D4,ELSET=S\n"
+                 "1,1,2,3,4\n*END PART\n", n)
+    instances = rows("*INSTANCE,NAME=I%(i)d,PART=P%(i)d\n%(i)d.,0.,0.\n*END INSTANCE\n", n)
+    sets = rows("*NSET,NSET=all,INSTANCE=I%(i)d\n1,2\n*ELSET,ELSET=E%(i)d,INSTANCE=I%(i)d\n1\n", n)
+    surfaces = rows("*SURFACE,NAME=F%(i)d\nE%(i)d,S1\n", n)
+    return {"a.inp": parts + "*ASSEMBLY,NAME=A\n" + instances + sets + surfaces + "*END ASSEMBLY\n"}
+
+
+@case
+def inp_instances_of_one_part(n):
+    instances = rows("*INSTANCE,NAME=I%(i)d,PART=P\n%(i)d.,0.,0.\n*END INSTANCE\n", n)
+    sets = rows("*ELSET,ELSET=E,INSTANCE=I%(i)d\n1\n", n)
+    return {"a.inp": "*PART,NAME=P\n" + INP + "*END PART\n*ASSEMBLY,NAME=A\n" + instances + sets +
+                     "*SURFACE,NAME=F\nE,S1\n*END ASSEMBLY\n"}
+
+
+@case
 def inp_sections(n):
     return {"a.inp": INP + rows("*SOLID SECTION,ELSET=S0,MATERIAL=M%(i)d\n", n)}
 
