@@ -2,6 +2,7 @@
 #include "kernel/judge.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +11,7 @@
 #include "kernel/size_field.h"
 #include "kernel/solver_rulers.h"
 #include "kernel/transaction.h"
+#include "kernel/wanted_lengths.h"
 
 namespace tetmend {
 
@@ -156,16 +158,30 @@ bool keeps_mean(const Transaction& transaction) {
   return gain_of_means(transaction, usual) >= 0;
 }
 
-/// Every new edge is of about the length that edges had at its place.
+/// The edges that changed are as long as the size field admits.
 bool keeps_lengths(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   const SizeField* field = mesh.size_field();
   if (field == nullptr) return true;
   std::vector<std::array<VertexHandle, 2>> edges;
   transaction.list_new_edges(edges);
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    return field->admits(mesh.point(edge[0]), mesh.point(edge[1]));
-  });
+  std::vector<EdgePlaces> now;
+  for (const auto& [a, b] : edges) now.push_back({mesh.point(a), mesh.point(b)});
+  if (field->admits({}, now)) return true;
+  if (!field->looks_back()) return false;
+  std::vector<EdgePlaces> before;
+  transaction.list_changed_edges(before, now);
+  return field->admits(before, now);
+}
+
+/// The edges keep better to the wanted lengths.
+bool fits_better(const Transaction& transaction) {
+  const SizeField* field = transaction.mesh().size_field();
+  assert(field != nullptr && field->wanted() != nullptr);
+  std::vector<EdgePlaces> before;
+  std::vector<EdgePlaces> now;
+  transaction.list_changed_edges(before, now);
+  return improves(field->wanted()->misfits(now), field->wanted()->misfits(before));
 }
 
 /// No new tet is turned over by its curved edges, or nearer to it than the worst at first.
@@ -183,8 +199,11 @@ bool keeps_curved(const Transaction& transaction) {
 bool keeps_limits(const Transaction& transaction, Comparison& qualities, Judge::Kind kind) {
   // The edges of a tangled mesh are too long to be held to.
   const bool may_have_any_length = kind == Judge::Kind::untangles;
+  // Its promise is about lengths.
+  const bool fits_lengths = kind == Judge::Kind::fits_lengths;
   return keeps_bounds(transaction, qualities) && !transaction.has_too_many_tets() &&
-         (may_have_any_length || keeps_lengths(transaction)) && keeps_curved(transaction) &&
+         (may_have_any_length || fits_lengths || keeps_lengths(transaction)) &&
+         keeps_curved(transaction) &&
          (may_have_any_length || (keeps_step(transaction) &&
                                   (kind == Judge::Kind::raises_mean || keeps_mean(transaction))));
 }
@@ -273,6 +292,12 @@ Judge Judge::raises_mean(double usual) {
   return judge;
 }
 
+Judge Judge::fits_lengths(Quality least) {
+  Judge judge(Kind::fits_lengths);
+  judge.bound_ = least;
+  return judge;
+}
+
 Judge Judge::opening(double share) {
   Judge judge(Kind::opening);
   judge.bound_ = share;
@@ -296,6 +321,9 @@ std::string_view Judge::promise() const {
     case Kind::raises_mean:
       return "the mean ratios, each less a usual one, have a larger sum, and no bad tet is new or "
              "worse";
+    case Kind::fits_lengths:
+      return "the lengths that miss the wanted range are better as a vector, and no tet is below a "
+             "least quality or the worst there was";
     case Kind::untangles:
       return "fewer tets are inverted or flat, and no more are bad";
     case Kind::opening:
@@ -313,6 +341,8 @@ double Judge::floor(double worst, double least_gain) const {
       return std::min(worst + least_gain, static_cast<double>(kBadThreshold));
     case Kind::raises_mean:
       return std::min(worst, static_cast<double>(kBadThreshold));
+    case Kind::fits_lengths:
+      return std::min(worst, bound_);
     case Kind::lowers_angle:
     case Kind::untangles:
       return worst;
@@ -344,6 +374,7 @@ bool Judge::accepts(const Change& change) const {
     const Transaction::Tets tets = change.transaction.tets();
     aim.more_bad_angles = count_bad_angles(tets.now, goal) > count_bad_angles(tets.before, goal);
   }
+  if (kind_ == Kind::fits_lengths) aim.fits = fits_better(change.transaction);
   return holds_for(change.qualities, aim) &&
          (kind_ == Kind::opening || keeps_limits(change.transaction, change.qualities, kind_));
 }
@@ -361,6 +392,9 @@ bool Judge::holds_for(Comparison& qualities, const Aim& aim) const {
       return lowers_angle(qualities, aim.sine);
     case Kind::raises_mean:
       return aim.gain > kQualityTolerance && !aim.more_bad_angles && spares_bad(qualities);
+    case Kind::fits_lengths:
+      return aim.fits && qualities.has_both() &&
+             qualities.worst_now() >= floor(qualities.worst_before()) - kQualityTolerance;
     case Kind::untangles:
       return untangles(qualities);
     case Kind::opening:

@@ -100,6 +100,7 @@ class TETMEND_API Judge {
     reaches,
     lowers_angle,
     raises_mean,
+    fits_lengths,
     opening,
     untangles
   };
@@ -121,6 +122,10 @@ class TETMEND_API Judge {
   /// The mean ratios of what changed, each less `usual`, have a larger sum, no bad tet is new or
   /// worse, and no more angles are bad. With the mean over the mesh for `usual`, that mean rises, whatever the number of tets.
   static Judge raises_mean(double usual);
+  /// The edges keep better to the wanted lengths: the vector of the lengths that miss the range, the
+  /// worst first, is better in the order of improves(). No new tet is below `least`, or below the worst
+  /// there was. Precondition of accepts(): the mesh has wanted lengths.
+  static Judge fits_lengths(Quality least);
   /// Fewer tets are inverted or flat, and no more are bad. New edges may have any length.
   static Judge untangles() { return Judge(Kind::untangles); }
   /// The worst tet keeps a share of the quality that the worst had: whoever asks for this judges
@@ -129,6 +134,7 @@ class TETMEND_API Judge {
 
   Kind kind() const { return kind_; }
   bool looks_at_mean() const { return kind_ == Kind::raises_mean; }
+  bool looks_at_lengths() const { return kind_ == Kind::fits_lengths; }
   /// The usual mean ratio. Precondition: looks_at_mean().
   double usual() const { return bound_; }
   /// One sentence.
@@ -144,7 +150,7 @@ class TETMEND_API Judge {
   /// no new edge that the size field does not admit, and no new tet that curved edges do not; an
   /// opening may leave these for a while. Leaves the qualities that it compared in the change. False for a change without edits.
   /// Cost: linear in the tets that changed, mostly; n log n where the worst do not decide, quadratic
-  /// for a judge of the mean or with a size field.
+  /// for a judge of the mean or of lengths, or with a size field.
   bool accepts(const Change& change) const;
 
   /// What a judge may ask beside the qualities.
@@ -154,6 +160,7 @@ class TETMEND_API Judge {
     double sine = 1;               ///< of the largest angle of what changed; 1 if none is obtuse
     bool more_bad_angles = false;  ///< in number, of what changed
     double gain = 0;               ///< of the sum of mean ratios, each less the usual one
+    bool fits = false;             ///< the edges keep better to the wanted lengths
   };
   /// The promise itself.
   bool holds_for(Comparison& qualities, const Aim& aim) const;
@@ -172,7 +179,7 @@ class TETMEND_API Judge {
 
   Kind kind_;
   Fairness fairness_;
-  double bound_ = 0;  // goal, sine, usual mean ratio or share
+  double bound_ = 0;  // goal, sine, usual mean ratio, least quality or share
 };
 
 }  // namespace tetmend

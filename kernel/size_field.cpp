@@ -8,7 +8,7 @@
 
 namespace tetmend {
 
-struct SizeField::Nearest {
+struct UsualLengths::Nearest {
   const Point& place;
   double square = std::numeric_limits<double>::infinity();
   const Node* node = nullptr;
@@ -24,7 +24,7 @@ struct SizeField::Nearest {
   }
 };
 
-SizeField::SizeField(const TetMesh& mesh) {
+UsualLengths::UsualLengths(const TetMesh& mesh) {
   const std::vector<double> lengths = local_lengths(mesh);
   for (std::uint32_t i = 0; i < lengths.size(); ++i) {
     if (lengths[i] > 0) nodes_.push_back({mesh.point(VertexHandle(i)), lengths[i], i});
@@ -33,7 +33,7 @@ SizeField::SizeField(const TetMesh& mesh) {
   arrange(0, nodes_.size());
 }
 
-void SizeField::arrange(std::size_t begin, std::size_t end) {
+void UsualLengths::arrange(std::size_t begin, std::size_t end) {
   if (end - begin < 2) return;
   Point low = nodes_[begin].point;
   Point high = low;
@@ -53,7 +53,7 @@ void SizeField::arrange(std::size_t begin, std::size_t end) {
   arrange(middle + 1, end);
 }
 
-void SizeField::search(std::size_t begin, std::size_t end, Nearest& nearest) const {
+void UsualLengths::search(std::size_t begin, std::size_t end, Nearest& nearest) const {
   if (begin == end) return;
   const std::size_t middle = begin + (end - begin) / 2;
   nearest.look_at(nodes_[middle]);
@@ -66,17 +66,21 @@ void SizeField::search(std::size_t begin, std::size_t end, Nearest& nearest) con
   }
 }
 
-double SizeField::length(const Point& p) const {
+double UsualLengths::length(const Point& p) const {
   Nearest nearest{p};
   search(0, nodes_.size(), nearest);
   return nearest.node->length;
 }
 
-bool SizeField::admits(const Point& a, const Point& b) const {
+bool UsualLengths::admits(std::span<const EdgePlaces> /*before*/,
+                          std::span<const EdgePlaces> now) const {
   constexpr double kFactor = 2;
-  const double length = (b - a).norm();
-  const double usual = this->length((a + b) / 2);
-  return length * kFactor >= usual && length <= kFactor * usual;
+  return std::all_of(now.begin(), now.end(), [&](const EdgePlaces& edge) {
+    const auto& [a, b] = edge;
+    const double length = (b - a).norm();
+    const double usual = this->length((a + b) / 2);
+    return length * kFactor >= usual && length <= kFactor * usual;
+  });
 }
 
 std::vector<double> local_lengths(const TetMesh& mesh) {

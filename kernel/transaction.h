@@ -107,6 +107,11 @@ class TETMEND_API Transaction {
   /// The edges of its new tets that were not there when it began, with both ends in their places;
   /// of these some repeat. Cost: quadratic in the number of tets.
   void list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) const;
+  /// By the places of their ends, each once: the edges that were there when it began and are no more,
+  /// and those that are there now and were not. One whose end moved is among both. Cost: quadratic in
+  /// the number of tets, with a small factor.
+  void list_changed_edges(std::vector<std::array<Point, 2>>& before,
+                          std::vector<std::array<Point, 2>>& now) const;
 
   /// Makes the edits part of the enclosing transaction, or of the mesh if there is none. No edit
   /// may follow.

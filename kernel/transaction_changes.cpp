@@ -137,4 +137,42 @@ void Transaction::list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) 
   }
 }
 
+void Transaction::list_changed_edges(std::vector<std::array<Point, 2>>& before,
+                                     std::vector<std::array<Point, 2>>& now) const {
+  using Ends = std::array<VertexHandle, 2>;
+  const Workspace::Past& past = this->past();
+  std::vector<Ends> old_edges;
+  std::vector<Ends> new_edges;
+  const auto add = [](const TetVertices& tet, std::vector<Ends>& edges) {
+    for (const auto& [j, k] : kEdgeVertices) {
+      edges.push_back(tet[j] < tet[k] ? Ends{tet[j], tet[k]} : Ends{tet[k], tet[j]});
+    }
+  };
+  for (const TetVertices& tet : past.removed) add(tet, old_edges);
+  for (const TetHandle t : past.changed) {
+    add(mesh_.vertices(t), new_edges);
+    if (!past.was_made(t)) add(mesh_.vertices(t), old_edges);
+  }
+  for (std::vector<Ends>* edges : {&old_edges, &new_edges}) {
+    std::sort(edges->begin(), edges->end());
+    edges->erase(std::unique(edges->begin(), edges->end()), edges->end());
+  }
+  const auto stays = [&](const Ends& ends, const std::vector<Ends>& others) {
+    return !past.is_displaced(ends[0]) && !past.is_displaced(ends[1]) &&
+           std::binary_search(others.begin(), others.end(), ends);
+  };
+  const auto old_place = [&](VertexHandle v) {
+    const auto place = past.find(v);
+    return place == past.displaced.end() ? mesh_.point(v) : place->point;
+  };
+  before.clear();
+  now.clear();
+  for (const Ends& ends : old_edges) {
+    if (!stays(ends, new_edges)) before.push_back({old_place(ends[0]), old_place(ends[1])});
+  }
+  for (const Ends& ends : new_edges) {
+    if (!stays(ends, old_edges)) now.push_back({mesh_.point(ends[0]), mesh_.point(ends[1])});
+  }
+}
+
 }  // namespace tetmend

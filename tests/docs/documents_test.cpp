@@ -177,6 +177,7 @@ TEST_CASE("docs/operators.md has the promise of each judge") {
       {"reaches", Judge::reaches(1)},
       {"lowers_angle", Judge::lowers_angle(0)},
       {"raises_mean", Judge::raises_mean(0)},
+      {"fits_lengths", Judge::fits_lengths(0)},
       {"untangles", Judge::untangles()},
       {"opening", Judge::opening()}};
   for (const auto& [name, judge] : judges) {

@@ -196,6 +196,15 @@ TEST_CASE("a judge of the mean takes a gain, but no new bad tet and none that is
   CHECK(takes(judge, {0.8f, 1.2f}, {0.8f, 1.5f}, {.gain = 0.1}));
 }
 
+TEST_CASE("a judge of lengths wants them to fit better, and no tet below its least or the worst") {
+  const Judge judge = Judge::fits_lengths(0.4f);
+  CHECK(takes(judge, {0.5f}, {1.5f}, {.fits = true}));
+  CHECK_FALSE(takes(judge, {1.5f}, {0.5f}, {.fits = false}));
+  CHECK_FALSE(takes(judge, {0.39f}, {1.5f}, {.fits = true}));
+  CHECK(takes(judge, {0.3f}, {0.3f}, {.fits = true}));
+  CHECK_FALSE(takes(judge, {0.29f}, {0.3f}, {.fits = true}));
+}
+
 TEST_CASE("a judge of untangling wants fewer inverted or flat tets, and no more bad ones") {
   const Judge judge = Judge::untangles();
   CHECK(takes(judge, {-0.9f, 0.1f}, {-0.2f, -0.1f}));

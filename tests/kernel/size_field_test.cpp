@@ -35,7 +35,7 @@ TEST_CASE("the local length of a place is that of the nearest vertex") {
   std::uniform_real_distribution<double> coordinate(-1.2, 1.2);
   for (const MeshData& data : {delaunay_ball(300, 5), kuhn_cube(4, 0, 1)}) {
     const TetMesh mesh(data);
-    const SizeField field(mesh);
+    const UsualLengths field(mesh);
     const std::vector<double> lengths = local_lengths(mesh);
     for (int i = 0; i < 2000; ++i) {
       const Point p(coordinate(random), coordinate(random), coordinate(random));
@@ -59,10 +59,11 @@ TEST_CASE("an edge is admitted from half to twice the local length at its midpoi
   data.points = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.75 / 0.8660254037844386, 0}, {0.5, 0.3, 0.8}};
   data.tets = {{{0, 1, 2, 3}, 0}};
   const TetMesh mesh(data);
-  const SizeField field(mesh);
+  const UsualLengths field(mesh);
   const double usual = field.length({0, 0, 0});
   const auto admits = [&](double length) {
-    return field.admits({-length / 2, 0, 0}, {length / 2, 0, 0});
+    const std::vector<EdgePlaces> now = {{Point(-length / 2, 0, 0), Point(length / 2, 0, 0)}};
+    return field.admits({}, now);
   };
   CHECK(admits(usual));
   CHECK(admits(0.501 * usual));

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "kernel/wanted_lengths.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace tetmend {
+
+namespace {
+
+std::size_t hash_of(const Point& p) {
+  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
+  std::uint64_t hash = 0;
+  for (const double x : {p.x(), p.y(), p.z()}) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * kOdd;
+    hash ^= hash >> 32;
+  }
+  return static_cast<std::size_t>(hash);
+}
+
+}  // namespace
+
+double WantedLengths::length(const Point& p) const {
+  if (!at_) return everywhere_;
+  std::vector<Asked>& asked = asked_.local();
+  if (asked.empty()) asked.resize(kAsked);
+  Asked& entry = asked[hash_of(p) % kAsked];
+  if (entry.place != p) {
+    entry.length = at_(p);
+    entry.place = p;
+  }
+  return entry.length;
+}
+
+double WantedLengths::relative_length(const Point& a, const Point& b) const {
+  return relative_length((b - a).norm(), length(a), length(b));
+}
+
+/// The integral of 1 / wanted along the edge: the logarithmic mean of the ends.
+double WantedLengths::relative_length(double length, double wanted_at_a, double wanted_at_b) {
+  const double ratio = wanted_at_b / wanted_at_a;
+  constexpr double kNearlyOne = 1e-4;  // where the mean of both is as good as rounding allows
+  if (std::abs(ratio - 1) < kNearlyOne) return 2 * length / (wanted_at_a + wanted_at_b);
+  return length * std::log(ratio) / (wanted_at_b - wanted_at_a);
+}
+
+double WantedLengths::fit(double relative_length) {
+  return std::min({1.0, relative_length / kLeast, kMost / relative_length});
+}
+
+Point WantedLengths::middle(const Point& a, const Point& b) const {
+  const double root_a = std::sqrt(length(a));
+  const double root_b = std::sqrt(length(b));
+  return a + root_a / (root_a + root_b) * (b - a);
+}
+
+std::vector<Quality> WantedLengths::misfits(std::span<const EdgePlaces> edges) const {
+  std::vector<Quality> misfits;
+  for (const auto& [a, b] : edges) {
+    const double fit = WantedLengths::fit(relative_length(a, b));
+    if (fit < 1) misfits.push_back(static_cast<Quality>(fit));
+  }
+  std::sort(misfits.begin(), misfits.end());
+  return misfits;
+}
+
+bool WantedLengths::admits(std::span<const EdgePlaces> before,
+                           std::span<const EdgePlaces> now) const {
+  const std::vector<Quality> after = misfits(now);
+  if (after.empty()) return true;
+  const std::vector<Quality> old = misfits(before);
+  return after.size() <= old.size() &&
+         std::equal(after.begin(), after.end(), old.begin(),
+                    [](Quality is, Quality was) { return is >= was; });
+}
+
+}  // namespace tetmend

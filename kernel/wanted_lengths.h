@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// How long somebody wants edges to be, and how well edges keep to that.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include "kernel/quality.h"
+#include "kernel/size_field.h"
+
+namespace tetmend {
+
+/// A wanted length at every place. The *relative length* of an edge is its length over the wanted
+/// ones, which change linearly along it; edges of 0.71 to 1.41 keep to the field. Immutable; several
+/// threads may ask at once.
+class TETMEND_API WantedLengths final : public SizeField {
+ public:
+  using Function = std::function<double(const Point&)>;
+
+  /// Edges that are longer can be halved, shorter ones doubled, and are no farther from 1 then.
+  static constexpr double kLeast = 0.70710678118654752;
+  static constexpr double kMost = 1.41421356237309505;
+
+  /// The same everywhere. Precondition: above 0.
+  explicit WantedLengths(double everywhere) : everywhere_(everywhere) {}
+  /// @param at gives a length above 0 at every place, the same whenever it is asked; several threads
+  /// ask at once
+  explicit WantedLengths(Function at) : at_(std::move(at)) {}
+
+  double length(const Point& p) const override;
+  /// No more edges miss the range than before, and none by more: the worst by no more than the worst
+  /// before, the second by no more than the second, and so on.
+  bool admits(std::span<const EdgePlaces> before, std::span<const EdgePlaces> now) const override;
+  bool looks_back() const override { return true; }
+  const WantedLengths* wanted() const override { return this; }
+
+  double relative_length(const Point& a, const Point& b) const;
+  static double relative_length(double length, double wanted_at_a, double wanted_at_b);
+  /// 1 within the range; outside the share of its end that is reached, or by which it is passed.
+  static double fit(double relative_length);
+  /// The place between a and b that makes two edges of the same relative length of one.
+  Point middle(const Point& a, const Point& b) const;
+  /// The fits below 1 of these edges, ascending.
+  std::vector<Quality> misfits(std::span<const EdgePlaces> edges) const;
+
+ private:
+  /// Changes near one place ask for the same lengths again and again.
+  struct Asked {
+    Point place = Point::Constant(std::numeric_limits<double>::quiet_NaN());
+    double length = 0;
+  };
+  static constexpr std::size_t kAsked = 4096;
+
+  double everywhere_ = 0;
+  Function at_;  // none: everywhere_
+  mutable tbb::enumerable_thread_specific<std::vector<Asked>> asked_;
+};
+
+}  // namespace tetmend
