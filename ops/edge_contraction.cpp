@@ -13,14 +13,25 @@
 
 #include "kernel/index_set.h"
 #include "kernel/star.h"
+#include "kernel/wanted_lengths.h"
 #include "ops/smoothing.h"
 
 namespace tetmend {
 
 namespace {
 
+/// A neighbour that is nearer than wanted.
+struct Near {
+  double length;  // relative
+  VertexHandle vertex;
+  friend bool operator<(const Near& x, const Near& y) {
+    return x.length != y.length ? x.length < y.length : x.vertex < y.vertex;
+  }
+};
+
 struct State {
   BallState ball;
+  std::vector<Near> near;
   VertexHandle kept_vertex;
   std::vector<VertexHandle> neighbours;
   IndexSet set;
@@ -56,6 +67,9 @@ class EdgeContraction final : public OperatorOf<State> {
 
     state.kept_vertex = VertexHandle();
     if (context.judge->looks_at_mean()) return find_roundest(context, v, state);
+    if (context.judge->looks_at_lengths()) {
+      return find_near(mesh, v, context.judge->floor(worst_old), state);
+    }
     for (const VertexHandle w : state.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
       const double share = mesh.is_fixed(w) ? 1 : least_ratio_;
@@ -82,7 +96,9 @@ class EdgeContraction final : public OperatorOf<State> {
       if (a != w && b != w && c != w) state.replacement.new_tets.push_back({w, a, b, c});
     }
     const Verdict verdict = state.replacement.make(transaction);
-    if (verdict != Verdict::accepted || mesh.is_fixed(w)) return verdict;
+    if (verdict != Verdict::accepted || mesh.is_fixed(w) || context.judge->looks_at_lengths()) {
+      return verdict;
+    }
     const StarKind kind = find_star(mesh, w, context.workspace, state.ball.link);
     if (kind == StarKind::border) return Verdict::deferred;
     // A refused move leaves the contraction as it is; the judge decides.
@@ -123,6 +139,35 @@ class EdgeContraction final : public OperatorOf<State> {
       if (now <= best) continue;
       best = now;
       state.kept_vertex = w;
+    }
+    return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
+  }
+  /// The best neighbour, by its quality vector, of the nearest that are too near; no new edge may miss
+  /// the wanted lengths by as much as the one that goes.
+  static Verdict find_near(const TetMesh& mesh, VertexHandle v, double least, State& state) {
+    constexpr std::size_t kNearest = 5;
+    const WantedLengths& wanted = *mesh.size_field()->wanted();
+    const Point& place = mesh.point(v);
+    state.near.clear();
+    for (const VertexHandle w : state.neighbours) {
+      const double length = wanted.relative_length(place, mesh.point(w));
+      if (length < WantedLengths::kLeast) state.near.push_back({length, w});
+    }
+    std::sort(state.near.begin(), state.near.end());
+    if (state.near.size() > kNearest) state.near.resize(kNearest);
+    for (const auto& [length, w] : state.near) {
+      const Point& to = mesh.point(w);
+      const double fit = WantedLengths::fit(length);
+      const bool fits =
+          std::all_of(state.neighbours.begin(), state.neighbours.end(), [&, w = w](VertexHandle x) {
+            return x == w || WantedLengths::fit(wanted.relative_length(to, mesh.point(x))) > fit;
+          });
+      if (!fits || !contract(mesh, w, std::max(least, 0.0), state)) continue;
+      if (state.kept_vertex.is_valid() && !improves(state.qualities, state.best_qualities)) {
+        continue;
+      }
+      state.kept_vertex = w;
+      std::swap(state.best_qualities, state.qualities);
     }
     return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
   }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/wanted_lengths.h"
 #include "ops/relaxation.h"
 
 namespace tetmend {
@@ -65,6 +66,10 @@ class EdgeSplit final : public OperatorOf<State> {
       state.ball.add(b, p, q);
     }
     state.point = 0.5 * (a + b);
+    if (context.judge->looks_at_lengths()) {
+      state.point = mesh.size_field()->wanted()->middle(a, b);
+      if (state.ball.worst(state.point) > least) return Verdict::accepted;
+    }
     const double reached = state.ball.optimise(state.point, limits_);
     return reached > least ? Verdict::accepted : Verdict::no_improvement;
   }

@@ -6,6 +6,7 @@
 
 #include "kernel/index_set.h"
 #include "kernel/star.h"
+#include "kernel/wanted_lengths.h"
 #include "ops/surface_replacement.h"
 #include "ops/surface_vertex.h"
 
@@ -55,6 +56,7 @@ class SurfaceContraction final : public OperatorOf<State> {
     Quality worst_old = mesh.quality(state.ball.link[0].tet());
     for (const HalfFace f : state.ball.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
     list_neighbours(mesh, v, state);
+    if (context.judge->looks_at_lengths()) keep_near(mesh, v, state.neighbours);
     state.count = state.next = 0;
     for (const VertexHandle w : state.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
@@ -86,7 +88,7 @@ class SurfaceContraction final : public OperatorOf<State> {
       if (a != w && b != w && c != w) state.replacement.add({w, a, b, c}, mesh.label(f.tet()));
     }
     const Verdict verdict = state.replacement.make(transaction);
-    if (verdict != Verdict::accepted) return verdict;
+    if (verdict != Verdict::accepted || context.judge->looks_at_lengths()) return verdict;
     // A refused move leaves the contraction as it is; the judge decides.
     climb_at_surface(context, transaction, w, limits_, state.ball);
     return Verdict::accepted;
@@ -113,6 +115,15 @@ class SurfaceContraction final : public OperatorOf<State> {
         }
       }
     }
+  }
+
+  /// Leaves those that are nearer than wanted.
+  static void keep_near(const TetMesh& mesh, VertexHandle v,
+                        std::vector<VertexHandle>& neighbours) {
+    const WantedLengths& wanted = *mesh.size_field()->wanted();
+    std::erase_if(neighbours, [&](VertexHandle w) {
+      return wanted.relative_length(mesh.point(v), mesh.point(w)) >= WantedLengths::kLeast;
+    });
   }
 
   /// A candidate if each tet of the ball re-coned from w is above `least`.

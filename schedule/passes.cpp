@@ -28,20 +28,6 @@ Composition one(const std::string& name, const ParameterSettings& settings,
   return {.operator_name = name, .settings = settings, .order = order};
 }
 
-/// The attempts of a worker have another judge while this lives.
-class JudgedBy {
- public:
-  JudgedBy(Worker& worker, const Judge& judge) : context_(worker.context()) {
-    context_.judge = &judge;
-  }
-  ~JudgedBy() { context_.judge = nullptr; }
-  JudgedBy(const JudgedBy&) = delete;
-  JudgedBy& operator=(const JudgedBy&) = delete;
-
- private:
-  OperatorContext& context_;
-};
-
 /// False when there was nothing to try.
 bool sweep_tets(Run& run, PassScope& scope, const TetAttempts& attempts, const Selection& on,
                 Date since, double new_vertices) {

@@ -32,7 +32,7 @@ std::size_t PassRecord::attempts() const {
 
 Run::Run(TetMesh& mesh, const Registry& registry)
     : mesh_(mesh), registry_(registry), worker_(mesh, Workspace(mesh)) {
-  set_block_count(std::min(kEnoughBlocks, mesh.vertex_count() / kVerticesPerBlock));
+  divide_by_size();
   worker_.set_stop([this] { return is_to_stop(); });
 }
 
@@ -85,6 +85,10 @@ void Run::note(const std::string& text) {
 
 double Run::seconds() const {
   return seconds_since(start_);
+}
+
+void Run::divide_by_size() {
+  set_block_count(std::min(kEnoughBlocks, mesh_.vertex_count() / kVerticesPerBlock));
 }
 
 void Run::set_block_count(std::size_t blocks) {

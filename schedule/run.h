@@ -112,6 +112,9 @@ class Run {
   TraceSink* trace() const { return trace_; }
   /// All attempts go through the inspector, in one thread. Null: none.
   void set_inspector(AttemptInspector* inspector);
+  /// Into as many blocks as its size asks for; a mesh that has grown since asks for more. Precondition:
+  /// no pass works on it.
+  void divide_by_size();
   /// For experiments: another number of blocks than the size of the mesh asks for. 1: no division.
   void set_block_count(std::size_t blocks);
 

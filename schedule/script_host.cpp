@@ -11,6 +11,7 @@
 #include "kernel/error.h"
 #include "kernel/printable.h"
 #include "kernel/statistics.h"
+#include "schedule/adapt.h"
 #include "schedule/limit/surface_limit.h"
 #include "schedule/lua_library.h"
 #include "schedule/single_attempt.h"
@@ -225,6 +226,7 @@ void ScriptHost::add_words() {
   add("suppress_points", &ScriptHost::suppress_points);
   add("insert_points", &ScriptHost::insert_points);
   add("polish", &ScriptHost::polish);
+  add("adapt", &ScriptHost::adapt);
   add("untangle", &ScriptHost::untangle);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
@@ -417,6 +419,18 @@ void ScriptHost::polish(WordCall& call) {
                                  .smooth = numbers.real("smooth"),
                                  .cycles = static_cast<unsigned>(numbers.integer("cycles"))};
   make_pass(call, [&] { tetmend::polish(*run_, options); });
+}
+
+void ScriptHost::adapt(WordCall& call) {
+  begin_work();
+  const WordInfo& word = find_word("adapt");
+  const Arguments arguments = read_arguments(word, read_table(call.argument(1), word), {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  const AdaptOptions options = {.floor = numbers.real("floor"),
+                                .sweeps = static_cast<unsigned>(numbers.integer("sweeps")),
+                                .split = numbers.flag("split"),
+                                .contract = numbers.flag("contract")};
+  make_pass(call, [&] { tetmend::adapt(*run_, options); });
 }
 
 void ScriptHost::untangle(WordCall& call) {

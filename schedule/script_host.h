@@ -46,6 +46,7 @@ class ScriptHost {
   void suppress_points(WordCall& call);
   void insert_points(WordCall& call);
   void polish(WordCall& call);
+  void adapt(WordCall& call);
   void untangle(WordCall& call);
   void apply(WordCall& call);
   void attempt(WordCall& call);

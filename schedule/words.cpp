@@ -47,6 +47,14 @@ constexpr std::array<ParameterSpec, 7> kPolishNumbers = {{
     {"cycles", ParameterSpec::Kind::integer, 1, 100, 3,
      "at most; ends earlier when nothing is accepted"},
 }};
+constexpr std::array<ParameterSpec, 4> kAdaptNumbers = {{
+    {"floor", ParameterSpec::Kind::real, 0, 2, 0.35,
+     "no new tet is below that quality, or below the worst that it replaces"},
+    {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 1,
+     "of splits and of contractions, at most; ends earlier when nothing is accepted"},
+    {"split", ParameterSpec::Kind::flag, 0, 1, 1, "split what is too long"},
+    {"contract", ParameterSpec::Kind::flag, 0, 1, 1, "contract what is too short"},
+}};
 constexpr std::array<ParameterSpec, 4> kUntangleNumbers = {{
     {"share", ParameterSpec::Kind::real, 0, 1, 0.05,
      "the least share of inverted tets among those around their vertices"},
@@ -77,7 +85,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 26> kWords = {{
+constexpr std::array<WordInfo, 27> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -113,6 +121,14 @@ constexpr std::array<WordInfo, 26> kWords = {{
      "about as long as those around, for the beginning",
      {},
      kPolishNumbers},
+    {"adapt",
+     "adapt{...}",
+     "splits the edges that are longer than 1.41 of the wanted length, the longest first, and "
+     "contracts those shorter than 0.71, the shortest first; each change brings the edges closer "
+     "to "
+     "that range. Needs --size",
+     {},
+     kAdaptNumbers},
     {"untangle",
      "untangle{...}",
      "moves all vertices of a tangle at once, so that its inverted and flat tets become positive. "

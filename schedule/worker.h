@@ -67,4 +67,18 @@ class Worker {
   std::function<bool()> stop_;
 };
 
+/// The attempts of a worker have another judge while this lives.
+class JudgedBy {
+ public:
+  JudgedBy(Worker& worker, const Judge& judge) : context_(worker.context()) {
+    context_.judge = &judge;
+  }
+  ~JudgedBy() { context_.judge = nullptr; }
+  JudgedBy(const JudgedBy&) = delete;
+  JudgedBy& operator=(const JudgedBy&) = delete;
+
+ private:
+  OperatorContext& context_;
+};
+
 }  // namespace tetmend
