@@ -38,7 +38,7 @@ set(below_viewer/gl platform kernel figure viewer/mesh viewer)
 set(below_viewer/ui platform kernel figure explain viewer/mesh viewer/debugger viewer/live viewer viewer/commands viewer/gl)
 set(below_apps ${rooms})
 
-set(public_of_kernel api curved data error goal rulers statistics)
+set(public_of_kernel api curved data error goal rulers sizes statistics)
 set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
 set(public_of_face check improve io measure mesh option_text trace)

@@ -242,10 +242,15 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   // A mesh with inverted tets has no step, and what its angles are says little.
   result_.holds_solver = plan_.purpose.keeps_step && !bounds.are_of_inverted();
   if (!result_.holds_solver) bounds = Bounds::of(mesh_);
+  if (plan_.sizes.are_wanted()) {  // of another mesh than the one that is asked for
+    bounds = Bounds();
+    result_.holds_solver = false;
+  }
   mesh_.set_bounds(mending == Mending::keeps_bounds ? bounds.for_mending() : bounds);
   if (!plan_.surface.is_fixed()) mesh_.set_surface_guard(plan_.surface.guard(mesh_, input_));
   hold_curved();
-  if (options_.keep_size && !size_field_) size_field_ = std::make_shared<SizeField>(mesh_);
+  if (plan_.sizes.are_wanted() && !size_field_) size_field_ = plan_.sizes.field(input_, mesh_);
+  if (options_.keep_size && !size_field_) size_field_ = std::make_shared<UsualLengths>(mesh_);
   mesh_.set_size_field(size_field_);
 }
 
@@ -263,6 +268,7 @@ void Improvement::measure_before() {
   result_.before = compute_statistics(mesh_, options_.goal);
   first_ = quality_indicators(mesh_);
   if (curved_edges_) result_.curved_before = curved_statistics(input_, mesh_);
+  if (plan_.sizes.are_wanted()) result_.sizes_before = face::size_statistics(mesh_);
   if (options_.rulers) {
     result_.rulers_before = measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);
@@ -332,6 +338,7 @@ void Improvement::measure_after() {
     result_.size_drift = lengths_.drift_to(face::LocalLengths(mesh_, vertices_before_));
   }
   if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
+  if (plan_.sizes.are_wanted()) result_.sizes_after = face::size_statistics(mesh_);
   result_.surface_fingerprint = surface_fingerprint(mesh_);
   if (result_.surface_change) {
     face::SurfaceTolerance::measure_after(mesh_, *result_.surface_change);
@@ -521,6 +528,7 @@ std::vector<Fall> falls_of(const Result& result) {
   constexpr double kRounding = 1e-9;
   constexpr double kEdgeRatio = 10;
   std::vector<Fall> falls;
+  if (result.sizes_after) return falls;  // another mesh was asked for
   const auto compare = [&](std::string_view what, double now, double then, bool is_worse,
                            bool is_price = false) {
     if (!is_worse) return;
@@ -595,7 +603,7 @@ std::vector<std::string> face::worse_for_nothing(const Result& result) {
 
 std::vector<std::string> Result::missed_aims() const {
   std::vector<std::string> missed;
-  if (!rulers_before || !rulers_after) return missed;
+  if (!rulers_before || !rulers_after || sizes_after) return missed;
   for (const Ruler ruler : {Ruler::mean_ratio, Ruler::radius_ratio}) {
     const double then = (*rulers_before)[ruler].mean;
     const double now = (*rulers_after)[ruler].mean;
@@ -640,6 +648,15 @@ Result improve(Mesh& mesh, const Options& options) {
     result.trace_trouble = error.what();
   }
   return result;
+}
+
+Result adapt(Mesh& mesh, const Options& options) {
+  if (options.size.empty() && !options.size_at) {
+    throw OptionError("size", "size: adapt needs to know how long edges are to be");
+  }
+  Options adapting = options;
+  if (options.script.empty() && options.schedule == Options().schedule) adapting.schedule = "adapt";
+  return improve(mesh, adapting);
 }
 
 void check(const Options& options) {

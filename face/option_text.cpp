@@ -127,6 +127,19 @@ constexpr Row kRows[] = {
     {{"tets", "P%|N"}, [](Options& o, std::string_view text) { o.tets = text; }},
     {{"keep-size", kSwitch},
      [](Options& o, std::string_view text) { o.keep_size = read_switch(text); }},
+    {{"size", "SIZE", kAdds}, [](Options& o, std::string_view text) { o.size.emplace_back(text); }},
+    {{"gradation", "RATIO"},
+     [](Options& o, std::string_view text) {
+       o.gradation = read_number(text, 0.0, 1e9, "a ratio");
+     }},
+    {{"smallest", "LENGTH"},
+     [](Options& o, std::string_view text) {
+       o.smallest = read_number(text, 0.0, 1e300, "a length");
+     }},
+    {{"largest", "LENGTH"},
+     [](Options& o, std::string_view text) {
+       o.largest = read_number(text, 0.0, 1e300, "a length");
+     }},
     {{"ignore-interior", kSwitch},
      [](Options& o, std::string_view text) { o.ignore_interior = read_switch(text); }},
     {{"conserve", "NAME", kAdds},

@@ -34,7 +34,8 @@ Plan::Plan(const Options& options)
       purpose(find_purpose(options)),
       settings(settings_of(options)),
       growth(tets_of(options), least_growth_of(options)),
-      surface(options) {
+      surface(options),
+      sizes(options) {
   check_threads(options.threads);
   check_regions(options);
   if (!is_sound(options.goal)) {

@@ -7,6 +7,7 @@
 #include "face/growth.h"
 #include "face/moving_surface.h"
 #include "face/purpose.h"
+#include "face/sizes.h"
 #include "face/trace_plan.h"
 #include "kernel/quality.h"
 #include "ops/registry.h"
@@ -23,6 +24,7 @@ struct Plan {
   std::vector<std::pair<std::string, std::string>> settings;  ///< of the schedule
   Growth growth;
   SurfaceTolerance surface;
+  Sizes sizes;
   Standard standard;
 
   /// @throws OptionError as improve()

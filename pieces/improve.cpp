@@ -157,7 +157,8 @@ void Improvement::prepare() {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  if (options_.keep_size && mesh.scale().is_one()) size_field_ = std::make_shared<SizeField>(mesh);
+  if (options_.keep_size && mesh.scale().is_one())
+    size_field_ = std::make_shared<UsualLengths>(mesh);
   measure_before(mesh);
   std::vector<char> is_protected(input_.tets.size(), 0);
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
@@ -376,6 +377,9 @@ Pass to_pass(const StepRecord& record) {
 void check(const Options& options, const Division& division) {
   tetmend::check(options);
   if (division.pieces <= 1) return;
+  if (!options.size.empty() || options.size_at) {
+    throw OptionError("size", "size: a mesh in pieces cannot be adapted to lengths");
+  }
   constexpr std::size_t kMostPieces = 65'535;
   if (division.pieces > kMostPieces) {
     throw OptionError("pieces",

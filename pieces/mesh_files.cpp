@@ -283,6 +283,7 @@ void check_for_files(const Options& options) {
     throw OptionError(name, fmt::format("{}: needs the whole mesh in memory", option));
   };
   refuse(options.keep_size, "keep_size", "keep-size");
+  refuse(!options.size.empty() || options.size_at, "size", "size");
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
 }
 

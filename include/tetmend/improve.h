@@ -26,6 +26,7 @@
 #include <tetmend/limit.h>
 #include <tetmend/mesh.h>
 #include <tetmend/rulers.h>
+#include <tetmend/sizes.h>
 #include <tetmend/statistics.h>
 #include <tetmend/verdict.h>
 
@@ -89,6 +90,17 @@ struct Options {
   /// No new edge is shorter than half or longer than twice what edges were at its midpoint: the mean
   /// of those at the nearest vertex.
   bool keep_size = false;
+  /// How long edges are to be: "0.5"; "0.5x", half of what they are; "array:h", an array of the points;
+  /// "h.sol" or "h.solb", a file of MEDIT with one length for each point. Behind "label:1,4=" one of these
+  /// for a region; regions without a size keep theirs. See adapt(). Empty: as long as it comes.
+  std::vector<std::string> size = {};
+  /// The same as a function of x, y and z, instead of `size`: lengths above 0, the same whenever it is
+  /// asked; by several threads at once. Neither graded nor by region.
+  std::function<double(double, double, double)> size_at = {};
+  /// Wanted lengths grow by at most this less 1 times the distance, along edges. 0: as they like.
+  double gradation = 1.3;
+  double smallest = 0;  ///< no length is wanted below that; 0: any may be
+  double largest = 0;   ///< nor above that; 0: any may be
   /// Arrays of real numbers of the tets whose integral stays: new tets get the mean of the old ones
   /// by the volume that they share. Others have the value of the old tet at their centroid.
   std::vector<std::string> conserve = {};
@@ -202,6 +214,8 @@ struct Result {
   std::optional<MeshRulers> rulers_before;        ///< the measures of other programs
   std::optional<MeshRulers> rulers_after;         ///< likewise
   std::optional<SizeDrift> size_drift;            ///< with rulers
+  std::optional<SizeStatistics> sizes_before;     ///< with Options::size or size_at
+  std::optional<SizeStatistics> sizes_after;      ///< likewise
   std::optional<CurvedStatistics> curved_before;  ///< of a mesh of second order
   std::optional<CurvedStatistics> curved_after;   ///< likewise
   Ending ending = Ending::finished;               ///< why it ended
@@ -250,7 +264,8 @@ struct Result {
   /// the worst mean ratio and radius ratio are not smaller, nor with holds_solver the step, the worst edge ratio not above the larger
   /// of what it was and 10. Of a mesh of second order also: the worst Jacobian ratio, at the nodes and
   /// by its bound, is not smaller. Empty, unless the run mended inverted tets: that goes before
-  /// theta_min, theta_max and the edge ratio, where they cannot be had together.
+  /// theta_min, theta_max and the edge ratio, where they cannot be had together. Empty where lengths
+  /// were wanted: another mesh is, then.
   TETMEND_API std::vector<std::string> worse() const;
   /// The others. Aims, no promises: the means of mean ratio and radius ratio are not smaller, and no
   /// more faces are above 70 degrees non-orthogonality. Empty without rulers.
@@ -273,6 +288,14 @@ struct Result {
 /// the script, the line or byte of the mesh file, the number of the tet (from 0) in the arrays.
 /// std::bad_alloc when memory runs out.
 TETMEND_API Result improve(Mesh& mesh, const Options& options = {});
+
+/// Makes edges as long as Options::size or size_at asks: splits those longer than 1.41 of the wanted
+/// length, contracts those shorter than 0.71, then improves what came of it without undoing that. Else as
+/// improve(), with its promises about surface, constraints, data and threads; the figures of Result::worse() are not
+/// held. A surface that may not move keeps its edges. The schedule is "adapt", unless options name another one.
+/// @throws OptionError as improve(), and when no size is given
+/// @throws Error as improve(), and for a file or array that has no lengths
+TETMEND_API Result adapt(Mesh& mesh, const Options& options);
 
 /// Finds what is wrong with the options as far as can be told without a mesh. Loads the plugins.
 /// @throws OptionError as improve()

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The lengths that the options want edges to have.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tetmend/improve.h>
+
+#include "kernel/mesh_data.h"
+#include "kernel/tet_mesh.h"
+#include "kernel/wanted_lengths.h"
+
+namespace tetmend::face {
+
+/// Options::size and what belongs to it, looked through.
+class Sizes {
+ public:
+  /// @throws OptionError for a size that has none of the forms, or bounds without sense
+  explicit Sizes(const Options& options);
+
+  bool are_wanted() const { return !specs_.empty() || function_; }
+  /// The field. Lengths at points of the mesh are linear in its tets.
+  /// @param data the mesh as its file has it, but in the lengths of `mesh`; must outlive the field
+  /// @throws Error for a file or array that cannot be used, OptionError for a label that no tet has
+  /// Cost: about n log n.
+  std::shared_ptr<const WantedLengths> field(const MeshData& data, const TetMesh& mesh) const;
+
+  /// "array:h", "h.sol", "0.5", "0.5x", one of them behind "label:1,4=".
+  struct Spec {
+    enum class Kind { constant, factor, array, file };
+    std::string text;  ///< as the user wrote it
+    Kind kind = Kind::constant;
+    double number = 0;          ///< of a constant or factor
+    std::string name;           ///< of an array or file
+    std::vector<Label> labels;  ///< of the regions; empty: everywhere
+  };
+
+ private:
+  bool is_constant() const;
+  double clamped(double length) const;
+
+  std::vector<Spec> specs_;
+  std::function<double(double, double, double)> function_;
+  double gradation_;
+  double smallest_;
+  double largest_;
+};
+
+/// How the edges of a mesh keep to its wanted lengths. Precondition: it has them. Cost: n log n.
+SizeStatistics size_statistics(const TetMesh& mesh);
+
+}  // namespace tetmend::face
