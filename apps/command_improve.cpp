@@ -4,6 +4,8 @@
 //   check names and folders | read | improve | write
 //   Ctrl-C while the schedule runs: it stops at the next consistent state, the rest is as usual;
 //   later: what is left to do is done
+#include "apps/command_improve.h"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -223,6 +225,8 @@ void note_peaks(ImproveReport& report, Ranks* ranks) {
   }
 }
 
+}  // namespace
+
 int run_improve(ImproveOptions& options, Invocation& invocation) {
   name_streams(options.format, options.input, &options.output);
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
@@ -261,8 +265,6 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   }
   return kSuccess;
 }
-
-}  // namespace
 
 void add_improve(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ImproveOptions>();

@@ -46,6 +46,7 @@ struct Invocation {
 
 // Precondition of each: `invocation` outlives the parser.
 void add_improve(CLI::App& app, Invocation& invocation);
+void add_adapt(CLI::App& app, Invocation& invocation);
 void add_quality(CLI::App& app, Invocation& invocation);
 void add_check(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);

@@ -56,12 +56,15 @@ CLI::Option* add_values(CLI::App& command, Options& options, const std::string& 
       ->allow_extra_args(false);  // so that IN may follow
 }
 
+constexpr std::string_view kAdapt = "adapt";
+
 void add_schedule_options(CLI::App& command, ImproveOptions& options) {
   Options& run = options.run;
   add_value(command, run, "schedule",
             "What is tried in which order: one of\n"
             "'tetmend schedules', or a script\n"
-            "(default: shell)");
+            "(default: " +
+                run.schedule + ")");
   add_values(command, run, "set",
              "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
              "given several times");
@@ -132,9 +135,11 @@ void add_conserve(CLI::App& command, Options& options) {
 void add_region_options(CLI::App& command, Options& options) {
   add_protected_regions(command, options);
   add_layers_and_tets(command, options);
-  command.add_flag("--keep-size", options.keep_size,
-                   "Make no edge that is shorter than half or\nlonger than twice what edges are "
-                   "there in IN");
+  if (options.schedule != kAdapt) {  // else lengths are those that are wanted
+    command.add_flag("--keep-size", options.keep_size,
+                     "Make no edge that is shorter than half or\nlonger than twice what edges are "
+                     "there in IN");
+  }
   command.add_flag("--ignore-interior", options.ignore_interior,
                    "Drop the triangles, edges and required\n"
                    "vertices that the file names inside a region");
@@ -223,10 +228,41 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
 }
 
+void add_adapt_options(CLI::App& command, ImproveOptions& options) {
+  options.run.schedule = kAdapt;
+  Options& run = options.run;
+  add_values(command, run, "size",
+             "How long edges are to be, see below; may be\ngiven several times")
+      ->required();
+  add_value(command, run, "gradation",
+            "Lengths grow by at most this less 1 times the\ndistance; 0: as they like (default: "
+            "1.3)");
+  add_value(command, run, "smallest", "No length is wanted below that");
+  add_value(command, run, "largest", "No length is wanted above that");
+  add_improve_options(command, options);
+  command.get_option("IN")->description("Mesh to adapt");
+  command.get_option("--output")->description("File for the adapted mesh; may be IN");
+}
+
+namespace {
+
+/// Files that sizes name, of whatever region.
+void list_size_files(const Options& options, std::vector<NamedFile>& files) {
+  for (const std::string& text : options.size) {
+    const std::filesystem::path file = text.substr(text.find('=') + 1);
+    if (file.extension() == ".sol" || file.extension() == ".solb") {
+      files.push_back({"--size", file});
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<NamedFile> files_of_options(const Options& options) {
   std::vector<NamedFile> files;
   const std::filesystem::path schedule = options.schedule;
   if (schedule.extension() == ".lua") files.push_back({"--schedule", schedule});
+  list_size_files(options, files);
   for (const std::filesystem::path& plugin : all_plugins(options.plugin)) {
     files.push_back({"--plugin", plugin});
   }

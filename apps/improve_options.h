@@ -36,6 +36,9 @@ std::string is_number_of_seconds(const std::string& text);
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);
 
+/// The same, and those that say how long edges are to be.
+void add_adapt_options(CLI::App& command, ImproveOptions& options);
+
 /// Those that a run by `tetmend pieces` can have.
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options);
 

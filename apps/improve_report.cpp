@@ -123,6 +123,56 @@ std::string format_growth(const Result& result) {
                      drift.one_percent, drift.median, drift.ninety_nine_percent);
 }
 
+std::string share(double part) {
+  return fmt::format("{:.2f} %", 100 * part);
+}
+
+/// Edges by their lengths over those wanted.
+std::string format_sizes(const SizeStatistics& before, const SizeStatistics& after) {
+  const auto percent = [](const SizeStatistics& sizes, std::size_t count) {
+    return 100 * static_cast<double>(count) /
+           static_cast<double>(std::max<std::size_t>(sizes.edges, 1));
+  };
+  const auto& bounds = SizeStatistics::kBounds;
+  std::string text =
+      fmt::format("{:<24} {:>12} {:>12}\n{:-<50}\n", "length over wanted", "before", "after", "");
+  for (std::size_t i = 0; i <= bounds.size(); ++i) {
+    const std::string bin = i == 0 ? fmt::format("below {:.2f}", bounds[0])
+                            : i == bounds.size()
+                                ? fmt::format("from {:.2f}", bounds.back())
+                                : fmt::format("{:.2f} to {:.2f}", bounds[i - 1], bounds[i]);
+    text += fmt::format("{:<24} {:>10.2f} % {:>10.2f} %\n", bin,
+                        percent(before, before.histogram[i]), percent(after, after.histogram[i]));
+  }
+  const auto row = [&](std::string_view name, const auto& value) {
+    text += fmt::format("{:<24} {:>12} {:>12}\n", name, value(before), value(after));
+  };
+  row("from 0.71 to 1.41", [](const SizeStatistics& s) { return share(s.in_range); });
+  row("from 0.5 to 2", [](const SizeStatistics& s) { return share(s.within_two); });
+  row("shortest", [](const SizeStatistics& s) { return fmt::format("{:.3g}", s.shortest); });
+  row("longest", [](const SizeStatistics& s) { return fmt::format("{:.3g}", s.longest); });
+  row("edges", [](const SizeStatistics& s) { return grouped(s.edges); });
+  row("off, on the surface", [](const SizeStatistics& s) { return grouped(s.on_surface); });
+  row("off, between walls", [](const SizeStatistics& s) { return grouped(s.between_walls); });
+  row("tets that would fill it", [](const SizeStatistics& s) {
+    return grouped(static_cast<std::size_t>(std::min(s.tets_wanted, 1e18)));
+  });
+  return text;
+}
+
+nlohmann::json to_json(const SizeStatistics& sizes) {
+  return {{"edges", sizes.edges},
+          {"bounds", SizeStatistics::kBounds},
+          {"histogram", sizes.histogram},
+          {"in_range", sizes.in_range},
+          {"within_two", sizes.within_two},
+          {"shortest", sizes.shortest},
+          {"longest", sizes.longest},
+          {"off_on_surface", sizes.on_surface},
+          {"off_between_walls", sizes.between_walls},
+          {"tets_wanted", sizes.tets_wanted}};
+}
+
 std::string format_checks(const ImproveReport& report) {
   const Result& result = report.result;
   std::string text;
@@ -131,7 +181,7 @@ std::string format_checks(const ImproveReport& report) {
   };
   line("goal", fmt::format("angles from {:g} to {:g} degrees", result.goal.min_angle,
                            result.goal.max_angle));
-  line("worse than before", format_worse(result));
+  if (!result.sizes_after) line("worse than before", format_worse(result));
   line("growth", format_growth(result));
   line("surface", format_surface(result));
   line("inverted, flat tets", format_orientation(result));
@@ -310,6 +360,9 @@ std::string format_report(const ImproveReport& report) {
   if (result.curved_before && result.curved_after) {
     text += format_curved(*result.curved_before, &*result.curved_after) + '\n';
   }
+  if (result.sizes_before && result.sizes_after) {
+    text += format_sizes(*result.sizes_before, *result.sizes_after) + '\n';
+  }
   for (const std::string& note : result.notes) text += printable(note) + '\n';
   if (!result.notes.empty()) text += '\n';
   text += format_carried(result.carried);
@@ -395,6 +448,10 @@ nlohmann::json to_json(const ImproveReport& report) {
       {"histograms", histograms_to_json(report.portrait)},
       {"worst_tets", worst_tets_to_json(report.portrait)},
       {"passes", passes}};
+  if (result.sizes_after) {
+    json["sizes"] = {{"before", to_json(*result.sizes_before)},
+                     {"after", to_json(*result.sizes_after)}};
+  }
   if (report.costs.ranks > 0) json["ranks"] = costs_to_json(report);
   return json;
 }

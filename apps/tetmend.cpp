@@ -56,6 +56,7 @@ usage, 3 written, but a goal that was asked for is missed, 4 written, but
 interrupted)",
       mesh_format_list()));
   add_improve(*app, invocation);
+  add_adapt(*app, invocation);
   add_quality(*app, invocation);
   add_check(*app, invocation);
   add_convert(*app, invocation);
