@@ -19,7 +19,7 @@ PACKAGE = ROOT / "bindings" / "python" / "tetmend"
 
 # Where each name that the package offers stands.
 SECTIONS = {
-    "Improving": ["improve", "Options", "Result", "Statistics", "Pass", "Progress"],
+    "Improving": ["improve", "adapt", "Options", "Result", "Statistics", "Pass", "Progress"],
     "Meshes and files": ["Mesh", "Group", "load", "save", "formats"],
     "Figures and checks": ["quality", "Quality", "BadTet", "check", "Check", "Fact"],
     "Recorded runs": ["Trace"],

@@ -80,6 +80,14 @@ py::dict to_dict(const SizeDrift& drift) {
                   "ninety_nine_percent"_a = drift.ninety_nine_percent);
 }
 
+py::dict to_dict(const SizeStatistics& sizes) {
+  return py::dict("edges"_a = sizes.edges, "bounds"_a = SizeStatistics::kBounds,
+                  "histogram"_a = sizes.histogram, "in_range"_a = sizes.in_range,
+                  "within_two"_a = sizes.within_two, "shortest"_a = sizes.shortest,
+                  "longest"_a = sizes.longest, "off_on_surface"_a = sizes.on_surface,
+                  "off_between_walls"_a = sizes.between_walls, "tets_wanted"_a = sizes.tets_wanted);
+}
+
 py::dict to_dict(const SurfaceChange& change) {
   py::list regions;
   for (const SurfaceChange::Region& region : change.regions) {
@@ -169,6 +177,8 @@ py::dict to_dict(const Result& result) {
       "goal"_a = py::make_tuple(result.goal.min_angle, result.goal.max_angle),
       "before"_a = to_dict(result.before, result.rulers_before, result.curved_before),
       "after"_a = to_dict(result.after, result.rulers_after, result.curved_after),
+      "sizes_before"_a = to_object(result.sizes_before),
+      "sizes_after"_a = to_object(result.sizes_after),
       "size_drift"_a = to_object(result.size_drift), "ending"_a = to_text(result.ending),
       "passes"_a = to_list(result.passes), "notes"_a = to_texts(result.notes),
       "data"_a = to_list(result.carried), "build"_a = to_dict(result.build),

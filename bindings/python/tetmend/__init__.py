@@ -16,7 +16,7 @@ from tetmend._catalogue import Operator, Parameter, Schedule, formats, operators
 from tetmend._check import Check, Fact, check
 from tetmend._core import Error, OptionError, Progress, __version__
 from tetmend._figures import Pass, Statistics
-from tetmend._improve import Result, improve
+from tetmend._improve import Result, adapt, improve
 from tetmend._mesh import Group, Mesh, load, save
 from tetmend._options import Options
 from tetmend._quality import BadTet, Quality, quality
@@ -24,6 +24,6 @@ from tetmend._trace import Trace
 
 __all__ = [
     "BadTet", "Check", "Error", "Fact", "Group", "Mesh", "Operator", "OptionError", "Options", "Parameter", "Pass", "Progress", "Quality",
-    "Result", "Schedule", "Statistics", "Trace", "__version__", "check", "formats", "improve", "load", "operators", "quality",
+    "Result", "Schedule", "Statistics", "Trace", "__version__", "adapt", "check", "formats", "improve", "load", "operators", "quality",
     "save", "schedules",
 ]

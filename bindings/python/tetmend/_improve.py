@@ -250,3 +250,27 @@ def improve(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = No
         passes=[Pass(**each) for each in figures["passes"]], notes=figures["notes"],
         worse_than_before=figures["worse_than_before"], missed_aims=figures["missed_aims"], touched_tets=figures["touched_tets"],
         volume_change=figures["volume_change"], seconds=figures["seconds"], figures=figures)
+
+
+def adapt(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = None, *,
+          size: float | str | Sequence[float | str], **options: Any) -> Result:
+    """Makes edges as long as wanted, and improves what came of it without undoing that. What goes in stays as it is.
+
+    size  0.5, a length; "0.5x", half of what edges are there; "array:h", an array of point_data; "h.sol", a file of MEDIT; or one
+          of these for a region, "label:3=0.2"; or several of them
+
+    All else is as for improve(), also gradation=1.3, smallest and largest, the bounds of wanted lengths. The surface stays, and so
+    do its edges, unless the option surface lets it move. The figures of the input are no bounds.
+    result.figures["sizes_after"] says how well edges keep to the sizes.
+
+    >>> import numpy as np
+    >>> corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    >>> faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    >>> tets = [(a, b, c, 8) for f in faces for a, b, c in ((f[0], f[1], f[2]), (f[0], f[2], f[3]))]
+    >>> result = adapt(np.vstack([corners, [[0.5, 0.5, 0.5]]]), tets, size=0.3, surface="flat")
+    >>> len(result.tets) > 100
+    True
+    """
+    if not options.get("schedule") and not options.get("script"):
+        options["schedule"] = "adapt"
+    return improve(points, tets, size=size, **options)

@@ -38,6 +38,10 @@ class Options(TypedDict, total=False):
     surface: str
     feature_angle: float
     keep_size: bool
+    size: float | str | Sequence[float | str]
+    gradation: float
+    smallest: float
+    largest: float
     conserve: str | Sequence[str]
     ignore_interior: bool
     trace: Text
