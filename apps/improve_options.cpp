@@ -247,6 +247,8 @@ void add_adapt_options(CLI::App& command, ImproveOptions& options) {
   command.get_option("--output")->description("File for the adapted mesh; may be IN");
 }
 
+namespace {
+
 /// Files that sizes name, of whatever region.
 void list_size_files(const Options& options, std::vector<NamedFile>& files) {
   for (const std::string& text : options.size) {
@@ -256,6 +258,8 @@ void list_size_files(const Options& options, std::vector<NamedFile>& files) {
     }
   }
 }
+
+}  // namespace
 
 std::vector<NamedFile> files_of_options(const Options& options) {
   std::vector<NamedFile> files;

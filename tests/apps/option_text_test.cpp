@@ -32,8 +32,11 @@ std::string message_of_library(const std::string& name, const std::string& value
 
 }  // namespace
 
-TEST_CASE("the library knows the options of 'tetmend improve' by name, and takes the same") {
-  const std::string help = run_program({"improve", "--help"}).out;
+TEST_CASE(
+    "the library knows the options of 'tetmend improve' and 'tetmend adapt' by name, and takes the "
+    "same") {
+  const std::string help =
+      run_program({"improve", "--help"}).out + run_program({"adapt", "--help"}).out;
   // Those that are about files, the terminal, pieces, and the program's watch over plugins.
   const std::set<std::string> of_the_program = {
       "help",    "output",        "report", "quiet",  "strict",  "label-array", "format",
@@ -145,7 +148,9 @@ TEST_CASE("options as text are those of C++") {
       {"trace", "a.trace"},     {"trace-around", "7"},
       {"trace-operator", "x"},  {"trace-depth", "0"},
       {"trace-limit", "5K"},    {"trace-piece", "2:3"},
-      {"limit", "true"},        {"straighten", ""}};
+      {"limit", "true"},        {"straighten", ""},
+      {"size", "0.5x"},         {"gradation", "1.2"},
+      {"smallest", "0.01"},     {"largest", "2"}};
   for (const auto& [name, value] : all) set_option(options, name, value);
   CHECK(options.schedule == "thorough");
   CHECK(options.script == "smooth{}");
@@ -177,6 +182,10 @@ TEST_CASE("options as text are those of C++") {
   CHECK(options.trace_depth == 0);
   CHECK(options.trace_limit == 5000);
   CHECK(options.limit);
+  CHECK(options.size == std::vector<std::string>{"0.5x"});
+  CHECK(options.gradation == 1.2);
+  CHECK(options.smallest == 0.01);
+  CHECK(options.largest == 2);
   set_option(options, "limit", "false");
   CHECK_FALSE(options.limit);
   for (const OptionForm& form : option_forms()) {

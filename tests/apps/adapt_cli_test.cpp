@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// tetmend adapt from outside.
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/program.h"
+
+using namespace tetmend::test;
+
+namespace {
+
+const std::string kMesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/two_materials.mesh";
+
+std::string temporary(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / ("tetmend_adapt_" + name)).string();
+}
+
+}  // namespace
+
+TEST_CASE("tetmend adapt writes a mesh and says how well its edges keep to the sizes") {
+  const std::string out = temporary("out.mesh");
+  const std::string json = temporary("out.json");
+  const auto done = run_program({"adapt", kMesh, "--size", "0.5x", "-o", out, "--report", json});
+  CHECK(done.status == 0);
+  CHECK(done.out.find("length over wanted") != std::string::npos);
+  std::ifstream file(json);
+  const auto report = nlohmann::json::parse(file);
+  CHECK(report["surface"]["unchanged"] == true);
+  CHECK(report["after"]["tets"] > report["before"]["tets"]);
+  CHECK(report["sizes"]["after"]["in_range"] > report["sizes"]["before"]["in_range"]);
+}
+
+TEST_CASE("tetmend adapt without a size, or with one that is none, is wrong usage") {
+  const std::string out = temporary("none.mesh");
+  CHECK(run_program({"adapt", kMesh, "-o", out}).status == 2);
+  const auto done = run_program({"adapt", kMesh, "--size", "small", "-o", out});
+  CHECK(done.status == 2);
+  CHECK(done.err.find("--size") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(out));
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// adapt(): sizes in all their forms, what is refused, and what comes over.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <tetmend/improve.h>
+
+#include "contract/zoo.h"
+#include "face/mesh_access.h"
+
+using namespace tetmend;
+
+namespace {
+
+/// A cube of 6^3 cells, the half beyond x = 1/2 with label 2, with arrays of the points.
+Mesh cube() {
+  MeshData data = contract::kuhn_cube(6, 0.1, 1);
+  DataArray h{"h", 1, std::vector<double>()};
+  DataArray wrong{"wrong", 1, std::vector<double>(data.points.size(), -1.0)};
+  for (const Point& p : data.points) {
+    std::get<std::vector<double>>(h.values).push_back(0.06 + 0.1 * p.x());
+  }
+  for (MeshData::Tet& tet : data.tets) {
+    double x = 0;
+    for (const std::uint32_t v : tet.vertices) x += data.points[v].x() / 4;
+    tet.label = x < 0.5 ? 1 : 2;
+  }
+  data.point_data = {h, wrong};
+  return MeshAccess::make(std::move(data));
+}
+
+std::string option_of(const Options& options) {
+  Mesh mesh = cube();
+  try {
+    adapt(mesh, options);
+  } catch (const OptionError& error) {
+    return error.option();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("sizes of each form bring most edges into their range, and the surface stays") {
+  const std::vector<Options> all = {
+      {.size = {"0.08"}},
+      {.size = {"0.5x"}},
+      {.size = {"array:h"}},
+      {.size = {"1x", "label:2=0.08"}},
+      {.size_at = [](double x, double, double) { return 0.06 + 0.1 * x; }}};
+  for (const Options& options : all) {
+    Mesh mesh = cube();
+    const Result result = adapt(mesh, options);
+    REQUIRE(result.sizes_after);
+    CHECK(result.sizes_after->in_range > 0.8);
+    CHECK(result.after.tets > result.before.tets);
+    CHECK(result.surface_fingerprint == result.surface_fingerprint_before);
+    CHECK(result.not_positive_after == 0);
+  }
+}
+
+TEST_CASE("an array of lengths comes over to new points, linearly") {
+  Mesh mesh = cube();
+  adapt(mesh, {.size = {"array:h"}});
+  const auto& data = MeshAccess::data(mesh);
+  const auto& h = std::get<std::vector<double>>(data.point_data[0].values);
+  REQUIRE(h.size() == data.points.size());
+  double error = 0;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    error = std::max(error, std::abs(h[i] - (0.06 + 0.1 * data.points[i].x())));
+  }
+  CHECK(error < 1e-9);
+}
+
+TEST_CASE(
+    "sizes without sense are refused by the name of their option, and the mesh is as before") {
+  CHECK(option_of({}) == "size");
+  for (const std::string size : {"", "x", "0", "-1", "nan", "inf", "0.5y", "label:=1", "label:2",
+                                 "label:a=1", "label:7=0.1", "array:", "array:none"}) {
+    CAPTURE(size);
+    CHECK(option_of({.size = {size}}) == "size");
+  }
+  CHECK(option_of({.size = {"0.1"}, .gradation = 0.5}) == "gradation");
+  CHECK(option_of({.size = {"0.1"}, .smallest = -1}) == "smallest");
+  CHECK(option_of({.size = {"0.1"}, .smallest = 2, .largest = 1}) == "largest");
+  CHECK(option_of({.keep_size = true, .size = {"0.1"}}) == "keep_size");
+  CHECK(option_of({.size = {"0.1"}, .size_at = [](double, double, double) { return 1.0; }}) ==
+        "size_at");
+  Mesh mesh = cube();
+  const std::size_t points = MeshAccess::data(mesh).points.size();
+  CHECK_THROWS_AS(adapt(mesh, {.size = {"array:wrong"}}), Error);
+  CHECK_THROWS_AS(adapt(mesh, {.size = {"not_there.sol"}}), Error);
+  CHECK(MeshAccess::data(mesh).points.size() == points);
+}
+
+TEST_CASE("lengths stay within smallest and largest") {
+  Mesh coarse = cube();
+  Mesh fine = cube();
+  const Result bounded = adapt(coarse, {.size = {"0.04"}, .smallest = 0.1});
+  const Result free = adapt(fine, {.size = {"0.08"}});
+  CHECK(bounded.after.tets < free.after.tets);
+}
