@@ -165,7 +165,8 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");
-  notes.lost(has_deck || has_only_roles(mesh), mesh.deck.size(), "pieces of a deck, all that is no mesh, are");
+  notes.lost(has_deck || has_only_roles(mesh), mesh.deck.size(),
+             "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);
 }
 
