@@ -143,10 +143,10 @@ void add_check(CLI::App& app, Invocation& invocation) {
       ->type_name("");
   command->add_option("--min-dihedral", options->wanted.min_dihedral, "No smaller dihedral angle")
       ->type_name("DEGREES")
-      ->check(CLI::Range(0.0, 71.0));
+      ->check(CLI::Range(0.0, 71.0).description(""));
   command->add_option("--max-dihedral", options->wanted.max_dihedral, "No larger dihedral angle")
       ->type_name("DEGREES")
-      ->check(CLI::Range(70.0, 180.0));
+      ->check(CLI::Range(70.0, 180.0).description(""));
   command->add_flag(
       "--no-inverted", options->wanted.no_inverted,
       "No inverted or flat tet, in exact arithmetic, as the\nfile lists its vertices");

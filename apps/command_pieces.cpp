@@ -261,7 +261,7 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("--pieces", options->improve.pieces.pieces,
                    "split: into how many pieces, 2 or more; the\nresult depends on it")
-      ->check(CLI::Range(std::size_t{2}, std::size_t{65'535}))
+      ->check(CLI::Range(std::size_t{2}, std::size_t{65'535}).description(""))
       ->type_name("N");
   command
       ->add_option("--share", options->share,

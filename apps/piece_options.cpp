@@ -13,7 +13,7 @@ void add_parts_option(CLI::App& command, std::size_t& parts) {
   command
       .add_option("--pieces", parts,
                   "Files that a mesh in parts gets (default: one for\neach 4 million tets)")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}))
+      ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}).description(""))
       ->type_name("N");
 }
 
@@ -22,7 +22,7 @@ void add_piece_options(CLI::App& command, PieceOptions& options) {
       .add_option("--pieces", options.pieces,
                   "Divide the mesh into N pieces and work on\none after another; the result "
                   "depends on N\n(default: 1, or what --memory asks for)")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}))
+      ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}).description(""))
       ->type_name("N");
   command
       .add_option_function<std::string>(

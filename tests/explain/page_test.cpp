@@ -4,6 +4,7 @@
 #include <regex>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "explain/call_study.h"
 #include "explain/event_text.h"
