@@ -141,10 +141,14 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
   command->add_option("OUT", options->improved, "What became of it: compared with FILE")
       ->type_name("");
-  command->add_option("--min-dihedral", options->wanted.min_dihedral, "No smaller dihedral angle")
+  command
+      ->add_option("--min-dihedral", options->wanted.min_dihedral,
+                   "No smaller dihedral angle; 0 to 71")
       ->type_name("DEGREES")
       ->check(CLI::Range(0.0, 71.0).description(""));
-  command->add_option("--max-dihedral", options->wanted.max_dihedral, "No larger dihedral angle")
+  command
+      ->add_option("--max-dihedral", options->wanted.max_dihedral,
+                   "No larger dihedral angle; 70 to 180")
       ->type_name("DEGREES")
       ->check(CLI::Range(70.0, 180.0).description(""));
   command->add_flag(

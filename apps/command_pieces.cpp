@@ -260,7 +260,7 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
       ->type_name("OUT");
   command
       ->add_option("--pieces", options->improve.pieces.pieces,
-                   "split: into how many pieces, 2 or more; the\nresult depends on it")
+                   "split: into how many pieces, 2 to 65535;\nthe result depends on it")
       ->check(CLI::Range(std::size_t{2}, std::size_t{65'535}).description(""))
       ->type_name("N");
   command

@@ -21,7 +21,7 @@ void add_piece_options(CLI::App& command, PieceOptions& options) {
   command
       .add_option("--pieces", options.pieces,
                   "Divide the mesh into N pieces and work on\none after another; the result "
-                  "depends on N\n(default: 1, or what --memory asks for)")
+                  "depends on N, 1 to 65535\n(default: 1, or what --memory asks for)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{65'535}).description(""))
       ->type_name("N");
   command
